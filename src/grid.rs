@@ -1,0 +1,161 @@
+//! The doubly periodic grid on a cell, and its wavevectors.
+//!
+//! Samples stand at x = (i/N₁) **a**₁ + (j/N₂) **a**₂, sample (0, 0) at the origin; fields are stored row by row, j
+//! (along **a**₂) fastest. The index (k₁, k₂) of a Fourier component means the wavevector k₁**b**₁ + k₂**b**₂ up to multiples of
+//! N₁**b**₁ and N₂**b**₂ (its aliases). The one of least length is taken: on an oblique cell the usual index range is a
+//! parallelogram that breaks the lattice's symmetry, the set of shortest aliases (the first Brillouin zone of the
+//! sampling lattice) keeps it.
+
+use crate::lattice::{Cell, LatticeError};
+use std::f64::consts::TAU;
+use std::fmt;
+
+/// A grid of N₁ × N₂ samples on a cell.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    cell: Cell,
+    points: [usize; 2],
+    /// N₁**b**₁, N₂**b**₂.
+    sampling: [[f64; 2]; 2],
+    /// Whole multiples of `sampling` that lead from a centred index to its shortest alias.
+    shifts: Vec<[i32; 2]>,
+}
+
+impl Grid {
+    /// Grid of `points` = [N₁, N₂] samples along a₁ and a₂.
+    ///
+    /// # Errors
+    /// [`LatticeError::FlatCell`] when a number of points is zero.
+    pub fn new(cell: Cell, points: [usize; 2]) -> Result<Self, LatticeError> {
+        let [b1, b2] = cell.reciprocal();
+        let [n1, n2] = points.map(|n| n as f64);
+        let sampling = [[n1 * b1[0], n1 * b1[1]], [n2 * b2[0], n2 * b2[1]]];
+        let shifts = Cell::new(sampling[0], sampling[1])?.neighbour_shifts();
+        Ok(Self { cell, points, sampling, shifts })
+    }
+
+    /// The cell the grid lies on.
+    pub fn cell(&self) -> Cell {
+        self.cell
+    }
+
+    /// [N₁, N₂].
+    pub fn points(&self) -> [usize; 2] {
+        self.points
+    }
+
+    /// Number of samples N₁N₂.
+    #[allow(clippy::len_without_is_empty, reason = "a grid is never empty")]
+    pub fn len(&self) -> usize {
+        self.points[0] * self.points[1]
+    }
+
+    /// Area of the cell per sample.
+    pub fn sample_area(&self) -> f64 {
+        self.cell.area() / self.len() as f64
+    }
+
+    /// Fractions of a₁, a₂ at which the sample with the flat index `index` stands.
+    pub fn fractions(&self, index: usize) -> [f64; 2] {
+        let [n1, n2] = self.points;
+        [(index / n2) as f64 / n1 as f64, (index % n2) as f64 / n2 as f64]
+    }
+
+    /// The vectors from a sample to the next one along a₁ and along a₂.
+    pub fn steps(&self) -> [[f64; 2]; 2] {
+        let [a1, a2] = self.cell.vectors();
+        let [n1, n2] = self.points.map(|n| n as f64);
+        [a1.map(|x| x / n1), a2.map(|x| x / n2)]
+    }
+
+    /// Longest distance between neighbouring samples along a₁ or a₂.
+    pub fn spacing(&self) -> f64 {
+        let [e1, e2] = self.steps();
+        e1[0].hypot(e1[1]).max(e2[0].hypot(e2[1]))
+    }
+
+    /// Wavevector of the Fourier component (k₁, k₂), 0 ≤ kᵢ < Nᵢ: its shortest alias, 1/length.
+    ///
+    /// Aliases of equal length are equivalent for everything that depends on the length alone.
+    pub fn wavevector(&self, component: [usize; 2]) -> [f64; 2] {
+        let centred = [0, 1].map(|axis| {
+            let (k, n) = (component[axis] as f64, self.points[axis] as f64);
+            if 2.0 * k > n { k - n } else { k } / n
+        });
+        let [s1, s2] = self.sampling;
+        let (mut shortest, mut least) = ([0.0; 2], f64::INFINITY);
+        for shift in &self.shifts {
+            let [m1, m2] = [centred[0] + f64::from(shift[0]), centred[1] + f64::from(shift[1])];
+            let q = [m1 * s1[0] + m2 * s2[0], m1 * s1[1] + m2 * s2[1]];
+            let square = q[0] * q[0] + q[1] * q[1];
+            if square < least {
+                (shortest, least) = (q, square);
+            }
+        }
+        shortest
+    }
+
+    /// Length |q| of [`Grid::wavevector`].
+    pub fn wavenumber(&self, component: [usize; 2]) -> f64 {
+        let [x, y] = self.wavevector(component);
+        x.hypot(y)
+    }
+
+    /// Least non-zero wavenumber of the cell, 1/length.
+    pub fn least_wavenumber(&self) -> f64 {
+        let [b1, b2] = self.cell.reciprocal();
+        let reduced = |m: i32, n: i32| {
+            let (m, n) = (f64::from(m), f64::from(n));
+            (m * b1[0] + n * b2[0]).hypot(m * b1[1] + n * b2[1])
+        };
+        // The shortest vector has fractions no larger than |shortest side| · |aᵢ| / 2π.
+        let bound = b1[0].hypot(b1[1]).min(b2[0].hypot(b2[1]));
+        let reach = self.cell.vectors().map(|a| (bound * a[0].hypot(a[1]) / TAU).floor() as i32);
+        (-reach[0]..=reach[0])
+            .flat_map(|m| (-reach[1]..=reach[1]).map(move |n| (m, n)))
+            .filter(|&pair| pair != (0, 0))
+            .map(|(m, n)| reduced(m, n))
+            .fold(bound, f64::min)
+    }
+}
+
+impl fmt::Display for Grid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [n1, n2] = self.points;
+        write!(f, "grid {n1} × {n2}, spacing {:.4e}, sample area {:.4e}", self.spacing(), self.sample_area())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rotation by 60° of the rhombus a₁ = (1, 0), a₂ = (½, √3/2) maps b₁ → b₁ + b₂, b₂ → −b₁.
+    #[test]
+    fn shortest_aliases_keep_the_sixfold_symmetry() {
+        for n in [8, 9, 12, 30] {
+            let grid = Grid::new(Cell::hexagonal(1.7).unwrap(), [n, n]).unwrap();
+            for (k1, k2) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let (here, rotated) = (grid.wavenumber([k1, k2]), grid.wavenumber([(n + k1 - k2) % n, k1]));
+                assert!((here - rotated).abs() <= 1e-14 * here, "N = {n}, ({k1}, {k2}): {here} {rotated}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rectangular_cell_has_the_usual_wavevectors() {
+        let grid = Grid::new(Cell::new([2.0, 0.0], [0.0, 1.0]).unwrap(), [6, 5]).unwrap();
+        assert_eq!(grid.wavevector([1, 0]).map(|q| (q * 1e9).round() / 1e9), [3.141592654, 0.0]);
+        assert!((grid.wavevector([5, 4])[0] + TAU / 2.0).abs() < 1e-14);
+        assert!((grid.wavevector([5, 4])[1] + TAU).abs() < 1e-14);
+        assert!((grid.wavenumber([3, 0]) - 3.0 * TAU / 2.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_least_wavenumber_belongs_to_the_reduced_cell() {
+        let skewed = Grid::new(Cell::new([1.0, 0.0], [3.0, 1.0]).unwrap(), [4, 4]).unwrap();
+        assert!((skewed.least_wavenumber() - TAU).abs() < 1e-13);
+        let hexagonal = Grid::new(Cell::hexagonal(1.0).unwrap(), [4, 4]).unwrap();
+        assert!((hexagonal.least_wavenumber() - TAU / 0.75f64.sqrt()).abs() < 1e-13);
+    }
+}

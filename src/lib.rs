@@ -1,0 +1,10 @@
+//! percoat
+pub mod field;
+pub mod fourier;
+pub mod grid;
+pub mod indenter;
+pub mod lattice;
+pub mod layered;
+pub mod material;
+pub mod operator;
+pub mod texture;

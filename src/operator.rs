@@ -1,0 +1,79 @@
+//! The boundary operator C: pressure on the cell → normal surface displacement.
+//!
+//! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector, and its inverse as
+//! preconditioner. Both are diagonal in Fourier space.
+
+use crate::fourier::{Fourier, Multiplier, Workspace};
+use crate::grid::Grid;
+use crate::layered::TransferFunction;
+use std::fmt;
+
+/// What a diagonal operator does to the mean of a field (q = 0).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ZeroMode {
+    /// The mean of the result is zero: the mean displacement of a loaded half-space is infinite,
+    /// so displacements are measured from the mean plane of the deformed surface.
+    ZeroMean,
+    /// The mean is treated as the component that gets the smallest factor: a preconditioner must stay positive.
+    LikeSmallest,
+}
+
+/// Displacement operator of a layered half-space on a grid, with its preconditioner.
+#[derive(Debug)]
+pub struct Operator {
+    grid: Grid,
+    fourier: Fourier,
+    compliance: Multiplier,
+    stiffness: Multiplier,
+    workspace: Workspace,
+    convolutions: usize,
+}
+
+impl Operator {
+    /// Operator of the half-space with the given transfer function.
+    pub fn new(grid: &Grid, transfer: &TransferFunction) -> Self {
+        let fourier = Fourier::new(grid.points());
+        let multiplier = |zero: ZeroMode, value: &(dyn Fn(f64) -> f64 + Sync)| {
+            let mean = match zero {
+                ZeroMode::ZeroMean => 0.0,
+                ZeroMode::LikeSmallest => value(grid.least_wavenumber()),
+            };
+            fourier.multiplier(|component| match component {
+                [0, 0] => mean,
+                component => value(grid.wavenumber(component)),
+            })
+        };
+        let compliance = multiplier(ZeroMode::ZeroMean, &|q| transfer.compliance(q));
+        let stiffness = multiplier(ZeroMode::LikeSmallest, &|q| 1.0 / transfer.compliance(q));
+        let workspace = fourier.workspace();
+        Self { grid: grid.clone(), fourier, compliance, stiffness, workspace, convolutions: 0 }
+    }
+
+    /// The grid the operator acts on.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// w = C p: displacement into the body with zero mean (a length), from pressure, one value per sample.
+    pub fn displacement(&mut self, pressure: &[f64], displacement: &mut [f64]) {
+        self.convolutions += 1;
+        self.fourier.convolve(&self.compliance, pressure, displacement, &mut self.workspace);
+    }
+
+    /// z = C⁻¹ g, the mean treated like the softest component: the preconditioner.
+    pub fn precondition(&mut self, gap: &[f64], result: &mut [f64]) {
+        self.convolutions += 1;
+        self.fourier.convolve(&self.stiffness, gap, result, &mut self.workspace);
+    }
+
+    /// Convolutions done so far.
+    pub fn convolutions(&self) -> usize {
+        self.convolutions
+    }
+}
+
+impl fmt::Display for Operator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "operator on {}, {} convolutions done", self.grid, self.convolutions)
+    }
+}

@@ -1,0 +1,237 @@
+//! The undeformed surface of the rigid counterbody on a grid.
+//!
+//! f(**x**) = min over all indenters of [f_m(|**x** − **x**ᵢ|) + d_m]: the distance of the counterbody's surface above its
+//! highest apex. The indenter that gives the minimum owns the sample. Every profile grows with the radius, so of the
+//! periodic images of an indenter only the nearest one counts.
+
+use crate::field;
+use crate::grid::Grid;
+use crate::indenter::{Level, drops};
+use crate::lattice::{Cell, Lattice};
+use rayon::prelude::*;
+use std::fmt;
+
+/// The rigid counterbody: what its surface is, before any grid.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surface {
+    /// Indenters at several levels on the sites of a lattice.
+    Indenters {
+        /// Cell and sites; level m + 1 stands on `lattice.sites()[m]`.
+        lattice: Lattice,
+        /// The levels, as many as the lattice has.
+        levels: Vec<Level>,
+    },
+    /// One period of a measured or generated topography.
+    Heights {
+        /// Its cell.
+        cell: Cell,
+        /// Samples [n₁, n₂] along a₁ and a₂.
+        points: [usize; 2],
+        /// Protrusion upward (a length), n₁n₂ values, a₂ fastest.
+        heights: Vec<f64>,
+    },
+}
+
+/// Whose surface a sample faces: a site, and which periodic image of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Owner {
+    /// Index of the site among all sites, level by level.
+    pub site: u16,
+    /// Whole cells along a₁ and a₂ from the site in the home cell to the indenter.
+    pub image: [i8; 2],
+}
+
+/// One site of an indenter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Site {
+    /// Level of the indenter, from 1.
+    pub level: usize,
+    /// Place in fractions of a₁, a₂.
+    pub place: [f64; 2],
+}
+
+/// The counterbody's surface on a grid.
+#[derive(Debug, Clone)]
+pub struct Texture {
+    /// f, a length ≥ 0 measured from the highest apex, one value per sample, a₂ fastest.
+    pub shape: Vec<f64>,
+    /// Owner of each sample; empty for a topography.
+    pub owner: Vec<Owner>,
+    /// Sites by their index; empty for a topography.
+    pub sites: Vec<Site>,
+    /// Largest minus smallest value of `shape`.
+    pub range: f64,
+}
+
+impl Surface {
+    /// The cell.
+    pub fn cell(&self) -> Cell {
+        match self {
+            Self::Indenters { lattice, .. } => lattice.cell(),
+            Self::Heights { cell, .. } => *cell,
+        }
+    }
+
+    /// Number of levels: 0 for a topography.
+    pub fn levels(&self) -> usize {
+        match self {
+            Self::Indenters { levels, .. } => levels.len(),
+            Self::Heights { .. } => 0,
+        }
+    }
+
+    /// The surface on a grid: exact for indenters, bilinear between the samples of a topography.
+    pub fn sample(&self, grid: &Grid) -> Texture {
+        let (shape, owner, sites) = match self {
+            Self::Indenters { lattice, levels } => sample_indenters(lattice, levels, grid),
+            Self::Heights { points, heights, .. } => {
+                let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let depths: Vec<f64> = heights.iter().map(|h| highest - h).collect();
+                (resample(&depths, *points, grid.points()), Vec::new(), Vec::new())
+            }
+        };
+        let lowest = field::least(shape.len(), |i| shape[i]);
+        let highest = -field::least(shape.len(), |i| -shape[i]);
+        Texture { shape, owner, sites, range: highest - lowest }
+    }
+}
+
+impl fmt::Display for Surface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Indenters { lattice, levels } => {
+                write!(f, "{lattice}")?;
+                for (number, (level, drop)) in (1..).zip(levels.iter().zip(drops(levels))) {
+                    write!(f, "\nlevel {number}: {}, drop {drop}", level.shape())?;
+                }
+                Ok(())
+            }
+            Self::Heights { cell, points: [n1, n2], .. } => write!(f, "{cell}, topography of {n1} × {n2} samples"),
+        }
+    }
+}
+
+fn sample_indenters(lattice: &Lattice, levels: &[Level], grid: &Grid) -> (Vec<f64>, Vec<Owner>, Vec<Site>) {
+    let cell = lattice.cell();
+    let shifts = cell.neighbour_shifts();
+    let drops = drops(levels);
+    let sites: Vec<Site> = (1..)
+        .zip(lattice.sites())
+        .flat_map(|(level, places)| places.iter().map(move |&place| Site { level, place }))
+        .collect();
+    let face = |index: usize| {
+        let here = grid.fractions(index);
+        let mut best = (f64::INFINITY, Owner { site: 0, image: [0, 0] });
+        for (number, site) in sites.iter().enumerate() {
+            let apart = [here[0] - site.place[0], here[1] - site.place[1]];
+            let whole = apart.map(f64::round);
+            let rest = [apart[0] - whole[0], apart[1] - whole[1]];
+            let (mut square, mut image) = (f64::INFINITY, [0, 0]);
+            for shift in &shifts {
+                let [x, y] = cell.point([rest[0] - f64::from(shift[0]), rest[1] - f64::from(shift[1])]);
+                if x * x + y * y < square {
+                    square = x * x + y * y;
+                    image = [whole[0] as i32 + shift[0], whole[1] as i32 + shift[1]];
+                }
+            }
+            let distance = levels[site.level - 1].shape().profile(square.sqrt()) + drops[site.level - 1];
+            if distance < best.0 {
+                best = (distance, Owner { site: number as u16, image: image.map(|m| m as i8) });
+            }
+        }
+        best
+    };
+    let (shape, owner) = (0..grid.len()).into_par_iter().map(face).unzip();
+    (shape, owner, sites)
+}
+
+/// Periodic bilinear interpolation of a field from one grid of a cell to another; exact where samples coincide.
+pub fn resample(field: &[f64], from: [usize; 2], to: [usize; 2]) -> Vec<f64> {
+    if from == to {
+        return field.to_vec();
+    }
+    let place = |index: usize, axis: usize| {
+        let (before, rest) = (index * from[axis] / to[axis], index * from[axis] % to[axis]);
+        (before, (before + 1) % from[axis], rest as f64 / to[axis] as f64)
+    };
+    let mut result = vec![0.0; to[0] * to[1]];
+    result.par_chunks_mut(to[1]).enumerate().for_each(|(i, row)| {
+        let (low, high, s) = place(i, 0);
+        for (j, value) in row.iter_mut().enumerate() {
+            let (left, right, t) = place(j, 1);
+            let at = |i: usize, j: usize| field[i * from[1] + j];
+            *value = (1.0 - s) * ((1.0 - t) * at(low, left) + t * at(low, right))
+                + s * ((1.0 - t) * at(high, left) + t * at(high, right));
+        }
+    });
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::indenter::Shape;
+
+    fn three_levels(points: usize) -> Texture {
+        let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height).unwrap();
+        let surface = Surface::Indenters {
+            lattice: Lattice::hexagonal(1.0, 3).unwrap(),
+            levels: vec![level(0.02), level(0.01), level(0.0)],
+        };
+        surface.sample(&Grid::new(surface.cell(), [points, points]).unwrap())
+    }
+
+    #[test]
+    fn apices_stand_on_their_sites_at_their_drops() {
+        let texture = three_levels(12);
+        for (site, drop) in [(0, 0.0), (4 * 12 + 4, 0.01), (8 * 12 + 8, 0.02)] {
+            assert!((texture.shape[site] - drop).abs() < 1e-15);
+        }
+        assert_eq!(texture.sites[texture.owner[4 * 12 + 4].site as usize].level, 2);
+        assert!(texture.range > 0.2 && texture.range < 0.23);
+    }
+
+    #[test]
+    fn the_nearest_surface_owns_a_sample_not_the_nearest_site() {
+        // Halfway between levels 1 and 3 the higher one is nearer.
+        let level = |height, radius| Level::new(Shape::Paraboloid { radius }, height).unwrap();
+        let surface = Surface::Indenters {
+            lattice: Lattice::square(1.0, 2).unwrap(),
+            levels: vec![level(0.1, 0.8), level(0.0, 0.8)],
+        };
+        let texture = surface.sample(&Grid::new(surface.cell(), [24, 24]).unwrap());
+        let first = texture.owner.iter().filter(|owner| owner.site == 0).count();
+        assert!(first > 24 * 24 / 2, "level 1 owns {first} of 576");
+    }
+
+    #[test]
+    fn shape_is_the_minimum_over_every_image() {
+        let level = |shape, height| Level::new(shape, height).unwrap();
+        let cell = Cell::new([1.0, 0.1], [1.7, 0.9]).unwrap();
+        let places = vec![vec![[0.13, 0.2], [0.6, 0.77]], vec![[0.4, 0.9]]];
+        let levels = vec![level(Shape::Cone { slope: 0.4 }, 0.1), level(Shape::Sphere { radius: 3.0 }, 0.04)];
+        let surface =
+            Surface::Indenters { lattice: Lattice::new(cell, places.clone()).unwrap(), levels: levels.clone() };
+        let grid = Grid::new(cell, [10, 9]).unwrap();
+        let texture = surface.sample(&grid);
+        for index in 0..grid.len() {
+            let s = grid.fractions(index);
+            let mut least = f64::INFINITY;
+            for (m, place) in places.iter().enumerate().flat_map(|(m, p)| p.iter().map(move |x| (m, x))) {
+                for (i, j) in (-4..=4).flat_map(|i| (-4..=4).map(move |j| (f64::from(i), f64::from(j)))) {
+                    let [x, y] = cell.point([s[0] - place[0] + i, s[1] - place[1] + j]);
+                    least = least.min(levels[m].shape().profile(x.hypot(y)) + 0.06 * m as f64);
+                }
+            }
+            assert!((texture.shape[index] - least).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn resampling_keeps_common_samples_and_constants() {
+        let field: Vec<f64> = (0..24).map(|i| f64::from(i * i % 7)).collect();
+        let finer = resample(&field, [4, 6], [8, 12]);
+        assert!((0..24).all(|i| finer[(2 * (i / 6)) * 12 + 2 * (i % 6)] == field[i]));
+        assert!(resample(&[2.5; 24], [4, 6], [7, 5]).iter().all(|&x| (x - 2.5).abs() < 1e-15));
+    }
+}
