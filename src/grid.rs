@@ -80,7 +80,7 @@ impl Grid {
     pub fn wavevector(&self, component: [usize; 2]) -> [f64; 2] {
         let centred = [0, 1].map(|axis| {
             let (k, n) = (component[axis] as f64, self.points[axis] as f64);
-            if 2.0 * k > n { k - n } else { k } / n
+            (if 2.0 * k > n { k - n } else { k }) / n
         });
         let [s1, s2] = self.sampling;
         let (mut shortest, mut least) = ([0.0; 2], f64::INFINITY);
