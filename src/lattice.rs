@@ -84,10 +84,7 @@ impl Cell {
     /// The reciprocal vectors b₁, b₂ with aᵢ·bⱼ = 2π δᵢⱼ.
     pub fn reciprocal(&self) -> [[f64; 2]; 2] {
         let scale = TAU / cross(self.a1, self.a2);
-        [
-            [scale * self.a2[1], -scale * self.a2[0]],
-            [-scale * self.a1[1], scale * self.a1[0]],
-        ]
+        [[scale * self.a2[1], -scale * self.a2[0]], [-scale * self.a1[1], scale * self.a1[0]]]
     }
 
     /// Area |a₁ × a₂|.
@@ -97,10 +94,7 @@ impl Cell {
 
     /// The point s₁ a₁ + s₂ a₂.
     pub fn point(&self, [s1, s2]: [f64; 2]) -> [f64; 2] {
-        [
-            s1 * self.a1[0] + s2 * self.a2[0],
-            s1 * self.a1[1] + s2 * self.a2[1],
-        ]
+        [s1 * self.a1[0] + s2 * self.a2[0], s1 * self.a1[1] + s2 * self.a2[1]]
     }
 
     /// Fractions s₁, s₂ of a₁, a₂ that make up the vector `x`.
@@ -120,9 +114,7 @@ impl Cell {
         let [b1, b2] = self.reciprocal();
         let reach = |b: [f64; 2]| (radius * norm(b) / TAU + 0.5).floor() as i32;
         let (m1, m2) = (reach(b1), reach(b2));
-        let mut shifts: Vec<[i32; 2]> = (-m1..=m1)
-            .flat_map(|i| (-m2..=m2).map(move |j| [i, j]))
-            .collect();
+        let mut shifts: Vec<[i32; 2]> = (-m1..=m1).flat_map(|i| (-m2..=m2).map(move |j| [i, j])).collect();
         shifts.sort_by_key(|[i, j]| i.abs() + j.abs());
         shifts
     }
@@ -131,11 +123,7 @@ impl Cell {
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x1, y1], [x2, y2]) = (self.a1, self.a2);
-        write!(
-            f,
-            "cell a₁ = ({x1:.6}, {y1:.6}), a₂ = ({x2:.6}, {y2:.6}), area {:.6}",
-            self.area()
-        )
+        write!(f, "cell a₁ = ({x1:.6}, {y1:.6}), a₂ = ({x2:.6}, {y2:.6}), area {:.6}", self.area())
     }
 }
 
@@ -158,11 +146,7 @@ impl Lattice {
             3 => (3f64.sqrt(), vec![[0.0, 0.0], [third, third], [2.0 * third, 2.0 * third]]),
             4 => (2.0, vec![[0.0, 0.0], [0.5, 0.0], [0.0, 0.5], [0.5, 0.5]]),
             _ => {
-                return Err(LatticeError::NoStandardSites {
-                    lattice: "hexagonal",
-                    levels,
-                    standard: "1, 3 and 4",
-                });
+                return Err(LatticeError::NoStandardSites { lattice: "hexagonal", levels, standard: "1, 3 and 4" });
             }
         };
         Self::new(Cell::hexagonal(scale * period)?, one_each(sites))
@@ -178,11 +162,7 @@ impl Lattice {
             2 => (2f64.sqrt(), vec![[0.0, 0.0], [0.5, 0.5]]),
             4 => (2.0, vec![[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]]),
             _ => {
-                return Err(LatticeError::NoStandardSites {
-                    lattice: "square",
-                    levels,
-                    standard: "1, 2 and 4",
-                });
+                return Err(LatticeError::NoStandardSites { lattice: "square", levels, standard: "1, 2 and 4" });
             }
         };
         Self::new(Cell::square(scale * period)?, one_each(sites))
@@ -201,10 +181,8 @@ impl Lattice {
             .into_iter()
             .map(|level| level.into_iter().map(|s| s.map(|x| x.rem_euclid(1.0) % 1.0)).collect())
             .collect();
-        let all: Vec<(usize, [f64; 2])> = (1..)
-            .zip(&sites)
-            .flat_map(|(level, s)| s.iter().map(move |&x| (level, x)))
-            .collect();
+        let all: Vec<(usize, [f64; 2])> =
+            (1..).zip(&sites).flat_map(|(level, s)| s.iter().map(move |&x| (level, x))).collect();
         for (i, (level, s)) in all.iter().enumerate() {
             for (other, t) in &all[..i] {
                 let apart = [0, 1].map(|k| {
@@ -314,14 +292,8 @@ mod tests {
     fn flat_cells_and_shared_sites_are_refused() {
         assert!(matches!(Cell::new([1.0, 1.0], [2.0, 2.0]), Err(LatticeError::FlatCell(..))));
         assert!(matches!(Cell::hexagonal(0.0), Err(LatticeError::FlatCell(..))));
-        assert!(matches!(
-            Lattice::hexagonal(1.0, 2),
-            Err(LatticeError::NoStandardSites { levels: 2, .. })
-        ));
+        assert!(matches!(Lattice::hexagonal(1.0, 2), Err(LatticeError::NoStandardSites { levels: 2, .. })));
         let cell = Cell::square(1.0).unwrap();
-        assert_eq!(
-            Lattice::new(cell, vec![vec![[0.0, 0.0]], vec![[1.0, 0.0]]]),
-            Err(LatticeError::SharedSite(1, 2))
-        );
+        assert_eq!(Lattice::new(cell, vec![vec![[0.0, 0.0]], vec![[1.0, 0.0]]]), Err(LatticeError::SharedSite(1, 2)));
     }
 }

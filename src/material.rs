@@ -77,14 +77,7 @@ impl Material {
 
 impl fmt::Display for Material {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "E {:.6e}, ν {}, G {:.6e}, E* {:.6e}",
-            self.young(),
-            self.poisson,
-            self.shear,
-            self.contact_modulus()
-        )
+        write!(f, "E {:.6e}, ν {}, G {:.6e}, E* {:.6e}", self.young(), self.poisson, self.shear, self.contact_modulus())
     }
 }
 

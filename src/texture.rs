@@ -96,6 +96,14 @@ impl Surface {
     }
 }
 
+impl Texture {
+    /// Mean of `shape` over the cell: the penetration at which contact is complete, a length.
+    pub fn mean(&self) -> f64 {
+        let [sum] = field::sums(self.shape.len(), |i| [self.shape[i]]);
+        sum / self.shape.len() as f64
+    }
+}
+
 impl fmt::Display for Surface {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -24,10 +24,7 @@ fn interface(value: &Value) -> Interface {
     match value.as_str() {
         Some("bonded") => Interface::Bonded,
         Some("frictionless") => Interface::Frictionless,
-        _ => Interface::Spring {
-            tangential: stiffness("tangential_stiffness"),
-            normal: stiffness("normal_stiffness"),
-        },
+        _ => Interface::Spring { tangential: stiffness("tangential_stiffness"), normal: stiffness("normal_stiffness") },
     }
 }
 
@@ -37,7 +34,8 @@ fn references() -> Vec<Reference> {
         .map(|line| {
             let value: Value = serde_json::from_str(line).expect("one JSON object a line");
             let layers = value["layers"].as_array().expect("layers").iter().map(|layer| {
-                Layer::new(material(layer), number(&layer["thickness"]), interface(&layer["interface"])).expect("a layer")
+                Layer::new(material(layer), number(&layer["thickness"]), interface(&layer["interface"]))
+                    .expect("a layer")
             });
             Reference {
                 half_space: HalfSpace::new(layers.collect(), material(&value["substrate"])),
@@ -57,7 +55,11 @@ fn compliance_is_exact_to_one_part_in_1e12_for_every_stack() {
     for (line, reference) in (1..).zip(references()) {
         let compliance = TransferFunction::new(&reference.half_space).compliance(reference.wavenumber);
         let error = (compliance / reference.compliance - 1.0).abs();
-        assert!(error < 1e-12, "line {line}: {compliance} against {}, relative error {error:.1e}", reference.compliance);
+        assert!(
+            error < 1e-12,
+            "line {line}: {compliance} against {}, relative error {error:.1e}",
+            reference.compliance
+        );
         worst = worst.max(error);
     }
     println!("largest relative error of the compliance: {worst:.2e}");

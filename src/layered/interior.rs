@@ -94,9 +94,12 @@ impl Interior {
                     };
                     Functional::shear(&top).times(body.state(body.thickness)[3])
                 }
-                interface => functional
-                    .lowered(&layer.material, body.thickness)
-                    .below(interface, &layer.material, lower, wavenumber),
+                interface => functional.lowered(&layer.material, body.thickness).below(
+                    interface,
+                    &layer.material,
+                    lower,
+                    wavenumber,
+                ),
             };
             bodies.push(body);
         }
@@ -143,7 +146,8 @@ impl Body {
         let Functional { u, w, t, p, .. } = functional;
         let Minors { n, a, b, c, d, .. } = plane;
         let scale = (functional.exponent + plane.exponent).exp();
-        [-w * d + t * b - p * a, u * d + t * c - p * b, -u * b - w * c - p * n, u * a + w * b + t * n].map(|y| y * scale)
+        [-w * d + t * b - p * a, u * d + t * c - p * b, -u * b - w * c - p * n, u * a + w * b + t * n]
+            .map(|y| y * scale)
     }
 }
 

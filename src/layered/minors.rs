@@ -33,13 +33,7 @@ impl PlaneStrain {
     pub fn new(material: Material) -> Self {
         let (shear, poisson) = (material.shear(), material.poisson());
         let lateral = 1.0 - poisson;
-        Self {
-            shear,
-            poisson,
-            e: 2.0 / lateral,
-            r: poisson / lateral,
-            m: (1.0 - 2.0 * poisson) / (2.0 * lateral),
-        }
+        Self { shear, poisson, e: 2.0 / lateral, r: poisson / lateral, m: (1.0 - 2.0 * poisson) / (2.0 * lateral) }
     }
 }
 
@@ -65,13 +59,21 @@ impl Minors {
     /// The plane seen from above an interface, in the units of the layer above it (`wavenumber` q).
     pub fn above(self, interface: Interface, below: &PlaneStrain, above: &PlaneStrain, wavenumber: f64) -> Self {
         let ratio = above.shear / below.shear;
-        let scaled = Self { a: ratio * self.a, b: ratio * self.b, c: ratio * self.c, d: ratio * ratio * self.d, ..self };
+        let scaled =
+            Self { a: ratio * self.a, b: ratio * self.b, c: ratio * self.c, d: ratio * ratio * self.d, ..self };
         let Self { n, a, b, c, d, exponent } = scaled;
         match interface {
             Interface::Bonded => scaled,
             Interface::Spring { tangential, normal } => {
                 let (slip, closure) = (above.shear * wavenumber / tangential, above.shear * wavenumber / normal);
-                Self { n, a: a + slip * n, b, c: c + closure * n, d: d + closure * a + slip * c + slip * closure * n, exponent }
+                Self {
+                    n,
+                    a: a + slip * n,
+                    b,
+                    c: c + closure * n,
+                    d: d + closure * a + slip * c + slip * closure * n,
+                    exponent,
+                }
             }
             // The spring with k_t → 0, divided by its slip: U is free and t = 0.
             Interface::Frictionless => Self { n: 0.0, a: n, b: 0.0, c: 0.0, d: c, exponent },
@@ -173,7 +175,9 @@ mod tests {
         let bottom = Minors::half_space(&base).above(Interface::Bonded, &base, &layer, 1.0);
         let once = bottom.raised(&layer, 1.7);
         let twice = bottom.raised(&layer, 0.9).raised(&layer, 0.8);
-        for (one, two) in [(once.a, twice.a), (once.b, twice.b), (once.c, twice.c), (once.d, twice.d), (once.n, twice.n)] {
+        for (one, two) in
+            [(once.a, twice.a), (once.b, twice.b), (once.c, twice.c), (once.d, twice.d), (once.n, twice.n)]
+        {
             assert!((one * (once.exponent - twice.exponent).exp() - two).abs() < 1e-14);
         }
     }

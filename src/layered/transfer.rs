@@ -103,7 +103,10 @@ mod tests {
                 for x in [0.3, 0.9, 1.1, 3.0, 10.0, 40.0] {
                     let general = one_layer(chi, nu1, nu2, Interface::Bonded).correction(x);
                     let closed = closed_form(chi, nu1, nu2, x);
-                    assert!((general / closed - 1.0).abs() < 1e-13, "χ {chi}, ν {nu1}/{nu2}, x {x}: {general} {closed}");
+                    assert!(
+                        (general / closed - 1.0).abs() < 1e-13,
+                        "χ {chi}, ν {nu1}/{nu2}, x {x}: {general} {closed}"
+                    );
                 }
             }
         }
@@ -139,9 +142,8 @@ mod tests {
 
     #[test]
     fn springs_lie_between_bonded_and_frictionless() {
-        let spring = |tangential, normal| {
-            one_layer(2.0, 0.2, 0.3, Interface::Spring { tangential, normal }).correction(1.0)
-        };
+        let spring =
+            |tangential, normal| one_layer(2.0, 0.2, 0.3, Interface::Spring { tangential, normal }).correction(1.0);
         let bonded = one_layer(2.0, 0.2, 0.3, Interface::Bonded).correction(1.0);
         let frictionless = one_layer(2.0, 0.2, 0.3, Interface::Frictionless).correction(1.0);
         assert_eq!(spring(f64::INFINITY, f64::INFINITY), bonded);
@@ -176,7 +178,9 @@ mod tests {
         for (chi, nu1, x, interface, expected) in table {
             // Wavenumber 1, thickness x: the layer above has thickness 1, so scale q and the springs.
             let interface = match interface {
-                Interface::Spring { tangential, normal } => Interface::Spring { tangential: tangential * x, normal: normal * x },
+                Interface::Spring { tangential, normal } => {
+                    Interface::Spring { tangential: tangential * x, normal: normal * x }
+                }
                 other => other,
             };
             let t = one_layer(chi, nu1, 0.3, interface).correction(x);

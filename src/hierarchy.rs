@@ -1,0 +1,177 @@
+//! Nested grids: each load step is solved from the coarsest grid up, each solution starting the next finer one.
+//!
+//! Between load steps every grid keeps its pressure. A finer grid starts from its own last pressure plus the interpolated
+//! **change** of the next coarser one, so that what a step leaves alone is never interpolated twice. The baseline method works on
+//! the finest grid alone, as published.
+
+use crate::field;
+use crate::grid::Grid;
+use crate::lattice::LatticeError;
+use crate::layered::TransferFunction;
+use crate::material::HalfSpace;
+use crate::operator::Operator;
+use crate::solver::{self, Certificate, Control, Method, Progress, Report, Settings, State};
+use crate::texture::{Surface, Texture, resample};
+use std::fmt;
+
+/// No grid has fewer points along a vector, unless the finest one has.
+const COARSEST: usize = 24;
+
+/// A contact problem on its nested grids, with all it needs from step to step.
+#[derive(Debug)]
+pub struct Hierarchy {
+    /// From the finest to the coarsest.
+    nests: Vec<Nest>,
+    settings: Settings,
+}
+
+#[derive(Debug)]
+struct Nest {
+    texture: Texture,
+    operator: Operator,
+    state: State,
+}
+
+/// A solved load step on the finest grid; fields hold one value per sample, a₂ fastest.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// Pressure p ≥ 0.
+    pub pressure: Vec<f64>,
+    /// Displacement w into the body with zero mean, a length.
+    pub displacement: Vec<f64>,
+    /// Gap g = w + f − δ, a length.
+    pub gap: Vec<f64>,
+    /// Penetration δ, from the mean plane of the deformed surface to the highest apex: the additional displacement w_a.
+    pub penetration: f64,
+    /// How the finest grid's solution was reached.
+    pub report: Report,
+    /// What the pressure proves about itself.
+    pub certificate: Certificate,
+    /// Convolutions on all grids, as equivalents of the finest one.
+    pub convolutions: f64,
+}
+
+impl Hierarchy {
+    /// Grids of `points` = [N₁, N₂] and their coarser companions for `surface` on `half_space`.
+    ///
+    /// # Errors
+    /// [`LatticeError`] when a number of points is zero.
+    pub fn new(
+        surface: &Surface,
+        half_space: &HalfSpace,
+        points: [usize; 2],
+        settings: Settings,
+    ) -> Result<Self, LatticeError> {
+        let transfer = TransferFunction::new(half_space);
+        let nest = |points| -> Result<Nest, LatticeError> {
+            let grid = Grid::new(surface.cell(), points)?;
+            Ok(Nest {
+                texture: surface.sample(&grid),
+                operator: Operator::new(&grid, &transfer),
+                state: State::new(vec![0.0; grid.len()]),
+            })
+        };
+        let mut nests = vec![nest(points)?];
+        let mut coarser = halved(points);
+        while settings.method == Method::Preconditioned && coarser.iter().all(|&n| n >= COARSEST) {
+            nests.push(nest(coarser)?);
+            coarser = halved(coarser);
+        }
+        Ok(Self { nests, settings })
+    }
+
+    /// The finest grid.
+    pub fn grid(&self) -> &Grid {
+        self.nests[0].operator.grid()
+    }
+
+    /// The counterbody's surface on the finest grid.
+    pub fn texture(&self) -> &Texture {
+        &self.nests[0].texture
+    }
+
+    /// Penetration at which contact becomes complete: the mean of f on the finest grid, a length.
+    pub fn full_contact_penetration(&self) -> f64 {
+        self.texture().mean()
+    }
+
+    /// Solves the next load step, starting from the last one. `callback` hears of the iterations on the finest grid.
+    pub fn solve(&mut self, control: Control, callback: &mut dyn FnMut(Progress)) -> Solution {
+        let finest = self.grid().len() as f64;
+        let coarsest = self.nests.len() - 1;
+        let mut convolutions = 0.0;
+        let mut change: Option<([usize; 2], Vec<f64>)> = None;
+        for index in (1..=coarsest).rev() {
+            let nest = &mut self.nests[index];
+            let before = nest.state.pressure.clone();
+            convolutions += nest.solve(change, control, &self.settings, &mut |_| ()).1 / finest;
+            let mut rise = before;
+            field::update(&mut rise, |i, p| nest.state.pressure[i] - p);
+            change = Some((nest.operator.grid().points(), rise));
+        }
+        let nest = &mut self.nests[0];
+        let (report, work) = nest.solve(change, control, &self.settings, callback);
+        let Nest { texture, operator, state } = nest;
+        let mut displacement = vec![0.0; texture.shape.len()];
+        let certificate = Certificate::new(operator, &texture.shape, texture.range, control, state, &mut displacement);
+        Solution {
+            pressure: state.pressure.clone(),
+            displacement,
+            gap: state.gap.clone(),
+            penetration: state.penetration,
+            report,
+            certificate,
+            convolutions: convolutions + work / finest + 1.0,
+        }
+    }
+}
+
+impl Nest {
+    /// Solves on this grid after adding the `change` of the next coarser one; also gives convolutions times samples.
+    fn solve(
+        &mut self,
+        change: Option<([usize; 2], Vec<f64>)>,
+        control: Control,
+        settings: &Settings,
+        callback: &mut dyn FnMut(Progress),
+    ) -> (Report, f64) {
+        let grid = self.operator.grid();
+        let (points, samples) = (grid.points(), grid.len() as f64);
+        if let Some((from, change)) = change {
+            let rise = resample(&change, from, points);
+            field::update(&mut self.state.pressure, |i, p| p + rise[i]);
+        }
+        let before = self.operator.convolutions();
+        let Self { texture, operator, state } = self;
+        let report = solver::solve(operator, &texture.shape, control, settings, state, callback);
+        (report, (operator.convolutions() - before) as f64 * samples)
+    }
+}
+
+impl fmt::Display for Hierarchy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let grids: Vec<String> = self.nests.iter().map(|nest| nest.operator.grid().points()[0].to_string()).collect();
+        write!(f, "{}\nnested grids: {} points along a₁", self.grid(), grids.join(", "))
+    }
+}
+
+/// About half as many points, with factors 2, 3, 5, 7 only.
+fn halved(points: [usize; 2]) -> [usize; 2] {
+    points.map(|n| fast_points(n.div_ceil(2)))
+}
+
+/// The least number ≥ `n` whose prime factors are 2, 3, 5 and 7.
+pub fn fast_points(n: usize) -> usize {
+    (n.max(1)..).find(|&m| has_fast_factors(m)).unwrap_or(n)
+}
+
+/// Whether the prime factors of `n` are 2, 3, 5 and 7 only.
+pub fn has_fast_factors(n: usize) -> bool {
+    let mut rest = n;
+    for factor in [2, 3, 5, 7] {
+        while rest > 0 && rest % factor == 0 {
+            rest /= factor;
+        }
+    }
+    rest == 1
+}
