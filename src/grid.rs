@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn a_rectangular_cell_has_the_usual_wavevectors() {
         let grid = Grid::new(Cell::new([2.0, 0.0], [0.0, 1.0]).unwrap(), [6, 5]).unwrap();
-        assert_eq!(grid.wavevector([1, 0]).map(|q| (q * 1e9).round() / 1e9), [3.141592654, 0.0]);
+        assert!((grid.wavevector([1, 0])[0] - TAU / 2.0).abs() < 1e-14 && grid.wavevector([1, 0])[1] == 0.0);
         assert!((grid.wavevector([5, 4])[0] + TAU / 2.0).abs() < 1e-14);
         assert!((grid.wavevector([5, 4])[1] + TAU).abs() < 1e-14);
         assert!((grid.wavenumber([3, 0]) - 3.0 * TAU / 2.0).abs() < 1e-14);

@@ -169,7 +169,7 @@ pub fn fast_points(n: usize) -> usize {
 pub fn has_fast_factors(n: usize) -> bool {
     let mut rest = n;
     for factor in [2, 3, 5, 7] {
-        while rest > 0 && rest % factor == 0 {
+        while rest > 0 && rest.is_multiple_of(factor) {
             rest /= factor;
         }
     }

@@ -1,0 +1,36 @@
+//! Example cases that the program carries with it.
+
+use std::path::PathBuf;
+
+use super::Source;
+
+/// Name of the case that runs when none is given.
+pub const DEFAULT: &str = "fig2";
+
+const CASES: [(&str, &str); 9] = [
+    ("fig2", include_str!("../../cases/fig2.toml")),
+    ("fig3a", include_str!("../../cases/fig3a.toml")),
+    ("fig3b", include_str!("../../cases/fig3b.toml")),
+    ("fig4", include_str!("../../cases/fig4.toml")),
+    ("fig5", include_str!("../../cases/fig5.toml")),
+    ("fig6a", include_str!("../../cases/fig6a.toml")),
+    ("fig6b", include_str!("../../cases/fig6b.toml")),
+    ("fig7", include_str!("../../cases/fig7.toml")),
+    ("tin-on-steel", include_str!("../../cases/tin-on-steel.toml")),
+];
+
+/// Name and text of every embedded case.
+pub fn all() -> &'static [(&'static str, &'static str)] {
+    &CASES
+}
+
+/// Text of an embedded case.
+pub fn find(name: &str) -> Option<&'static str> {
+    CASES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
+}
+
+/// An embedded case, ready to be read.
+pub fn source(name: &str) -> Option<Source> {
+    let text = find(name)?.to_owned();
+    Some(Source { name: format!("embedded case {name}"), text, folder: PathBuf::new() })
+}

@@ -1,0 +1,122 @@
+//! Why a case is refused, told to the person who wrote it: the line, the key, the value received,
+//! what is allowed and what to do.
+
+use std::fmt;
+use std::ops::Range;
+
+use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
+
+use super::node::Place;
+
+/// A refusal while its place is still a span of one of several sources.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Refusal {
+    place: Place,
+    message: String,
+    label: String,
+    help: Option<String>,
+}
+
+impl Refusal {
+    /// A refusal of what stands at `place`; `message` names the key and the fault, `label` stands at the excerpt.
+    pub(super) fn new(place: Place, message: impl Into<String>, label: impl Into<String>) -> Self {
+        Self { place, message: message.into(), label: label.into(), help: None }
+    }
+
+    /// What to do about it.
+    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// What to do about it, unless something better is said already.
+    pub(super) fn or_help(mut self, help: impl Into<String>) -> Self {
+        self.help.get_or_insert_with(|| help.into());
+        self
+    }
+}
+
+/// The texts a case is read from: the file first, then every `--set`.
+#[derive(Debug)]
+pub(super) struct Sources<'a>(Vec<(&'a str, &'a str)>);
+
+impl<'a> Sources<'a> {
+    /// Sources of one file and its overrides.
+    pub(super) fn new(name: &'a str, text: &'a str, overrides: &'a [String]) -> Self {
+        let overrides = overrides.iter().map(|text| ("--set", text.as_str()));
+        Self(std::iter::once((name, text)).chain(overrides).collect())
+    }
+
+    /// The refusal together with the text it points into.
+    pub(super) fn error(&self, refusal: Refusal) -> CaseError {
+        let (name, text) = self.0[refusal.place.source];
+        CaseError::new(name, text, refusal)
+    }
+}
+
+/// Why a case was refused: one fault, with the place in the case file or in the `--set` where it stands.
+///
+/// `Display` gives plain text; [`CaseError::render`] also in colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CaseError(Box<Excerpt>);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Excerpt {
+    name: String,
+    text: String,
+    span: Range<usize>,
+    refusal: Refusal,
+}
+
+impl CaseError {
+    /// Error about `text`, shown under `name`. A span over several lines is cut to its first one.
+    pub(super) fn new(name: &str, text: &str, refusal: Refusal) -> Self {
+        let Place { start, end, .. } = refusal.place;
+        let boundary = |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
+        let start = boundary(start);
+        let line = text[start..].find(['\r', '\n']).map_or(text.len(), |length| start + length);
+        let end = boundary(end).clamp(start, line);
+        Self(Box::new(Excerpt { name: name.to_owned(), text: text.to_owned(), span: start..end, refusal }))
+    }
+
+    /// The fault in one sentence, without excerpt and advice.
+    pub fn message(&self) -> &str {
+        &self.0.refusal.message
+    }
+
+    /// The whole error with its excerpt, several lines; with colour for a terminal or without.
+    pub fn render(&self, color: bool) -> String {
+        let Excerpt { name, text, span, refusal } = &*self.0;
+        let config = Config::new()
+            .with_color(color)
+            .with_index_type(IndexType::Byte)
+            .with_char_set(CharSet::Unicode)
+            .with_label_attach(ariadne::LabelAttach::Start);
+        let at = (name.as_str(), span.clone());
+        let mut report = Report::build(ReportKind::Error, at.clone())
+            .with_config(config)
+            .with_message(&refusal.message)
+            .with_label(Label::new(at).with_message(&refusal.label).with_color(Color::Red));
+        if let Some(help) = &refusal.help {
+            report.set_help(help);
+        }
+        let mut rendered = Vec::new();
+        let source = ariadne::Source::from(text.as_str());
+        match report.finish().write((name.as_str(), source), &mut rendered) {
+            Ok(()) => {
+                let lines = String::from_utf8_lossy(&rendered);
+                lines.lines().map(str::trim_end).collect::<Vec<_>>().join("\n").trim_end().to_owned()
+            }
+            // Writing into memory does not fail; the message alone would still be right.
+            Err(_) => refusal.message.clone(),
+        }
+    }
+}
+
+impl fmt::Display for CaseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for CaseError {}

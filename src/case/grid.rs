@@ -1,0 +1,90 @@
+//! `[grid]`: how finely the cell is sampled.
+
+use std::ops::{Bound, RangeInclusive};
+
+use serde::Serialize;
+
+use super::error::Refusal;
+use super::node::Value;
+use super::reader::{Field, Section};
+
+/// Points along a cell vector when nothing is said.
+const POINTS: usize = 512;
+/// Points along a cell vector that are allowed.
+const ALLOWED: RangeInclusive<usize> = 4..=32768;
+
+/// The section `[grid]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GridSection {
+    /// Samples along a₁ and a₂.
+    Points([usize; 2]),
+    /// Refine until peak pressures, loads and penetration change by less than this, relatively.
+    Accuracy(f64),
+}
+
+impl GridSection {
+    /// Read the section; a surface from a `file` brings its own points.
+    pub(super) fn read(section: Option<&Section<'_>>, file: Option<[usize; 2]>) -> Result<Self, Refusal> {
+        let default = file.unwrap_or([POINTS; 2]);
+        let Some(section) = section else { return Ok(Self::Points(default)) };
+        section.only(&["points", "accuracy"], &[])?;
+        match (section.optional("points"), section.optional("accuracy"), file) {
+            (Some(_), Some(accuracy), _) => Err(section.both(["points", "accuracy"], accuracy.place())),
+            (None, Some(accuracy), Some(_)) => {
+                let message = "`grid.accuracy` has no place beside [surface]: its grid is that of the file";
+                Err(Refusal::new(accuracy.place(), message, "not used here").help("remove it"))
+            }
+            (None, Some(accuracy), None) => {
+                accuracy.number((Bound::Excluded(0.0), Bound::Included(0.1))).map(Self::Accuracy)
+            }
+            (Some(points), None, Some(file)) => same_as(&points, file),
+            (Some(points), None, None) => each(&points, transformable).map(Self::Points),
+            (None, None, _) => Ok(Self::Points(default)),
+        }
+    }
+}
+
+/// An integer for both directions, or one for each.
+fn each(field: &Field<'_>, read: fn(&Field<'_>) -> Result<usize, Refusal>) -> Result<[usize; 2], Refusal> {
+    const WANTED: &str = "an integer or [n1, n2]";
+    match field.value() {
+        Value::Integer(_) => read(field).map(|n| [n; 2]),
+        Value::List(_) => match &field.list(WANTED, WANTED)?[..] {
+            [n1, n2] => Ok([read(n1)?, read(n2)?]),
+            _ => Err(field.refuse(WANTED)),
+        },
+        _ => Err(field.refuse(WANTED)),
+    }
+}
+
+fn same_as(field: &Field<'_>, file: [usize; 2]) -> Result<GridSection, Refusal> {
+    let points = each(field, |field| field.integer(1..=usize::MAX))?;
+    if points == file {
+        return Ok(GridSection::Points(points));
+    }
+    let [n1, n2] = file;
+    Err(field.refuse(format!("[{n1}, {n2}], the shape of the surface's file")).help("remove it, or resample the file"))
+}
+
+/// A number of points whose transform is fast: made of the factors 2, 3, 5 and 7.
+fn transformable(field: &Field<'_>) -> Result<usize, Refusal> {
+    let points = field.integer(ALLOWED)?;
+    if is_smooth(points) {
+        return Ok(points);
+    }
+    let below = (*ALLOWED.start()..points).rev().find(|n| is_smooth(*n)).unwrap_or(*ALLOWED.start());
+    let above = (points..=*ALLOWED.end()).find(|n| is_smooth(*n)).unwrap_or(*ALLOWED.end());
+    Err(field
+        .refuse("a product of the factors 2, 3, 5 and 7")
+        .help(format!("transforms of other lengths are slow; the nearest that are not: {below} and {above}")))
+}
+
+fn is_smooth(mut n: usize) -> bool {
+    for factor in [2, 3, 5, 7] {
+        while n.is_multiple_of(factor) {
+            n /= factor;
+        }
+    }
+    n == 1
+}

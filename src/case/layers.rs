@@ -1,0 +1,159 @@
+//! `[[layers]]` and `[substrate]`: the coated half-space.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use super::error::Refusal;
+use super::node::Value;
+use super::reader::{Field, POSITIVE, Section};
+use crate::material::{HalfSpace, Interface, Layer, Material, MaterialError};
+
+/// One section of `[[layers]]`, from the surface down.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LayerSection {
+    /// Thickness h, a length.
+    pub thickness: f64,
+    /// Shear ratio or Young's modulus.
+    #[serde(flatten)]
+    pub modulus: Modulus,
+    /// Poisson's ratio.
+    pub poisson: f64,
+    /// How the lower face holds to what lies below.
+    #[serde(serialize_with = "write_interface")]
+    pub interface: Interface,
+}
+
+/// How the stiffness of a layer is given.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Modulus {
+    /// χ = G/G_substrate.
+    ShearRatio(f64),
+    /// Young's modulus, a pressure.
+    Young(f64),
+}
+
+/// The section `[substrate]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SubstrateSection {
+    /// Young's modulus, a pressure.
+    pub young: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+}
+
+impl Modulus {
+    fn key(self) -> &'static str {
+        match self {
+            Self::ShearRatio(_) => "shear_ratio",
+            Self::Young(_) => "young",
+        }
+    }
+}
+
+impl LayerSection {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
+        section.only(&["thickness", "shear_ratio", "young", "poisson", "interface"], &[])?;
+        let thickness = section.required("thickness", "the thickness of the layer, a length")?.number(POSITIVE)?;
+        let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure)";
+        let modulus = match section.one_of(["shear_ratio", "young"], what)? {
+            (0, ratio) => Modulus::ShearRatio(ratio.number(POSITIVE)?),
+            (_, young) => Modulus::Young(young.number(POSITIVE)?),
+        };
+        let poisson = poisson(section)?;
+        let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |field| interface(&field))?;
+        Ok(Self { thickness, modulus, poisson, interface })
+    }
+
+    fn build(&self, substrate: Material) -> Result<Layer, MaterialError> {
+        let material = match self.modulus {
+            Modulus::ShearRatio(ratio) => Material::from_shear(ratio * substrate.shear(), self.poisson),
+            Modulus::Young(young) => Material::from_young(young, self.poisson),
+        }?;
+        Layer::new(material, self.thickness, self.interface)
+    }
+}
+
+impl SubstrateSection {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
+        section.only(
+            &["young", "poisson"],
+            &[("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")],
+        )?;
+        let young = section.required("young", "Young's modulus, a pressure")?.number(POSITIVE)?;
+        Ok(Self { young, poisson: poisson(section)? })
+    }
+}
+
+/// The half-space of the case, or what is wrong with it at the line where it stands.
+pub(super) fn build(
+    layers: &[LayerSection],
+    layer_sections: &[Section<'_>],
+    substrate: &SubstrateSection,
+    substrate_section: &Section<'_>,
+) -> Result<HalfSpace, Refusal> {
+    let refuse = |section: &Section<'_>, key: &str, error: MaterialError| {
+        let place = section.optional(key).map_or(section.place(), |field| field.place());
+        Refusal::new(place, format!("`{}`: {error}", section.path(key)), "this material")
+    };
+    let base = Material::from_young(substrate.young, substrate.poisson)
+        .map_err(|error| refuse(substrate_section, "young", error))?;
+    let built: Result<Vec<Layer>, Refusal> = layers
+        .iter()
+        .zip(layer_sections)
+        .map(|(layer, section)| layer.build(base).map_err(|error| refuse(section, layer.modulus.key(), error)))
+        .collect();
+    Ok(HalfSpace::new(built?, base))
+}
+
+fn poisson(section: &Section<'_>) -> Result<f64, Refusal> {
+    section.required("poisson", "Poisson's ratio, between 0 and 0.5")?.number(0.0..=0.5)
+}
+
+fn interface(field: &Field<'_>) -> Result<Interface, Refusal> {
+    const WANTED: &str = "\"bonded\", \"frictionless\" or { tangential_stiffness = …, normal_stiffness = … }";
+    match field.value() {
+        Value::Text(_) => {
+            let choices = [("bonded", Interface::Bonded), ("frictionless", Interface::Frictionless)];
+            field.choice(&choices).map_err(|refusal| refusal.or_help(format!("or a spring: {WANTED}")))
+        }
+        Value::Table(table) if !table.entries.is_empty() => {
+            let section = field.table(WANTED)?;
+            section.only(&["tangential_stiffness", "normal_stiffness"], &[])?;
+            let stiffness = |key| section.optional(key).map_or(Ok(f64::INFINITY), |field| rigidity(&field));
+            Ok(Interface::Spring {
+                tangential: stiffness("tangential_stiffness")?,
+                normal: stiffness("normal_stiffness")?,
+            })
+        }
+        _ => Err(field.refuse(WANTED).help("a spring needs one stiffness at least; the one left out is rigid")),
+    }
+}
+
+fn rigidity(field: &Field<'_>) -> Result<f64, Refusal> {
+    field.number(POSITIVE).map_err(|refusal| match field.value() {
+        Value::Integer(0) => refusal.help("for no tangential stiffness write interface = \"frictionless\""),
+        Value::Float(value) if *value == 0.0 => {
+            refusal.help("for no tangential stiffness write interface = \"frictionless\"")
+        }
+        Value::Float(value) if value.is_infinite() => refusal.help("leave the key out: an absent stiffness is rigid"),
+        _ => refusal,
+    })
+}
+
+fn write_interface<S: Serializer>(interface: &Interface, serializer: S) -> Result<S::Ok, S::Error> {
+    match *interface {
+        Interface::Bonded => serializer.serialize_str("bonded"),
+        Interface::Frictionless => serializer.serialize_str("frictionless"),
+        Interface::Spring { tangential, normal } => {
+            let mut map = serializer.serialize_map(None)?;
+            for (key, value) in [("tangential_stiffness", tangential), ("normal_stiffness", normal)] {
+                // An absent stiffness is rigid.
+                if value.is_finite() {
+                    map.serialize_entry(key, &value)?;
+                }
+            }
+            map.end()
+        }
+    }
+}

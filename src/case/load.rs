@@ -1,0 +1,115 @@
+//! `[load]`: the nominal pressures or penetrations to solve for, one after another.
+
+use serde::Serialize;
+
+use super::error::Refusal;
+use super::node::Value;
+use super::reader::{Field, POSITIVE, Section};
+
+/// Most load steps a case can have.
+const MOST: usize = 10_000;
+
+/// The section `[load]`: what is prescribed, one value a load step.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LoadSection {
+    /// Nominal pressures p̄ ≥ 0, same unit as Young's modulus.
+    MeanPressure(Vec<f64>),
+    /// Penetrations δ ≥ 0 from first touch, measured from the mean plane of the deformed surface, lengths.
+    Penetration(Vec<f64>),
+}
+
+impl LoadSection {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
+        section.only(&["mean_pressure", "penetration"], &[])?;
+        match section.one_of(
+            ["mean_pressure", "penetration"],
+            "`mean_pressure` (load control) or `penetration` (displacement control)",
+        )? {
+            (0, pressure) => steps(&pressure).map(Self::MeanPressure),
+            (_, penetration) => steps(&penetration).map(Self::Penetration),
+        }
+    }
+
+    /// The prescribed values, one a load step.
+    pub fn values(&self) -> &[f64] {
+        match self {
+            Self::MeanPressure(values) | Self::Penetration(values) => values,
+        }
+    }
+}
+
+fn steps(field: &Field<'_>) -> Result<Vec<f64>, Refusal> {
+    const WANTED: &str = "a number, a list of numbers or { from = …, to = …, steps = … }";
+    match field.value() {
+        Value::Integer(_) | Value::Float(_) => Ok(vec![field.number(0.0..)?]),
+        Value::List(items) if (1..=MOST).contains(&items.len()) => {
+            field.list(WANTED, WANTED)?.iter().map(|item| item.number(0.0..)).collect()
+        }
+        Value::List(items) if items.len() > MOST => Err(field.refuse(format!("a list of at most {MOST} numbers"))),
+        Value::List(_) => Err(field.refuse("a list of at least one number")),
+        Value::Table(_) => range(&field.table(WANTED)?),
+        _ => Err(field.refuse(WANTED)),
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Spacing {
+    Linear,
+    Log,
+}
+
+fn range(section: &Section<'_>) -> Result<Vec<f64>, Refusal> {
+    section.only(&["from", "to", "steps", "spacing"], &[])?;
+    let spacing = match section.optional("spacing") {
+        Some(field) => field.choice(&[("linear", Spacing::Linear), ("log", Spacing::Log)])?,
+        None => Spacing::Linear,
+    };
+    let value = |key, what| {
+        let field = section.required(key, what)?;
+        match spacing {
+            Spacing::Linear => field.number(0.0..),
+            Spacing::Log => {
+                field.number(POSITIVE).map_err(|refusal| refusal.or_help("spacing = \"log\" never reaches 0"))
+            }
+        }
+    };
+    let (from, to) = (value("from", "the first value")?, value("to", "the last value")?);
+    let steps = section.required("steps", "the number of values, both ends counted")?.integer(1..=MOST)?;
+    Ok((0..steps)
+        .map(|step| match (step, step as f64 / (steps - 1).max(1) as f64, spacing) {
+            (0, ..) => from,
+            (step, ..) if step + 1 == steps => to,
+            (_, part, Spacing::Linear) => from + part * (to - from),
+            (_, part, Spacing::Log) => from * (to / from).powf(part),
+        })
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::node::{Node, Table};
+    use super::*;
+
+    fn read(value: &str) -> Result<LoadSection, Refusal> {
+        let table = Table::parse(&format!("mean_pressure = {value}")).unwrap();
+        LoadSection::read(&Section::root(&table, Node::parse("0", 0, 0).unwrap().place))
+    }
+
+    #[test]
+    fn ranges_keep_both_ends_exactly() {
+        let values = |text| read(text).unwrap().values().to_vec();
+        assert_eq!(values("{ from = 0.1, to = 0.7, steps = 4 }")[3], 0.7);
+        assert_eq!(values("{ from = 1, to = 2, steps = 3, spacing = \"linear\" }"), [1.0, 1.5, 2.0]);
+        assert_eq!(values("{ from = 0.3, to = 0.7, steps = 1 }"), [0.3]);
+        let log = values("{ from = 1e-4, to = 1e-1, steps = 4, spacing = \"log\" }");
+        assert_eq!((log[0], log[3]), (1e-4, 1e-1));
+        assert!((log[1] / 1e-3 - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_number_is_a_list_of_one() {
+        assert_eq!(read("0.5"), Ok(LoadSection::MeanPressure(vec![0.5])));
+        assert_eq!(read("[0, 2]"), Ok(LoadSection::MeanPressure(vec![0.0, 2.0])));
+    }
+}

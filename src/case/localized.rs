@@ -1,0 +1,64 @@
+//! `[localized]`: the circles of the localized method, for `compare`.
+
+use serde::Serialize;
+
+use super::error::Refusal;
+use super::reader::Section;
+
+/// The section `[localized]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LocalizedSection {
+    /// Indenters inside the circle, one value a circle.
+    pub indenters: Vec<usize>,
+    /// Elements across the largest contact.
+    pub elements: usize,
+    /// How large the circle is.
+    pub radius: CircleRadius,
+    /// Whether the indenters around the one looked at act on it.
+    pub mutual_effect: bool,
+}
+
+/// Rule for the radius R of the circle outside of which the nominal pressure acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CircleRadius {
+    /// The indenters inside carry π R² p̄.
+    LoadBalanced,
+    /// The cells of the indenters inside have the area π R².
+    AreaBalanced,
+}
+
+impl Default for LocalizedSection {
+    fn default() -> Self {
+        Self { indenters: vec![7, 13, 37, 73], elements: 48, radius: CircleRadius::LoadBalanced, mutual_effect: true }
+    }
+}
+
+impl LocalizedSection {
+    pub(super) fn read(section: Option<&Section<'_>>) -> Result<Self, Refusal> {
+        let mut localized = Self::default();
+        let Some(section) = section else { return Ok(localized) };
+        section.only(&["indenters", "elements", "radius", "mutual_effect"], &[])?;
+        if let Some(field) = section.optional("indenters") {
+            const WANTED: &str = "a list of at least one integer";
+            let circles = field.list(WANTED, "for example indenters = [7, 13]")?;
+            if circles.is_empty() {
+                return Err(field.refuse(WANTED).help("for example indenters = [7, 13]"));
+            }
+            localized.indenters =
+                circles.iter().map(|circle| circle.integer(1..=usize::MAX)).collect::<Result<_, _>>()?;
+        }
+        if let Some(elements) = section.optional("elements") {
+            localized.elements = elements.integer(4..=1000)?;
+        }
+        if let Some(radius) = section.optional("radius") {
+            let choices =
+                [("load-balanced", CircleRadius::LoadBalanced), ("area-balanced", CircleRadius::AreaBalanced)];
+            localized.radius = radius.choice(&choices)?;
+        }
+        if let Some(effect) = section.optional("mutual_effect") {
+            localized.mutual_effect = effect.boolean()?;
+        }
+        Ok(localized)
+    }
+}

@@ -1,0 +1,45 @@
+//! The case file: what a person writes, checked once, with every default resolved.
+//!
+//! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
+//! surface and half-space. What is wrong is refused with its line ([`CaseError`]). One file a section:
+//! lattice, levels, surface, layers (with the substrate), load, grid, solver, stress, localized.
+//!
+//! ```
+//! use percoat::case::{Case, embedded};
+//! let source = embedded::source(embedded::DEFAULT).expect("the default case is embedded");
+//! let case = Case::read(&source, &["load.mean_pressure=0.01".to_owned()]).expect("a valid case");
+//! assert_eq!(case.load.values(), [0.01]);
+//! ```
+
+pub mod embedded;
+mod error;
+mod grid;
+mod lattice;
+mod layers;
+mod levels;
+mod load;
+mod localized;
+mod model;
+mod node;
+mod overrides;
+mod reader;
+mod solver;
+mod source;
+mod stress;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use error::CaseError;
+pub use grid::GridSection;
+pub use lattice::LatticeSection;
+pub use layers::{LayerSection, Modulus, SubstrateSection};
+pub use levels::LevelSection;
+pub use load::LoadSection;
+pub use localized::{CircleRadius, LocalizedSection};
+pub use model::Case;
+pub use overrides::choices;
+pub use solver::{Method, SolverSection};
+pub use source::Source;
+pub use stress::{Cut, MeanStress, StressSection};
+pub use surface::SurfaceSection;

@@ -1,0 +1,173 @@
+//! The whole case.
+
+use serde::Serialize;
+
+use super::error::{CaseError, Refusal, Sources};
+use super::node::{Place, Table};
+use super::overrides::Override;
+use super::reader::Section;
+use super::surface::Heights;
+use super::{
+    GridSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, SolverSection, Source,
+    StressSection, SubstrateSection, SurfaceSection,
+};
+use super::{lattice, layers, levels};
+use crate::material::HalfSpace;
+use crate::texture::Surface;
+
+const SECTIONS: [&str; 11] =
+    ["title", "lattice", "levels", "surface", "layers", "substrate", "load", "grid", "solver", "stress", "localized"];
+
+/// A valid case with every default resolved. It is read, never edited: overrides change it while it is read.
+///
+/// Serialised it has the keys of the case file; sections and keys that are absent are skipped.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Case {
+    /// What the case is, one line; empty when not given.
+    pub title: String,
+    /// The cell.
+    pub lattice: LatticeSection,
+    /// Levels of indenters; empty with a surface.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub levels: Vec<LevelSection>,
+    /// A topography instead of levels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceSection>,
+    /// The coating's layers from the surface down; empty: uncoated.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub layers: Vec<LayerSection>,
+    /// What the coating lies on.
+    pub substrate: SubstrateSection,
+    /// Load steps.
+    pub load: LoadSection,
+    /// Samples of the cell.
+    pub grid: GridSection,
+    /// Iteration.
+    pub solver: SolverSection,
+    /// Stresses wanted; none: no stresses.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stress: Option<StressSection>,
+    /// Circles of the localized method.
+    pub localized: LocalizedSection,
+    #[serde(skip)]
+    built: Built,
+}
+
+/// What the sections make, built once.
+#[derive(Debug, Clone, PartialEq)]
+struct Built {
+    surface: Surface,
+    half_space: HalfSpace,
+}
+
+impl Case {
+    /// Read a case and change it by `overrides`, each `KEY=VALUE`, in their order.
+    ///
+    /// # Errors
+    /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
+    pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
+        let sources = Sources::new(&source.name, &source.text, overrides);
+        read(source, overrides).map_err(|refusal| sources.error(refusal))
+    }
+
+    /// The case as TOML, complete with its defaults; it reads back equal.
+    pub fn to_toml(&self) -> String {
+        let text = toml::to_string(self).expect("keys are strings, integers come from TOML, absent values are skipped");
+        text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
+    }
+
+    /// The rigid counterbody: indenters on their lattice, or a topography.
+    pub fn surface(&self) -> &Surface {
+        &self.built.surface
+    }
+
+    /// The layers on the substrate.
+    pub fn half_space(&self) -> &HalfSpace {
+        &self.built.half_space
+    }
+}
+
+/// A line `key = value` with the numbers of the value as a person would write them: 2e-7 for 0.0000002.
+fn readable(line: &str) -> String {
+    let Some((key, value)) = line.split_once(" = ").filter(|(_, value)| !value.starts_with(['"', '\''])) else {
+        return line.to_owned();
+    };
+    let numbers = value.split_inclusive(['[', ']', ',']).map(|part| {
+        let number = part.trim_end_matches(['[', ']', ',']).trim_start();
+        match number.parse::<f64>() {
+            Ok(x) if number.contains('.') && x != 0.0 && !(1e-3..1e6).contains(&x.abs()) => {
+                part.replace(number, &format!("{x:e}"))
+            }
+            _ => part.to_owned(),
+        }
+    });
+    format!("{key} = {}", numbers.collect::<String>())
+}
+
+fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
+    let mut root = Table::parse(&source.text)?;
+    for (number, text) in (1..).zip(overrides) {
+        Override::parse(text, number)?.apply(&mut root)?;
+    }
+    let end = source.text.trim_end().len();
+    let root = Section::root(&root, Place::new(0, end..end));
+    root.only(&SECTIONS, &[])?;
+    let title = match root.optional("title") {
+        Some(title) if title.text("a text")?.contains('\n') => return Err(title.refuse("a text of one line")),
+        Some(title) => title.text("a text")?.to_owned(),
+        None => String::new(),
+    };
+
+    let lattice_section = root.required_section("lattice", "[lattice]\nkind = \"hexagonal\"\nperiod = 1.0")?;
+    let lattice = LatticeSection::read(&lattice_section)?;
+    let level_sections = root.sections("levels")?;
+    let levels = levels::read(&level_sections)?;
+    let surface = match (&level_sections[..], root.section("surface")?) {
+        ([], Some(section)) => Some(SurfaceSection::read(&section, &source.folder)?),
+        ([_, ..], None) => None,
+        ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.place())),
+        ([], None) => {
+            let refusal =
+                Refusal::new(root.place(), "the case has neither [[levels]] nor [surface]", "none up to here");
+            let example = "[[levels]]\nshape = \"paraboloid\"\nradius = 0.8\nheight = 0.0";
+            return Err(refusal.help(format!("add a level, for example\n{example}")));
+        }
+    };
+    let (surface, built_surface) = match surface {
+        Some((section, Heights { points, values })) => {
+            let cell = lattice::build_cell(&lattice, &lattice_section)?;
+            (Some(section), Surface::Heights { cell, points, heights: values })
+        }
+        None => {
+            let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
+            let lattice = lattice::build(&lattice, &lattice_section, &levels, &level_sections)?;
+            (None, Surface::Indenters { lattice, levels: built.collect::<Result<_, _>>()? })
+        }
+    };
+
+    let layer_sections = root.sections("layers")?;
+    let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
+    let substrate_section = root.required_section("substrate", "[substrate]\nyoung = 1.0\npoisson = 0.3")?;
+    let substrate = SubstrateSection::read(&substrate_section)?;
+    let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
+
+    let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
+    let file_points = match &built_surface {
+        Surface::Heights { points, .. } => Some(*points),
+        Surface::Indenters { .. } => None,
+    };
+    Ok(Case {
+        title,
+        lattice,
+        grid: GridSection::read(root.section("grid")?.as_ref(), file_points)?,
+        solver: SolverSection::read(root.section("solver")?.as_ref())?,
+        stress: root.section("stress")?.map(|section| StressSection::read(&section, levels.len())).transpose()?,
+        localized: LocalizedSection::read(root.section("localized")?.as_ref())?,
+        levels,
+        surface,
+        layers,
+        substrate,
+        load,
+        built: Built { surface: built_surface, half_space },
+    })
+}

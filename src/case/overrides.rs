@@ -1,0 +1,287 @@
+//! Overrides `KEY=VALUE` of single values of a case, as in `--set layers.0.thickness=0.3`.
+//!
+//! KEY is a dotted path, items of lists counted from 0; VALUE is TOML, a bare word counts as text.
+
+use super::error::{CaseError, Refusal};
+use super::node::{Entry, Node, Place, Table, Value};
+
+/// Alternatives of which a table takes one: setting a key of one removes the keys of the others.
+const EXCLUSIVE: [&[&[&str]]; 6] = [
+    &[&["mean_pressure"], &["penetration"]],
+    &[&["shear_ratio"], &["young"]],
+    &[&["points"], &["accuracy"]],
+    &[&["levels"], &["surface"]],
+    &[&["period"], &["a1", "a2"]],
+    &[&["radius"], &["slope"], &["coefficient", "exponent"]],
+];
+
+/// One override, parsed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Override {
+    steps: Vec<Step>,
+    value: Node,
+}
+
+/// One part of a dotted path.
+#[derive(Debug, Clone, PartialEq)]
+struct Step {
+    name: String,
+    place: Place,
+}
+
+impl Step {
+    fn index(&self) -> Option<usize> {
+        self.name.parse().ok()
+    }
+}
+
+/// Every override that `KEY=V1,V2,…` stands for, as texts `KEY=V1`, `KEY=V2`, …: what a sweep runs through.
+///
+/// Commas inside brackets, braces and quotes do not separate: `load.mean_pressure=[1,2],[3]` has two values.
+///
+/// # Errors
+/// [`CaseError`] when the text has no `=`, an empty key or an empty value.
+pub fn choices(text: &str) -> Result<Vec<String>, CaseError> {
+    let refuse = |refusal| CaseError::new("--set", text, refusal);
+    let (key, values) = split(text, 0).map_err(refuse)?;
+    let first = key.len() + 1;
+    let (mut depth, mut quote, mut escaped) = (0usize, None, false);
+    let mut cuts = vec![0];
+    for (at, c) in values.char_indices() {
+        match (quote, c) {
+            (Some('"'), '\\') if !escaped => {
+                escaped = true;
+                continue;
+            }
+            (Some(open), _) if open == c && !escaped => quote = None,
+            (Some(_), _) => {}
+            (None, '"' | '\'') => quote = Some(c),
+            (None, '[' | '{') => depth += 1,
+            (None, ']' | '}') => depth = depth.saturating_sub(1),
+            (None, ',') if depth == 0 => cuts.push(at + 1),
+            (None, _) => {}
+        }
+        escaped = false;
+    }
+    cuts.push(values.len() + 1);
+    cuts.windows(2)
+        .map(|cut| {
+            let (start, end) = (cut[0], cut[1] - 1);
+            let value = values[start..end].trim();
+            if value.is_empty() {
+                let place = Place::new(0, first + start..first + end);
+                return Err(refuse(empty_value(place, key.trim())));
+            }
+            Ok(format!("{}={value}", key.trim()))
+        })
+        .collect()
+}
+
+impl Override {
+    /// Parse `KEY=VALUE`, which is source number `source`.
+    pub(super) fn parse(text: &str, source: usize) -> Result<Self, Refusal> {
+        let (key, value) = split(text, source)?;
+        let steps = steps(key, source)?;
+        let offset = key.len() + 1 + (value.len() - value.trim_start().len());
+        let value = value.trim();
+        let place = Place::new(source, offset..offset + value.len());
+        if value.is_empty() {
+            return Err(empty_value(place, key.trim()));
+        }
+        let value = match Node::parse(value, source, offset) {
+            Err(_) if is_bare_word(value) => Node { value: Value::Text(value.to_owned()), place },
+            parsed => parsed?,
+        };
+        Ok(Self { steps, value })
+    }
+
+    /// Set the value in the case's tree.
+    pub(super) fn apply(self, root: &mut Table) -> Result<(), Refusal> {
+        set_in_table(root, "", &self.steps, self.value)
+    }
+}
+
+fn split(text: &str, source: usize) -> Result<(&str, &str), Refusal> {
+    let whole = Place::new(source, 0..text.len());
+    match text.split_once('=') {
+        None => Err(Refusal::new(whole, "an override needs a value", "no `=` here")
+            .help("write KEY=VALUE, for example solver.tolerance=1e-10")),
+        Some((key, _)) if key.trim().is_empty() => {
+            Err(Refusal::new(whole, "an override needs a key", "no key before `=`")
+                .help("write KEY=VALUE, for example solver.tolerance=1e-10"))
+        }
+        Some(pair) => Ok(pair),
+    }
+}
+
+fn empty_value(place: Place, key: &str) -> Refusal {
+    Refusal::new(place, format!("no value is given for `{key}`"), "no value here").help(format!("write {key}=VALUE"))
+}
+
+/// The steps of `layers.0.thickness`, also written `layers[0].thickness` as in errors.
+fn steps(key: &str, source: usize) -> Result<Vec<Step>, Refusal> {
+    let mut at = 0;
+    key.split(['.', '['])
+        .map(|part| {
+            let start = at + (part.len() - part.trim_start().len());
+            at += part.len() + 1;
+            let part = part.trim();
+            let name = part.strip_suffix(']').unwrap_or(part);
+            let place = Place::new(source, start..start + part.len());
+            if name.is_empty() {
+                return Err(Refusal::new(place, format!("`{}` has an empty part", key.trim()), "nothing here")
+                    .help("write the path with single dots, for example layers.0.thickness"));
+            }
+            Ok(Step { name: name.to_owned(), place })
+        })
+        .collect()
+}
+
+/// Whether a value that is not TOML is meant as text: it begins like a word or a path and has no TOML punctuation.
+fn is_bare_word(value: &str) -> bool {
+    value.starts_with(|c: char| c.is_alphabetic() || "_./~\\".contains(c))
+        && !value.contains(['"', '[', '{', '\n', '='])
+}
+
+fn set_in_table(table: &mut Table, path: &str, steps: &[Step], value: Node) -> Result<(), Refusal> {
+    // A path has a step at least, and `set_in_node` passes on only what is left of it.
+    let [step, rest @ ..] = steps else { return Ok(()) };
+    let path = if path.is_empty() { step.name.clone() } else { format!("{path}.{}", step.name) };
+    let next = match (rest.first(), table.get_mut(&step.name)) {
+        (None, _) => value,
+        (Some(_), Some(node)) => return set_in_node(node, &path, rest, value),
+        (Some(next), None) if next.index().is_some() => {
+            let message = format!("`{path}` has no item {}: the case has no `{path}`", next.name);
+            return Err(Refusal::new(next.place, message, "no such item"));
+        }
+        (Some(_), None) => {
+            let mut created = Table::default();
+            set_in_table(&mut created, &path, rest, value)?;
+            Node { value: Value::Table(created), place: step.place }
+        }
+    };
+    for alternatives in EXCLUSIVE.iter().filter(|all| all.concat().contains(&step.name.as_str())) {
+        for other in alternatives.iter().filter(|keys| !keys.contains(&step.name.as_str())) {
+            other.iter().for_each(|key| table.remove(key));
+        }
+    }
+    table.insert(Entry { key: step.name.clone(), key_place: step.place, node: next });
+    Ok(())
+}
+
+fn set_in_node(node: &mut Node, path: &str, steps: &[Step], value: Node) -> Result<(), Refusal> {
+    let Some((step, rest)) = steps.split_first() else {
+        *node = value;
+        return Ok(());
+    };
+    match &mut node.value {
+        Value::Table(table) => set_in_table(table, path, steps, value),
+        Value::List(items) => {
+            let count = items.len();
+            let allowed = match count {
+                0 => "the list is empty".to_owned(),
+                1 => "its only item is 0".to_owned(),
+                _ => format!("its items are 0 to {}", count - 1),
+            };
+            match step.index().map(|index| (index, items.get_mut(index))) {
+                Some((index, Some(item))) => set_in_node(item, &format!("{path}[{index}]"), rest, value),
+                Some((index, None)) => {
+                    let message = format!("`{path}` has no item {index}: {allowed}");
+                    Err(Refusal::new(step.place, message, "no such item").help("items are counted from 0"))
+                }
+                None => {
+                    let message = format!("`{path}` is a list: {allowed}");
+                    let label = format!("a number is needed here, not `{}`", step.name);
+                    let rest: String = steps.iter().map(|step| format!(".{}", step.name)).collect();
+                    Err(Refusal::new(step.place, message, label).help(format!("for example {path}.0{rest}")))
+                }
+            }
+        }
+        other => {
+            let message = format!("`{path}` is {}: it holds no `{}`", other.describe(), step.name);
+            Err(Refusal::new(step.place, message, "no such key")
+                .help(format!("set it as a whole: {path}={{ {} = … }}", step.name)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(case: &str, text: &str) -> Result<Table, Refusal> {
+        let mut root = Table::parse(case)?;
+        Override::parse(text, 1)?.apply(&mut root)?;
+        Ok(root)
+    }
+
+    fn value<'a>(root: &'a Table, path: &[&str]) -> Option<&'a Value> {
+        let mut value = &root.get(path[0])?.node.value;
+        for step in &path[1..] {
+            value = match value {
+                Value::Table(table) => &table.get(step)?.node.value,
+                Value::List(items) => &items[step.parse::<usize>().unwrap()].value,
+                _ => return None,
+            };
+        }
+        Some(value)
+    }
+
+    #[test]
+    fn a_value_is_replaced_or_added() {
+        let case = "[[layers]]\nthickness = 1.0\n[[layers]]\nthickness = 2.0\n";
+        let root = set(case, "layers.1.thickness = 3.5").unwrap();
+        assert_eq!(value(&root, &["layers", "1", "thickness"]), Some(&Value::Float(3.5)));
+        let root = set(case, "layers[0].poisson=0.2").unwrap();
+        assert_eq!(value(&root, &["layers", "0", "poisson"]), Some(&Value::Float(0.2)));
+        let root = set(case, "grid.points=[64, 32]").unwrap();
+        assert_eq!(value(&root, &["grid", "points", "1"]), Some(&Value::Integer(32)));
+    }
+
+    #[test]
+    fn a_bare_word_is_text_and_the_rest_is_toml() {
+        for (text, expected) in [
+            ("solver.method=polonsky-keer", "polonsky-keer"),
+            ("surface.heights=../data/a b.npy", "../data/a b.npy"),
+            ("title=\"a = b\"", "a = b"),
+        ] {
+            let parsed = Override::parse(text, 1).unwrap();
+            assert_eq!(parsed.value.value, Value::Text(expected.to_owned()));
+        }
+        assert_eq!(Override::parse("a=true", 1).unwrap().value.value, Value::Boolean(true));
+        for text in ["a=0.5x", "a=[1, 2", "a=\"open", "a=1 2", "a=", "a", "=1", "a..b=1", "a.=1"] {
+            assert!(Override::parse(text, 1).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn one_of_an_exclusive_pair_drives_out_the_other() {
+        let root = set("[load]\nmean_pressure = 1\n", "load.penetration=0.1").unwrap();
+        assert_eq!(value(&root, &["load", "mean_pressure"]), None);
+        let root = set("[[layers]]\nshear_ratio = 1\n", "layers.0.young=2").unwrap();
+        assert_eq!(value(&root, &["layers", "0", "shear_ratio"]), None);
+        let root = set("[grid]\naccuracy = 0.1\n", "grid.points=64").unwrap();
+        assert_eq!(value(&root, &["grid", "accuracy"]), None);
+        let root = set("[[levels]]\ncoefficient = 1\nexponent = 3\nheight = 1\n", "levels.0.slope=0.1").unwrap();
+        assert_eq!(value(&root, &["levels", "0", "exponent"]), None);
+        assert_eq!(value(&root, &["levels", "0", "height"]), Some(&Value::Integer(1)));
+    }
+
+    #[test]
+    fn paths_that_lead_nowhere_are_refused() {
+        let case = "[load]\nmean_pressure = 1\n[[layers]]\nthickness = 1.0\n";
+        for text in ["layers.1.thickness=1", "layers.thickness=1", "load.mean_pressure.from=1", "levels.0.radius=1"] {
+            assert!(set(case, text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_sweep_splits_values_at_outer_commas_only() {
+        assert_eq!(choices("a.b=1,2 , 3").unwrap(), ["a.b=1", "a.b=2", "a.b=3"]);
+        assert_eq!(choices("a=[1,2],{ b = 1, c = 2 }").unwrap(), ["a=[1,2]", "a={ b = 1, c = 2 }"]);
+        assert_eq!(choices(r#"t="x,\",y",z"#).unwrap(), [r#"t="x,\",y""#, "t=z"]);
+        assert!(choices("a=1,,2").is_err());
+        assert!(choices("a=").is_err());
+        assert!(choices("a").is_err());
+    }
+}

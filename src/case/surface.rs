@@ -1,0 +1,158 @@
+//! `[surface]`: one period of any topography, read from a NumPy file.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use npyz::{NpyFile, Order};
+use serde::Serialize;
+
+use super::error::Refusal;
+use super::reader::{Field, Section};
+
+/// The section `[surface]`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SurfaceSection {
+    /// Path of the NumPy file, absolute, so that a copy of the case still finds it.
+    pub heights: String,
+}
+
+/// Heights of one period of a surface.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Heights {
+    /// Samples along a₁ and a₂.
+    pub(super) points: [usize; 2],
+    /// Protrusion upward at each sample, lengths, n₁ × n₂ values, a₂ fastest.
+    pub(super) values: Vec<f64>,
+}
+
+const WANTED: &str = "float64 heights of shape (n1, n2), written by numpy.save";
+
+impl SurfaceSection {
+    /// Read the section and the file, whose path is relative to `folder`.
+    pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<(Self, Heights), Refusal> {
+        section.only(&["heights"], &[])?;
+        let field = section.required("heights", "the path of a NumPy file, relative to the case file")?;
+        let name = field.text("the path of a NumPy file")?;
+        let path = folder.join(name);
+        let path = std::path::absolute(&path).unwrap_or(path);
+        let heights = Heights::read(&path, &field)?;
+        Ok((Self { heights: path.to_string_lossy().into_owned() }, heights))
+    }
+}
+
+impl Heights {
+    fn read(path: &Path, field: &Field<'_>) -> Result<Self, Refusal> {
+        let shown = path.display();
+        let refuse = |what: String, label: String| {
+            Refusal::new(field.place(), format!("`{}`: {what}", field.path()), label).help(format!("needed: {WANTED}"))
+        };
+        let unreadable = |error| refuse(format!("cannot read {shown}: {error}"), "this file".into());
+        let file = File::open(path).map_err(unreadable)?;
+        let bytes = file.metadata().map_err(unreadable)?.len();
+        let npy = NpyFile::new(BufReader::new(file))
+            .map_err(|error| refuse(format!("{shown} is not a NumPy file: {error}"), "this file".into()))?;
+
+        let shape = npy.shape().to_vec();
+        let &[n1, n2] = &shape[..] else { return Err(refuse_shape(&refuse, path, &shape)) };
+        if !(2..=32768).contains(&n1) || !(2..=32768).contains(&n2) {
+            return Err(refuse_shape(&refuse, path, &shape));
+        }
+        let (dtype, order) = (npy.dtype().descr(), npy.order());
+        let samples = npy
+            .try_data::<f64>()
+            .map_err(|_| refuse(format!("{shown} holds values of type {dtype}"), format!("type {dtype}")))?;
+        let truncated = || refuse(format!("{shown} ends before its {n1} × {n2} values"), "truncated".into());
+        if bytes < 8 * n1 * n2 {
+            return Err(truncated());
+        }
+        let stored: Vec<f64> = samples.collect::<Result<_, _>>().map_err(|_| truncated())?;
+
+        let points = [n1 as usize, n2 as usize];
+        let [n1, n2] = points;
+        let values = match order {
+            Order::C => stored,
+            Order::Fortran => (0..n1 * n2).map(|k| stored[k / n2 + n1 * (k % n2)]).collect(),
+        };
+        match values.iter().position(|height| !height.is_finite()) {
+            None => Ok(Self { points, values }),
+            Some(k) => {
+                let (value, i, j) = (super::node::plain(values[k]), k / n2, k % n2);
+                Err(refuse(format!("{shown} holds {value} at [{i}, {j}]"), "every height must be finite".into()))
+            }
+        }
+    }
+}
+
+fn refuse_shape(refuse: &dyn Fn(String, String) -> Refusal, path: &Path, shape: &[u64]) -> Refusal {
+    let sizes: Vec<String> = shape.iter().map(u64::to_string).collect();
+    let shape = format!("({})", sizes.join(", "));
+    let what = format!("{} holds an array of shape {shape}; n1 and n2 must lie between 2 and 32768", path.display());
+    refuse(what, format!("shape {shape}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, CaseError, GridSection, Source};
+    use crate::texture::Surface;
+    use npyz::WriterBuilder;
+
+    const CASE: &str = "[lattice]\nkind = \"square\"\nperiod = 1\n[surface]\nheights = \"surface.npy\"\n\
+                        [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
+
+    fn write<T: npyz::AutoSerialize>(folder: &Path, shape: &[u64], order: Order, values: &[T]) {
+        let file = File::create(folder.join("surface.npy")).unwrap();
+        let options = npyz::WriteOptions::new().default_dtype().shape(shape).order(order);
+        let mut writer = options.writer(file).begin_nd().unwrap();
+        writer.extend(values).unwrap();
+        writer.finish().unwrap();
+    }
+
+    fn read(folder: &Path, more: &str) -> Result<Case, CaseError> {
+        let source = Source { name: "case".to_owned(), text: format!("{CASE}{more}"), folder: folder.to_owned() };
+        Case::read(&source, &[])
+    }
+
+    #[test]
+    fn both_orders_give_the_same_heights_with_a2_fastest() {
+        let folder = tempfile::tempdir().unwrap();
+        for (order, stored) in [(Order::C, [1., 2., 3., 4., 5., 6.]), (Order::Fortran, [1., 4., 2., 5., 3., 6.])] {
+            write(folder.path(), &[2, 3], order, &stored);
+            let case = read(folder.path(), "").unwrap();
+            let Surface::Heights { points, heights, .. } = case.surface() else { panic!("heights") };
+            assert_eq!((*points, &heights[..]), ([2, 3], &[1., 2., 3., 4., 5., 6.][..]));
+            assert_eq!(case.grid, GridSection::Points([2, 3]));
+            let elsewhere = Source { name: "copy".to_owned(), text: case.to_toml(), folder: "elsewhere".into() };
+            assert_eq!(Case::read(&elsewhere, &[]).unwrap(), case);
+        }
+    }
+
+    #[test]
+    fn the_grid_is_that_of_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        write(folder.path(), &[2, 2], Order::C, &[0.0; 4]);
+        assert!(read(folder.path(), "[grid]\npoints = 2\n").is_ok());
+        let error = read(folder.path(), "[grid]\npoints = 64\n").unwrap_err().to_string();
+        assert!(error.contains("`grid.points` must be [2, 2]"), "{error}");
+        assert!(read(folder.path(), "[grid]\naccuracy = 0.01\n").is_err());
+    }
+
+    #[test]
+    fn files_of_other_contents_are_refused_with_what_they_hold() {
+        let folder = tempfile::tempdir().unwrap();
+        let fault = || read(folder.path(), "").unwrap_err().to_string();
+        write(folder.path(), &[2, 2], Order::C, &[0.0f32; 4]);
+        assert!(fault().contains("values of type '<f4'"), "{}", fault());
+        write(folder.path(), &[4], Order::C, &[0.0; 4]);
+        assert!(fault().contains("shape (4)"), "{}", fault());
+        write(folder.path(), &[1, 4], Order::C, &[0.0; 4]);
+        assert!(fault().contains("shape (1, 4)"), "{}", fault());
+        write(folder.path(), &[2, 2], Order::C, &[0.0, 1.0, f64::NAN, 3.0]);
+        assert!(fault().contains("holds nan at [1, 0]"), "{}", fault());
+        write(folder.path(), &[20, 20], Order::C, &[0.0; 400]);
+        let whole = std::fs::read(folder.path().join("surface.npy")).unwrap();
+        std::fs::write(folder.path().join("surface.npy"), &whole[..whole.len() - 9]).unwrap();
+        assert!(fault().contains("ends before its 20 × 20 values"), "{}", fault());
+    }
+}

@@ -1,0 +1,152 @@
+//! The case as a whole: embedded cases, defaults, overrides, writing and reading back.
+
+use std::path::PathBuf;
+
+use super::*;
+use crate::material::Interface;
+use serde_json::{Value, json};
+
+const RICH: &str = r#"
+    title = "every section"
+    lattice = { kind = "oblique", a1 = [1, 0], a2 = [0.25, 1.5] }
+    levels = [
+        { shape = "sphere", radius = 2, height = 0.1, sites = [[0, 0], [0.5, 0.5]] },
+        { shape = "cone", slope = 0.3, sites = [[0.5, 0.0]] },
+        { shape = "power", coefficient = 1.5, exponent = 3, height = -1e-7, sites = [[0.0, 0.5]] },
+    ]
+    [[layers]]
+    thickness = 0.1
+    young = 3e11
+    poisson = 0
+    interface = { tangential_stiffness = 2.5 }
+    [[layers]]
+    thickness = 0.2
+    shear_ratio = 0.3
+    poisson = 0.5
+    interface = "frictionless"
+    [substrate]
+    young = 2e11
+    poisson = 0.3
+    [load]
+    penetration = { from = 1e-3, to = 0.1, steps = 3, spacing = "log" }
+    [grid]
+    accuracy = 1e-3
+    [solver]
+    method = "polonsky-keer"
+    tolerance = 1e-10
+    max_iterations = 7
+    [stress]
+    planes = [0, 0.1]
+    mean = "half-space"
+    section = { from = "level 1", toward = "level 3", length = 1, depth = 0.5 }
+    [localized]
+    indenters = [7]
+    elements = 10
+    radius = "area-balanced"
+    mutual_effect = false
+"#;
+
+fn source(text: &str) -> Source {
+    Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: PathBuf::new() }
+}
+
+fn read(text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    Case::read(&source(text), &overrides)
+}
+
+#[test]
+fn every_embedded_case_is_read() {
+    assert!(embedded::find(embedded::DEFAULT).is_some());
+    for (name, _) in embedded::all() {
+        let case = Case::read(&embedded::source(name).unwrap(), &[]).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!case.title.is_empty(), "{name} has no title");
+    }
+}
+
+#[test]
+fn what_the_embedded_cases_say_about_overrides_works() {
+    for (name, text) in embedded::all() {
+        for line in text.lines().filter_map(|line| line.strip_prefix("#   --set ")) {
+            let line = line.split("   ").next().unwrap();
+            let overrides: Vec<String> = line.split(" --set ").map(|set| set.trim_matches('\'').to_owned()).collect();
+            let case = Case::read(&embedded::source(name).unwrap(), &overrides);
+            case.unwrap_or_else(|error| panic!("{name}: {error}"));
+        }
+    }
+}
+
+#[test]
+fn a_case_written_with_its_defaults_reads_back_equal() {
+    let embedded = embedded::all().iter().map(|(_, text)| *text);
+    for text in embedded.chain([RICH]) {
+        let case = read(text, &[]).unwrap_or_else(|error| panic!("{error}"));
+        let written = case.to_toml();
+        assert!(!written.contains("= 0.00000"), "{written}");
+        assert_eq!(read(&written, &[]).unwrap_or_else(|error| panic!("{error}")), case, "{written}");
+    }
+}
+
+#[test]
+fn a_case_has_the_keys_of_its_file_in_json() {
+    let case = serde_json::to_value(read(RICH, &[]).unwrap()).unwrap();
+    assert_eq!(case["lattice"], json!({ "kind": "oblique", "a1": [1.0, 0.0], "a2": [0.25, 1.5] }));
+    assert_eq!(case["levels"][1], json!({ "shape": "cone", "slope": 0.3, "height": 0.0, "sites": [[0.5, 0.0]] }));
+    assert_eq!(case["layers"][0]["interface"], json!({ "tangential_stiffness": 2.5 }));
+    assert_eq!(case["layers"][0]["young"], json!(3e11));
+    assert_eq!(case["layers"][1]["interface"], json!("frictionless"));
+    assert_eq!(case["load"], json!({ "penetration": [1e-3, 0.01, 0.1] }));
+    assert_eq!(case["grid"], json!({ "accuracy": 1e-3 }));
+    assert_eq!(case["solver"]["method"], json!("polonsky-keer"));
+    assert_eq!(case["stress"]["section"]["toward"], json!("level 3"));
+    assert_eq!(case["stress"]["mean"], json!("half-space"));
+    assert_eq!(case["localized"]["radius"], json!("area-balanced"));
+    assert_eq!(case.get("surface"), None::<&Value>);
+}
+
+#[test]
+fn what_is_not_said_has_its_default() {
+    let text = "[lattice]\nkind = \"square\"\nperiod = 2\n[[levels]]\nshape = \"cone\"\nslope = 0.1\n\
+                [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
+    let case = read(text, &[]).unwrap();
+    assert_eq!(case.grid, GridSection::Points([512, 512]));
+    assert_eq!(case.solver, SolverSection::default());
+    assert_eq!(case.localized, LocalizedSection::default());
+    assert_eq!((case.stress, case.layers, case.title), (None, vec![], String::new()));
+    let coated = format!("{text}[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n[stress]\n");
+    let case = read(&coated, &[]).unwrap();
+    assert_eq!(case.half_space().layers()[0].interface(), Interface::Bonded);
+    assert_eq!(case.stress.map(|stress| stress.planes), Some(vec![]));
+}
+
+#[test]
+fn the_shear_ratio_is_that_to_the_substrate() {
+    let case = read(embedded::find("fig2").unwrap(), &[]).unwrap();
+    let half_space = case.half_space();
+    let ratio = half_space.layers()[0].material().shear() / half_space.substrate().shear();
+    assert!((ratio - 2.0).abs() < 1e-15);
+}
+
+#[test]
+fn explicit_sites_stand_in_the_cell_whose_side_is_the_period() {
+    let fig2 = embedded::find("fig2").unwrap();
+    let side = |overrides: &[&str]| {
+        let [x, y] = read(fig2, overrides).unwrap().surface().cell().vectors()[0];
+        x.hypot(y)
+    };
+    assert!((side(&[]) - 3f64.sqrt()).abs() < 1e-15);
+    let sites = ["levels.0.sites=[[0, 0]]", "levels.1.sites=[[0.5, 0]]", "levels.2.sites=[[0, 0.5]]"];
+    assert!((side(&sites) - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn overrides_come_one_after_another_and_are_checked_like_the_file() {
+    let fig2 = embedded::find("fig2").unwrap();
+    let case = read(fig2, &["load.penetration=[0, 0.1]", "solver.method=polonsky-keer", "grid.points=[64,48]"]);
+    let case = case.unwrap();
+    assert_eq!(case.load, LoadSection::Penetration(vec![0.0, 0.1]));
+    assert_eq!(case.grid, GridSection::Points([64, 48]));
+    assert_eq!(read(fig2, &["levels.1.height=0.5", "levels.1.height=0.4"]).unwrap().levels[1].height, 0.4);
+    let error = read(fig2, &["title=x", "substrate.poisson=0.6"]).unwrap_err();
+    assert!(error.to_string().contains("--set:1:19"), "{error}");
+}

@@ -1,0 +1,55 @@
+//! Linear least squares of a few unknowns by normal equations.
+
+/// Minimises Σ (Σₖ cₖ `row[k]` − value)² over c; `None` when the rows do not determine c.
+///
+/// Meant for a few tens of unknowns with basis functions of order one.
+pub fn fit(unknowns: usize, rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Option<Vec<f64>> {
+    let mut matrix = vec![vec![0.0; unknowns]; unknowns];
+    let mut right = vec![0.0; unknowns];
+    for (row, value) in rows {
+        for i in 0..unknowns {
+            right[i] += row[i] * value;
+            for j in 0..=i {
+                matrix[i][j] += row[i] * row[j];
+            }
+        }
+    }
+    // Cholesky: matrix = L Lᵀ, in place.
+    for i in 0..unknowns {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| matrix[i][k] * matrix[j][k]).sum();
+            let rest = matrix[i][j] - known;
+            if i > j {
+                matrix[i][j] = rest / matrix[j][j];
+            } else if rest > 1e-13 * matrix[i][i] {
+                matrix[i][i] = rest.sqrt();
+            } else {
+                return None;
+            }
+        }
+    }
+    for i in 0..unknowns {
+        let known: f64 = (0..i).map(|k| matrix[i][k] * right[k]).sum();
+        right[i] = (right[i] - known) / matrix[i][i];
+    }
+    for i in (0..unknowns).rev() {
+        let known: f64 = (i + 1..unknowns).map(|k| matrix[k][i] * right[k]).sum();
+        right[i] = (right[i] - known) / matrix[i][i];
+    }
+    Some(right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_is_recovered_and_too_few_rows_are_refused() {
+        let row = |x: f64| (vec![1.0, x, x * x], 2.0 - x + 0.5 * x * x);
+        let c = fit(3, (0..9).map(|i| row(f64::from(i) / 8.0))).unwrap();
+        for (found, expected) in c.iter().zip([2.0, -1.0, 0.5]) {
+            assert!((found - expected).abs() < 1e-11);
+        }
+        assert!(fit(3, (0..2).map(|i| row(f64::from(i)))).is_none());
+    }
+}
