@@ -95,6 +95,18 @@ impl Hierarchy {
         self.texture().mean()
     }
 
+    /// Least mean pressure of complete contact on the finest grid: max of C⁻¹(f − mean f).
+    ///
+    /// It grows with the grid for shapes with ridges, whose complete contact takes an infinite pressure.
+    pub fn full_contact_pressure(&mut self) -> f64 {
+        let Nest { texture, operator, .. } = &mut self.nests[0];
+        let mean = texture.mean();
+        let deviation: Vec<f64> = texture.shape.iter().map(|f| f - mean).collect();
+        let mut pressure = vec![0.0; deviation.len()];
+        operator.precondition(&deviation, &mut pressure);
+        -field::least(pressure.len(), |i| -pressure[i])
+    }
+
     /// Solves the next load step, starting from the last one. `callback` hears of the iterations on the finest grid.
     pub fn solve(&mut self, control: Control, callback: &mut dyn FnMut(Progress)) -> Solution {
         let finest = self.grid().len() as f64;
@@ -146,6 +158,22 @@ impl Nest {
         let report = solver::solve(operator, &texture.shape, control, settings, state, callback);
         (report, (operator.convolutions() - before) as f64 * samples)
     }
+}
+
+/// Memory that a hierarchy with a finest grid of `points` and one solution take, bytes.
+///
+/// Per sample of each grid: the solver's 5 fields and 1 flag, the shape and its owner, 2 multipliers and 2 spectra of half the components;
+/// of the finest grid also the solution's 3 fields and one for interpolation.
+pub fn memory(points: [usize; 2], method: Method) -> usize {
+    let (solver, texture, operator, solution) = (5 * 8 + 1, 8 + 4, 2 * 4 + 2 * 8, 4 * 8);
+    let finest = points[0] * points[1];
+    let mut samples = finest;
+    let mut coarser = halved(points);
+    while method == Method::Preconditioned && coarser.iter().all(|&n| n >= COARSEST) {
+        samples += coarser[0] * coarser[1];
+        coarser = halved(coarser);
+    }
+    samples * (solver + texture + operator) + finest * solution
 }
 
 impl fmt::Display for Hierarchy {

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::error::Refusal;
 use super::node::Value;
 use super::reader::{Field, POSITIVE, Section};
+use crate::solver::Control;
 
 /// Most load steps a case can have.
 const MOST: usize = 10_000;
@@ -36,6 +37,23 @@ impl LoadSection {
         match self {
             Self::MeanPressure(values) | Self::Penetration(values) => values,
         }
+    }
+
+    /// Name of what is prescribed, as in the case file.
+    pub fn quantity(&self) -> &'static str {
+        match self {
+            Self::MeanPressure(_) => "mean_pressure",
+            Self::Penetration(_) => "penetration",
+        }
+    }
+
+    /// What each load step prescribes.
+    pub fn controls(&self) -> Vec<Control> {
+        let control = match self {
+            Self::MeanPressure(_) => Control::MeanPressure,
+            Self::Penetration(_) => Control::Penetration,
+        };
+        self.values().iter().map(|&value| control(value)).collect()
     }
 }
 

@@ -39,7 +39,6 @@ pub use load::LoadSection;
 pub use localized::{CircleRadius, LocalizedSection};
 pub use model::Case;
 pub use overrides::choices;
-pub use solver::{Method, SolverSection};
 pub use source::Source;
 pub use stress::{Cut, MeanStress, StressSection};
 pub use surface::SurfaceSection;

@@ -8,11 +8,12 @@ use super::overrides::Override;
 use super::reader::Section;
 use super::surface::Heights;
 use super::{
-    GridSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, SolverSection, Source,
-    StressSection, SubstrateSection, SurfaceSection,
+    GridSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
+    SubstrateSection, SurfaceSection,
 };
-use super::{lattice, layers, levels};
+use super::{lattice, layers, levels, solver};
 use crate::material::HalfSpace;
+use crate::solver::Settings;
 use crate::texture::Surface;
 
 const SECTIONS: [&str; 11] =
@@ -43,7 +44,7 @@ pub struct Case {
     /// Samples of the cell.
     pub grid: GridSection,
     /// Iteration.
-    pub solver: SolverSection,
+    pub solver: Settings,
     /// Stresses wanted; none: no stresses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stress: Option<StressSection>,
@@ -160,7 +161,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         title,
         lattice,
         grid: GridSection::read(root.section("grid")?.as_ref(), file_points)?,
-        solver: SolverSection::read(root.section("solver")?.as_ref())?,
+        solver: solver::read(root.section("solver")?.as_ref())?,
         stress: root.section("stress")?.map(|section| StressSection::read(&section, levels.len())).transpose()?,
         localized: LocalizedSection::read(root.section("localized")?.as_ref())?,
         levels,

@@ -110,7 +110,7 @@ fn what_is_not_said_has_its_default() {
                 [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
     let case = read(text, &[]).unwrap();
     assert_eq!(case.grid, GridSection::Points([512, 512]));
-    assert_eq!(case.solver, SolverSection::default());
+    assert_eq!(case.solver, crate::solver::Settings::default());
     assert_eq!(case.localized, LocalizedSection::default());
     assert_eq!((case.stress, case.layers, case.title), (None, vec![], String::new()));
     let coated = format!("{text}[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n[stress]\n");

@@ -9,6 +9,7 @@ pub mod peak;
 
 pub use boundary::Boundary;
 
+use crate::field;
 use crate::grid::Grid;
 use crate::hierarchy::Solution;
 use crate::texture::{Owner, Texture};
@@ -74,8 +75,10 @@ struct Spot {
 /// Observables of a solved step.
 pub fn observe(grid: &Grid, texture: &Texture, solution: &Solution) -> Observables {
     let pressure = &solution.pressure;
-    let mean_pressure = pressure.iter().sum::<f64>() / grid.len() as f64;
-    let max_pressure = largest(pressure, 0..grid.len()).map_or(0.0, |index| peak::interpolated(grid, pressure, index));
+    let [total] = field::sums(grid.len(), |i| [pressure[i]]);
+    let mean_pressure = total / grid.len() as f64;
+    let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
+    let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
     let spots = spots(grid, texture, pressure);
     let simple = !spots.is_empty() && spots.iter().all(|spot| spot.samples.is_empty() || spot.boundary.is_some());
     let contact_fraction = if simple {
@@ -170,10 +173,6 @@ impl Spot {
     fn area(&self, grid: &Grid) -> f64 {
         self.boundary.as_ref().map_or(self.samples.len() as f64 * grid.sample_area(), Boundary::area)
     }
-}
-
-fn largest(pressure: &[f64], indices: impl Iterator<Item = usize>) -> Option<usize> {
-    indices.filter(|&i| pressure[i] > 0.0).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]))
 }
 
 impl fmt::Display for Observables {

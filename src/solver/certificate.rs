@@ -17,7 +17,7 @@ use std::fmt;
 pub struct Certificate {
     /// Σ p (g − min g) over ½⟨p, Cp⟩: bound on the relative excess of energy.
     pub energy_gap: f64,
-    /// Deepest penetration outside contact, over the range of f.
+    /// Deepest penetration outside contact over the range of f, ≥ 0.
     pub penetration: f64,
     /// Deviation of what was prescribed: |mean p − p̄|/p̄ under load control, |Σp(w+f)/Σp − δ|/δ under displacement control.
     pub load: f64,
@@ -57,7 +57,7 @@ impl Certificate {
         let least = field::least(len, |i| g[i]);
         let [gap] = field::sums(len, |i| [p[i] * (g[i] - least)]);
         let outside = field::least(len, |i| if p[i] > 0.0 { 0.0 } else { g[i] });
-        Self { energy_gap: gap / energy, penetration: -outside / range, load: deviation }
+        Self { energy_gap: gap / energy, penetration: (-outside / range).max(0.0), load: deviation }
     }
 }
 

@@ -16,6 +16,7 @@ pub use certificate::Certificate;
 
 use crate::field;
 use crate::operator::Operator;
+use serde::Serialize;
 use std::fmt;
 
 /// What is prescribed in a load step.
@@ -28,7 +29,8 @@ pub enum Control {
 }
 
 /// Which conjugate-gradient method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Preconditioned with C⁻¹ on the active set: iterations do not grow with the grid.
     #[default]
@@ -38,7 +40,7 @@ pub enum Method {
 }
 
 /// Dimensionless tolerance and limits.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Settings {
     /// Which method starts; the preconditioned one falls back to the other when it stalls.
     pub method: Method,
@@ -78,7 +80,7 @@ impl StopReason {
 
 impl fmt::Display for StopReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
+        f.pad(match self {
             Self::Converged => "converged",
             Self::Stalled => "stalled",
             Self::IterationLimit => "iteration limit",

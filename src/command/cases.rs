@@ -1,0 +1,30 @@
+//! `percoat cases`: the embedded example cases.
+
+use super::{Failure, Outcome};
+use percoat::case::{Case, embedded};
+use std::io::Write;
+
+pub fn run(name: Option<&str>) -> Result<Outcome, Failure> {
+    let mut out = std::io::stdout().lock();
+    match name {
+        Some(name) => {
+            let Some(text) = embedded::find(name) else {
+                let names: Vec<&str> = embedded::all().iter().map(|(name, _)| *name).collect();
+                return Err(Failure::Refused(format!(
+                    "there is no embedded case {name}; there are {}",
+                    names.join(", ")
+                )));
+            };
+            write!(out, "{text}")?;
+        }
+        None => {
+            for (name, _) in embedded::all() {
+                let title = embedded::source(name).and_then(|source| Case::read(&source, &[]).ok());
+                let title = title.map_or(String::new(), |case| case.title);
+                let default = if *name == embedded::DEFAULT { " (default)" } else { "" };
+                writeln!(out, "{name:<14} {title}{default}")?;
+            }
+        }
+    }
+    Ok(Outcome::Done)
+}

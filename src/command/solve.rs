@@ -1,0 +1,221 @@
+//! `percoat solve`: every load step of a case, the table and the output folder.
+
+use super::{Common, Failure, Outcome, read_case};
+use indicatif::{ProgressBar, ProgressStyle};
+use percoat::case::{Case, GridSection};
+use percoat::hierarchy::{Hierarchy, fast_points};
+use percoat::observables::{Observables, observe};
+use percoat::output::summary::{Step, Summary, curve};
+use percoat::output::{Fields, make_folder, table, write_text};
+use percoat::refinement::{FIRST_POINTS, MOST_POINTS, change};
+use percoat::solver::Control;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Fewer samples along a contact radius than this are worth a warning.
+const FEW_SAMPLES: f64 = 10.0;
+
+pub fn run(case: Option<&Path>, common: &Common) -> Result<Outcome, Failure> {
+    let (case, name) = read_case(case, common)?;
+    let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let started = Instant::now();
+    let run = Run { case: &case, controls: case.load.controls(), folder, common };
+    let result = match case.grid {
+        GridSection::Points(points) => run.on_grid(points)?,
+        GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
+    };
+    let warnings = run.warnings(&result);
+    run.record(&result.steps, true, &warnings, result.accuracy)?;
+    if !common.quiet {
+        run.print(&result, started)?;
+        for warning in &warnings {
+            eprintln!("warning: {warning}");
+        }
+    }
+    let converged = result.steps.iter().all(|step| step.converged) && result.is_accurate(&case);
+    Ok(if converged { Outcome::Done } else { Outcome::NotConverged })
+}
+
+struct Run<'a> {
+    case: &'a Case,
+    controls: Vec<Control>,
+    folder: PathBuf,
+    common: &'a Common,
+}
+
+struct Solved {
+    steps: Vec<Step>,
+    observables: Vec<Observables>,
+    /// Change against the next coarser grid, where an accuracy was asked for.
+    accuracy: Option<f64>,
+}
+
+impl Solved {
+    fn is_accurate(&self, case: &Case) -> bool {
+        match case.grid {
+            GridSection::Accuracy(asked) => self.accuracy.is_some_and(|reached| reached < asked),
+            GridSection::Points(_) => true,
+        }
+    }
+}
+
+impl Run<'_> {
+    /// All load steps on finer and finer grids until they change by less than `accuracy`.
+    fn refined(&self, accuracy: f64) -> Result<Solved, Failure> {
+        let mut points = FIRST_POINTS;
+        let mut solved = self.on_grid(self.points_like(points))?;
+        while 2 * points <= MOST_POINTS {
+            points *= 2;
+            let mut finer = self.on_grid(self.points_like(points))?;
+            let change = change(&solved.observables, &finer.observables);
+            finer.accuracy = Some(change);
+            if self.common.verbose {
+                eprintln!("{points} points: change {change:.2e}");
+            }
+            solved = finer;
+            if change < accuracy {
+                break;
+            }
+        }
+        Ok(solved)
+    }
+
+    /// `points` along a₁ and as dense along a₂.
+    fn points_like(&self, points: usize) -> [usize; 2] {
+        let [a1, a2] = self.case.surface().cell().vectors();
+        let ratio = a2[0].hypot(a2[1]) / a1[0].hypot(a1[1]);
+        [points, fast_points((points as f64 * ratio).round() as usize)]
+    }
+
+    /// All load steps on one grid, each put on disk as it is done.
+    fn on_grid(&self, points: [usize; 2]) -> Result<Solved, Failure> {
+        let mut hierarchy = Hierarchy::new(self.case.surface(), self.case.half_space(), points, self.case.solver)
+            .map_err(|error| Failure::Refused(error.to_string()))?;
+        self.refuse_beyond_full_contact(&hierarchy)?;
+        if self.common.verbose {
+            eprintln!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
+        }
+        make_folder(&self.folder)?;
+        write_text(&self.folder.join("case.toml"), &self.case.to_toml())?;
+        let mut fields = Fields::new(&self.folder)?;
+        let progress = self.progress();
+        let mut solved = Solved { steps: Vec::new(), observables: Vec::new(), accuracy: None };
+        for &control in &self.controls {
+            let solution = hierarchy.solve(control, &mut |iteration| {
+                progress.set_message(format!("iteration {}, ε = {:.1e}", iteration.iteration, iteration.residual));
+            });
+            let observables = observe(hierarchy.grid(), hierarchy.texture(), &solution);
+            if self.common.verbose {
+                eprintln!("{observables}\n{}\n{}", solution.report, solution.certificate);
+            }
+            fields.add(hierarchy.grid(), observables.mean_pressure, &solution)?;
+            solved.steps.push(Step::new(&observables, &solution, points));
+            solved.observables.push(observables);
+            self.record(&solved.steps, false, &[], None)?;
+            progress.inc(1);
+        }
+        progress.finish_and_clear();
+        fields.finish(hierarchy.grid(), hierarchy.texture())?;
+        Ok(solved)
+    }
+
+    fn refuse_beyond_full_contact(&self, hierarchy: &Hierarchy) -> Result<(), Failure> {
+        let full = hierarchy.full_contact_penetration();
+        for control in &self.controls {
+            if let Control::Penetration(penetration) = *control
+                && penetration >= full
+            {
+                return Err(Failure::Refused(format!(
+                    "load.penetration = {penetration} is out of reach: contact becomes complete at {full:.6}, \
+                     and no further however large the load; prescribe less, or mean_pressure instead"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn progress(&self) -> ProgressBar {
+        if self.common.quiet || self.common.verbose {
+            return ProgressBar::hidden();
+        }
+        let style = ProgressStyle::with_template("{bar:24} step {pos}/{len}  {msg}");
+        ProgressBar::new(self.controls.len() as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    }
+
+    /// `summary.json` and `curve.csv` of what is done.
+    fn record(
+        &self,
+        steps: &[Step],
+        complete: bool,
+        warnings: &[String],
+        accuracy: Option<f64>,
+    ) -> Result<(), Failure> {
+        let summary = Summary {
+            percoat: env!("CARGO_PKG_VERSION"),
+            title: &self.case.title,
+            case: self.case,
+            complete,
+            warnings,
+            accuracy,
+            steps,
+        };
+        write_text(&self.folder.join("summary.json"), &summary.to_json())?;
+        write_text(&self.folder.join("curve.csv"), &curve(steps))?;
+        Ok(())
+    }
+
+    fn warnings(&self, solved: &Solved) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let steps = || (1..).zip(&solved.steps);
+        let list = |numbers: &[usize]| numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        let failed: Vec<usize> = steps().filter(|(_, step)| !step.converged).map(|(number, _)| number).collect();
+        if !failed.is_empty() {
+            warnings.push(format!("not converged: step {}; judge it by its certificate", list(&failed)));
+        }
+        let coarse: Vec<usize> = steps()
+            .filter(|(_, step)| step.levels.iter().any(|level| level.load > 0.0 && level.resolution < FEW_SAMPLES))
+            .map(|(number, _)| number)
+            .collect();
+        if !coarse.is_empty() {
+            warnings.push(format!(
+                "a contact radius has less than {FEW_SAMPLES} samples in step {}: its radius and peak pressure are rough; \
+                 raise grid.points",
+                list(&coarse)
+            ));
+        }
+        if !solved.is_accurate(self.case) {
+            warnings.push(format!(
+                "grid.accuracy is not reached: the last change was {:.1e} at the finest grid tried",
+                solved.accuracy.unwrap_or(f64::INFINITY)
+            ));
+        }
+        if self.case.stress.is_some() {
+            warnings.push("[stress] is read and checked, but this version does not compute stress fields".to_owned());
+        }
+        warnings
+    }
+
+    fn print(&self, solved: &Solved, started: Instant) -> Result<(), Failure> {
+        let mut out = std::io::stdout().lock();
+        if !self.case.title.is_empty() {
+            writeln!(out, "{}", self.case.title)?;
+        }
+        writeln!(out, "\n{}\n", table::steps(&solved.steps))?;
+        let steps = &solved.steps;
+        let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
+        let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
+        let gap = steps.iter().map(|step| step.certificate.energy_gap).fold(0.0, f64::max);
+        let done = steps.iter().filter(|step| step.converged).count();
+        writeln!(
+            out,
+            "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy within {gap:.0e} of its minimum",
+            steps.len()
+        )?;
+        if let Some(accuracy) = solved.accuracy {
+            writeln!(out, "change from the next coarser grid: {accuracy:.1e}")?;
+        }
+        writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), self.folder.display())?;
+        Ok(())
+    }
+}

@@ -1,0 +1,70 @@
+//! The output folder: what a run leaves behind.
+//!
+//! Every file is written under a temporary name and renamed when it is complete. `summary.json` and `curve.csv` are renewed after each load step
+//! and the fields of a step stand as `.npy` files in `contact.partial/` until `contact.npz` is made of them, so
+//! that what a long run has finished survives its end.
+
+mod fields;
+mod npz;
+pub mod summary;
+pub mod table;
+
+pub use fields::Fields;
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Why an output could not be written: which path, and what the system says.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {error}", path.display())]
+pub struct OutputError {
+    path: PathBuf,
+    error: io::Error,
+}
+
+impl OutputError {
+    fn new(path: &Path, error: io::Error) -> Self {
+        Self { path: path.to_owned(), error }
+    }
+}
+
+/// Makes `folder` and what leads to it.
+///
+/// # Errors
+/// [`OutputError`] with the path that cannot be made.
+pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
+    fs::create_dir_all(folder).map_err(|error| OutputError::new(folder, error))
+}
+
+/// Writes a file under a temporary name in its folder, then renames it: it is there whole or not at all.
+///
+/// # Errors
+/// [`OutputError`] with the path; nothing is left behind.
+pub fn write_file(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+    let write = || -> io::Result<()> {
+        let mut writer = BufWriter::new(fs::File::create(&temporary)?);
+        content(&mut writer)?;
+        writer.flush()?;
+        drop(writer);
+        fs::rename(&temporary, path)
+    };
+    write().map_err(|error| {
+        // The first error is the one to report; a leftover that cannot be removed changes nothing about it.
+        let _ = fs::remove_file(&temporary);
+        OutputError::new(path, error)
+    })
+}
+
+/// Writes a text file as [`write_file`] does.
+///
+/// # Errors
+/// [`OutputError`] with the path.
+pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+    write_file(path, |writer| writer.write_all(text.as_bytes()))
+}

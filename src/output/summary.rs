@@ -1,0 +1,184 @@
+//! `summary.json` and `curve.csv`: every scalar of a run.
+
+use crate::hierarchy::Solution;
+use crate::observables::Observables;
+use serde::Serialize;
+use serde_json::Value;
+use std::fmt::Write;
+
+/// One load step as it stands in `summary.json`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Step {
+    /// Mean pressure p̄ over the cell.
+    pub mean_pressure: f64,
+    /// Penetration δ, a length.
+    pub penetration: f64,
+    /// Additional displacement w_a, Eq. (8): equal to δ, which is measured from the mean plane of the deformed surface.
+    pub additional_displacement: f64,
+    /// Fraction of the cell in contact.
+    pub contact_fraction: f64,
+    /// Largest pressure.
+    pub max_pressure: f64,
+    /// Whether the solution meets the tolerance.
+    pub converged: bool,
+    /// Why the iteration ended.
+    pub stop_reason: String,
+    /// Whether the preconditioned method gave up and the baseline took over.
+    pub fell_back: bool,
+    /// Iterations on the finest grid.
+    pub iterations: usize,
+    /// Convolutions on all grids, as equivalents of the finest one.
+    pub convolutions: f64,
+    /// ε = Σ p|g| / (δ Σp).
+    pub residual: f64,
+    /// What the pressure proves about itself.
+    pub certificate: Certificate,
+    /// Grid points along a₁ and a₂.
+    pub points: [usize; 2],
+    /// Per level.
+    pub levels: Vec<Level>,
+}
+
+/// See [`crate::solver::Certificate`].
+#[derive(Debug, Clone, Serialize)]
+pub struct Certificate {
+    /// Bound on the relative excess of energy.
+    pub energy_gap: f64,
+    /// Deepest penetration outside contact over the range of f.
+    pub penetration: f64,
+    /// Deviation of what was prescribed.
+    pub load: f64,
+}
+
+/// One level of a step, see [`crate::observables::LevelObservables`].
+#[derive(Debug, Clone, Serialize)]
+pub struct Level {
+    /// Level, from 1.
+    pub level: usize,
+    /// Force on one indenter.
+    pub load: f64,
+    /// Share of the whole load.
+    pub load_share: f64,
+    /// Peak pressure.
+    pub max_pressure: f64,
+    /// Contact area of one indenter.
+    pub contact_area: f64,
+    /// √(area/π); null for merged contacts.
+    pub contact_radius: Option<f64>,
+    /// Smallest boundary radius; null for merged contacts and spots of too few samples.
+    pub radius_min: Option<f64>,
+    /// Largest boundary radius.
+    pub radius_max: Option<f64>,
+    /// (largest − smallest)/largest.
+    pub asymmetry: Option<f64>,
+    /// Whether contacts of this level touch a neighbour's.
+    pub merged: bool,
+    /// Samples along the contact radius.
+    pub resolution: f64,
+}
+
+impl Step {
+    /// The step's scalars; `points` of the grid it was solved on.
+    pub fn new(observables: &Observables, solution: &Solution, points: [usize; 2]) -> Self {
+        let (report, certificate) = (&solution.report, &solution.certificate);
+        Self {
+            mean_pressure: observables.mean_pressure,
+            penetration: observables.penetration,
+            additional_displacement: observables.penetration,
+            contact_fraction: observables.contact_fraction,
+            max_pressure: observables.max_pressure,
+            converged: report.stop.solved(),
+            stop_reason: report.stop.to_string(),
+            fell_back: report.fell_back,
+            iterations: report.iterations,
+            convolutions: solution.convolutions,
+            residual: report.residual,
+            certificate: Certificate {
+                energy_gap: certificate.energy_gap,
+                penetration: certificate.penetration,
+                load: certificate.load,
+            },
+            points,
+            levels: observables
+                .levels
+                .iter()
+                .map(|level| Level {
+                    level: level.level,
+                    load: level.load,
+                    load_share: level.load_share,
+                    max_pressure: level.max_pressure,
+                    contact_area: level.contact_area,
+                    contact_radius: level.contact_radius,
+                    radius_min: level.radius_extremes.map(|(least, _)| least),
+                    radius_max: level.radius_extremes.map(|(_, largest)| largest),
+                    asymmetry: level.asymmetry(),
+                    merged: level.merged,
+                    resolution: level.resolution,
+                })
+                .collect(),
+        }
+    }
+}
+
+/// A whole run as it stands in `summary.json`.
+#[derive(Debug, Serialize)]
+pub struct Summary<'a, C: Serialize> {
+    /// Version of the program.
+    pub percoat: &'static str,
+    /// Title of the case.
+    pub title: &'a str,
+    /// The case as run.
+    pub case: &'a C,
+    /// Whether all load steps are there.
+    pub complete: bool,
+    /// What a reader should know before trusting the numbers.
+    pub warnings: &'a [String],
+    /// Change of the observables between the two finest grids, where an accuracy was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<f64>,
+    /// The load steps.
+    pub steps: &'a [Step],
+}
+
+impl<C: Serialize> Summary<'_, C> {
+    /// As indented JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+}
+
+/// The steps as a CSV table: one row a step, one column a scalar, nested names joined by dots (`levels.1.load`).
+/// Absent values are empty.
+pub fn curve(steps: &[Step]) -> String {
+    let rows: Vec<Vec<(String, String)>> = steps.iter().map(row).collect();
+    let mut text = String::new();
+    if let Some(first) = rows.first() {
+        let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
+        let _ = writeln!(text, "{}", names.join(","));
+    }
+    for row in &rows {
+        let values: Vec<&str> = row.iter().map(|(_, value)| value.as_str()).collect();
+        let _ = writeln!(text, "{}", values.join(","));
+    }
+    text
+}
+
+/// Names and values of a step's scalars.
+pub fn row(step: &Step) -> Vec<(String, String)> {
+    let mut cells = Vec::new();
+    flatten("", &serde_json::to_value(step).unwrap_or_default(), &mut cells);
+    cells
+}
+
+fn flatten(name: &str, value: &Value, cells: &mut Vec<(String, String)>) {
+    let join = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") };
+    match value {
+        Value::Object(map) => map.iter().for_each(|(key, value)| flatten(&join(key), value, cells)),
+        Value::Array(items) => {
+            (1..).zip(items).for_each(|(number, value): (usize, _)| flatten(&join(&number.to_string()), value, cells));
+        }
+        Value::Null => cells.push((name.to_owned(), String::new())),
+        Value::String(text) => cells.push((name.to_owned(), text.clone())),
+        other => cells.push((name.to_owned(), other.to_string())),
+    }
+}

@@ -1,0 +1,118 @@
+//! The result table a person reads.
+
+use super::summary::Step;
+use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+
+/// Up to this many steps every level gets a row of its own.
+const DETAILED: usize = 6;
+
+/// The load steps as a table: in detail for a few steps, one row a step for many.
+pub fn steps(steps: &[Step]) -> String {
+    if steps.len() <= DETAILED { detailed(steps) } else { compact(steps) }
+}
+
+fn detailed(steps: &[Step]) -> String {
+    let header = [
+        "mean pressure",
+        "penetration",
+        "contact",
+        "level",
+        "load on one",
+        "share",
+        "peak pressure",
+        "contact radius",
+        "asymmetry",
+    ];
+    let mut rows = Vec::new();
+    for step in steps {
+        let mut lead = [number(step.mean_pressure), number(step.penetration), percent(step.contact_fraction)];
+        if step.levels.is_empty() {
+            let rest = ["–", "–", "–"].map(str::to_owned);
+            let peak = [number(step.max_pressure), "–".to_owned(), "–".to_owned()];
+            rows.push([lead.to_vec(), rest.to_vec(), peak.to_vec()].concat());
+        }
+        for level in &step.levels {
+            let radius = match level.contact_radius {
+                _ if level.load == 0.0 => "–".to_owned(),
+                Some(radius) => number(radius),
+                None => "merged".to_owned(),
+            };
+            let cells = [
+                level.level.to_string(),
+                number(level.load),
+                percent(level.load_share),
+                number(level.max_pressure),
+                radius,
+                level.asymmetry.map_or("–".to_owned(), percent),
+            ];
+            rows.push([&lead[..], &cells[..]].concat());
+            lead = [const { String::new() }; 3];
+        }
+    }
+    render(&header.map(str::to_owned), &rows)
+}
+
+fn compact(steps: &[Step]) -> String {
+    let levels = steps.first().map_or(0, |step| step.levels.len());
+    let mut header = ["mean pressure", "penetration", "contact"].map(str::to_owned).to_vec();
+    header.extend((1..=levels).map(|level| format!("peak {level}")));
+    header.extend((1..=levels).map(|level| format!("share {level}")));
+    if levels == 0 {
+        header.push("peak pressure".to_owned());
+    }
+    let rows: Vec<Vec<String>> = steps
+        .iter()
+        .map(|step| {
+            let mut row = vec![number(step.mean_pressure), number(step.penetration), percent(step.contact_fraction)];
+            row.extend(step.levels.iter().map(|level| number(level.max_pressure)));
+            row.extend(step.levels.iter().map(|level| percent(level.load_share)));
+            if levels == 0 {
+                row.push(number(step.max_pressure));
+            }
+            row
+        })
+        .collect();
+    render(&header, &rows)
+}
+
+/// A table with right-aligned cells under a rule.
+pub fn render(header: &[String], rows: &[Vec<String>]) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(header);
+    table.add_rows(rows);
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    let text = table.trim_fmt();
+    let width = text.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+    let mut lines: Vec<&str> = text.lines().collect();
+    let rule = "─".repeat(width);
+    lines.insert(1.min(lines.len()), &rule);
+    lines.join("\n")
+}
+
+/// Five significant digits, plain where that is short.
+pub fn number(x: f64) -> String {
+    let magnitude = if x == 0.0 { 0 } else { x.abs().log10().floor() as i32 };
+    if (-3..6).contains(&magnitude) {
+        format!("{x:.*}", usize::try_from(4 - magnitude).unwrap_or(0))
+    } else {
+        format!("{x:.4e}")
+    }
+}
+
+fn percent(x: f64) -> String {
+    format!("{:.2} %", 100.0 * x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_five_digits() {
+        let texts = [0.42169, 1.5e-7, 210e9, 12345.6, 0.0].map(number);
+        assert_eq!(texts, ["0.42169", "1.5000e-7", "2.1000e11", "12346", "0.0000"]);
+    }
+}
