@@ -11,7 +11,7 @@ use crate::layered::TransferFunction;
 use crate::material::HalfSpace;
 use crate::operator::Operator;
 use crate::solver::{self, Certificate, Control, Method, Progress, Report, Settings, State};
-use crate::texture::{Surface, Texture, resample};
+use crate::texture::{Interpolation, Surface, Texture, resample};
 use std::fmt;
 
 /// No grid has fewer points along a vector, unless the finest one has.
@@ -150,7 +150,7 @@ impl Nest {
         let grid = self.operator.grid();
         let (points, samples) = (grid.points(), grid.len() as f64);
         if let Some((from, change)) = change {
-            let rise = resample(&change, from, points);
+            let rise = resample(&change, from, points, Interpolation::on(grid.cell()));
             field::update(&mut self.state.pressure, |i, p| p + rise[i]);
         }
         let before = self.operator.convolutions();

@@ -8,7 +8,8 @@ const DETAILED: usize = 6;
 
 /// The load steps as a table: in detail for a few steps, one row a step for many.
 pub fn steps(steps: &[Step]) -> String {
-    if steps.len() <= DETAILED { detailed(steps) } else { compact(steps) }
+    let levels = steps.first().map_or(0, |step| step.levels.len());
+    if steps.len() <= DETAILED && levels > 0 { detailed(steps) } else { compact(steps, levels) }
 }
 
 fn detailed(steps: &[Step]) -> String {
@@ -26,11 +27,6 @@ fn detailed(steps: &[Step]) -> String {
     let mut rows = Vec::new();
     for step in steps {
         let mut lead = [number(step.mean_pressure), number(step.penetration), percent(step.contact_fraction)];
-        if step.levels.is_empty() {
-            let rest = ["–", "–", "–"].map(str::to_owned);
-            let peak = [number(step.max_pressure), "–".to_owned(), "–".to_owned()];
-            rows.push([lead.to_vec(), rest.to_vec(), peak.to_vec()].concat());
-        }
         for level in &step.levels {
             let radius = match level.contact_radius {
                 _ if level.load == 0.0 => "–".to_owned(),
@@ -52,8 +48,7 @@ fn detailed(steps: &[Step]) -> String {
     render(&header.map(str::to_owned), &rows)
 }
 
-fn compact(steps: &[Step]) -> String {
-    let levels = steps.first().map_or(0, |step| step.levels.len());
+fn compact(steps: &[Step], levels: usize) -> String {
     let mut header = ["mean pressure", "penetration", "contact"].map(str::to_owned).to_vec();
     header.extend((1..=levels).map(|level| format!("peak {level}")));
     header.extend((1..=levels).map(|level| format!("share {level}")));

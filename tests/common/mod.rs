@@ -1,0 +1,143 @@
+//! Cases that several tests share.
+#![allow(dead_code, reason = "each test binary uses its part")]
+
+use percoat::hierarchy::{Hierarchy, Solution};
+use percoat::indenter::{Level, Shape};
+use percoat::lattice::Lattice;
+use percoat::material::{HalfSpace, Interface, Layer, Material};
+use percoat::observables::{Observables, observe};
+use percoat::solver::{Control, Settings};
+use percoat::texture::Surface;
+
+/// Parameters of one of the paper's three-level cases, in units of l and E₂.
+#[derive(Debug, Clone, Copy)]
+pub struct Paper {
+    pub name: &'static str,
+    pub chi: f64,
+    pub thickness: f64,
+    pub poisson: [f64; 2],
+    pub radii: [f64; 3],
+    pub step: f64,
+    pub pressure: f64,
+}
+
+/// Figs 2, 3a, 3b, 4 and 5 of Goryacheva & Torskaya (2019), each with one of its loads.
+pub const PAPER: [Paper; 5] = [
+    Paper { name: "fig2", chi: 2.0, thickness: 0.5, poisson: [0.2, 0.3], radii: [0.8; 3], step: 0.01, pressure: 0.06 },
+    Paper {
+        name: "fig3a",
+        chi: 0.5,
+        thickness: 0.5,
+        poisson: [0.45, 0.3],
+        radii: [0.8; 3],
+        step: 0.01,
+        pressure: 0.008,
+    },
+    Paper {
+        name: "fig3b",
+        chi: 0.5,
+        thickness: 0.5,
+        poisson: [0.2, 0.3],
+        radii: [0.8; 3],
+        step: 0.01,
+        pressure: 0.008,
+    },
+    Paper {
+        name: "fig4",
+        chi: 0.2,
+        thickness: 0.12,
+        poisson: [0.22, 0.3],
+        radii: [0.8; 3],
+        step: 0.01,
+        pressure: 0.01,
+    },
+    Paper {
+        name: "fig5",
+        chi: 3.0,
+        thickness: 0.087,
+        poisson: [0.22, 0.4],
+        radii: [1.67, 1.25, 0.83],
+        step: 0.06,
+        pressure: 0.08,
+    },
+];
+
+impl Paper {
+    pub fn surface(&self) -> Surface {
+        Surface::Indenters { lattice: Lattice::hexagonal(1.0, 3).unwrap(), levels: self.levels() }
+    }
+
+    pub fn levels(&self) -> Vec<Level> {
+        let level = |m: usize| paraboloid(self.radii[m], -self.step * m as f64);
+        (0..3).map(level).collect()
+    }
+
+    pub fn half_space(&self) -> HalfSpace {
+        coated(self.chi, self.thickness, self.poisson, Interface::Bonded)
+    }
+}
+
+pub fn paraboloid(radius: f64, height: f64) -> Level {
+    Level::new(Shape::Paraboloid { radius }, height).unwrap()
+}
+
+/// One layer on a substrate with E₂ = 1; χ = G₁/G₂.
+pub fn coated(chi: f64, thickness: f64, poisson: [f64; 2], interface: Interface) -> HalfSpace {
+    let substrate = Material::from_young(1.0, poisson[1]).unwrap();
+    let coating = Material::from_shear(chi * substrate.shear(), poisson[0]).unwrap();
+    HalfSpace::new(vec![Layer::new(coating, thickness, interface).unwrap()], substrate)
+}
+
+/// Solves one step with the default settings.
+pub fn solve(
+    surface: &Surface,
+    half_space: &HalfSpace,
+    points: [usize; 2],
+    control: Control,
+) -> (Hierarchy, Solution, Observables) {
+    solve_with(surface, half_space, points, control, Settings::default())
+}
+
+/// Solves one step.
+pub fn solve_with(
+    surface: &Surface,
+    half_space: &HalfSpace,
+    points: [usize; 2],
+    control: Control,
+    settings: Settings,
+) -> (Hierarchy, Solution, Observables) {
+    let mut hierarchy = Hierarchy::new(surface, half_space, points, settings).unwrap();
+    let solution = hierarchy.solve(control, &mut |_| ());
+    let observables = observe(hierarchy.grid(), hierarchy.texture(), &solution);
+    (hierarchy, solution, observables)
+}
+
+/// Largest difference over the largest value of the second field.
+pub fn relative_difference(a: &[f64], b: &[f64]) -> f64 {
+    let scale = b.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs())) / scale
+}
+
+/// A generator of reproducible numbers (xorshift).
+#[derive(Debug)]
+pub struct Random(pub u64);
+
+impl Random {
+    /// In [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Between `a` and `b`, uniform on a logarithmic scale.
+    pub fn log(&mut self, a: f64, b: f64) -> f64 {
+        a * (b / a).powf(self.unit())
+    }
+
+    pub fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[(self.unit() * choices.len() as f64) as usize]
+    }
+}

@@ -1,0 +1,92 @@
+//! The displacement operator against the sum over wavevectors that it stands for.
+
+mod common;
+
+use common::Random;
+use percoat::grid::Grid;
+use percoat::lattice::Cell;
+use percoat::layered::TransferFunction;
+use percoat::material::Interface;
+use percoat::operator::Operator;
+use std::f64::consts::TAU;
+
+/// w(x) = Σ_q C(|q|) p̂(q) e^{iq·x}, each q the shortest alias found among many.
+#[test]
+fn a_displacement_is_the_direct_sum_over_wavevectors() {
+    let half_space = common::coated(3.0, 0.2, [0.25, 0.4], Interface::Bonded);
+    let transfer = TransferFunction::new(&half_space);
+    for (cell, [n1, n2]) in [
+        (Cell::hexagonal(1.0).unwrap(), [6, 6]),
+        (Cell::square(0.7).unwrap(), [5, 8]),
+        (Cell::new([1.0, 0.2], [1.4, 0.9]).unwrap(), [7, 6]),
+    ] {
+        let grid = Grid::new(cell, [n1, n2]).unwrap();
+        let mut random = Random(77);
+        let pressure: Vec<f64> = (0..n1 * n2).map(|_| random.unit()).collect();
+        let mut displacement = vec![0.0; n1 * n2];
+        let mut operator = Operator::new(&grid, &transfer);
+        operator.displacement(&pressure, &mut displacement);
+
+        let [b1, b2] = cell.reciprocal();
+        let shortest = |k1: usize, k2: usize| {
+            let length = |m1: i32, m2: i32| {
+                let (u, v) = (k1 as f64 + f64::from(m1) * n1 as f64, k2 as f64 + f64::from(m2) * n2 as f64);
+                (u * b1[0] + v * b2[0]).hypot(u * b1[1] + v * b2[1])
+            };
+            (-5..=5).flat_map(|m1| (-5..=5).map(move |m2| (m1, m2))).map(|(m1, m2)| length(m1, m2)).fold(1e9, f64::min)
+        };
+        let compliance: Vec<f64> =
+            (0..n1 * n2).map(|k| if k == 0 { 0.0 } else { transfer.compliance(shortest(k / n2, k % n2)) }).collect();
+        for (i, j) in (0..n1).flat_map(|i| (0..n2).map(move |j| (i, j))) {
+            let mut direct = 0.0;
+            for (k1, k2) in (0..n1).flat_map(|i| (0..n2).map(move |j| (i, j))) {
+                for (i0, j0) in (0..n1).flat_map(|i| (0..n2).map(move |j| (i, j))) {
+                    let phase = TAU
+                        * ((k1 as f64 * (i as f64 - i0 as f64)) / n1 as f64
+                            + (k2 as f64 * (j as f64 - j0 as f64)) / n2 as f64);
+                    direct += compliance[k1 * n2 + k2] * pressure[i0 * n2 + j0] * phase.cos() / (n1 * n2) as f64;
+                }
+            }
+            let error = (displacement[i * n2 + j] - direct).abs();
+            assert!(error < 1e-14, "{cell}: {} against {direct}", displacement[i * n2 + j]);
+        }
+        let mean: f64 = displacement.iter().sum::<f64>() / displacement.len() as f64;
+        assert!(mean.abs() < 1e-15, "the mean displacement is {mean}");
+    }
+}
+
+/// C⁻¹ C p = p up to the mean, which C drops.
+#[test]
+fn the_preconditioner_inverts_the_operator() {
+    let half_space = common::coated(0.1, 0.05, [0.5, 0.3], Interface::Frictionless);
+    let grid = Grid::new(Cell::hexagonal(2.0).unwrap(), [20, 18]).unwrap();
+    let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
+    let mut random = Random(5);
+    let mut pressure: Vec<f64> = (0..360).map(|_| random.unit()).collect();
+    let mean = pressure.iter().sum::<f64>() / 360.0;
+    pressure.iter_mut().for_each(|p| *p -= mean);
+    let (mut displacement, mut back) = (vec![0.0; 360], vec![0.0; 360]);
+    operator.displacement(&pressure, &mut displacement);
+    operator.precondition(&displacement, &mut back);
+    assert!(common::relative_difference(&back, &pressure) < 1e-13);
+}
+
+/// ⟨a, C b⟩ = ⟨C a, b⟩, and ⟨a, C a⟩ > 0 whatever a.
+#[test]
+fn the_operator_is_symmetric_and_positive() {
+    let half_space = common::coated(40.0, 0.01, [0.0, 0.5], Interface::Bonded);
+    let grid = Grid::new(Cell::new([1.0, 0.0], [0.3, 1.1]).unwrap(), [14, 15]).unwrap();
+    let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
+    let mut random = Random(9);
+    let mut field = || -> Vec<f64> { (0..210).map(|_| random.unit() - 0.5).collect() };
+    let (a, b) = (field(), field());
+    let mut image = |x: &[f64]| {
+        let mut w = vec![0.0; 210];
+        operator.displacement(x, &mut w);
+        w
+    };
+    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+    let (ca, cb) = (image(&a), image(&b));
+    assert!((dot(&a, &cb) - dot(&ca, &b)).abs() < 1e-13 * dot(&a, &ca));
+    assert!(dot(&a, &ca) > 0.0);
+}
