@@ -31,7 +31,22 @@ pub struct Fourier {
 
 /// A real, even multiplier K(k₁, k₂) for k₂ ≤ N₂/2, in the order of the column pass.
 #[derive(Debug, Clone)]
-pub struct Multiplier(Vec<f64>);
+pub struct Multiplier {
+    /// K/(N₁N₂), column by column.
+    table: Vec<f64>,
+    /// 1/(N₁N₂).
+    normalisation: f64,
+}
+
+impl Multiplier {
+    /// The multiplier 1/K, with `mean` for the component (0, 0).
+    pub fn inverse(&self, mean: f64) -> Self {
+        let normalisation = self.normalisation;
+        let mut table: Vec<f64> = self.table.par_iter().map(|k| normalisation * normalisation / k).collect();
+        table[0] = normalisation * mean;
+        Self { table, normalisation }
+    }
+}
 
 /// Buffers of one convolution, owned by the caller and used again and again.
 #[derive(Debug)]
@@ -108,7 +123,7 @@ impl Fourier {
                 *entry = normalisation * value([k1, k2]);
             }
         });
-        Multiplier(table)
+        Multiplier { table, normalisation }
     }
 
     /// output = F⁻¹[K · F input]; both hold N₁N₂ samples, a₂ fastest.
@@ -119,12 +134,55 @@ impl Fourier {
         let [n1, n2] = self.points;
         assert_eq!(input.len(), n1 * n2, "input of a convolution");
         assert_eq!(output.len(), n1 * n2, "output of a convolution");
-        assert_eq!(multiplier.0.len(), self.half() * n1, "multiplier of a convolution");
+        assert_eq!(multiplier.table.len(), self.half() * n1, "multiplier of a convolution");
         assert_eq!(workspace.rows.len(), n1 * self.half(), "workspace of a convolution");
         let Workspace { rows, blocks, scratch } = workspace;
         self.rows_forward(input, rows, scratch);
         self.columns(multiplier, rows, blocks, scratch);
         self.rows_back(blocks, output, scratch);
+    }
+
+    /// Fourier coefficients F p /(N₁N₂) of N₁N₂ samples: N₂/2 + 1 columns of N₁ components, k₁ fastest.
+    pub fn analyse(&self, samples: &[f64]) -> Vec<Complex64> {
+        let ([n1, n2], half) = (self.points, self.half());
+        let mut workspace = self.workspace();
+        self.rows_forward(samples, &mut workspace.rows, &mut workspace.scratch);
+        let rows = &workspace.rows;
+        let normalisation = 1.0 / (n1 as f64 * n2 as f64);
+        let mut columns = vec![Complex64::new(0.0, 0.0); half * n1];
+        columns.par_chunks_mut(n1).enumerate().for_each(|(k2, column)| {
+            for (i, value) in column.iter_mut().enumerate() {
+                *value = normalisation * rows[i * half + k2];
+            }
+            self.column_forward.process(column);
+        });
+        columns
+    }
+
+    /// The samples with the given Fourier coefficients, laid out as [`Fourier::analyse`] returns them.
+    pub fn synthesise(&self, mut columns: Vec<Complex64>) -> Vec<f64> {
+        let ([n1, n2], half) = (self.points, self.half());
+        columns.par_chunks_mut(n1).for_each(|column| self.column_inverse.process(column));
+        let mut samples = vec![0.0; n1 * n2];
+        samples.par_chunks_mut(n2).enumerate().for_each(|(i, samples)| {
+            let mut row: Vec<Complex64> = (0..half).map(|k2| columns[k2 * n1 + i]).collect();
+            self.row_inverse_real(
+                &mut row,
+                samples,
+                &mut vec![Complex64::default(); self.row_inverse.get_scratch_len()],
+            );
+        });
+        samples
+    }
+
+    /// One row back; components that are their own conjugates are real, and what rounding leaves of their imaginary part is dropped.
+    fn row_inverse_real(&self, row: &mut [Complex64], samples: &mut [f64], scratch: &mut [Complex64]) {
+        row[0].im = 0.0;
+        if self.points[1] % 2 == 0 {
+            row[self.half() - 1].im = 0.0;
+        }
+        let done = self.row_inverse.process_with_scratch(row, samples, scratch);
+        debug_assert!(done.is_ok(), "lengths were planned");
     }
 
     fn rows_forward(&self, input: &[f64], rows: &mut [Complex64], scratch: &mut [Scratch]) {
@@ -156,7 +214,7 @@ impl Fourier {
                     }
                 }
                 self.column_forward.process_with_scratch(columns, &mut scratch.fft);
-                for (value, &factor) in columns.iter_mut().zip(&multiplier.0[first * n1..]) {
+                for (value, &factor) in columns.iter_mut().zip(&multiplier.table[first * n1..]) {
                     *value *= factor;
                 }
                 self.column_inverse.process_with_scratch(columns, &mut scratch.fft);
@@ -170,7 +228,7 @@ impl Fourier {
     }
 
     fn rows_back(&self, blocks: &[Complex64], output: &mut [f64], scratch: &mut [Scratch]) {
-        let ([n1, n2], half) = (self.points, self.half());
+        let [n1, n2] = self.points;
         let part = n1.div_ceil(PARTS);
         output.par_chunks_mut(part * n2).enumerate().zip(scratch).for_each(|((part_index, output), scratch)| {
             for (index, samples) in output.chunks_exact_mut(n2).enumerate() {
@@ -178,13 +236,7 @@ impl Fourier {
                 for (line, block) in scratch.spectrum.chunks_mut(COLUMNS).zip(blocks.chunks_exact(COLUMNS * n1)) {
                     line.copy_from_slice(&block[i * COLUMNS..i * COLUMNS + line.len()]);
                 }
-                // Components that are their own conjugate are real; what rounding leaves is dropped.
-                scratch.spectrum[0].im = 0.0;
-                if n2 % 2 == 0 {
-                    scratch.spectrum[half - 1].im = 0.0;
-                }
-                let done = self.row_inverse.process_with_scratch(&mut scratch.spectrum, samples, &mut scratch.fft);
-                debug_assert!(done.is_ok(), "lengths were planned");
+                self.row_inverse_real(&mut scratch.spectrum, samples, &mut scratch.fft);
             }
         });
     }

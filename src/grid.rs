@@ -6,8 +6,8 @@
 //! parallelogram that breaks the lattice's symmetry, the set of shortest aliases (the first Brillouin zone of the
 //! sampling lattice) keeps it.
 
-use crate::lattice::{Cell, LatticeError};
-use std::f64::consts::TAU;
+use crate::lattice::{Cell, LatticeError, Reduced};
+use crate::number::number;
 use std::fmt;
 
 /// A grid of N₁ × N₂ samples on a cell.
@@ -15,10 +15,8 @@ use std::fmt;
 pub struct Grid {
     cell: Cell,
     points: [usize; 2],
-    /// N₁**b**₁, N₂**b**₂.
-    sampling: [[f64; 2]; 2],
-    /// Whole multiples of `sampling` that lead from a centred index to its shortest alias.
-    shifts: Vec<[i32; 2]>,
+    /// The lattice of N₁**b**₁, N₂**b**₂, which aliases differ by.
+    sampling: Reduced,
 }
 
 impl Grid {
@@ -30,8 +28,8 @@ impl Grid {
         let [b1, b2] = cell.reciprocal();
         let [n1, n2] = points.map(|n| n as f64);
         let sampling = [[n1 * b1[0], n1 * b1[1]], [n2 * b2[0], n2 * b2[1]]];
-        let shifts = Cell::new(sampling[0], sampling[1])?.neighbour_shifts();
-        Ok(Self { cell, points, sampling, shifts })
+        let sampling = Cell::new(sampling[0], sampling[1])?.reduced();
+        Ok(Self { cell, points, sampling })
     }
 
     /// The cell the grid lies on.
@@ -78,21 +76,20 @@ impl Grid {
     ///
     /// Aliases of equal length are equivalent for everything that depends on the length alone.
     pub fn wavevector(&self, component: [usize; 2]) -> [f64; 2] {
-        let centred = [0, 1].map(|axis| {
-            let (k, n) = (component[axis] as f64, self.points[axis] as f64);
-            (if 2.0 * k > n { k - n } else { k }) / n
-        });
-        let [s1, s2] = self.sampling;
-        let (mut shortest, mut least) = ([0.0; 2], f64::INFINITY);
-        for shift in &self.shifts {
-            let [m1, m2] = [centred[0] + f64::from(shift[0]), centred[1] + f64::from(shift[1])];
-            let q = [m1 * s1[0] + m2 * s2[0], m1 * s1[1] + m2 * s2[1]];
-            let square = q[0] * q[0] + q[1] * q[1];
-            if square < least {
-                (shortest, least) = (q, square);
-            }
-        }
-        shortest
+        self.sampling.nearest(self.fractions_of(component))
+    }
+
+    /// Fractions of N₁b₁ and N₂b₂ that a component stands for.
+    fn fractions_of(&self, component: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| component[axis] as f64 / self.points[axis] as f64)
+    }
+
+    /// All shortest aliases of the component (k₁, k₂) whose lengths agree to the relative `tolerance`, each with the
+    /// multiples of b₁, b₂ it is made of.
+    pub fn tied_wavevectors(&self, component: [usize; 2], tolerance: f64) -> Vec<([i32; 2], [f64; 2])> {
+        let aliases = self.sampling.shortest(self.fractions_of(component), tolerance).into_iter();
+        let index = |taken: [i32; 2]| [0, 1].map(|k| component[k] as i32 - taken[k] * self.points[k] as i32);
+        aliases.map(|(q, taken)| (index(taken), q)).collect()
     }
 
     /// Length |q| of [`Grid::wavevector`].
@@ -103,32 +100,23 @@ impl Grid {
 
     /// Least non-zero wavenumber of the cell, 1/length.
     pub fn least_wavenumber(&self) -> f64 {
+        // The reciprocal cell is a cell: |b₁ × b₂| > 0.
         let [b1, b2] = self.cell.reciprocal();
-        let reduced = |m: i32, n: i32| {
-            let (m, n) = (f64::from(m), f64::from(n));
-            (m * b1[0] + n * b2[0]).hypot(m * b1[1] + n * b2[1])
-        };
-        // The shortest vector has fractions no larger than |shortest side| · |aᵢ| / 2π.
-        let bound = b1[0].hypot(b1[1]).min(b2[0].hypot(b2[1]));
-        let reach = self.cell.vectors().map(|a| (bound * a[0].hypot(a[1]) / TAU).floor() as i32);
-        (-reach[0]..=reach[0])
-            .flat_map(|m| (-reach[1]..=reach[1]).map(move |n| (m, n)))
-            .filter(|&pair| pair != (0, 0))
-            .map(|(m, n)| reduced(m, n))
-            .fold(bound, f64::min)
+        Cell::new(b1, b2).map_or(0.0, |cell| cell.reduced().shortest_vector())
     }
 }
 
 impl fmt::Display for Grid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [n1, n2] = self.points;
-        write!(f, "grid {n1} × {n2}, spacing {:.4e}, sample area {:.4e}", self.spacing(), self.sample_area())
+        write!(f, "grid {n1} × {n2}, spacing {}, sample area {}", number(self.spacing()), number(self.sample_area()))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     /// Rotation by 60° of the rhombus a₁ = (1, 0), a₂ = (½, √3/2) maps b₁ → b₁ + b₂, b₂ → −b₁.
     #[test]

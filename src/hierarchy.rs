@@ -23,6 +23,8 @@ pub struct Hierarchy {
     /// From the finest to the coarsest.
     nests: Vec<Nest>,
     settings: Settings,
+    contact_modulus: f64,
+    levels: usize,
 }
 
 #[derive(Debug)]
@@ -77,7 +79,8 @@ impl Hierarchy {
             nests.push(nest(coarser)?);
             coarser = halved(coarser);
         }
-        Ok(Self { nests, settings })
+        let contact_modulus = half_space.surface_material().contact_modulus();
+        Ok(Self { nests, settings, contact_modulus, levels: surface.levels() })
     }
 
     /// The finest grid.
@@ -88,6 +91,16 @@ impl Hierarchy {
     /// The counterbody's surface on the finest grid.
     pub fn texture(&self) -> &Texture {
         &self.nests[0].texture
+    }
+
+    /// Contact modulus E* of the material at the surface, a pressure.
+    pub fn contact_modulus(&self) -> f64 {
+        self.contact_modulus
+    }
+
+    /// Number of levels: 0 for a topography.
+    pub fn levels(&self) -> usize {
+        self.levels
     }
 
     /// Penetration at which contact becomes complete: the mean of f on the finest grid, a length.

@@ -4,6 +4,7 @@
 //! the radius r from its axis. The level's drop d_m = h₁ − h_m ≥ 0 is how far its apex lies behind that
 //! of the highest level, which touches first.
 
+use crate::number::number;
 use std::fmt;
 
 /// Why an indenter cannot be built.
@@ -85,7 +86,8 @@ impl Shape {
 
 impl fmt::Display for Shape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sizes: Vec<String> = self.sizes().iter().map(|(name, value)| format!("{name} {value}")).collect();
+        let sizes: Vec<String> =
+            self.sizes().iter().map(|(name, value)| format!("{name} {}", number(*value))).collect();
         write!(f, "{}, {}", self.name(), sizes.join(", "))
     }
 }

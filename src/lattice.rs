@@ -13,6 +13,7 @@
 //! | square | 4 | square, side 2 l | (0, 0), (½, 0), (½, ½), (0, ½) |
 //! | oblique | any | a₁, a₂ given | given |
 
+use crate::number::number;
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -103,27 +104,93 @@ impl Cell {
         [cross(x, self.a2) / determinant, cross(self.a1, x) / determinant]
     }
 
-    /// Integer combinations that bring a vector with fractions in [−½, ½] to its shortest
-    /// equivalent: all whole-cell vectors that can be needed, the zero one first.
-    ///
-    /// For a reduced cell these are the eight neighbours; a skewed cell needs more.
-    pub fn neighbour_shifts(&self) -> Vec<[i32; 2]> {
-        // The shortest equivalent of x is no longer than the covering radius ρ ≤ (|a₁| + |a₂|)/2;
-        // fractions of a vector of length ρ are at most ρ |bᵢ|/2π.
-        let radius = 0.5 * (norm(self.a1) + norm(self.a2));
-        let [b1, b2] = self.reciprocal();
-        let reach = |b: [f64; 2]| (radius * norm(b) / TAU + 0.5).floor() as i32;
-        let (m1, m2) = (reach(b1), reach(b2));
-        let mut shifts: Vec<[i32; 2]> = (-m1..=m1).flat_map(|i| (-m2..=m2).map(move |j| [i, j])).collect();
-        shifts.sort_by_key(|[i, j]| i.abs() + j.abs());
-        shifts
+    /// The reduced basis of the same lattice (Lagrange–Gauss): its shortest vector, and the shortest one that
+    /// completes it.
+    pub fn reduced(&self) -> Reduced {
+        let dot = |u: [f64; 2], v: [f64; 2]| u[0] * v[0] + u[1] * v[1];
+        let (mut short, mut long) = ((self.a1, [1, 0]), (self.a2, [0, 1]));
+        loop {
+            if dot(long.0, long.0) < dot(short.0, short.0) {
+                (short, long) = (long, short);
+            }
+            let whole = (dot(short.0, long.0) / dot(short.0, short.0)).round();
+            if whole == 0.0 {
+                break;
+            }
+            let multiple = whole as i32;
+            long.0 = [0, 1].map(|k| long.0[k] - whole * short.0[k]);
+            long.1 = [0, 1].map(|k| long.1[k] - multiple * short.1[k]);
+            if dot(long.0, long.0) >= dot(short.0, short.0) * (1.0 - 1e-12) {
+                break;
+            }
+        }
+        Reduced { cell: Self { a1: short.0, a2: long.0 }, matrix: [short.1, long.1] }
+    }
+}
+
+/// A reduced basis r₁, r₂ of a cell's lattice, in which the shortest of all equivalent vectors is found at once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reduced {
+    /// Cell spanned by r₁ and r₂.
+    cell: Cell,
+    /// rᵢ = Σⱼ `matrix[i][j]` aⱼ.
+    matrix: [[i32; 2]; 2],
+}
+
+impl Reduced {
+    /// Length of the shortest lattice vector.
+    pub fn shortest_vector(&self) -> f64 {
+        norm(self.cell.a1).min(norm(self.cell.a2))
+    }
+
+    /// The shortest vectors equivalent to s₁a₁ + s₂a₂ (all whose lengths agree to the relative `tolerance`), each with
+    /// the whole multiples of a₁, a₂ that were taken off.
+    pub fn shortest(&self, [s1, s2]: [f64; 2], tolerance: f64) -> Vec<([f64; 2], [i32; 2])> {
+        let candidates = self.candidates([s1, s2]);
+        let least = candidates.iter().map(|&(x, _)| norm(x)).fold(f64::INFINITY, f64::min);
+        candidates.into_iter().filter(|&(x, _)| norm(x) <= least * (1.0 + tolerance)).collect()
+    }
+
+    /// One shortest vector equivalent to s₁a₁ + s₂a₂: in a reduced cell one of the four corners around it is nearest.
+    pub fn nearest(&self, s: [f64; 2]) -> [f64; 2] {
+        let t = self.fractions(s);
+        let [u, v] = t.map(|t| t - t.floor());
+        let (mut nearest, mut least) = ([0.0; 2], f64::INFINITY);
+        for corner in [[u, v], [u - 1.0, v], [u, v - 1.0], [u - 1.0, v - 1.0]] {
+            let x = self.cell.point(corner);
+            let square = x[0] * x[0] + x[1] * x[1];
+            if square < least {
+                (nearest, least) = (x, square);
+            }
+        }
+        nearest
+    }
+
+    /// Fractions of r₁, r₂ of the vector s₁a₁ + s₂a₂: the inverse of an integer matrix of determinant ±1 is one too.
+    fn fractions(&self, [s1, s2]: [f64; 2]) -> [f64; 2] {
+        let [[m11, m12], [m21, m22]] = self.matrix.map(|row| row.map(f64::from));
+        let determinant = m11 * m22 - m12 * m21;
+        [(m22 * s1 - m21 * s2) * determinant, (m11 * s2 - m12 * s1) * determinant]
+    }
+
+    /// The vector and its eight neighbours nearest to the origin: among them are all shortest ones.
+    fn candidates(&self, s: [f64; 2]) -> [([f64; 2], [i32; 2]); 9] {
+        let t = self.fractions(s);
+        let whole = t.map(f64::round);
+        std::array::from_fn(|k| {
+            let shift = [whole[0] + (k / 3) as f64 - 1.0, whole[1] + (k % 3) as f64 - 1.0];
+            let [n1, n2] = shift.map(|n| n as i32);
+            let taken = [0, 1].map(|j| n1 * self.matrix[0][j] + n2 * self.matrix[1][j]);
+            (self.cell.point([t[0] - shift[0], t[1] - shift[1]]), taken)
+        })
     }
 }
 
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ([x1, y1], [x2, y2]) = (self.a1, self.a2);
-        write!(f, "cell a₁ = ({x1:.6}, {y1:.6}), a₂ = ({x2:.6}, {y2:.6}), area {:.6}", self.area())
+        let [x1, y1, x2, y2, area] = [x1, y1, x2, y2, self.area()].map(number);
+        write!(f, "cell a₁ = ({x1}, {y1}), a₂ = ({x2}, {y2}), area {area}")
     }
 }
 
@@ -275,17 +342,32 @@ mod tests {
     }
 
     #[test]
-    fn neighbour_shifts_reach_the_shortest_equivalent_in_a_skewed_cell() {
-        let cell = Cell::new([1.0, 0.0], [2.3, 0.4]).unwrap();
-        let shifts = cell.neighbour_shifts();
-        for k in 0..200 {
-            let s = [f64::from(k % 14) / 14.0 - 0.5, f64::from(k / 14) / 15.0 - 0.5];
-            let length = |m: [i32; 2]| norm(cell.point([s[0] + f64::from(m[0]), s[1] + f64::from(m[1])]));
-            let found = shifts.iter().map(|&m| length(m)).fold(f64::INFINITY, f64::min);
-            let wide = (-9..=9).flat_map(|i| (-9..=9).map(move |j| [i, j]));
-            let true_shortest = wide.map(length).fold(f64::INFINITY, f64::min);
-            assert!(found <= true_shortest * (1.0 + 1e-12));
+    fn the_reduced_cell_finds_the_shortest_equivalent_however_skewed_the_cell() {
+        for (cell, reach) in [(Cell::new([1.0, 0.0], [2.3, 0.4]), 9), (Cell::new([0.3, 0.1], [-15.2, 0.7]), 60)] {
+            let cell = cell.unwrap();
+            let reduced = cell.reduced();
+            assert!((reduced.cell.area() / cell.area() - 1.0).abs() < 1e-12);
+            for k in 0..60 {
+                let s = [f64::from(k % 7) / 7.0 - 0.4, f64::from(k / 7) / 8.0 - 0.5];
+                let at = |m: [i32; 2]| cell.point([s[0] - f64::from(m[0]), s[1] - f64::from(m[1])]);
+                let wide = (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |j| [i, j]));
+                let true_shortest = wide.map(|m| norm(at(m))).fold(f64::INFINITY, f64::min);
+                assert!((norm(reduced.nearest(s)) - true_shortest).abs() < 1e-12);
+                for (x, taken) in reduced.shortest(s, 1e-9) {
+                    assert!((norm(x) - true_shortest).abs() < 1e-8);
+                    let y = at(taken);
+                    assert!((x[0] - y[0]).abs() < 1e-12 && (x[1] - y[1]).abs() < 1e-12);
+                }
+            }
         }
+    }
+
+    #[test]
+    fn tied_vectors_are_all_found() {
+        let hexagonal = Cell::hexagonal(1.0).unwrap().reduced();
+        assert_eq!(hexagonal.shortest([1.0 / 3.0, 1.0 / 3.0], 1e-9).len(), 3);
+        assert_eq!(hexagonal.shortest([0.5, 0.0], 1e-9).len(), 2);
+        assert_eq!(Cell::square(1.0).unwrap().reduced().shortest([0.5, 0.5], 1e-9).len(), 4);
     }
 
     #[test]

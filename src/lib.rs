@@ -23,7 +23,7 @@
 //!                                                         case → output → command line
 //! ```
 //!
-//! [`field`] (sums that do not depend on the number of threads) and [`least_squares`] serve all of them.
+//! [`field`] (sums that do not depend on the number of threads), [`least_squares`] and [`number`] serve all of them.
 //! Nothing left of [`case`] reads a file or prints.
 //!
 //! # Example
@@ -48,7 +48,7 @@
 //! let half_space = HalfSpace::new(vec![Layer::new(coating, 0.5, Interface::Bonded)?], substrate);
 //! let mut hierarchy = Hierarchy::new(&surface, &half_space, [96, 96], Settings::default())?;
 //! let solution = hierarchy.solve(Control::MeanPressure(0.06), &mut |_| ());
-//! let observables = observe(hierarchy.grid(), hierarchy.texture(), &solution);
+//! let observables = observe(&hierarchy, &solution);
 //! assert!(solution.report.stop.solved());
 //! assert!((observables.penetration - 0.0554).abs() < 1e-4);
 //! # Ok(())
@@ -65,10 +65,12 @@ pub mod lattice;
 pub mod layered;
 pub mod least_squares;
 pub mod material;
+pub mod number;
 pub mod observables;
 pub mod operator;
 pub mod output;
 pub mod refinement;
 pub mod solver;
+pub mod stress;
 pub mod texture;
 pub mod touch;

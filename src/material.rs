@@ -2,7 +2,9 @@
 //!
 //! E* = E/(1 − ν²) = 2G/(1 − ν); χ = G₁/G₂ = E₁(1 + ν₂)/(E₂(1 + ν₁)).
 
+use crate::number::number;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// Why a material or a layer cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -103,6 +105,7 @@ impl fmt::Display for Interface {
             Self::Bonded => write!(f, "bonded"),
             Self::Frictionless => write!(f, "frictionless"),
             Self::Spring { tangential, normal } => {
+                let [tangential, normal] = [*tangential, *normal].map(number);
                 write!(f, "spring, tangential stiffness {tangential}, normal stiffness {normal}")
             }
         }
@@ -192,14 +195,25 @@ impl HalfSpace {
     }
 }
 
+impl HalfSpace {
+    /// Materials (from 1; the substrate is layers + 1) that the depth z ≥ 0 belongs to: on an interface, to rounding, both.
+    pub fn sides(&self, z: f64) -> RangeInclusive<usize> {
+        let faces = self.interface_depths();
+        let tolerance = 1e-12;
+        let above = faces.iter().filter(|&&face| face * (1.0 + tolerance) < z).count();
+        let below = faces.iter().filter(|&&face| face * (1.0 - tolerance) <= z).count();
+        above + 1..=below + 1
+    }
+}
+
 impl fmt::Display for HalfSpace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (number, layer) in (1..).zip(&self.layers) {
+        for (index, layer) in (1..).zip(&self.layers) {
             writeln!(
                 f,
-                "layer {number}: thickness {}, χ {:.6}, {}, {}",
-                layer.thickness,
-                layer.material.shear / self.substrate.shear,
+                "layer {index}: thickness {}, χ {}, {}, {}",
+                number(layer.thickness),
+                number(layer.material.shear / self.substrate.shear),
                 layer.material,
                 layer.interface
             )?;
@@ -217,6 +231,15 @@ mod tests {
         let steel = Material::from_young(210e9, 0.3).unwrap();
         assert!((steel.young() / 210e9 - 1.0).abs() < 1e-15);
         assert!((steel.contact_modulus() / (210e9 / 0.91) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_depth_on_an_interface_has_two_sides_whatever_the_rounding() {
+        let material = Material::from_shear(1.0, 0.3).unwrap();
+        let layers = [0.1, 0.2].map(|h| Layer::new(material, h, Interface::Bonded).unwrap());
+        let half_space = HalfSpace::new(layers.to_vec(), material);
+        let sides = [0.0, 0.1, 0.2, 0.3, 0.1 + 0.2, 5.0].map(|z| half_space.sides(z));
+        assert_eq!(sides, [1..=1, 1..=2, 2..=2, 2..=3, 2..=3, 3..=3]);
     }
 
     #[test]

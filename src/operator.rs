@@ -33,18 +33,15 @@ impl Operator {
     /// Operator of the half-space with the given transfer function.
     pub fn new(grid: &Grid, transfer: &TransferFunction) -> Self {
         let fourier = Fourier::new(grid.points());
-        let multiplier = |zero: ZeroMode, value: &(dyn Fn(f64) -> f64 + Sync)| {
-            let mean = match zero {
-                ZeroMode::ZeroMean => 0.0,
-                ZeroMode::LikeSmallest => value(grid.least_wavenumber()),
-            };
-            fourier.multiplier(|component| match component {
-                [0, 0] => mean,
-                component => value(grid.wavenumber(component)),
-            })
+        let mean = |zero: ZeroMode| match zero {
+            ZeroMode::ZeroMean => 0.0,
+            ZeroMode::LikeSmallest => 1.0 / transfer.compliance(grid.least_wavenumber()),
         };
-        let compliance = multiplier(ZeroMode::ZeroMean, &|q| transfer.compliance(q));
-        let stiffness = multiplier(ZeroMode::LikeSmallest, &|q| 1.0 / transfer.compliance(q));
+        let compliance = fourier.multiplier(|component| match component {
+            [0, 0] => mean(ZeroMode::ZeroMean),
+            component => transfer.compliance(grid.wavenumber(component)),
+        });
+        let stiffness = compliance.inverse(mean(ZeroMode::LikeSmallest));
         let workspace = fourier.workspace();
         Self { grid: grid.clone(), fourier, compliance, stiffness, workspace, convolutions: 0 }
     }

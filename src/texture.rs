@@ -7,7 +7,8 @@
 use crate::field;
 use crate::grid::Grid;
 use crate::indenter::{Level, drops};
-use crate::lattice::{Cell, Lattice};
+use crate::lattice::{Cell, Lattice, Reduced};
+use crate::number::number;
 use rayon::prelude::*;
 use std::fmt;
 
@@ -32,15 +33,6 @@ pub enum Surface {
     },
 }
 
-/// Whose surface a sample faces: a site, and which periodic image of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Owner {
-    /// Index of the site among all sites, level by level.
-    pub site: u16,
-    /// Whole cells along a₁ and a₂ from the site in the home cell to the indenter.
-    pub image: [i8; 2],
-}
-
 /// One site of an indenter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Site {
@@ -55,8 +47,10 @@ pub struct Site {
 pub struct Texture {
     /// f, a length ≥ 0 measured from the highest apex, one value per sample, a₂ fastest.
     pub shape: Vec<f64>,
-    /// Owner of each sample; empty for a topography.
-    pub owner: Vec<Owner>,
+    /// Index into `sites` of the indenter whose surface faces each sample; empty for a topography.
+    pub owner: Vec<u32>,
+    /// Samples that face the surfaces of several sites at once (to rounding), each with all of them, by ascending sample.
+    pub ties: Vec<(usize, Vec<u32>)>,
     /// Sites by their index; empty for a topography.
     pub sites: Vec<Site>,
     /// Largest minus smallest value of `shape`.
@@ -82,22 +76,28 @@ impl Surface {
 
     /// The surface on a grid: exact for indenters, interpolated between the samples of a topography.
     pub fn sample(&self, grid: &Grid) -> Texture {
-        let (shape, owner, sites) = match self {
+        let (shape, owner, ties, sites) = match self {
             Self::Indenters { lattice, levels } => sample_indenters(lattice, levels, grid),
             Self::Heights { points, heights, .. } => {
                 let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 let depths: Vec<f64> = heights.iter().map(|h| highest - h).collect();
                 let shape = resample(&depths, *points, grid.points(), Interpolation::on(grid.cell()));
-                (shape, Vec::new(), Vec::new())
+                (shape, Vec::new(), Vec::new(), Vec::new())
             }
         };
         let lowest = field::least(shape.len(), |i| shape[i]);
         let highest = -field::least(shape.len(), |i| -shape[i]);
-        Texture { shape, owner, sites, range: highest - lowest }
+        Texture { shape, owner, ties, sites, range: highest - lowest }
     }
 }
 
 impl Texture {
+    /// The vector from the axis of the nearest image of the site `site` to a sample, a length.
+    pub fn offset(&self, grid: &Grid, reduced: &Reduced, site: u32, index: usize) -> [f64; 2] {
+        let (here, place) = (grid.fractions(index), self.sites[site as usize].place);
+        reduced.nearest([here[0] - place[0], here[1] - place[1]])
+    }
+
     /// Mean of `shape` over the cell: the penetration at which contact is complete, a length.
     pub fn mean(&self) -> f64 {
         let [sum] = field::sums(self.shape.len(), |i| [self.shape[i]]);
@@ -110,8 +110,8 @@ impl fmt::Display for Surface {
         match self {
             Self::Indenters { lattice, levels } => {
                 write!(f, "{lattice}")?;
-                for (number, (level, drop)) in (1..).zip(levels.iter().zip(drops(levels))) {
-                    write!(f, "\nlevel {number}: {}, drop {drop}", level.shape())?;
+                for (index, (level, drop)) in (1..).zip(levels.iter().zip(drops(levels))) {
+                    write!(f, "\nlevel {index}: {}, drop {}", level.shape(), number(drop))?;
                 }
                 Ok(())
             }
@@ -120,38 +120,45 @@ impl fmt::Display for Surface {
     }
 }
 
-fn sample_indenters(lattice: &Lattice, levels: &[Level], grid: &Grid) -> (Vec<f64>, Vec<Owner>, Vec<Site>) {
-    let cell = lattice.cell();
-    let shifts = cell.neighbour_shifts();
+/// Shape, owners, ties and sites.
+type Faces = (Vec<f64>, Vec<u32>, Vec<(usize, Vec<u32>)>, Vec<Site>);
+
+/// Surfaces closer to a sample than this, relatively, face it together.
+const TIE: f64 = 1e-12;
+
+fn sample_indenters(lattice: &Lattice, levels: &[Level], grid: &Grid) -> Faces {
+    let reduced = lattice.cell().reduced();
     let drops = drops(levels);
     let sites: Vec<Site> = (1..)
         .zip(lattice.sites())
         .flat_map(|(level, places)| places.iter().map(move |&place| Site { level, place }))
         .collect();
-    let face = |index: usize| {
+    let distance = |index: usize, site: &Site| {
         let here = grid.fractions(index);
-        let mut best = (f64::INFINITY, Owner { site: 0, image: [0, 0] });
-        for (number, site) in sites.iter().enumerate() {
-            let apart = [here[0] - site.place[0], here[1] - site.place[1]];
-            let whole = apart.map(f64::round);
-            let rest = [apart[0] - whole[0], apart[1] - whole[1]];
-            let (mut square, mut image) = (f64::INFINITY, [0, 0]);
-            for shift in &shifts {
-                let [x, y] = cell.point([rest[0] - f64::from(shift[0]), rest[1] - f64::from(shift[1])]);
-                if x * x + y * y < square {
-                    square = x * x + y * y;
-                    image = [whole[0] as i32 + shift[0], whole[1] as i32 + shift[1]];
-                }
-            }
-            let distance = levels[site.level - 1].shape().profile(square.sqrt()) + drops[site.level - 1];
-            if distance < best.0 {
-                best = (distance, Owner { site: number as u16, image: image.map(|m| m as i8) });
+        let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
+        levels[site.level - 1].shape().profile(x.hypot(y)) + drops[site.level - 1]
+    };
+    let face = |index: usize| {
+        let (mut nearest, mut owner, mut tied) = (f64::INFINITY, 0, false);
+        for (number, site) in (0..).zip(&sites) {
+            let distance = distance(index, site);
+            if distance < nearest * (1.0 - TIE) {
+                (nearest, owner, tied) = (distance, number, false);
+            } else {
+                tied |= distance <= nearest * (1.0 + TIE);
             }
         }
-        best
+        (nearest, (owner, tied))
     };
-    let (shape, owner) = (0..grid.len()).into_par_iter().map(face).unzip();
-    (shape, owner, sites)
+    let (shape, owner): (Vec<f64>, Vec<(u32, bool)>) = (0..grid.len()).into_par_iter().map(face).unzip();
+    let all_facing = |index: usize| {
+        let facing = (0..).zip(&sites).filter(|(_, site)| distance(index, site) <= shape[index] * (1.0 + TIE));
+        (index, facing.map(|(number, _)| number).collect())
+    };
+    let tied = owner.iter().enumerate().filter(|(_, (_, tied))| *tied);
+    let ties = tied.map(|(index, _)| all_facing(index)).collect();
+    let owner = owner.into_iter().map(|(owner, _)| owner).collect();
+    (shape, owner, ties, sites)
 }
 
 /// How a field is interpolated between four neighbouring samples of a grid.
@@ -230,7 +237,7 @@ mod tests {
         for (site, drop) in [(0, 0.0), (4 * 12 + 4, 0.01), (8 * 12 + 8, 0.02)] {
             assert!((texture.shape[site] - drop).abs() < 1e-15);
         }
-        assert_eq!(texture.sites[texture.owner[4 * 12 + 4].site as usize].level, 2);
+        assert_eq!(texture.sites[texture.owner[4 * 12 + 4] as usize].level, 2);
         assert!(texture.range > 0.2 && texture.range < 0.23);
     }
 
@@ -243,8 +250,19 @@ mod tests {
             levels: vec![level(0.1, 0.8), level(0.0, 0.8)],
         };
         let texture = surface.sample(&Grid::new(surface.cell(), [24, 24]).unwrap());
-        let first = texture.owner.iter().filter(|owner| owner.site == 0).count();
+        let first = texture.owner.iter().filter(|&&owner| owner == 0).count();
         assert!(first > 24 * 24 / 2, "level 1 owns {first} of 576");
+    }
+
+    #[test]
+    fn samples_between_equal_indenters_are_tied() {
+        let level = Level::new(Shape::Paraboloid { radius: 0.8 }, 0.0).unwrap();
+        let lattice = Lattice::square(1.0, 4).unwrap();
+        let surface = Surface::Indenters { lattice, levels: vec![level; 4] };
+        let texture = surface.sample(&Grid::new(surface.cell(), [8, 8]).unwrap());
+        // Rows and columns 2 and 6 lie halfway between the sites: 2·8 + 2·8 − 4 samples, four of them between all sites.
+        assert_eq!(texture.ties.len(), 28);
+        assert_eq!(texture.ties.iter().filter(|(_, sites)| sites.len() == 4).count(), 4);
     }
 
     #[test]

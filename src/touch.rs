@@ -17,15 +17,15 @@ const NEGLIGIBLE: f64 = 1e-9;
 /// The grid of `hierarchy` limits the accuracy: a contact starts with one sample.
 pub fn first_touches(hierarchy: &mut Hierarchy) -> Vec<Option<f64>> {
     let texture = hierarchy.texture();
-    let levels = texture.sites.iter().map(|site| site.level).max().unwrap_or(0);
-    let owns = |level: usize| texture.owner.iter().any(|owner| texture.sites[owner.site as usize].level == level);
+    let levels = hierarchy.levels();
+    let owns = |level: usize| texture.owner.iter().any(|&owner| texture.sites[owner as usize].level == level);
     let visible: Vec<bool> = (1..=levels).map(owns).collect();
     let most = hierarchy.full_contact_pressure();
     // Pressures known not to be enough, and known to be enough.
     let mut bounds = vec![(0.0, most); levels];
     let mut try_pressure = |pressure: f64, bounds: &mut Vec<(f64, f64)>| {
         let solution = hierarchy.solve(Control::MeanPressure(pressure), &mut |_| ());
-        let observables = observe(hierarchy.grid(), hierarchy.texture(), &solution);
+        let observables = observe(hierarchy, &solution);
         for (bound, level) in bounds.iter_mut().zip(&observables.levels) {
             if level.load > 0.0 {
                 bound.1 = bound.1.min(pressure);

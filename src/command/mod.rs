@@ -137,10 +137,10 @@ pub fn run(arguments: &Arguments) -> ExitCode {
 fn read_case(case: Option<&Path>, common: &Common) -> Result<(Case, String), Failure> {
     let path = case.unwrap_or(Path::new(embedded::DEFAULT));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let embedded = path.to_str().filter(|_| !path.exists()).and_then(embedded::source);
+    let embedded = path.to_str().filter(|_| case.is_none() || !path.is_file()).and_then(embedded::source);
     let source = match embedded {
         Some(source) => source,
-        None if path.extension().is_none() && !path.exists() => {
+        None if path.extension().is_none() && !path.is_file() => {
             let names: Vec<&str> = embedded::all().iter().map(|(name, _)| *name).collect();
             return Err(Failure::Refused(format!(
                 "{} is neither a file nor an embedded case ({})",

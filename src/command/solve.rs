@@ -6,7 +6,7 @@ use percoat::case::{Case, GridSection};
 use percoat::hierarchy::{Hierarchy, fast_points};
 use percoat::observables::{Observables, observe};
 use percoat::output::summary::{Step, Summary, curve};
-use percoat::output::{Fields, make_folder, table, write_text};
+use percoat::output::{Fields, clear, make_folder, table, write_text};
 use percoat::refinement::{FIRST_POINTS, MOST_POINTS, change};
 use percoat::solver::Control;
 use std::io::Write;
@@ -97,6 +97,7 @@ impl Run<'_> {
             eprintln!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
         }
         make_folder(&self.folder)?;
+        clear(&self.folder)?;
         write_text(&self.folder.join("case.toml"), &self.case.to_toml())?;
         let mut fields = Fields::new(&self.folder)?;
         let progress = self.progress();
@@ -105,7 +106,7 @@ impl Run<'_> {
             let solution = hierarchy.solve(control, &mut |iteration| {
                 progress.set_message(format!("iteration {}, ε = {:.1e}", iteration.iteration, iteration.residual));
             });
-            let observables = observe(hierarchy.grid(), hierarchy.texture(), &solution);
+            let observables = observe(&hierarchy, &solution);
             if self.common.verbose {
                 eprintln!("{observables}\n{}\n{}", solution.report, solution.certificate);
             }

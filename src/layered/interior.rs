@@ -1,6 +1,6 @@
 //! Amplitudes of stress and displacement at any depth of a layered half-space under p = cos(qξ).
 //!
-//! The state y = (U, w, t, p) at a depth lies in the plane of [minors](super::minors) of what is below, and satisfies
+//! The state y = (U, w, t, p) at a depth lies in the plane of minors of what is below, and satisfies
 //! ℓ·y = 0, where ℓ is the functional "shear at the surface" expressed in the state at that depth. Both together leave
 //! one vector, the contraction
 //!

@@ -10,7 +10,7 @@
 //! equilibrium and Hooke's law for the four quantities that interfaces connect (with the stress function F of the plane problem,
 //! p = F and t = F′). Two tools are enough, and neither meets a growing exponential:
 //!
-//! - [`minors`]: everything below a depth confines (U, w, t, p) to a plane; the plane's five 2 × 2 minors are
+//! - `minors`: everything below a depth confines (U, w, t, p) to a plane; the plane's five 2 × 2 minors are
 //!   carried from the substrate up (delta-matrix method, Dunkin 1965). The surface compliance is a ratio of two
 //!   of them ([`transfer`]).
 //! - [`interior`]: everything above a depth imposes "no shear at the surface", one linear functional carried from the

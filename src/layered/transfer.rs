@@ -5,7 +5,7 @@
 //!
 //! T = [1 + 4xκθ − λκθ²] / [1 − (λ+κ+4κx²)θ + λκθ²],  λ = 1 − 4(1−ν₁)/(1+χ(3−4ν₂)),  κ = (χ−1)/(χ+3−4ν₁),
 //!
-//! which the general recursion over [minors](super::minors) reproduces. Measured against 50-digit arithmetic (`validation/kernel`), its
+//! which the general recursion over minors reproduces. Measured against 50-digit arithmetic (`validation/kernel`), its
 //! relative error stays below 1e-12 for shear ratios 1e-6…1e6, ν 0…0.5, qh 1e-8…1e3 and up to 20 layers with any interfaces.
 
 use super::minors::{Minors, PlaneStrain};

@@ -10,9 +10,7 @@ pub mod peak;
 pub use boundary::Boundary;
 
 use crate::field;
-use crate::grid::Grid;
-use crate::hierarchy::Solution;
-use crate::texture::{Owner, Texture};
+use crate::hierarchy::{Hierarchy, Solution};
 use boundary::Polar;
 use std::f64::consts::PI;
 use std::fmt;
@@ -66,112 +64,128 @@ impl LevelObservables {
 #[derive(Debug, Clone, Default)]
 struct Spot {
     load: f64,
-    samples: Vec<Polar>,
+    /// Area of its samples; one that several sites own together counts in parts.
+    counted: f64,
     peak: Option<usize>,
     merged: bool,
     boundary: Option<Boundary>,
 }
 
-/// Observables of a solved step.
-pub fn observe(grid: &Grid, texture: &Texture, solution: &Solution) -> Observables {
-    let pressure = &solution.pressure;
+/// Observables of a solved step; `solution` is the last one of `hierarchy`, or one of the same grid.
+pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
+    let (grid, texture, pressure) = (hierarchy.grid(), hierarchy.texture(), &solution.pressure);
     let [total] = field::sums(grid.len(), |i| [pressure[i]]);
     let mean_pressure = total / grid.len() as f64;
     let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
     let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
-    let spots = spots(grid, texture, pressure);
-    let simple = !spots.is_empty() && spots.iter().all(|spot| spot.samples.is_empty() || spot.boundary.is_some());
-    let contact_fraction = if simple {
-        spots.iter().map(|spot| spot.area(grid)).sum::<f64>() / grid.cell().area()
-    } else {
-        area::contact_fraction(grid, pressure)
-    };
-    // Merged spots share the area between the samples in proportion to their samples.
-    let counted = spots.iter().map(|spot| spot.samples.len()).sum::<usize>() as f64 * grid.sample_area();
-    let correction = if simple || counted == 0.0 { 1.0 } else { contact_fraction * grid.cell().area() / counted };
-    let whole = mean_pressure * grid.cell().area();
-    let count = texture.sites.iter().map(|site| site.level).max().unwrap_or(0);
-    let levels = (1..=count)
+
+    let spots = spots(hierarchy, solution);
+    let cell = grid.cell().area();
+    // Located spots have their own area. The others share what the lines of samples find beside them, as they were counted.
+    let located: f64 = spots.iter().filter_map(|spot| spot.boundary.as_ref()).map(Boundary::area).sum();
+    let counted: f64 = spots.iter().filter(|spot| spot.boundary.is_none()).map(|spot| spot.counted).sum();
+    let all_located = !spots.is_empty() && counted == 0.0;
+    let contact_area = if all_located { located } else { cell * area::contact_fraction(grid, pressure) };
+    let correction = if counted > 0.0 { ((contact_area - located) / counted).max(0.0) } else { 1.0 };
+    let spot_area = |spot: &Spot| spot.boundary.as_ref().map_or(correction * spot.counted, Boundary::area);
+
+    let levels = (1..=hierarchy.levels())
         .map(|level| {
             let own: Vec<&Spot> =
                 texture.sites.iter().zip(&spots).filter(|(site, _)| site.level == level).map(|(_, s)| s).collect();
             let indenters = own.len() as f64;
             let load = own.iter().map(|spot| spot.load).sum::<f64>();
-            let contact_area = own
-                .iter()
-                .map(|spot| if spot.boundary.is_some() { spot.area(grid) } else { correction * spot.area(grid) })
-                .sum::<f64>()
-                / indenters;
+            let area = own.iter().map(|spot| spot_area(spot)).sum::<f64>() / indenters;
             let merged = own.iter().any(|spot| spot.merged);
+            let peaks = own.iter().filter_map(|spot| spot.peak);
             let extremes = own.iter().map(|spot| spot.boundary.as_ref().map(Boundary::extremes));
             LevelObservables {
                 level,
                 load: load / indenters,
-                load_share: if whole > 0.0 { load / whole } else { 0.0 },
-                max_pressure: own
-                    .iter()
-                    .filter_map(|spot| spot.peak)
-                    .map(|index| peak::interpolated(grid, pressure, index))
-                    .fold(0.0, f64::max),
-                contact_area,
-                contact_radius: (!merged).then(|| (contact_area / PI).sqrt()),
+                load_share: if total > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
+                max_pressure: peaks.map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max),
+                contact_area: area,
+                contact_radius: (!merged).then(|| (area / PI).sqrt()),
                 radius_extremes: extremes.reduce(|a, b| a.zip(b).map(|(a, b)| (a.0.min(b.0), a.1.max(b.1)))).flatten(),
                 merged,
-                resolution: (contact_area / PI / grid.sample_area()).sqrt(),
+                resolution: (area / PI / grid.sample_area()).sqrt(),
             }
         })
         .collect();
+    let contact_fraction = contact_area / cell;
     Observables { mean_pressure, penetration: solution.penetration, contact_fraction, max_pressure, levels }
 }
 
-/// Boundary of each site's contact around its axis, where it has one; sites in the texture's order.
-pub fn boundaries(grid: &Grid, texture: &Texture, pressure: &[f64]) -> Vec<Option<Boundary>> {
-    spots(grid, texture, pressure).into_iter().map(|spot| spot.boundary).collect()
-}
-
-fn spots(grid: &Grid, texture: &Texture, pressure: &[f64]) -> Vec<Spot> {
+fn spots(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Spot> {
+    let (grid, texture, pressure) = (hierarchy.grid(), hierarchy.texture(), &solution.pressure);
+    let (reduced, [n1, n2]) = (grid.cell().reduced(), grid.points());
     let mut spots = vec![Spot::default(); texture.sites.len()];
-    let [n1, n2] = grid.points();
-    // The owner of a neighbouring sample, seen from this side of the cell's border.
-    let owner = |i: usize, j: usize| {
-        let Owner { site, image: [m1, m2] } = texture.owner[(i % n1) * n2 + j % n2];
-        (pressure[(i % n1) * n2 + j % n2] > 0.0, site, [m1 + (i / n1) as i8, m2 + (j / n2) as i8])
-    };
-    for (index, owned) in texture.owner.iter().enumerate() {
-        let p = pressure[index];
-        if p <= 0.0 {
-            continue;
+    if texture.owner.is_empty() {
+        return spots;
+    }
+    let offset = |index: usize| texture.offset(grid, &reduced, texture.owner[index], index);
+    let steps = grid.steps();
+    for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
+        let owner = texture.owner[index];
+        let owners = match texture.ties.binary_search_by_key(&index, |(sample, _)| *sample) {
+            Ok(tie) => &texture.ties[tie].1[..],
+            Err(_) => std::slice::from_ref(&owner),
+        };
+        let part = grid.sample_area() / owners.len() as f64;
+        for &site in owners {
+            let spot = &mut spots[site as usize];
+            spot.load += part * p;
+            spot.counted += part;
+            if spot.peak.is_none_or(|peak| p > pressure[peak]) {
+                spot.peak = Some(index);
+            }
         }
-        let spot = &mut spots[owned.site as usize];
-        let [s, t] = grid.fractions(index);
-        let place = texture.sites[owned.site as usize].place;
-        let [x, y] =
-            grid.cell().point([s - place[0] - f64::from(owned.image[0]), t - place[1] - f64::from(owned.image[1])]);
-        spot.load += p * grid.sample_area();
-        spot.samples.push(Polar { r: x.hypot(y), theta: y.atan2(x), p });
-        if spot.peak.is_none_or(|peak| p > pressure[peak]) {
-            spot.peak = Some(index);
-        }
-        let (i, j) = (index / n2, index % n2);
-        for neighbour in [owner(i + 1, j), owner(i, j + 1)] {
-            let (touching, site, image) = neighbour;
-            if touching && (site, image) != (owned.site, owned.image) {
-                spots[owned.site as usize].merged = true;
-                spots[site as usize].merged = true;
+        // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
+        let (row, column) = (index / n2, index % n2);
+        let neighbours = [(row + 1) % n1 * n2 + column, row * n2 + (column + 1) % n2];
+        for (neighbour, step) in neighbours.into_iter().zip(steps) {
+            if pressure[neighbour] <= 0.0 {
+                continue;
+            }
+            let (here, there) = (offset(index), offset(neighbour));
+            let apart = [0, 1].map(|k| (there[k] - here[k] - step[k]).abs());
+            let other = texture.owner[neighbour];
+            if other != owner || apart[0].max(apart[1]) > 1e-6 * grid.spacing() {
+                spots[owner as usize].merged = true;
+                spots[other as usize].merged = true;
             }
         }
     }
-    for spot in &mut spots {
-        if !spot.merged {
-            spot.boundary = Boundary::locate(&spot.samples, grid.sample_area(), grid.spacing());
-        }
-    }
+    locate(hierarchy, solution, &mut spots);
     spots
 }
 
-impl Spot {
-    fn area(&self, grid: &Grid) -> f64 {
-        self.boundary.as_ref().map_or(self.samples.len() as f64 * grid.sample_area(), Boundary::area)
+/// Finds the boundaries of the spots that stand alone.
+fn locate(hierarchy: &Hierarchy, solution: &Solution, spots: &mut [Spot]) {
+    let (grid, texture) = (hierarchy.grid(), hierarchy.texture());
+    let reduced = grid.cell().reduced();
+    // Samples that a fit can reach: out to twice the counted radius.
+    let reach: Vec<f64> = spots
+        .iter()
+        .map(|spot| if spot.merged || spot.counted == 0.0 { 0.0 } else { 2.0 * (spot.counted / PI).sqrt() })
+        .collect();
+    let mut samples: Vec<Vec<Polar>> = vec![Vec::new(); spots.len()];
+    for (index, &owner) in texture.owner.iter().enumerate() {
+        let reach = reach[owner as usize];
+        if reach == 0.0 {
+            continue;
+        }
+        let [x, y] = texture.offset(grid, &reduced, owner, index);
+        let r = x.hypot(y);
+        if r < reach || solution.pressure[index] > 0.0 {
+            let opening = 0.75 * hierarchy.contact_modulus() * solution.gap[index];
+            samples[owner as usize].push(Polar { r, theta: y.atan2(x), p: solution.pressure[index], opening });
+        }
+    }
+    for (spot, samples) in spots.iter_mut().zip(&samples) {
+        if !samples.is_empty() {
+            spot.boundary = Boundary::locate(samples, grid.sample_area(), grid.spacing());
+        }
     }
 }
 

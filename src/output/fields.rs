@@ -80,7 +80,7 @@ impl Fields {
         archive.array("y", &[n1, n2], position(1))?;
         archive.array("mean_pressure", &[steps], self.mean_pressure.iter().copied())?;
         archive.array("penetration", &[steps], self.penetration.iter().copied())?;
-        let level = |index: usize| texture.owner.get(index).map_or(0, |o| texture.sites[o.site as usize].level as i32);
+        let level = |index: usize| texture.owner.get(index).map_or(0, |&o| texture.sites[o as usize].level as i32);
         archive.array("owner", &[n1, n2], (0..grid.len()).map(level))?;
         for name in NAMES {
             let mut failure = None;
@@ -90,7 +90,7 @@ impl Fields {
                     Vec::new()
                 })
             });
-            archive.array(name, &[steps, n1, n2], values).or_else(|error| Err(failure.unwrap_or(error)))?;
+            archive.array(name, &[steps, n1, n2], values).map_err(|error| failure.unwrap_or(error))?;
         }
         archive.finish()
     }

@@ -37,6 +37,28 @@ pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(folder).map_err(|error| OutputError::new(folder, error))
 }
 
+/// What a run writes into its folder.
+const FILES: [&str; 5] = ["summary.json", "curve.csv", "case.toml", "contact.npz", "stress.npz"];
+
+/// Removes what an earlier run left in `folder` and this one has not made yet: its files, and temporary ones if it
+/// was killed while it wrote one.
+///
+/// # Errors
+/// [`OutputError`] with the path that cannot be read or removed.
+pub fn clear(folder: &Path) -> Result<(), OutputError> {
+    let entries = fs::read_dir(folder).map_err(|error| OutputError::new(folder, error))?;
+    for entry in entries {
+        let path = entry.map_err(|error| OutputError::new(folder, error))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = FILES.iter().any(|file| name.starts_with(&format!(".{file}."))) && name.ends_with(".tmp");
+        // The case may be the one that is running.
+        if temporary || (name != "case.toml" && FILES.contains(&&*name)) {
+            fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;
+        }
+    }
+    Ok(())
+}
+
 /// Writes a file under a temporary name in its folder, then renames it: it is there whole or not at all.
 ///
 /// # Errors

@@ -1,6 +1,7 @@
 //! The result table a person reads.
 
 use super::summary::Step;
+use crate::number::number;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Up to this many steps every level gets a row of its own.
@@ -87,27 +88,6 @@ pub fn render(header: &[String], rows: &[Vec<String>]) -> String {
     lines.join("\n")
 }
 
-/// Five significant digits, plain where that is short.
-pub fn number(x: f64) -> String {
-    let magnitude = if x == 0.0 { 0 } else { x.abs().log10().floor() as i32 };
-    if (-3..6).contains(&magnitude) {
-        format!("{x:.*}", usize::try_from(4 - magnitude).unwrap_or(0))
-    } else {
-        format!("{x:.4e}")
-    }
-}
-
 fn percent(x: f64) -> String {
     format!("{:.2} %", 100.0 * x)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_five_digits() {
-        let texts = [0.42169, 1.5e-7, 210e9, 12345.6, 0.0].map(number);
-        assert_eq!(texts, ["0.42169", "1.5000e-7", "2.1000e11", "12346", "0.0000"]);
-    }
 }

@@ -2,7 +2,7 @@
 //!
 //! It is the minimum of ½⟨p, Cp⟩ + ⟨p, f⟩ over p ≥ 0 with a given mean (load control), or of ½⟨p, Cp⟩ + ⟨p, f − δ⟩ over
 //! p ≥ 0 with a given δ (displacement control). Two conjugate-gradient methods are offered,
-//! [`preconditioned`] and [`polonsky_keer`]; what they return is judged by the [`certificate`] of the pressure alone.
+//! `preconditioned` and `polonsky_keer`; what they return is judged by the [`certificate`] of the pressure alone.
 //!
 //! **Stopping.** ε = Σ p|g| / (δ Σp) < tolerance and the deepest penetration outside contact < 10 tolerance · δ, where δ is the
 //! penetration below first touch, the scale of the deformation: dimensionless, so the unit of length does not

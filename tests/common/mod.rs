@@ -108,7 +108,7 @@ pub fn solve_with(
 ) -> (Hierarchy, Solution, Observables) {
     let mut hierarchy = Hierarchy::new(surface, half_space, points, settings).unwrap();
     let solution = hierarchy.solve(control, &mut |_| ());
-    let observables = observe(hierarchy.grid(), hierarchy.texture(), &solution);
+    let observables = observe(&hierarchy, &solution);
     (hierarchy, solution, observables)
 }
 

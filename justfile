@@ -1,0 +1,24 @@
+# All tests.
+test:
+    cargo test --locked
+
+# Everything that runs before a change is accepted.
+ci:
+    .ci/run
+
+# Solve a case: a file, an embedded name, or nothing for the default.
+solve *arguments:
+    cargo run --release --locked -- solve {{arguments}}
+
+# The library's documentation.
+doc:
+    cargo doc --no-deps --locked --open
+
+# Formatting and lints.
+lint:
+    cargo fmt --check
+    cargo clippy --all-targets --locked -- -D warnings
+
+# Compute the multiprecision reference of the kernel again (needs mpmath).
+kernel-reference:
+    python3 validation/kernel/generate.py

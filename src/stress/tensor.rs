@@ -1,0 +1,156 @@
+//! The state at one point: stress tensor and displacement, and what is derived from them.
+
+use std::fmt;
+
+/// Stress (positive in tension, a pressure) and displacement (a length; u_z into the body) at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct State {
+    /// σ_xx.
+    pub xx: f64,
+    /// σ_yy.
+    pub yy: f64,
+    /// σ_zz.
+    pub zz: f64,
+    /// σ_xy.
+    pub xy: f64,
+    /// σ_xz.
+    pub xz: f64,
+    /// σ_yz.
+    pub yz: f64,
+    /// u_x, u_y, u_z.
+    pub displacement: [f64; 3],
+}
+
+impl State {
+    /// From xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
+    pub fn from_components([xx, yy, zz, xy, xz, yz, ux, uy, uz]: [f64; 9]) -> Self {
+        Self { xx, yy, zz, xy, xz, yz, displacement: [ux, uy, uz] }
+    }
+
+    /// xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
+    pub fn components(&self) -> [f64; 9] {
+        let [ux, uy, uz] = self.displacement;
+        [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz, ux, uy, uz]
+    }
+
+    /// Principal stresses σ₁ ≥ σ₂ ≥ σ₃.
+    ///
+    /// Eigenvalues of the deviator by the trigonometric solution of its characteristic equation
+    /// s³ − J₂s − J₃ = 0: s_k = 2√(J₂/3) cos(θ − 2πk/3), cos 3θ = (J₃/2)(3/J₂)^{3/2}.
+    pub fn principal(&self) -> [f64; 3] {
+        let mean = (self.xx + self.yy + self.zz) / 3.0;
+        let (a, b, c) = (self.xx - mean, self.yy - mean, self.zz - mean);
+        let (xy, xz, yz) = (self.xy, self.xz, self.yz);
+        let j2 = 0.5 * (a * a + b * b + c * c) + xy * xy + xz * xz + yz * yz;
+        if j2 == 0.0 {
+            return [mean; 3];
+        }
+        let j3 = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+        let radius = (j2 / 3.0).sqrt();
+        let angle = (0.5 * j3 / (radius * radius * radius)).clamp(-1.0, 1.0).acos() / 3.0;
+        let third = std::f64::consts::TAU / 3.0;
+        let first = 2.0 * radius * angle.cos();
+        let last = 2.0 * radius * (angle + third).cos();
+        [mean + first, mean - first - last, mean + last]
+    }
+
+    /// Principal shear stress τ₁ = (σ₁ − σ₃)/2.
+    pub fn tau1(&self) -> f64 {
+        let [first, _, last] = self.principal();
+        0.5 * (first - last)
+    }
+
+    /// Largest tension σ₁.
+    pub fn s1(&self) -> f64 {
+        self.principal()[0]
+    }
+
+    /// Unit vector along which σ₁ acts, its first non-zero component positive.
+    pub fn s1_direction(&self) -> [f64; 3] {
+        let s = self.s1();
+        let rows = [[self.xx - s, self.xy, self.xz], [self.xy, self.yy - s, self.yz], [self.xz, self.yz, self.zz - s]];
+        // The direction is normal to all rows; the longest cross product of two of them is the safest.
+        let cross = |u: [f64; 3], v: [f64; 3]| {
+            [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+        };
+        let square = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
+        let normals = [cross(rows[0], rows[1]), cross(rows[1], rows[2]), cross(rows[2], rows[0])];
+        let longest = normals.into_iter().max_by(|u, v| square(u).total_cmp(&square(v))).unwrap_or_default();
+        let scale: f64 = rows.iter().map(square).sum();
+        let vector = if square(&longest) > 1e-24 * scale * scale {
+            longest
+        } else {
+            // σ₁ is double: any direction normal to the one independent row.
+            let row = rows.into_iter().max_by(|u, v| square(u).total_cmp(&square(v))).unwrap_or_default();
+            let axis = if row[0].abs() < row[1].abs() { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+            if square(&row) > 0.0 { cross(row, axis) } else { [1.0, 0.0, 0.0] }
+        };
+        let length = square(&vector).sqrt();
+        let sign = vector.iter().find(|x| x.abs() > 1e-12 * length).map_or(1.0, |x| x.signum());
+        vector.map(|x| sign * x / length)
+    }
+
+    /// Von Mises stress √(3J₂).
+    pub fn mises(&self) -> f64 {
+        let (a, b, c) = (self.xx - self.yy, self.yy - self.zz, self.zz - self.xx);
+        let shear = self.xy * self.xy + self.xz * self.xz + self.yz * self.yz;
+        (0.5 * (a * a + b * b + c * c) + 3.0 * shear).sqrt()
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "σ xx {:.5e}, yy {:.5e}, zz {:.5e}, xy {:.5e}, xz {:.5e}, yz {:.5e}; τ₁ {:.5e}, σ₁ {:.5e}",
+            self.xx,
+            self.yy,
+            self.zz,
+            self.xy,
+            self.xz,
+            self.yz,
+            self.tau1(),
+            self.s1()
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn principal_stresses_of_a_rotated_tensor_are_its_eigenvalues() {
+        // Eigenvalues 3, 1, −2 along a rotated orthonormal frame.
+        let (s, c) = (0.6f64, 0.8f64);
+        let frame = [[c, s, 0.0], [-s * c, c * c, s], [s * s, -s * c, c]];
+        let values = [3.0, 1.0, -2.0];
+        let entry = |i: usize, j: usize| (0..3).map(|k| values[k] * frame[k][i] * frame[k][j]).sum::<f64>();
+        let state = State {
+            xx: entry(0, 0),
+            yy: entry(1, 1),
+            zz: entry(2, 2),
+            xy: entry(0, 1),
+            xz: entry(0, 2),
+            yz: entry(1, 2),
+            ..State::default()
+        };
+        for (found, expected) in state.principal().iter().zip(values) {
+            assert!((found - expected).abs() < 1e-14);
+        }
+        assert!((state.tau1() - 2.5).abs() < 1e-14);
+        assert!((state.mises() - 19f64.sqrt()).abs() < 1e-13);
+        let direction = state.s1_direction();
+        assert!((0..3).all(|i| (direction[i] - frame[0][i]).abs() < 1e-13));
+    }
+
+    #[test]
+    fn double_and_triple_principal_stresses_have_directions_of_length_one() {
+        let double = State { xx: 2.0, yy: 2.0, zz: -1.0, ..State::default() };
+        let d = double.s1_direction();
+        assert!(d[2].abs() < 1e-14 && (d[0].hypot(d[1]) - 1.0).abs() < 1e-14);
+        let triple = State { xx: -1.0, yy: -1.0, zz: -1.0, ..State::default() };
+        assert_eq!(triple.principal(), [-1.0; 3]);
+        assert_eq!(triple.s1_direction(), [1.0, 0.0, 0.0]);
+    }
+}

@@ -1,0 +1,22 @@
+//! `percoat` from outside: what a person types, reads and finds in the output folder.
+
+#[path = "command_line/archive.rs"]
+mod archive;
+#[path = "command_line/cases.rs"]
+mod cases;
+#[path = "command_line/exit_codes.rs"]
+mod exit_codes;
+#[path = "command_line/folder.rs"]
+mod folder;
+#[path = "command_line/inspection.rs"]
+mod inspection;
+#[path = "command_line/interruption.rs"]
+mod interruption;
+#[path = "command_line/numpy.rs"]
+mod numpy;
+#[path = "command_line/program.rs"]
+mod program;
+#[path = "command_line/solve.rs"]
+mod solve;
+#[path = "command_line/topography.rs"]
+mod topography;

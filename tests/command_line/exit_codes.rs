@@ -1,0 +1,86 @@
+//! Exit codes 2, 3 and 4, what is said and what is written.
+
+use crate::program::{Desk, Folder};
+use std::collections::BTreeSet;
+
+#[test]
+fn a_misspelt_key_is_refused_with_its_place_and_a_suggestion() {
+    let desk = Desk::new();
+    let text = desk.percoat(&["cases", "fig2"]).out.replace("thickness", "thicknes");
+    let line = 1 + text.lines().position(|line| line.starts_with("thicknes")).unwrap();
+    desk.write("mine.toml", text);
+    desk.percoat(&["solve", "mine.toml"])
+        .complains(2, &[&format!("mine.toml:{line}:1"), "`layers[0].thicknes`", "did you mean `thickness`?"]);
+    assert_eq!(desk.names(), BTreeSet::from(["mine.toml".to_owned()]), "something is written");
+}
+
+#[test]
+fn a_misspelt_override_is_refused_with_a_suggestion() {
+    let desk = Desk::new();
+    desk.percoat(&["solve", "--set", "load.men_pressure=1"]).complains(2, &["--set", "did you mean `mean_pressure`?"]);
+    assert!(desk.names().is_empty());
+}
+
+#[test]
+fn what_the_command_line_does_not_know_is_refused() {
+    let desk = Desk::new();
+    desk.percoat(&["solve", "--ouput", "x"]).complains(2, &["--ouput", "--output"]);
+    desk.percoat(&["slove"]).complains(2, &["slove", "solve"]);
+    desk.percoat(&["solve", "fig9"]).complains(2, &["fig9", "fig2", "tin-on-steel"]);
+    desk.percoat(&["cases", "fig9"]).complains(2, &["fig9", "fig2", "tin-on-steel"]);
+    desk.percoat(&["solve", "--quiet", "--verbose"]).complains(2, &["--quiet", "--verbose"]);
+    desk.percoat(&["solve", "--threads", "0"]).complains(2, &["--threads"]);
+    desk.percoat(&[]).complains(2, &["Usage"]);
+    assert!(desk.names().is_empty(), "{:?} is written", desk.names());
+}
+
+#[test]
+fn a_penetration_beyond_full_contact_is_refused() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["solve", "--set", "grid.points=64", "--set", "load.penetration=[0.01, 0.2]"]);
+    answer.complains(2, &["load.penetration", "0.2", "complete"]);
+    assert!(desk.names().is_empty(), "{:?} is written", desk.names());
+}
+
+#[test]
+fn too_few_iterations_are_told_and_what_is_there_is_written() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["solve", "-o", "short", "--set", "grid.points=64", "--set", "solver.max_iterations=2"]);
+    answer.complains(3, &["warning: not converged: step 1"]);
+    assert!(answer.out.contains("0 of 1 load steps converged"), "{}", answer.out);
+    let short = Folder(desk.path("short"));
+    let steps = short.steps();
+    assert_eq!((&steps[0]["converged"], &steps[0]["stop_reason"]), (&false.into(), &"iteration limit".into()));
+    assert_eq!(short.summary()["complete"], true);
+    assert_eq!(short.contact().field("pressure").shape, [1, 64, 64]);
+    assert_eq!(short.text("curve.csv").lines().count(), 2);
+    assert!(!short.names().contains("contact.partial"));
+}
+
+#[test]
+fn a_case_file_that_cannot_be_read_is_an_input_failure() {
+    let desk = Desk::new();
+    desk.percoat(&["solve", "absent.toml"]).complains(4, &["absent.toml"]);
+    desk.percoat(&["check", "absent.toml"]).complains(4, &["absent.toml"]);
+    assert!(desk.names().is_empty());
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_an_output_failure() {
+    let desk = Desk::new();
+    desk.write("taken", "a file");
+    for folder in ["taken", "taken/below"] {
+        desk.percoat(&["solve", "--set", "grid.points=48", "-o", folder]).complains(4, &["cannot write", folder]);
+    }
+    assert_eq!(desk.names(), BTreeSet::from(["taken".to_owned()]));
+}
+
+#[test]
+fn a_folder_with_the_name_of_an_embedded_case_does_not_hide_it() {
+    let desk = Desk::new();
+    desk.solve("fig2", &["--set", "grid.points=48"]);
+    desk.solve("fig2", &["--set", "grid.points=48"]);
+    desk.solve("again", &["fig2", "--set", "grid.points=48"]);
+    desk.write("fig3a", "no case");
+    desk.percoat(&["solve", "fig3a"]).complains(2, &["fig3a:1"]);
+}

@@ -1,0 +1,242 @@
+//! The output folder: which files, which keys, and that they agree with one another.
+
+use crate::program::{Desk, Folder, assert_close, number};
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+const FILES: [&str; 4] = ["case.toml", "contact.npz", "curve.csv", "summary.json"];
+
+/// The default case in two steps on a grid that has a sample at each apex.
+fn two_steps(desk: &Desk) -> Folder {
+    desk.solve("two", &["--set", "grid.points=48", "--set", "load.mean_pressure=[0.02, 0.06]"])
+}
+
+/// Whether the folder holds the files of a finished run, and beside them at most pictures.
+fn assert_finished(folder: &Folder) {
+    let files: BTreeSet<String> = folder.names().into_iter().filter(|name| !name.ends_with(".png")).collect();
+    assert_eq!(files, FILES.map(str::to_owned).into());
+}
+
+fn assert_keys(value: &Value, keys: &[&str]) {
+    for key in keys {
+        assert!(value.get(key).is_some(), "no `{key}` in {value}");
+    }
+}
+
+#[test]
+fn a_finished_run_leaves_its_files_and_nothing_temporary() {
+    assert_finished(&two_steps(&Desk::new()));
+}
+
+#[test]
+fn a_second_run_replaces_the_first() {
+    let desk = Desk::new();
+    two_steps(&desk);
+    let again = desk.solve("two", &["--set", "grid.points=64", "--set", "load.mean_pressure=0.03"]);
+    let fresh = desk.solve("fresh", &["--set", "grid.points=64", "--set", "load.mean_pressure=0.03"]);
+    assert_finished(&again);
+    for name in FILES {
+        assert!(again.bytes(name) == fresh.bytes(name), "{name} is not that of the second run");
+    }
+}
+
+#[test]
+fn the_summary_has_the_keys_of_the_interface() {
+    let summary = two_steps(&Desk::new()).summary();
+    assert_keys(&summary, &["percoat", "title", "case", "steps"]);
+    assert_eq!(summary["percoat"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(summary["complete"], true);
+    assert_keys(&summary["case"], &["title", "lattice", "levels", "layers", "substrate", "load", "grid", "solver"]);
+    let steps = summary["steps"].as_array().unwrap();
+    assert_eq!(steps.len(), 2);
+    for step in steps {
+        #[rustfmt::skip]
+        assert_keys(step, &[
+            "mean_pressure", "penetration", "additional_displacement", "contact_fraction", "converged", "stop_reason",
+            "iterations", "convolutions", "residual", "certificate", "points", "levels",
+        ]);
+        assert_keys(&step["certificate"], &["energy_gap", "penetration", "load"]);
+        assert_eq!((&step["converged"], &step["stop_reason"]), (&true.into(), &"converged".into()));
+        assert!(number(step, "/residual") < 1e-8);
+        assert_eq!(step["points"], serde_json::json!([48, 48]));
+        let levels = step["levels"].as_array().unwrap();
+        assert_eq!(levels.len(), 3);
+        for (index, level) in (1..).zip(levels) {
+            #[rustfmt::skip]
+            assert_keys(level, &[
+                "level", "load", "load_share", "max_pressure", "contact_area", "contact_radius", "radius_min",
+                "radius_max", "asymmetry",
+            ]);
+            assert_eq!(level["level"], index);
+        }
+    }
+}
+
+#[test]
+fn loads_areas_and_radii_of_the_levels_are_consistent() {
+    let desk = Desk::new();
+    let folder = two_steps(&desk);
+    let cell = 1.5 * 3f64.sqrt();
+    for step in folder.steps() {
+        let levels = step["levels"].as_array().unwrap();
+        let sum = |key: &str| levels.iter().map(|level| number(level, key)).sum::<f64>();
+        assert_close(sum("/load_share"), 1.0, 1e-12);
+        assert_close(sum("/load"), number(&step, "/mean_pressure") * cell, 1e-12);
+        assert_close(sum("/contact_area"), number(&step, "/contact_fraction") * cell, 1e-12);
+        let peak = levels.iter().map(|level| number(level, "/max_pressure")).fold(0.0, f64::max);
+        assert_eq!(peak, number(&step, "/max_pressure"));
+        for level in levels {
+            assert_close(
+                number(level, "/contact_radius").powi(2) * std::f64::consts::PI,
+                number(level, "/contact_area"),
+                1e-12,
+            );
+        }
+    }
+}
+
+#[test]
+fn the_fields_have_their_shapes() {
+    let desk = Desk::new();
+    let mut contact = two_steps(&desk).contact();
+    #[rustfmt::skip]
+    let shapes: [(&str, &[usize]); 9] = [
+        ("a1", &[2]), ("a2", &[2]), ("x", &[48, 48]), ("y", &[48, 48]), ("mean_pressure", &[2]), ("penetration", &[2]),
+        ("pressure", &[2, 48, 48]), ("displacement", &[2, 48, 48]), ("gap", &[2, 48, 48]),
+    ];
+    for (name, shape) in shapes {
+        assert_eq!(contact.field(name).shape, shape, "{name}");
+    }
+    assert_eq!(contact.array::<i32>("owner").shape, [48, 48]);
+    assert_eq!(contact.names().len(), shapes.len() + 1);
+}
+
+#[test]
+fn samples_stand_where_the_cell_vectors_put_them() {
+    let desk = Desk::new();
+    let mut contact = two_steps(&desk).contact();
+    let (a1, a2) = (contact.field("a1").values, contact.field("a2").values);
+    for (axis, name) in ["x", "y"].into_iter().enumerate() {
+        for (index, here) in contact.field(name).values.into_iter().enumerate() {
+            let (s, t) = ((index / 48) as f64 / 48.0, (index % 48) as f64 / 48.0);
+            assert!((here - (s * a1[axis] + t * a2[axis])).abs() < 1e-12, "{name}[{}, {}]", index / 48, index % 48);
+        }
+    }
+}
+
+#[test]
+fn the_fields_are_in_equilibrium_and_complementary() {
+    let desk = Desk::new();
+    let folder = two_steps(&desk);
+    let mut contact = folder.contact();
+    let [pressure, displacement, gap] = ["pressure", "displacement", "gap"].map(|name| contact.field(name).values);
+    let [loads, penetrations] = ["mean_pressure", "penetration"].map(|name| contact.field(name).values);
+    let samples = 48 * 48;
+    for (index, step) in folder.steps().iter().enumerate() {
+        assert_eq!(loads[index], number(step, "/mean_pressure"));
+        assert_eq!(penetrations[index], number(step, "/penetration"));
+        let of_step = |field: &'_ [f64]| field[index * samples..(index + 1) * samples].to_vec();
+        let (p, w, g) = (of_step(&pressure), of_step(&displacement), of_step(&gap));
+        let mean = p.iter().sum::<f64>() / samples as f64;
+        assert_close(mean, [0.02, 0.06][index], 1e-12);
+        assert!(p.iter().all(|&p| p >= 0.0));
+        assert!(w.iter().sum::<f64>().abs() / (samples as f64) < 1e-12, "displacements have zero mean");
+        let complementarity = p.iter().zip(&g).map(|(p, g)| p * g.abs()).sum::<f64>();
+        assert!(complementarity < 1e-8 * penetrations[index] * mean * samples as f64, "Σ p|g| = {complementarity:e}");
+        let deepest = g.iter().zip(&p).filter(|(_, p)| **p == 0.0).map(|(g, _)| -g).fold(0.0, f64::max);
+        assert!(deepest < 1e-7 * penetrations[index], "the bodies overlap by {deepest:e}");
+        let touching = p.iter().filter(|p| **p > 0.0).count() as f64 / samples as f64;
+        assert!((touching - number(step, "/contact_fraction")).abs() < 0.02);
+    }
+}
+
+/// The slow twin of the program's texture: every image of every indenter.
+#[test]
+fn gap_is_displacement_plus_shape_less_penetration() {
+    let desk = Desk::new();
+    let folder = two_steps(&desk);
+    let mut contact = folder.contact();
+    let [x, y, a1, a2] = ["x", "y", "a1", "a2"].map(|name| contact.field(name).values);
+    let [displacement, gap, penetration] =
+        ["displacement", "gap", "penetration"].map(|name| contact.field(name).values);
+    let owner: Vec<i32> = contact.array("owner").values;
+    assert_eq!(owner.iter().copied().collect::<BTreeSet<i32>>(), BTreeSet::from([1, 2, 3]));
+
+    let shape = |step: usize, i: usize| gap[step * 48 * 48 + i] - displacement[step * 48 * 48 + i] + penetration[step];
+    // Paraboloids of radius 0.8 whose apexes lie 0, 0.01 and 0.02 below the highest one.
+    let (radius, drops) = (0.8, [0.0, 0.01, 0.02]);
+    let apexes: Vec<usize> = (1..=3)
+        .map(|level| {
+            let own = (0..48 * 48).filter(|&i| owner[i] == level);
+            own.min_by(|&a, &b| shape(0, a).total_cmp(&shape(0, b))).unwrap()
+        })
+        .collect();
+    for index in 0..48 * 48 {
+        let heights = (0..3).map(|level| {
+            let apart = [x[index] - x[apexes[level]], y[index] - y[apexes[level]]];
+            let square = (-2..=2)
+                .flat_map(|m| (-2..=2).map(move |n| [f64::from(m), f64::from(n)]))
+                .map(|[m, n]| [0, 1].map(|axis| apart[axis] - m * a1[axis] - n * a2[axis]))
+                .map(|[x, y]| x * x + y * y)
+                .fold(f64::INFINITY, f64::min);
+            (level, square / (2.0 * radius) + drops[level])
+        });
+        let (level, least) = heights.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+        for step in 0..2 {
+            assert!((shape(step, index) - least).abs() < 1e-12, "sample {index}: {} ≠ {least}", shape(step, index));
+        }
+        let facing = owner[index] as usize - 1;
+        // On a border between two levels either may be the owner.
+        let border = facing != level && shape(0, index) - least > -1e-12;
+        assert!(facing == level || border, "sample {index} faces level {}", level + 1);
+    }
+}
+
+#[test]
+fn the_curve_has_a_row_a_step_and_a_column_a_scalar() {
+    let desk = Desk::new();
+    let folder = two_steps(&desk);
+    let text = folder.text("curve.csv");
+    let mut rows = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let names = rows.next().unwrap();
+    let rows: Vec<Vec<&str>> = rows.collect();
+    let steps = folder.steps();
+    assert_eq!(rows.len(), steps.len());
+    for (row, step) in rows.iter().zip(&steps) {
+        assert_eq!(row.len(), names.len());
+        let scalars = scalars(step, "");
+        assert_eq!(scalars.len(), names.len());
+        for (name, value) in scalars {
+            let column = names.iter().position(|known| *known == name);
+            let cell = row[column.unwrap_or_else(|| panic!("no column {name}"))];
+            match value {
+                Value::Number(value) => assert_eq!(cell.parse(), Ok(value.as_f64().unwrap()), "{name}"),
+                Value::String(value) => assert_eq!(cell, value, "{name}"),
+                Value::Null => assert_eq!(cell, "", "{name}"),
+                value => assert_eq!(cell, value.to_string(), "{name}"),
+            }
+        }
+    }
+}
+
+/// Every scalar of a step with its dotted name, items of lists counted from 1.
+fn scalars(value: &Value, name: &str) -> Vec<(String, Value)> {
+    let dotted = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") };
+    match value {
+        Value::Object(map) => map.iter().flat_map(|(key, value)| scalars(value, &dotted(key))).collect(),
+        Value::Array(items) => {
+            (1..).zip(items).flat_map(|(item, value): (usize, _)| scalars(value, &dotted(&item.to_string()))).collect()
+        }
+        scalar => vec![(name.to_owned(), scalar.clone())],
+    }
+}
+
+#[test]
+fn the_case_as_run_runs_again_to_the_same_numbers() {
+    let desk = Desk::new();
+    let first = two_steps(&desk);
+    let again = desk.solve("again", &["two/case.toml"]);
+    for name in FILES {
+        assert!(first.bytes(name) == again.bytes(name), "{name} differs");
+    }
+}

@@ -1,0 +1,99 @@
+//! `percoat check` and `percoat kernel`: a look at a case without solving it.
+
+use crate::program::{Desk, assert_close, number};
+use serde_json::Value;
+
+#[test]
+fn check_says_what_a_case_means_and_writes_nothing() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["check", "fig5"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let words = [
+        "Fig. 5",
+        "cell",
+        "a₁",
+        "a₂",
+        "level 3",
+        "layer 1",
+        "χ 3",
+        "substrate",
+        "grid 512 × 512",
+        "memory: about",
+        "MiB",
+        "40 steps",
+        "first touch",
+    ];
+    for word in words {
+        assert!(answer.out.contains(word), "\"{word}\" does not stand in\n{}", answer.out);
+    }
+    assert!(desk.names().is_empty(), "check wrote {:?}", desk.names());
+}
+
+/// The loads that the comments of `fig5.toml` give from a grid of 1024 points.
+#[test]
+fn check_finds_the_loads_of_first_touch() {
+    let answer = Desk::new().percoat(&["check", "fig5"]);
+    let touch = |level: usize| -> f64 {
+        let mark = format!("  level {level}: ");
+        answer.out.lines().find_map(|line| line.strip_prefix(&mark)).unwrap().parse().unwrap()
+    };
+    assert_eq!(touch(1), 0.0);
+    assert_close(touch(2), 0.0179, 0.02);
+    assert_close(touch(3), 0.0759, 0.02);
+}
+
+#[test]
+fn check_heeds_overrides_and_refuses_what_solve_refuses() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["check", "fig2", "--set", "grid.points=64", "--set", "layers.0.shear_ratio=7"]);
+    assert!(answer.out.contains("grid 64 × 64") && answer.out.contains("χ 7"), "{}", answer.out);
+    desk.percoat(&["check", "fig2", "--set", "layers.0.thicknes=1"]).complains(2, &["thickness"]);
+    desk.percoat(&["check"]).complains(2, &["CASE"]);
+}
+
+fn lines(arguments: &[&str]) -> Vec<Value> {
+    let desk = Desk::new();
+    let answer = desk.percoat(&[&["kernel"], arguments].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(desk.names().is_empty(), "kernel wrote {:?}", desk.names());
+    answer.out.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn kernel_prints_one_json_line_a_wavenumber() {
+    let lines = lines(&["--wavenumber", "1e-3,1,1e3"]);
+    let wavenumbers: Vec<f64> = lines.iter().map(|line| number(line, "/wavenumber")).collect();
+    assert_eq!(wavenumbers, [1e-3, 1.0, 1e3]);
+    assert!(lines.iter().all(|line| line.get("depths").is_none()));
+    // Long waves feel the substrate alone, 2(1 − ν²)/(E q); short ones the coating, (1 − ν)/(G q).
+    assert_close(number(&lines[0], "/compliance"), 2.0 * (1.0 - 0.09) / 1e-3, 1e-3);
+    let shear = 2.0 / 2.6;
+    assert_close(number(&lines[2], "/compliance"), (1.0 - 0.2) / (shear * 1e3), 1e-9);
+}
+
+#[test]
+fn kernel_gives_both_sides_of_an_interface() {
+    let lines = lines(&["fig2", "--wavenumber", "2", "--depth", "0,0.25,0.5,1"]);
+    let depths = lines[0]["depths"].as_array().unwrap();
+    let places: Vec<(f64, u64)> = depths.iter().map(|at| (number(at, "/z"), at["side"].as_u64().unwrap())).collect();
+    assert_eq!(places, [(0.0, 1), (0.25, 1), (0.5, 1), (0.5, 2), (1.0, 2)]);
+    let (above, below) = (&depths[2], &depths[3]);
+    for name in ["/szz", "/sqz", "/uz", "/uq"] {
+        assert_close(number(above, name), number(below, name), 1e-12);
+    }
+    for name in ["/sqq", "/stt"] {
+        assert!((number(above, name) - number(below, name)).abs() > 1e-3, "{name} jumps between two materials");
+    }
+    assert_eq!((number(&depths[0], "/szz"), number(&depths[0], "/sqz")), (-1.0, 0.0));
+    assert_close(number(&depths[0], "/uz"), number(&lines[0], "/compliance"), 1e-12);
+}
+
+#[test]
+fn kernel_refuses_wavenumbers_that_are_not_positive() {
+    let desk = Desk::new();
+    for wavenumber in ["0", "-1", "1,0", "nan", "inf", "one", ""] {
+        desk.percoat(&["kernel", &format!("--wavenumber={wavenumber}")]).complains(2, &["--wavenumber"]);
+    }
+    desk.percoat(&["kernel"]).complains(2, &["--wavenumber"]);
+    desk.percoat(&["kernel", "--wavenumber=1", "--depth=-1"]).complains(2, &["--depth", "not less than 0"]);
+}

@@ -1,0 +1,109 @@
+//! The program in a temporary folder of its own.
+
+use crate::archive::Archive;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A temporary folder in which commands run.
+pub struct Desk(TempDir);
+
+/// How a command ended and what it said.
+pub struct Answer {
+    pub code: i32,
+    pub out: String,
+    pub err: String,
+}
+
+/// An output folder.
+pub struct Folder(pub PathBuf);
+
+impl Desk {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+        fs::write(self.path(name), content).unwrap();
+    }
+
+    /// Names of the files and folders on the desk.
+    pub fn names(&self) -> BTreeSet<String> {
+        names(self.0.path())
+    }
+
+    /// Runs `percoat` with `arguments`.
+    pub fn percoat(&self, arguments: &[&str]) -> Answer {
+        let output =
+            assert_cmd::cargo::cargo_bin_cmd!("percoat").args(arguments).current_dir(self.0.path()).output().unwrap();
+        Answer {
+            code: output.status.code().unwrap(),
+            out: String::from_utf8(output.stdout).unwrap(),
+            err: String::from_utf8(output.stderr).unwrap(),
+        }
+    }
+
+    /// `percoat solve` with `arguments` into the folder `name`; it must converge.
+    pub fn solve(&self, name: &str, arguments: &[&str]) -> Folder {
+        let answer = self.percoat(&[&["solve", "--output", name], arguments].concat());
+        assert_eq!(answer.code, 0, "{arguments:?}: {}", answer.err);
+        Folder(self.path(name))
+    }
+}
+
+impl Answer {
+    /// The command was refused or failed with `code`, and says each of `words`.
+    pub fn complains(&self, code: i32, words: &[&str]) {
+        assert_eq!(self.code, code, "{}", self.err);
+        for word in words {
+            assert!(self.err.contains(word), "\"{word}\" does not stand in\n{}", self.err);
+        }
+    }
+}
+
+impl Folder {
+    pub fn names(&self) -> BTreeSet<String> {
+        names(&self.0)
+    }
+
+    pub fn text(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).unwrap()
+    }
+
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.0.join(name)).unwrap()
+    }
+
+    pub fn summary(&self) -> Value {
+        serde_json::from_str(&self.text("summary.json")).unwrap()
+    }
+
+    /// The load steps of the summary.
+    pub fn steps(&self) -> Vec<Value> {
+        self.summary()["steps"].as_array().unwrap().clone()
+    }
+
+    pub fn contact(&self) -> Archive {
+        Archive::open(&self.0.join("contact.npz"))
+    }
+}
+
+/// The number at a JSON pointer.
+pub fn number(value: &Value, pointer: &str) -> f64 {
+    value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("no number at {pointer} in {value}"))
+}
+
+/// Asserts that `a` and `b` agree to the relative `tolerance`.
+pub fn assert_close(a: f64, b: f64, tolerance: f64) {
+    assert!((a - b).abs() <= tolerance * b.abs(), "{a} and {b} differ by {:e}", (a - b).abs() / b.abs());
+}
+
+fn names(folder: &Path) -> BTreeSet<String> {
+    fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}

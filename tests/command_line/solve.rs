@@ -1,0 +1,102 @@
+//! `percoat solve`: the table, the load steps, and what must not change the answer.
+
+use crate::program::{Desk, assert_close, number};
+
+#[test]
+fn without_a_case_the_default_is_solved_and_shown() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["solve", "--set", "grid.points=64"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    for words in
+        ["Fig. 2", "mean pressure", "penetration", "0.060000", "1 of 1 load steps converged on 64 × 64 samples"]
+    {
+        assert!(answer.out.contains(words), "\"{words}\" does not stand in\n{}", answer.out);
+    }
+    assert!(!answer.out.contains('\u{1b}') && !answer.err.contains('\u{1b}'), "escape sequences in a pipe");
+    assert!(desk.path("out/fig2/summary.json").is_file(), "the default folder is out/<case name>");
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["solve", "--quiet", "--set", "grid.points=64"]);
+    assert_eq!((answer.code, answer.out, answer.err), (0, String::new(), String::new()));
+    assert!(desk.path("out/fig2/contact.npz").is_file());
+}
+
+#[test]
+fn load_steps_solved_together_equal_those_solved_alone() {
+    let desk = Desk::new();
+    let loads = ["0.002", "0.02", "0.06"];
+    let together = desk.solve("all", &["--set", "grid.points=96", "--set", "load.mean_pressure=[0.002, 0.02, 0.06]"]);
+    let steps = together.steps();
+    assert_eq!(steps.len(), loads.len());
+    for (load, step) in loads.iter().zip(&steps) {
+        let alone =
+            desk.solve(load, &["--set", "grid.points=96", "--set", &format!("load.mean_pressure={load}")]).steps();
+        assert_close(number(step, "/mean_pressure"), load.parse().unwrap(), 1e-12);
+        assert_close(number(step, "/penetration"), number(&alone[0], "/penetration"), 1e-6);
+        for level in 0..3 {
+            let pointer = format!("/levels/{level}/load_share");
+            let apart = number(step, &pointer) - number(&alone[0], &pointer);
+            assert!(apart.abs() < 1e-5, "load {load}, level {}: shares differ by {apart:e}", level + 1);
+        }
+        assert_close(number(step, "/max_pressure"), number(&alone[0], "/max_pressure"), 1e-4);
+    }
+}
+
+#[test]
+fn the_penetration_of_a_load_brings_back_the_load() {
+    let desk = Desk::new();
+    let by_load = desk.solve("load", &["--set", "grid.points=96"]).steps();
+    let penetration = format!("load.penetration={:e}", number(&by_load[0], "/penetration"));
+    let by_penetration = desk.solve("penetration", &["--set", "grid.points=96", "--set", &penetration]).steps();
+    assert_close(number(&by_penetration[0], "/mean_pressure"), number(&by_load[0], "/mean_pressure"), 1e-5);
+    assert_close(number(&by_penetration[0], "/max_pressure"), number(&by_load[0], "/max_pressure"), 1e-4);
+}
+
+#[test]
+fn both_methods_give_the_same_answer() {
+    let desk = Desk::new();
+    let fast = desk.solve("fast", &["--set", "grid.points=64"]).steps();
+    let baseline = desk.solve("baseline", &["--set", "grid.points=64", "--set", "solver.method=polonsky-keer"]).steps();
+    assert_close(number(&fast[0], "/penetration"), number(&baseline[0], "/penetration"), 1e-6);
+    assert_close(number(&fast[0], "/max_pressure"), number(&baseline[0], "/max_pressure"), 1e-4);
+}
+
+#[test]
+fn an_accuracy_asked_for_is_reached_between_two_grids() {
+    let desk = Desk::new();
+    let asked = 1e-3;
+    let refined = desk.solve("refined", &["--set", &format!("grid.accuracy={asked}")]);
+    let reached = number(&refined.summary(), "/accuracy");
+    assert!(reached > 0.0 && reached < asked, "change {reached:e}");
+
+    let points = refined.steps()[0]["points"][0].as_u64().unwrap();
+    let coarser = desk.solve("coarser", &["--set", &format!("grid.points={}", points / 2)]).steps();
+    let finer = desk.solve("finer", &["--set", &format!("grid.points={points}")]);
+    assert!(finer.summary().get("accuracy").is_none(), "no accuracy without a second grid");
+    assert_eq!(finer.steps(), refined.steps());
+    for pointer in ["/max_pressure", "/penetration"] {
+        assert_close(number(&coarser[0], pointer), number(&refined.steps()[0], pointer), reached * (1.0 + 1e-9));
+    }
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_bit() {
+    let desk = Desk::new();
+    let settings = ["--set", "grid.points=192", "--set", "load.mean_pressure=[0.01, 0.06]"];
+    let one = desk.solve("one", &[&["--threads", "1"], &settings[..]].concat());
+    let two = desk.solve("two", &[&["--threads", "2"], &settings[..]].concat());
+    assert_eq!(one.names(), two.names());
+    for name in one.names() {
+        assert!(one.bytes(&name) == two.bytes(&name), "{name} depends on the number of threads");
+    }
+}
+
+#[test]
+fn no_load_is_no_contact() {
+    let step = &Desk::new().solve("none", &["--set", "grid.points=48", "--set", "load.mean_pressure=0"]).steps()[0];
+    assert_eq!((number(step, "/penetration"), number(step, "/contact_fraction")), (0.0, 0.0));
+    assert_eq!((&step["stop_reason"], &step["converged"]), (&"no contact".into(), &true.into()));
+}
