@@ -31,3 +31,9 @@ pub fn least(len: usize, term: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
 pub fn update<T: Copy + Send + Sync>(field: &mut [T], value: impl Fn(usize, T) -> T + Sync + Send) {
     field.par_iter_mut().with_min_len(BLOCK).enumerate().for_each(|(i, x)| *x = value(i, *x));
 }
+
+/// Mean of a field.
+pub fn mean(field: &[f64]) -> f64 {
+    let [sum] = sums(field.len(), |i| [field[i]]);
+    sum / field.len() as f64
+}

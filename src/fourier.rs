@@ -4,9 +4,9 @@
 //! 2. Per block of 8 columns: gather, forward, multiply by K, inverse. Nothing is transposed as a whole.
 //! 3. Rows back, complex to real.
 //!
-//! Work is split into a fixed number of contiguous parts, each with its own scratch, so that neither the number of threads
-//! nor their order reaches the result, and nothing is allocated per call. The factor 1/(N₁N₂) of the inverse transform
-//! stands in one place: [`Fourier::multiplier`] puts it into K.
+//! Work is split into a fixed number of contiguous parts, each with its own scratch, so that neither the number of
+//! threads nor their order reaches the result, and nothing is allocated per call. The factor 1/(N₁N₂) of the inverse
+//! transform stands in one place: [`Fourier::multiplier`] puts it into K.
 
 use rayon::prelude::*;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -175,10 +175,11 @@ impl Fourier {
         samples
     }
 
-    /// One row back; components that are their own conjugates are real, and what rounding leaves of their imaginary part is dropped.
+    /// One row back; components that are their own conjugates are real, and what rounding leaves of their imaginary
+    /// part is dropped.
     fn row_inverse_real(&self, row: &mut [Complex64], samples: &mut [f64], scratch: &mut [Complex64]) {
         row[0].im = 0.0;
-        if self.points[1] % 2 == 0 {
+        if self.points[1].is_multiple_of(2) {
             row[self.half() - 1].im = 0.0;
         }
         let done = self.row_inverse.process_with_scratch(row, samples, scratch);
@@ -246,6 +247,22 @@ impl fmt::Debug for Fourier {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Fourier").field("points", &self.points).finish_non_exhaustive()
     }
+}
+
+/// The least number ≥ `n` whose prime factors are 2, 3, 5 and 7, for which transforms are fast.
+pub fn fast_points(n: usize) -> usize {
+    (n.max(1)..).find(|&m| has_fast_factors(m)).unwrap_or(n)
+}
+
+/// Whether the prime factors of `n` are 2, 3, 5 and 7 only.
+pub fn has_fast_factors(n: usize) -> bool {
+    let mut rest = n;
+    for factor in [2, 3, 5, 7] {
+        while rest > 0 && rest.is_multiple_of(factor) {
+            rest /= factor;
+        }
+    }
+    rest == 1
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! The doubly periodic grid on a cell, and its wavevectors.
 //!
 //! Samples stand at x = (i/N₁) **a**₁ + (j/N₂) **a**₂, sample (0, 0) at the origin; fields are stored row by row, j
-//! (along **a**₂) fastest. The index (k₁, k₂) of a Fourier component means the wavevector k₁**b**₁ + k₂**b**₂ up to multiples of
-//! N₁**b**₁ and N₂**b**₂ (its aliases). The one of least length is taken: on an oblique cell the usual index range is a
-//! parallelogram that breaks the lattice's symmetry, the set of shortest aliases (the first Brillouin zone of the
-//! sampling lattice) keeps it.
+//! (along **a**₂) fastest. The index (k₁, k₂) of a Fourier component means the wavevector k₁**b**₁ + k₂**b**₂ up to
+//! multiples of N₁**b**₁ and N₂**b**₂ (its aliases). The one of least length is taken: on an oblique cell the usual
+//! index range is a parallelogram that breaks the lattice's symmetry, the set of shortest aliases (the first Brillouin
+//! zone of the sampling lattice) keeps it.
 
 use crate::lattice::{Cell, LatticeError, Reduced};
 use crate::number::number;
@@ -66,10 +66,11 @@ impl Grid {
         [a1.map(|x| x / n1), a2.map(|x| x / n2)]
     }
 
-    /// Longest distance between neighbouring samples along a₁ or a₂.
+    /// Distance between neighbouring samples: the longer side of the reduced cell of the samples.
     pub fn spacing(&self) -> f64 {
         let [e1, e2] = self.steps();
-        e1[0].hypot(e1[1]).max(e2[0].hypot(e2[1]))
+        // The samples' cell is a cell as the grid's is.
+        Cell::new(e1, e2).map_or(0.0, |cell| cell.reduced().longer_side())
     }
 
     /// Wavevector of the Fourier component (k₁, k₂), 0 ≤ kᵢ < Nᵢ: its shortest alias, 1/length.

@@ -1,10 +1,11 @@
 //! Nested grids: each load step is solved from the coarsest grid up, each solution starting the next finer one.
 //!
-//! Between load steps every grid keeps its pressure. A finer grid starts from its own last pressure plus the interpolated
-//! **change** of the next coarser one, so that what a step leaves alone is never interpolated twice. The baseline method works on
-//! the finest grid alone, as published.
+//! Between load steps every grid keeps its pressure. A finer grid starts from its own last pressure plus the
+//! interpolated **change** of the next coarser one, so that what a step leaves alone is never interpolated twice. The
+//! baseline method works on the finest grid alone, as published.
 
 use crate::field;
+use crate::fourier::fast_points;
 use crate::grid::Grid;
 use crate::lattice::LatticeError;
 use crate::layered::TransferFunction;
@@ -73,12 +74,7 @@ impl Hierarchy {
                 state: State::new(vec![0.0; grid.len()]),
             })
         };
-        let mut nests = vec![nest(points)?];
-        let mut coarser = halved(points);
-        while settings.method == Method::Preconditioned && coarser.iter().all(|&n| n >= COARSEST) {
-            nests.push(nest(coarser)?);
-            coarser = halved(coarser);
-        }
+        let nests = nested_points(points, settings.method).into_iter().map(nest).collect::<Result<_, _>>()?;
         let contact_modulus = half_space.surface_material().contact_modulus();
         Ok(Self { nests, settings, contact_modulus, levels: surface.levels() })
     }
@@ -139,7 +135,7 @@ impl Hierarchy {
         let Nest { texture, operator, state } = nest;
         let mut displacement = vec![0.0; texture.shape.len()];
         let certificate = Certificate::new(operator, &texture.shape, texture.range, control, state, &mut displacement);
-        Solution {
+        let solution = Solution {
             pressure: state.pressure.clone(),
             displacement,
             gap: state.gap.clone(),
@@ -147,7 +143,12 @@ impl Hierarchy {
             report,
             certificate,
             convolutions: convolutions + work / finest + 1.0,
+        };
+        if !report.stop.solved() {
+            // A spoilt solution is no start for the next step.
+            self.nests.iter_mut().for_each(|nest| nest.state.pressure.fill(0.0));
         }
+        solution
     }
 }
 
@@ -175,17 +176,12 @@ impl Nest {
 
 /// Memory that a hierarchy with a finest grid of `points` and one solution take, bytes.
 ///
-/// Per sample of each grid: the solver's 5 fields and 1 flag, the shape and its owner, 2 multipliers and 2 spectra of half the components;
-/// of the finest grid also the solution's 3 fields and one for interpolation.
+/// Per sample of each grid: the solver's 5 fields and 1 flag, the shape and its owner, 2 multipliers and 2 spectra of
+/// half the components; of the finest grid also the solution's 3 fields and one for interpolation.
 pub fn memory(points: [usize; 2], method: Method) -> usize {
     let (solver, texture, operator, solution) = (5 * 8 + 1, 8 + 4, 2 * 4 + 2 * 8, 4 * 8);
     let finest = points[0] * points[1];
-    let mut samples = finest;
-    let mut coarser = halved(points);
-    while method == Method::Preconditioned && coarser.iter().all(|&n| n >= COARSEST) {
-        samples += coarser[0] * coarser[1];
-        coarser = halved(coarser);
-    }
+    let samples: usize = nested_points(points, method).iter().map(|[n1, n2]| n1 * n2).sum();
     samples * (solver + texture + operator) + finest * solution
 }
 
@@ -196,23 +192,11 @@ impl fmt::Display for Hierarchy {
     }
 }
 
-/// About half as many points, with factors 2, 3, 5, 7 only.
-fn halved(points: [usize; 2]) -> [usize; 2] {
-    points.map(|n| fast_points(n.div_ceil(2)))
-}
-
-/// The least number ≥ `n` whose prime factors are 2, 3, 5 and 7.
-pub fn fast_points(n: usize) -> usize {
-    (n.max(1)..).find(|&m| has_fast_factors(m)).unwrap_or(n)
-}
-
-/// Whether the prime factors of `n` are 2, 3, 5 and 7 only.
-pub fn has_fast_factors(n: usize) -> bool {
-    let mut rest = n;
-    for factor in [2, 3, 5, 7] {
-        while rest > 0 && rest.is_multiple_of(factor) {
-            rest /= factor;
-        }
-    }
-    rest == 1
+/// Points of the nested grids, the finest first. The baseline has one grid.
+fn nested_points(finest: [usize; 2], method: Method) -> Vec<[usize; 2]> {
+    let coarser = |points: &[usize; 2]| {
+        let halved = points.map(|n| fast_points(n.div_ceil(2)));
+        (method == Method::Preconditioned && halved.iter().all(|&n| n >= COARSEST)).then_some(halved)
+    };
+    std::iter::successors(Some(finest), coarser).collect()
 }

@@ -143,6 +143,11 @@ impl Reduced {
         norm(self.cell.a1).min(norm(self.cell.a2))
     }
 
+    /// Length of the longer one of r₁ and r₂.
+    pub fn longer_side(&self) -> f64 {
+        norm(self.cell.a1).max(norm(self.cell.a2))
+    }
+
     /// The shortest vectors equivalent to s₁a₁ + s₂a₂ (all whose lengths agree to the relative `tolerance`), each with
     /// the whole multiples of a₁, a₂ that were taken off.
     pub fn shortest(&self, [s1, s2]: [f64; 2], tolerance: f64) -> Vec<([f64; 2], [i32; 2])> {

@@ -1,15 +1,17 @@
 //! **percoat**: periodic contact of coated bodies.
 //!
-//! Frictionless normal contact of a doubly periodic, multi-level system of rigid indenters (or any periodic topography) with a
-//! layered elastic half-space: I. Goryacheva & E. Torskaya, *Contact of multi-level periodic system of indenters with
-//! coated elastic half-space*, Facta Universitatis, Mech. Eng. 17 (2019) 149–159.
+//! Frictionless normal contact of a doubly periodic, multi-level system of rigid indenters (or any periodic topography)
+//! with a layered elastic half-space: I. Goryacheva & E. Torskaya, *Contact of multi-level periodic system of indenters
+//! with coated elastic half-space*, Facta Universitatis, Mech. Eng. 17 (2019) 149–159.
 //!
 //! # Conventions
 //!
-//! - z points into the body; pressure p > 0 is compression; stresses are positive in tension; displacement w > 0 goes into the body.
+//! - z points into the body; pressure p > 0 is compression; stresses are positive in tension; displacement w > 0 goes
+//!   into the body.
 //! - Any consistent units. Wavenumbers are angular, 1/length.
-//! - Fields are stored sample by sample, **a**₂ fastest; displacements have zero mean, so that the penetration δ, measured from the mean plane
-//!   of the deformed surface to the highest apex, is the additional displacement w_a of the paper's Eq. (8).
+//! - Fields are stored sample by sample, **a**₂ fastest; displacements have zero mean, so that the penetration δ,
+//!   measured from the mean plane of the deformed surface to the highest apex, is the additional displacement w_a of
+//!   the paper's Eq. (8).
 //! - Frictionless interfaces carry tension: they slide but do not open.
 //!
 //! # Modules

@@ -196,7 +196,8 @@ impl HalfSpace {
 }
 
 impl HalfSpace {
-    /// Materials (from 1; the substrate is layers + 1) that the depth z ≥ 0 belongs to: on an interface, to rounding, both.
+    /// Materials (from 1; the substrate is layers + 1) that the depth z ≥ 0 belongs to: on an interface, to rounding,
+    /// both.
     pub fn sides(&self, z: f64) -> RangeInclusive<usize> {
         let faces = self.interface_depths();
         let tolerance = 1e-12;

@@ -1,13 +1,23 @@
 //! How much the answer changes from one grid to the next finer one.
 
+use crate::fourier::fast_points;
+use crate::lattice::Cell;
 use crate::observables::Observables;
 
-/// Points along a cell vector at which a refinement starts, and beyond which it gives up.
+/// Points along the shorter cell vector at which a refinement starts.
 pub const FIRST_POINTS: usize = 96;
-/// See [`FIRST_POINTS`].
+/// Points along the longer cell vector beyond which it gives up.
 pub const MOST_POINTS: usize = 4096;
 
-/// Largest relative change between the load steps on two grids: of peak pressures (over the largest one), load shares and penetration.
+/// `points` along the shorter cell vector, and as dense along the longer one.
+pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
+    let lengths = cell.vectors().map(|a| a[0].hypot(a[1]));
+    let shorter = lengths[0].min(lengths[1]);
+    lengths.map(|length| fast_points((points as f64 * length / shorter).round() as usize))
+}
+
+/// Largest relative change between the load steps on two grids: of peak pressures (over the largest one), load shares
+/// and penetration.
 pub fn change(coarse: &[Observables], fine: &[Observables]) -> f64 {
     coarse.iter().zip(fine).map(|(coarse, fine)| step_change(coarse, fine)).fold(0.0, f64::max)
 }
@@ -24,4 +34,17 @@ fn step_change(coarse: &Observables, fine: &Observables) -> f64 {
         peak.max((fine_level.load_share - coarse.load_share).abs())
     });
     levels.fold(peak.max(penetration).max(load), f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_as_dense_along_both_vectors_and_fast() {
+        let oblong = Cell::new([10.0, 0.0], [0.0, 1.0]).unwrap();
+        assert_eq!(balanced_points(&oblong, 96), [960, 96]);
+        let odd = Cell::new([1.0, 0.0], [0.5, 1.1]).unwrap();
+        assert_eq!(balanced_points(&odd, 96), [96, 120]);
+    }
 }

@@ -1,8 +1,8 @@
 //! The undeformed surface of the rigid counterbody on a grid.
 //!
-//! f(**x**) = min over all indenters of [f_m(|**x** − **x**ᵢ|) + d_m]: the distance of the counterbody's surface above its
-//! highest apex. The indenter that gives the minimum owns the sample. Every profile grows with the radius, so of the
-//! periodic images of an indenter only the nearest one counts.
+//! f(**x**) = min over all indenters of [f_m(|**x** − **x**ᵢ|) + d_m]: the distance of the counterbody's surface above
+//! its highest apex. The indenter that gives the minimum owns the sample. Every profile grows with the radius, so of
+//! the periodic images of an indenter only the nearest one counts.
 
 use crate::field;
 use crate::grid::Grid;
@@ -49,7 +49,8 @@ pub struct Texture {
     pub shape: Vec<f64>,
     /// Index into `sites` of the indenter whose surface faces each sample; empty for a topography.
     pub owner: Vec<u32>,
-    /// Samples that face the surfaces of several sites at once (to rounding), each with all of them, by ascending sample.
+    /// Samples that face the surfaces of several sites at once (to rounding), each with all of them, by ascending
+    /// sample.
     pub ties: Vec<(usize, Vec<u32>)>,
     /// Sites by their index; empty for a topography.
     pub sites: Vec<Site>,
@@ -100,8 +101,7 @@ impl Texture {
 
     /// Mean of `shape` over the cell: the penetration at which contact is complete, a length.
     pub fn mean(&self) -> f64 {
-        let [sum] = field::sums(self.shape.len(), |i| [self.shape[i]]);
-        sum / self.shape.len() as f64
+        field::mean(&self.shape)
     }
 }
 
@@ -166,7 +166,8 @@ fn sample_indenters(lattice: &Lattice, levels: &[Level], grid: &Grid) -> Faces {
 pub enum Interpolation {
     /// Bilinear: keeps the symmetry of rectangular cells.
     Bilinear,
-    /// Linear on the two triangles that the diagonal between the ends of a₁ and a₂ makes: keeps the symmetry of a 60° rhombus.
+    /// Linear on the two triangles that the diagonal between the ends of a₁ and a₂ makes: keeps the symmetry of a 60°
+    /// rhombus.
     AcrossDiagonal,
     /// Linear on the two triangles that the diagonal along a₁ + a₂ makes: the same for a 120° rhombus.
     AlongDiagonal,
@@ -260,7 +261,8 @@ mod tests {
         let lattice = Lattice::square(1.0, 4).unwrap();
         let surface = Surface::Indenters { lattice, levels: vec![level; 4] };
         let texture = surface.sample(&Grid::new(surface.cell(), [8, 8]).unwrap());
-        // Rows and columns 2 and 6 lie halfway between the sites: 2·8 + 2·8 − 4 samples, four of them between all sites.
+        // Rows and columns 2 and 6 lie halfway between the sites: 2·8 + 2·8 − 4 samples, four of them between all
+        // sites.
         assert_eq!(texture.ties.len(), 28);
         assert_eq!(texture.ties.iter().filter(|(_, sites)| sites.len() == 4).count(), 4);
     }

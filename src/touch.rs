@@ -1,7 +1,7 @@
 //! First touch: the mean pressure at which each level comes into contact.
 //!
-//! The contact of a level appears at one load and stays, so that bisection on the logarithm of the mean pressure finds it,
-//! between a negligible one and that of complete contact.
+//! The contact of a level appears at one load and stays, so that bisection on the logarithm of the mean pressure finds
+//! it, between a negligible one and that of complete contact.
 
 use crate::hierarchy::Hierarchy;
 use crate::observables::observe;
@@ -12,7 +12,8 @@ const RATIO: f64 = 1.01;
 /// Fraction of the pressure of complete contact below which a touch counts as immediate.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// Mean pressure of first touch of each level, to about 1 %: 0 for the highest, `None` for a level hidden behind others.
+/// Mean pressure of first touch of each level, to about 1 %: 0 for the highest, `None` for a level hidden behind
+/// others.
 ///
 /// The grid of `hierarchy` limits the accuracy: a contact starts with one sample.
 pub fn first_touches(hierarchy: &mut Hierarchy) -> Vec<Option<f64>> {

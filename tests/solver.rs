@@ -159,6 +159,72 @@ fn complete_contact_flattens_the_surface() {
     assert!(!beyond.report.stop.solved());
 }
 
+/// A thousandth below the penetration of complete contact, where a uniform pressure is nearly free.
+#[test]
+fn displacement_control_reaches_up_to_complete_contact() {
+    for case in [PAPER[0], PAPER[4]] {
+        for settings in [Settings::default(), baseline()] {
+            let mut hierarchy = Hierarchy::new(&case.surface(), &case.half_space(), [48, 48], settings).unwrap();
+            let penetration = 0.999 * hierarchy.full_contact_penetration();
+            let solution = hierarchy.solve(Control::Penetration(penetration), &mut |_| ());
+            assert_eq!(solution.report.stop, StopReason::Converged, "{}: {}", case.name, solution.report);
+            assert!(solution.certificate.load < 1e-7 && solution.certificate.energy_gap < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn a_flat_counterbody_is_in_complete_contact_at_once() {
+    let surface = Surface::Heights { cell: Cell::square(1.0).unwrap(), points: [16, 16], heights: vec![0.3; 256] };
+    let (_, solution, observables) = solve(&surface, &PAPER[0].half_space(), [16, 16], Control::MeanPressure(0.1));
+    assert_eq!((solution.report.stop, observables.contact_fraction), (StopReason::Converged, 1.0));
+    assert!(solution.pressure.iter().all(|&p| p == 0.1) && solution.penetration == 0.0);
+    assert_eq!(solution.certificate.energy_gap, 0.0);
+}
+
+/// Samples halfway between equal indenters belong to both.
+#[test]
+fn equal_levels_carry_equal_loads_when_merged() {
+    let lattice = Lattice::square(1.0, 4).unwrap();
+    let surface = Surface::Indenters { lattice, levels: vec![paraboloid(0.8, 0.0); 4] };
+    let half_space = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+    let (_, _, observables) = solve(&surface, &half_space, [32, 32], Control::MeanPressure(1.0));
+    for level in &observables.levels {
+        assert!(level.merged && (level.load_share - 0.25).abs() < 1e-9, "{observables}");
+        assert!((level.contact_area - observables.contact_fraction).abs() < 1e-9, "a quarter of a cell of area 4");
+    }
+}
+
+#[test]
+fn the_areas_of_the_levels_make_up_the_contact_fraction() {
+    let case = PAPER[0];
+    for load in [0.0011, 0.004, 0.06] {
+        let (hierarchy, _, observables) =
+            solve(&case.surface(), &case.half_space(), [128, 128], Control::MeanPressure(load));
+        let sum: f64 = observables.levels.iter().map(|level| level.contact_area).sum();
+        assert!((sum / hierarchy.grid().cell().area() / observables.contact_fraction - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_skewed_cell_is_the_same_lattice() {
+    let half_space = PAPER[0].half_space();
+    let system = |cell: Cell| {
+        let surface = Surface::Indenters {
+            lattice: Lattice::new(cell, vec![vec![[0.0, 0.0]]]).unwrap(),
+            levels: vec![paraboloid(0.8, 0.0)],
+        };
+        solve(&surface, &half_space, [30, 30], Control::MeanPressure(0.05)).2
+    };
+    let straight = system(Cell::square(1.0).unwrap());
+    // (150, 1) is the grid vector (0, 1) of a 30 × 30 grid, shifted by 150 = 5 · 30 samples' worth of a₁.
+    let skewed = system(Cell::new([1.0, 0.0], [150.0, 1.0]).unwrap());
+    assert!((straight.penetration / skewed.penetration - 1.0).abs() < 1e-9);
+    assert!(!skewed.levels[0].merged);
+    let radii = [&straight, &skewed].map(|o| o.levels[0].contact_radius.unwrap());
+    assert!((radii[0] / radii[1] - 1.0).abs() < 1e-2, "{radii:?}");
+}
+
 #[test]
 fn an_exhausted_solver_says_so() {
     let case = PAPER[0];
@@ -167,6 +233,7 @@ fn an_exhausted_solver_says_so() {
         let control = Control::MeanPressure(case.pressure);
         let (_, solution, _) = solve_with(&case.surface(), &case.half_space(), [96, 96], control, settings);
         assert_eq!(solution.report.stop, StopReason::IterationLimit);
+        assert!(!solution.report.fell_back);
         assert!(solution.report.residual > 1e-8 && solution.certificate.energy_gap > 1e-8);
     }
     // A tolerance below round-off cannot be met: the solver stalls, and never calls that converged.
@@ -253,9 +320,9 @@ fn stack(random: &mut Random) -> HalfSpace {
     HalfSpace::new((0..count).map(|_| layer()).collect(), Material::from_shear(1.0, 0.3).unwrap())
 }
 
-/// 240 random cases: levels, heights, shapes, radii, up to three layers of contrast 1e4 with any interfaces, loads from first
-/// touch to complete contact; every fourth a rough topography. The default converges wherever the baseline does, to the same
-/// pressure, and under displacement control too.
+/// 240 random cases: levels, heights, shapes, radii, up to three layers of contrast 1e4 with any interfaces, loads from
+/// first touch to complete contact; every fourth a rough topography. The default converges wherever the baseline does,
+/// to the same pressure, and under displacement control too.
 #[test]
 fn the_default_converges_wherever_the_baseline_does() {
     let n = 48;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::error::Refusal;
 use super::node::Value;
 use super::reader::{Field, Section};
+use crate::fourier::has_fast_factors;
 
 /// Points along a cell vector when nothing is said.
 const POINTS: usize = 512;
@@ -70,21 +71,12 @@ fn same_as(field: &Field<'_>, file: [usize; 2]) -> Result<GridSection, Refusal> 
 /// A number of points whose transform is fast: made of the factors 2, 3, 5 and 7.
 fn transformable(field: &Field<'_>) -> Result<usize, Refusal> {
     let points = field.integer(ALLOWED)?;
-    if is_smooth(points) {
+    if has_fast_factors(points) {
         return Ok(points);
     }
-    let below = (*ALLOWED.start()..points).rev().find(|n| is_smooth(*n)).unwrap_or(*ALLOWED.start());
-    let above = (points..=*ALLOWED.end()).find(|n| is_smooth(*n)).unwrap_or(*ALLOWED.end());
+    let below = (*ALLOWED.start()..points).rev().find(|n| has_fast_factors(*n)).unwrap_or(*ALLOWED.start());
+    let above = (points..=*ALLOWED.end()).find(|n| has_fast_factors(*n)).unwrap_or(*ALLOWED.end());
     Err(field
         .refuse("a product of the factors 2, 3, 5 and 7")
         .help(format!("transforms of other lengths are slow; the nearest that are not: {below} and {above}")))
-}
-
-fn is_smooth(mut n: usize) -> bool {
-    for factor in [2, 3, 5, 7] {
-        while n.is_multiple_of(factor) {
-            n /= factor;
-        }
-    }
-    n == 1
 }

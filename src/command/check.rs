@@ -4,6 +4,8 @@ use super::{Common, Failure, Outcome, read_case};
 use percoat::case::{Case, GridSection};
 use percoat::grid::Grid;
 use percoat::hierarchy::{self, Hierarchy};
+use percoat::number::number;
+use percoat::refinement::balanced_points;
 use percoat::texture::Surface;
 use percoat::touch::first_touches;
 use std::io::Write;
@@ -32,19 +34,19 @@ pub fn run(path: &Path, common: &Common) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// Points at which the first touches are looked for.
+/// Points along the shorter cell vector on which the first touches are looked for.
 const POINTS: usize = 192;
 
 fn write_touches(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
     let Surface::Indenters { .. } = case.surface() else { return Ok(()) };
-    let mut hierarchy = Hierarchy::new(case.surface(), case.half_space(), [POINTS; 2], case.solver)
+    let points = balanced_points(&case.surface().cell(), POINTS);
+    let mut hierarchy = Hierarchy::new(case.surface(), case.half_space(), points, case.solver)
         .map_err(|error| Failure::Refused(error.to_string()))?;
-    writeln!(out, "complete contact: mean pressure {:.3e}", hierarchy.full_contact_pressure())?;
-    writeln!(out, "first touch (mean pressure, to about 1 %):")?;
+    writeln!(out, "first touch, on {} × {} samples:", points[0], points[1])?;
     for (level, touch) in (1..).zip(first_touches(&mut hierarchy)) {
         match touch {
-            Some(pressure) => writeln!(out, "  level {level}: {pressure:.3e}")?,
-            None => writeln!(out, "  level {level}: never")?,
+            Some(pressure) => writeln!(out, "  level {level}: mean pressure {}", number(pressure))?,
+            None => writeln!(out, "  level {level}: never, it is hidden behind the others")?,
         }
     }
     Ok(())

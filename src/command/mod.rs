@@ -100,7 +100,7 @@ enum Outcome {
     NotConverged,
 }
 
-/// Runs the command; the exit codes are those of the interface: 0 done, 2 refused, 3 not converged, 4 input or output failed.
+/// Runs the command; the exit codes are 0 done, 2 refused, 3 not converged, 4 input or output failed.
 pub fn run(arguments: &Arguments) -> ExitCode {
     let common = &arguments.common;
     if let Some(threads) = common.threads

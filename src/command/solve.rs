@@ -2,12 +2,14 @@
 
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
-use percoat::case::{Case, GridSection};
-use percoat::hierarchy::{Hierarchy, fast_points};
+use percoat::case::{Case, GridSection, LoadSection};
+use percoat::grid::Grid;
+use percoat::hierarchy::Hierarchy;
+use percoat::number::number;
 use percoat::observables::{Observables, observe};
 use percoat::output::summary::{Step, Summary, curve};
 use percoat::output::{Fields, clear, make_folder, table, write_text};
-use percoat::refinement::{FIRST_POINTS, MOST_POINTS, change};
+use percoat::refinement::{FIRST_POINTS, MOST_POINTS, balanced_points, change};
 use percoat::solver::Control;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -21,8 +23,9 @@ pub fn run(case: Option<&Path>, common: &Common) -> Result<Outcome, Failure> {
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
     let run = Run { case: &case, controls: case.load.controls(), folder, common };
+    run.refuse_beyond_full_contact()?;
     let result = match case.grid {
-        GridSection::Points(points) => run.on_grid(points)?,
+        GridSection::Points(points) => run.on_grid(points)?.finished()?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
     };
     let warnings = run.warnings(&result);
@@ -44,6 +47,20 @@ struct Run<'a> {
     common: &'a Common,
 }
 
+/// All load steps on one grid, their fields not yet gathered.
+struct Gridded {
+    hierarchy: Hierarchy,
+    fields: Fields,
+    solved: Solved,
+}
+
+impl Gridded {
+    fn finished(self) -> Result<Solved, Failure> {
+        self.fields.finish(self.hierarchy.grid(), self.hierarchy.texture())?;
+        Ok(self.solved)
+    }
+}
+
 struct Solved {
     steps: Vec<Step>,
     observables: Vec<Observables>,
@@ -63,36 +80,33 @@ impl Solved {
 impl Run<'_> {
     /// All load steps on finer and finer grids until they change by less than `accuracy`.
     fn refined(&self, accuracy: f64) -> Result<Solved, Failure> {
+        let cell = self.case.surface().cell();
         let mut points = FIRST_POINTS;
-        let mut solved = self.on_grid(self.points_like(points))?;
-        while 2 * points <= MOST_POINTS {
+        let mut gridded = self.on_grid(balanced_points(&cell, points))?;
+        loop {
             points *= 2;
-            let mut finer = self.on_grid(self.points_like(points))?;
-            let change = change(&solved.observables, &finer.observables);
-            finer.accuracy = Some(change);
-            if self.common.verbose {
-                eprintln!("{points} points: change {change:.2e}");
+            let finer = balanced_points(&cell, points);
+            if finer.iter().any(|&n| n > MOST_POINTS) {
+                return gridded.finished();
             }
-            solved = finer;
+            let before = std::mem::take(&mut gridded.solved.observables);
+            drop(gridded);
+            gridded = self.on_grid(finer)?;
+            let change = change(&before, &gridded.solved.observables);
+            gridded.solved.accuracy = Some(change);
+            if self.common.verbose {
+                eprintln!("{finer:?} points: change {change:.2e}");
+            }
             if change < accuracy {
-                break;
+                return gridded.finished();
             }
         }
-        Ok(solved)
-    }
-
-    /// `points` along a₁ and as dense along a₂.
-    fn points_like(&self, points: usize) -> [usize; 2] {
-        let [a1, a2] = self.case.surface().cell().vectors();
-        let ratio = a2[0].hypot(a2[1]) / a1[0].hypot(a1[1]);
-        [points, fast_points((points as f64 * ratio).round() as usize)]
     }
 
     /// All load steps on one grid, each put on disk as it is done.
-    fn on_grid(&self, points: [usize; 2]) -> Result<Solved, Failure> {
+    fn on_grid(&self, points: [usize; 2]) -> Result<Gridded, Failure> {
         let mut hierarchy = Hierarchy::new(self.case.surface(), self.case.half_space(), points, self.case.solver)
             .map_err(|error| Failure::Refused(error.to_string()))?;
-        self.refuse_beyond_full_contact(&hierarchy)?;
         if self.common.verbose {
             eprintln!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
         }
@@ -117,19 +131,29 @@ impl Run<'_> {
             progress.inc(1);
         }
         progress.finish_and_clear();
-        fields.finish(hierarchy.grid(), hierarchy.texture())?;
-        Ok(solved)
+        Ok(Gridded { hierarchy, fields, solved })
     }
 
-    fn refuse_beyond_full_contact(&self, hierarchy: &Hierarchy) -> Result<(), Failure> {
-        let full = hierarchy.full_contact_penetration();
+    /// No load reaches a penetration at which contact is complete: refused before anything is written.
+    fn refuse_beyond_full_contact(&self) -> Result<(), Failure> {
+        let surface = self.case.surface();
+        let points = match self.case.grid {
+            GridSection::Points(points) => points,
+            GridSection::Accuracy(_) => balanced_points(&surface.cell(), 8 * FIRST_POINTS),
+        };
+        if matches!(self.case.load, LoadSection::MeanPressure(_)) {
+            return Ok(());
+        }
+        let grid = Grid::new(surface.cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
+        let full = surface.sample(&grid).mean();
         for control in &self.controls {
             if let Control::Penetration(penetration) = *control
                 && penetration >= full
             {
                 return Err(Failure::Refused(format!(
-                    "load.penetration = {penetration} is out of reach: contact becomes complete at {full:.6}, \
-                     and no further however large the load; prescribe less, or mean_pressure instead"
+                    "load.penetration = {penetration} is out of reach: contact becomes complete at {}, \
+                     and no further however large the load; prescribe less, or mean_pressure instead",
+                    number(full)
                 )));
             }
         }
@@ -206,7 +230,8 @@ impl Run<'_> {
         let steps = &solved.steps;
         let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
         let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
-        let gap = steps.iter().map(|step| step.certificate.energy_gap).fold(0.0, f64::max);
+        // Unlike f64::max this keeps what is not a number.
+        let gap = steps.iter().map(|step| step.certificate.energy_gap).fold(0.0, |a, b| if b <= a { a } else { b });
         let done = steps.iter().filter(|step| step.converged).count();
         writeln!(
             out,

@@ -4,7 +4,8 @@
 //! ℓ·y = 0, where ℓ is the functional "shear at the surface" expressed in the state at that depth. Both together leave
 //! one vector, the contraction
 //!
-//! y_U = −ℓ_w D + ℓ_t B − ℓ_p A,  y_w = ℓ_U D + ℓ_t C − ℓ_p B,  y_t = −ℓ_U B − ℓ_w C − ℓ_p N,  y_p = ℓ_U A + ℓ_w B + ℓ_t N,
+//! y_U = −ℓ_w D + ℓ_t B − ℓ_p A,  y_w = ℓ_U D + ℓ_t C − ℓ_p B,  y_t = −ℓ_U B − ℓ_w C − ℓ_p N,  y_p = ℓ_U A + ℓ_w B +
+//! ℓ_t N,
 //!
 //! divided by the surface's N so that p = 1 there. Going down a layer, ℓ is multiplied by exp(d𝒜) from the right, where
 //! (𝒜²−1)² = 0 gives exp(d𝒜) = cosh d + ½d sinh d (𝒜²−1) + 𝒜 sinh d + ½(d cosh d − sinh d)(𝒜³−𝒜).

@@ -1,9 +1,9 @@
 //! The plane of admissible states below a depth, by its 2 × 2 minors.
 //!
-//! Two independent solutions that decay into the substrate span a plane in the space of (U, w, t, p).
-//! The plane is known by its minors N = t∧p, A = U∧p, B = t∧U = w∧p, C = t∧w, D = U∧w (Betti's reciprocity makes the
-//! two readings of B equal), up to a common factor. Where t, p determine U, w, the surface compliances are A/N, B/N, C/N;
-//! where they do not (below a frictionless interface N = 0) the minors stay finite. Across a layer
+//! Two independent solutions that decay into the substrate span a plane in the space of (U, w, t, p). The plane is
+//! known by its minors N = t∧p, A = U∧p, B = t∧U = w∧p, C = t∧w, D = U∧w (Betti's reciprocity makes the two readings of
+//! B equal), up to a common factor. Where t, p determine U, w, the surface compliances are A/N, B/N, C/N; where they do
+//! not (below a frictionless interface N = 0) the minors stay finite. Across a layer
 //!
 //! N′ = eA,  A′ = 2B + N,  B′ = C − rA,  C′ = eD − 2rB + mN,  D′ = C + mA   (′ = d/dζ, upwards)
 //!

@@ -7,8 +7,8 @@
 //! dU/dζ = w + t,  dw/dζ = −r U + m p,  dt/dζ = e U + r p,  dp/dζ = −t,
 //! e = 2/(1−ν),  r = ν/(1−ν),  m = (1−2ν)/(2(1−ν)),
 //!
-//! equilibrium and Hooke's law for the four quantities that interfaces connect (with the stress function F of the plane problem,
-//! p = F and t = F′). Two tools are enough, and neither meets a growing exponential:
+//! equilibrium and Hooke's law for the four quantities that interfaces connect (with the stress function F of the plane
+//! problem, p = F and t = F′). Two tools are enough, and neither meets a growing exponential:
 //!
 //! - `minors`: everything below a depth confines (U, w, t, p) to a plane; the plane's five 2 × 2 minors are
 //!   carried from the substrate up (delta-matrix method, Dunkin 1965). The surface compliance is a ratio of two

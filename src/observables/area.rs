@@ -1,75 +1,92 @@
 //! Area of contact of any shape, between the samples.
 //!
-//! Along every line of samples contact is a set of intervals. Where an interval ends, p² vanishes nearly like a parabola of the
-//! distance; the end is the root of the parabola fitted to the samples behind the outermost one. The lengths, averaged over the lines of both
-//! directions (and of the third natural one on a rhombus), give the fraction of the cell. Intervals of few samples are counted.
+//! Along every line of samples contact is a set of intervals. At a distance d inside an end p² falls nearly as d, at a
+//! distance d outside g^{2/3} rises nearly as d: the end is the mean of the roots of two parabolas, one fitted to p² on
+//! the one side, one to g^{2/3} on the other, each without the outermost sample. The lengths, averaged over the lines
+//! of both directions, give the fraction of the cell. Between intervals of few samples the end is halfway.
 
 use crate::grid::Grid;
 use crate::least_squares;
 
-/// Fewest samples of an interval whose ends are fitted.
-const FEWEST: usize = 8;
+/// Fewest samples of an interval for a parabola, and most samples it uses beyond the square root of their number.
+const FEWEST: usize = 6;
+const MOST: usize = 3;
 
-/// Fraction of the cell in contact: p > 0, from pressure (one value per sample).
-pub fn contact_fraction(grid: &Grid, pressure: &[f64]) -> f64 {
+/// Fraction of the cell in contact, from pressure and gap (one value per sample each).
+pub fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64]) -> f64 {
     let [n1, n2] = grid.points();
-    let (mut length, mut lines) = (0.0, 0.0);
-    for i in 0..n1 {
-        length += line_fraction(n2, |j| pressure[i * n2 + j]);
-        lines += 1.0;
-    }
-    for j in 0..n2 {
-        length += line_fraction(n1, |i| pressure[i * n2 + j]) * n1 as f64 / n2 as f64;
-        lines += n1 as f64 / n2 as f64;
-    }
-    length / lines
+    let height = |index: usize| match pressure[index] {
+        p if p > 0.0 => p * p,
+        _ => -gap[index].max(0.0).powf(2.0 / 3.0),
+    };
+    let along: f64 = (0..n1).map(|i| line_fraction(n2, |j| height(i * n2 + j))).sum();
+    let across: f64 = (0..n2).map(|j| line_fraction(n1, |i| height(i * n2 + j))).sum();
+    0.5 * (along / n1 as f64 + across / n2 as f64)
 }
 
-/// Fraction of a closed line of `n` samples with p > 0.
-fn line_fraction(n: usize, p: impl Fn(usize) -> f64) -> f64 {
-    // Start behind a sample without contact, so that no interval is cut.
-    let Some(start) = (0..n).find(|&i| p(i) <= 0.0) else { return 1.0 };
-    let at = |i: usize| p((start + i) % n);
-    let (mut total, mut i) = (0.0, 0);
-    while i < n {
-        if at(i) <= 0.0 {
-            i += 1;
-            continue;
+/// Fraction in contact of a closed line of `n` samples with the heights p² in contact and −g^{2/3} outside.
+fn line_fraction(n: usize, height: impl Fn(usize) -> f64) -> f64 {
+    let touches = |i: usize| height(i % n) > 0.0;
+    let Some(start) = (0..n).find(|&i| !touches(i) && touches(i + 1)) else {
+        // No end: all or nothing.
+        return f64::from(u8::from(touches(0)));
+    };
+    // Intervals in turn, from the first sample in contact: contact, open, contact, …
+    let mut ends = vec![start + 1];
+    for i in start + 1..start + n {
+        if touches(i) != touches(i + 1) {
+            ends.push(i + 1);
         }
-        let first = i;
-        while i < n && at(i) > 0.0 {
-            i += 1;
-        }
-        total += interval_length(i - first, |k| at(first + k));
+    }
+    ends.push(start + 1 + n);
+    let mut total = 0.0;
+    for interval in ends.windows(2).step_by(2) {
+        let [first, last] = [interval[0], interval[1]];
+        total += (last - first) as f64 - 1.0;
+        // How far contact reaches beyond its outermost samples.
+        let (before, after) = (open_length(&ends, first, n), open_length(&ends, last, n));
+        let count = last - first;
+        total += overhang(|k| height((first + k) % n), count, |k| -height((first + n - 1 - k) % n), before);
+        total += overhang(|k| height((last - 1 - k) % n), count, |k| -height((last + k) % n), after);
     }
     total / n as f64
 }
 
-/// Length, in samples, of an interval of `count` samples in contact.
-fn interval_length(count: usize, p: impl Fn(usize) -> f64) -> f64 {
-    let counted = count as f64;
-    if count < FEWEST {
-        return counted;
+/// Length of the open interval that ends or begins at the border `end`.
+fn open_length(ends: &[usize], end: usize, n: usize) -> usize {
+    // Borders alternate; the first and the last one are the same border of the closed line.
+    let index = ends.iter().position(|&border| border == end).unwrap_or(0);
+    let borders = ends.len() - 1;
+    if index % 2 == 1 { ends[index + 1] - end } else { (end + n - ends[(index + borders - 1) % borders]) % n }
+}
+
+/// How far contact reaches beyond its outermost sample, in samples, between 0 and 1: `inside(k)` and `outside(k)` are
+/// the heights k samples from the end on either side.
+fn overhang(inside: impl Fn(usize) -> f64, count: usize, outside: impl Fn(usize) -> f64, open: usize) -> f64 {
+    let from_inside = beyond(inside, count);
+    let from_outside = beyond(outside, open).map(|x| 1.0 - x);
+    match (from_inside, from_outside) {
+        (Some(a), Some(b)) => 0.5 * (a + b),
+        (Some(x), None) | (None, Some(x)) => x,
+        (None, None) => 0.5,
     }
-    // Samples used at each end: the outermost is skipped, the window grows with the root of the length.
-    let used = (count / 2 - 1).min(3 + (counted.sqrt()) as usize);
-    let end = |p: &dyn Fn(usize) -> f64| -> f64 {
-        let scale = p(used).powi(2);
-        let fitted = least_squares::fit(
-            3,
-            (1..=used).map(|k| {
-                let x = k as f64 / used as f64;
-                (vec![1.0, x, x * x], p(k).powi(2) / scale)
-            }),
-        );
-        // Root nearest to the outermost sample, in samples beyond it.
-        let beyond = fitted.and_then(|c| {
-            let discriminant = c[1] * c[1] - 4.0 * c[0] * c[2];
-            (c[1] > 0.0 && discriminant >= 0.0).then(|| 2.0 * c[0] / (c[1] + discriminant.sqrt()) * used as f64)
-        });
-        beyond.filter(|x| (-1.0..=1.0).contains(x)).unwrap_or(0.5)
-    };
-    counted - 1.0 + end(&p) + end(&|k| p(count - 1 - k))
+}
+
+/// How far beyond the outermost of `count` samples their heights vanish, if there are enough of them.
+fn beyond(height: impl Fn(usize) -> f64, count: usize) -> Option<f64> {
+    if count < FEWEST {
+        return None;
+    }
+    let used = (count / 2 - 1).min(MOST + (count as f64).sqrt() as usize).max(3);
+    let scale = height(used);
+    let rows = (1..=used).map(|k| {
+        let x = k as f64 / used as f64;
+        (vec![1.0, x, x * x], height(k) / scale)
+    });
+    let c = least_squares::fit(3, rows)?;
+    let discriminant = c[1] * c[1] - 4.0 * c[0] * c[2];
+    let root = 2.0 * c[0] / (c[1] + discriminant.max(0.0).sqrt()) * used as f64;
+    (c[1] > 0.0 && discriminant >= 0.0).then(|| root.clamp(0.0, 1.0))
 }
 
 #[cfg(test)]
@@ -82,25 +99,35 @@ mod tests {
     fn a_disc_and_its_complement_have_their_areas() {
         let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [120, 120]).unwrap();
         let radius = 0.3;
-        let field = |inside: bool| -> Vec<f64> {
-            (0..grid.len())
+        let exact = PI * radius * radius / grid.cell().area();
+        for (inside, expected) in [(1.0, exact), (-1.0, 1.0 - exact)] {
+            let depth: Vec<f64> = (0..grid.len())
                 .map(|index| {
                     let [s, t] = grid.fractions(index);
                     let [x, y] = grid.cell().point([s - 0.5, t - 0.5]);
-                    let depth = 1.0 - (x * x + y * y) / (radius * radius);
-                    (if inside { depth } else { -depth }).max(0.0).sqrt()
+                    inside * (1.0 - (x * x + y * y) / (radius * radius))
                 })
-                .collect()
-        };
-        let exact = PI * radius * radius / grid.cell().area();
-        assert!((contact_fraction(&grid, &field(true)) / exact - 1.0).abs() < 5e-4);
-        assert!((contact_fraction(&grid, &field(false)) - (1.0 - exact)).abs() < 5e-4);
+                .collect();
+            let pressure: Vec<f64> = depth.iter().map(|d| d.max(0.0).sqrt()).collect();
+            let gap: Vec<f64> = depth.iter().map(|d| (-d).max(0.0).powf(1.5)).collect();
+            let fraction = contact_fraction(&grid, &pressure, &gap);
+            assert!((fraction - expected).abs() < 2e-4, "{fraction} {expected}");
+        }
     }
 
     #[test]
     fn full_contact_and_none_are_exact() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 12]).unwrap();
-        assert_eq!(contact_fraction(&grid, &[1.0; 96]), 1.0);
-        assert_eq!(contact_fraction(&grid, &[0.0; 96]), 0.0);
+        assert_eq!(contact_fraction(&grid, &[1.0; 96], &[0.0; 96]), 1.0);
+        assert_eq!(contact_fraction(&grid, &[0.0; 96], &[1.0; 96]), 0.0);
+    }
+
+    #[test]
+    fn one_sample_in_contact_is_one_sample_of_area() {
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
+        let mut pressure = [0.0; 64];
+        pressure[27] = 1.0;
+        // One line of eight in each direction, with one sample: half a sample beyond it on either side.
+        assert!((contact_fraction(&grid, &pressure, &[0.0; 64]) - 1.0 / 64.0).abs() < 1e-12);
     }
 }

@@ -11,9 +11,9 @@
 //! ψ ≈ Σ_k [(α_k + β_k d) cos kθ + (α′_k + β′_k d) sin kθ] + γ d² + γ′ d|d|
 //!
 //! is fitted by least squares and ρ moves to the root, until it stands. The samples next to the edge carry the
-//! discretisation error, which alternates from ring to ring: their weight rises smoothly with the distance. The fit reaches
-//! a number of spacings that grows with the square root of the resolution, so that the radius converges faster than
-//! the spacing.
+//! discretisation error, which alternates from ring to ring: their weight rises smoothly with the distance. The fit
+//! reaches a number of spacings that grows with the square root of the resolution, so that the radius converges faster
+//! than the spacing.
 
 use crate::least_squares;
 use std::f64::consts::{PI, TAU};
@@ -54,8 +54,8 @@ const REACH_GROWTH: f64 = 1.0;
 const ROUNDS: usize = 6;
 
 impl Boundary {
-    /// Boundary of the contact among `samples` (in contact and around it), each standing for `sample_area`, neighbours at
-    /// most `spacing` apart.
+    /// Boundary of the contact among `samples` (in contact and around it), each standing for `sample_area`, neighbours
+    /// at most `spacing` apart.
     ///
     /// `None` when the spot has too few samples for a fit, or no simple boundary around the axis.
     pub fn locate(samples: &[Polar], sample_area: f64, spacing: f64) -> Option<Self> {
@@ -119,15 +119,21 @@ impl Boundary {
             (basis(*d, sample.theta).into_iter().map(|x| weight * x).collect(), weight * distance(sample))
         });
         let c = least_squares::fit(4 + 4 * harmonics, rows)?;
-        let move_edge = |(index, radius): (usize, &f64)| {
-            let theta = TAU * index as f64 / ANGLES as f64;
-            let (values, slopes) = c[4..].split_at(2 * harmonics);
-            let value = c[0] + waves(theta).zip(values).map(|(wave, c)| wave * c).sum::<f64>();
-            let slope = c[1] + waves(theta).zip(slopes).map(|(wave, c)| wave * c).sum::<f64>();
-            // ψ falls outwards, about as −d; one round moves the edge by one spacing at most.
-            (slope < -0.2).then(|| radius - (value / slope * reach).clamp(-spacing, spacing))
+        let (values, slopes) = c[4..].split_at(2 * harmonics);
+        let sum = |constant: f64, coefficients: &[f64], theta: f64| -> f64 {
+            constant + waves(theta).zip(coefficients).map(|(wave, c)| wave * c).sum::<f64>()
         };
-        Some(Self { radii: self.radii.iter().enumerate().map(move_edge).collect::<Option<Vec<f64>>>()? })
+        let shift = |index: usize| {
+            let theta = TAU * index as f64 / ANGLES as f64;
+            let (value, slope) = (sum(c[0], values, theta), sum(c[1], slopes, theta));
+            // ψ falls outwards, about as −d.
+            (slope < -0.2).then(|| -value / slope * reach)
+        };
+        let shifts = (0..ANGLES).map(shift).collect::<Option<Vec<f64>>>()?;
+        // One round moves the edge by one spacing at most; all of it in proportion, so that it stays smooth.
+        let largest = shifts.iter().fold(0.0, |most: f64, shift| most.max(shift.abs()));
+        let part = (spacing / largest).min(1.0);
+        Some(Self { radii: self.radii.iter().zip(shifts).map(|(radius, shift)| radius + part * shift).collect() })
     }
 
     /// ρ(θ), linear between the angles.
@@ -154,7 +160,8 @@ impl Boundary {
 mod tests {
     use super::*;
 
-    /// Samples of a contact with E* = 1 and a boundary `edge`(θ), pressure and gap of Hertz' contact of radius 1 stretched onto it.
+    /// Samples of a contact with E* = 1 and a boundary `edge`(θ), pressure and gap of Hertz' contact of radius 1
+    /// stretched onto it.
     fn spot(spacing: f64, edge: impl Fn(f64) -> f64) -> Vec<Polar> {
         let reach = (2.0 / spacing) as i32;
         let mut samples = Vec::new();
@@ -186,7 +193,8 @@ mod tests {
         let edge = |theta: f64| 1.0 + 0.03 * (3.0 * theta + 0.4).cos();
         let boundary = Boundary::locate(&spot(0.02, edge), 4e-4, 0.02).unwrap();
         for theta in [0.0, 1.0, 2.5, 4.4] {
-            assert!((boundary.radius(theta) / edge(theta) - 1.0).abs() < 5e-4);
+            let error = boundary.radius(theta) / edge(theta) - 1.0;
+            assert!(error.abs() < 5e-4, "{theta}: {error:e}");
         }
         let (least, largest) = boundary.extremes();
         assert!((least - 0.97).abs() < 5e-4 && (largest - 1.03).abs() < 5e-4);

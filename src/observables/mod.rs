@@ -1,7 +1,7 @@
 //! What a tribologist reads off a solved contact, level by level and between the samples.
 //!
-//! A sample belongs to the indenter whose surface is nearest to it. Contacts of neighbouring indenters that touch have **merged**: loads and
-//! peak pressures still belong to levels, a radius has lost its meaning.
+//! A sample belongs to the indenter whose surface is nearest to it. Contacts of neighbouring indenters that touch have
+//! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning.
 
 pub mod area;
 pub mod boundary;
@@ -30,7 +30,8 @@ pub struct Observables {
     pub levels: Vec<LevelObservables>,
 }
 
-/// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, the others extremes.
+/// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, the
+/// others extremes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LevelObservables {
     /// Level, from 1.
@@ -45,7 +46,8 @@ pub struct LevelObservables {
     pub contact_area: f64,
     /// √(area/π), a length; `None` for merged contacts.
     pub contact_radius: Option<f64>,
-    /// Smallest and largest distance of the boundary from the axis; `None` for merged contacts and for spots of too few samples.
+    /// Smallest and largest distance of the boundary from the axis; `None` for merged contacts and for spots of too few
+    /// samples.
     pub radius_extremes: Option<(f64, f64)>,
     /// Whether the contact of an indenter of this level touches that of a neighbour.
     pub merged: bool,
@@ -74,18 +76,18 @@ struct Spot {
 /// Observables of a solved step; `solution` is the last one of `hierarchy`, or one of the same grid.
 pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
     let (grid, texture, pressure) = (hierarchy.grid(), hierarchy.texture(), &solution.pressure);
-    let [total] = field::sums(grid.len(), |i| [pressure[i]]);
-    let mean_pressure = total / grid.len() as f64;
+    let mean_pressure = field::mean(pressure);
     let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
     let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
 
     let spots = spots(hierarchy, solution);
     let cell = grid.cell().area();
-    // Located spots have their own area. The others share what the lines of samples find beside them, as they were counted.
+    // Located spots have their own area. The others share what the lines of samples find beside them, as they were
+    // counted.
     let located: f64 = spots.iter().filter_map(|spot| spot.boundary.as_ref()).map(Boundary::area).sum();
     let counted: f64 = spots.iter().filter(|spot| spot.boundary.is_none()).map(|spot| spot.counted).sum();
     let all_located = !spots.is_empty() && counted == 0.0;
-    let contact_area = if all_located { located } else { cell * area::contact_fraction(grid, pressure) };
+    let contact_area = if all_located { located } else { cell * area::contact_fraction(grid, pressure, &solution.gap) };
     let correction = if counted > 0.0 { ((contact_area - located) / counted).max(0.0) } else { 1.0 };
     let spot_area = |spot: &Spot| spot.boundary.as_ref().map_or(correction * spot.counted, Boundary::area);
 
@@ -102,7 +104,7 @@ pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
             LevelObservables {
                 level,
                 load: load / indenters,
-                load_share: if total > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
+                load_share: if mean_pressure > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
                 max_pressure: peaks.map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max),
                 contact_area: area,
                 contact_radius: (!merged).then(|| (area / PI).sqrt()),
@@ -124,7 +126,9 @@ fn spots(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Spot> {
         return spots;
     }
     let offset = |index: usize| texture.offset(grid, &reduced, texture.owner[index], index);
-    let steps = grid.steps();
+    // The way to the next sample along a₁ and a₂, in a skewed cell by its shortest equivalent.
+    let steps = [reduced.nearest([1.0 / n1 as f64, 0.0]), reduced.nearest([0.0, 1.0 / n2 as f64])];
+    let tolerance = 1e-6 * grid.spacing();
     for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
         let owner = texture.owner[index];
         let owners = match texture.ties.binary_search_by_key(&index, |(sample, _)| *sample) {
@@ -150,7 +154,7 @@ fn spots(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Spot> {
             let (here, there) = (offset(index), offset(neighbour));
             let apart = [0, 1].map(|k| (there[k] - here[k] - step[k]).abs());
             let other = texture.owner[neighbour];
-            if other != owner || apart[0].max(apart[1]) > 1e-6 * grid.spacing() {
+            if other != owner || apart[0].max(apart[1]) > tolerance {
                 spots[owner as usize].merged = true;
                 spots[other as usize].merged = true;
             }

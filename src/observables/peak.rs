@@ -2,10 +2,11 @@
 
 use crate::grid::Grid;
 
-/// Largest value of the paraboloid through the 3 × 3 samples around `index` (least squares), never below the sample itself.
+/// Largest value of the paraboloid through the 3 × 3 samples around `index` (least squares), never below the sample
+/// itself.
 ///
-/// In units of the samples' indices i, j ∈ {−1, 0, 1}: p ≈ c₀ + c₁i + c₂j + c₃i² + c₄ij + c₅j², whose error near a smooth peak
-/// falls with the fourth power of the spacing. Next to the contact edge the sample itself is returned.
+/// In units of the samples' indices i, j ∈ {−1, 0, 1}: p ≈ c₀ + c₁i + c₂j + c₃i² + c₄ij + c₅j², whose error near a
+/// smooth peak falls with the fourth power of the spacing. Next to the contact edge the sample itself is returned.
 pub fn interpolated(grid: &Grid, pressure: &[f64], index: usize) -> f64 {
     let [n1, n2] = grid.points();
     let (row, column) = (index / n2, index % n2);

@@ -1,8 +1,8 @@
 //! The output folder: what a run leaves behind.
 //!
-//! Every file is written under a temporary name and renamed when it is complete. `summary.json` and `curve.csv` are renewed after each load step
-//! and the fields of a step stand as `.npy` files in `contact.partial/` until `contact.npz` is made of them, so
-//! that what a long run has finished survives its end.
+//! Every file is written under a temporary name and renamed when it is complete. `summary.json` and `curve.csv` are
+//! renewed after each load step and the fields of a step stand as `.npy` files in `contact.partial/` until
+//! `contact.npz` is made of them, so that what a long run has finished survives its end.
 
 mod fields;
 mod npz;

@@ -19,7 +19,8 @@ pub struct Certificate {
     pub energy_gap: f64,
     /// Deepest penetration outside contact over the range of f, ≥ 0.
     pub penetration: f64,
-    /// Deviation of what was prescribed: |mean p − p̄|/p̄ under load control, |Σp(w+f)/Σp − δ|/δ under displacement control.
+    /// Deviation of what was prescribed: |mean p − p̄|/p̄ under load control, |Σp(w+f)/Σp − δ|/δ under displacement
+    /// control.
     pub load: f64,
 }
 
@@ -57,7 +58,9 @@ impl Certificate {
         let least = field::least(len, |i| g[i]);
         let [gap] = field::sums(len, |i| [p[i] * (g[i] - least)]);
         let outside = field::least(len, |i| if p[i] > 0.0 { 0.0 } else { g[i] });
-        Self { energy_gap: gap / energy, penetration: (-outside / range).max(0.0), load: deviation }
+        // A flat counterbody is in complete contact without any deformation: nothing to be relative to.
+        let relative = |excess: f64, scale: f64| if scale > 0.0 { (excess / scale).max(0.0) } else { 0.0 };
+        Self { energy_gap: relative(gap, energy), penetration: relative(-outside, range), load: deviation }
     }
 }
 

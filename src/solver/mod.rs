@@ -4,11 +4,12 @@
 //! p ≥ 0 with a given δ (displacement control). Two conjugate-gradient methods are offered,
 //! `preconditioned` and `polonsky_keer`; what they return is judged by the [`certificate`] of the pressure alone.
 //!
-//! **Stopping.** ε = Σ p|g| / (δ Σp) < tolerance and the deepest penetration outside contact < 10 tolerance · δ, where δ is the
-//! penetration below first touch, the scale of the deformation: dimensionless, so the unit of length does not
+//! **Stopping.** ε = Σ p|g| / (δ Σp) < tolerance and the deepest penetration outside contact < 10 tolerance · δ, where
+//! δ is the penetration below first touch, the scale of the deformation: dimensionless, so the unit of length does not
 //! matter, and as sharp at first touch as near full contact.
 
 pub mod certificate;
+mod load_search;
 mod polonsky_keer;
 mod preconditioned;
 
@@ -203,8 +204,15 @@ impl State {
 }
 
 impl Check {
-    fn converged(&self, tolerance: f64) -> bool {
-        self.residual < tolerance && self.deepest < 10.0 * tolerance
+    /// Why the iteration has to end here, if it has to.
+    fn stop(&self, settings: &Settings, patience: &mut Patience, iterations: usize) -> Option<StopReason> {
+        if self.residual < settings.tolerance && self.deepest < 10.0 * settings.tolerance {
+            Some(StopReason::Converged)
+        } else if patience.ends(self.measure()) {
+            Some(StopReason::Stalled)
+        } else {
+            (iterations >= settings.max_iterations).then_some(StopReason::IterationLimit)
+        }
     }
 
     /// One number that falls as both criteria do.
@@ -229,7 +237,8 @@ impl Patience {
     }
 }
 
-/// Solves one load step on one grid, from and into `state`. `shape` is f ≥ 0, a length, one value per sample, measured from first touch.
+/// Solves one load step on one grid, from and into `state`. `shape` is f ≥ 0, a length, one value per sample, measured
+/// from first touch.
 pub fn solve(
     operator: &mut Operator,
     shape: &[f64],
@@ -241,28 +250,49 @@ pub fn solve(
     let prescribed = match control {
         Control::MeanPressure(value) | Control::Penetration(value) => value,
     };
+    let done = |stop, residual| Report { stop, iterations: 0, fell_back: false, residual };
     if prescribed <= 0.0 {
         state.pressure.fill(0.0);
         state.gap.copy_from_slice(shape);
         state.penetration = prescribed.min(0.0);
-        return Report { stop: StopReason::NoContact, iterations: 0, fell_back: false, residual: 0.0 };
+        return done(StopReason::NoContact, 0.0);
     }
-    if let Control::Penetration(penetration) = control {
-        let [sum] = field::sums(shape.len(), |i| [shape[i]]);
-        if penetration >= sum / shape.len() as f64 {
-            return Report {
-                stop: StopReason::BeyondFullContact,
-                iterations: 0,
-                fell_back: false,
-                residual: f64::INFINITY,
-            };
+    match control {
+        Control::MeanPressure(mean) if shape.iter().all(|f| *f == shape[0]) => {
+            // A flat counterbody: complete contact at once.
+            state.pressure.fill(mean);
+            state.gap.fill(0.0);
+            state.penetration = shape[0];
+            done(StopReason::Converged, 0.0)
+        }
+        Control::MeanPressure(_) => iterate(operator, shape, control, settings, state, callback),
+        Control::Penetration(penetration) => {
+            if penetration >= field::mean(shape) {
+                return done(StopReason::BeyondFullContact, f64::INFINITY);
+            }
+            let report = iterate(operator, shape, control, settings, state, callback);
+            if report.stop != StopReason::Stalled {
+                return report;
+            }
+            load_search::solve(operator, shape, penetration, settings, report.iterations, state, callback)
         }
     }
+}
+
+/// The method of the settings, and the baseline where it stalls.
+fn iterate(
+    operator: &mut Operator,
+    shape: &[f64],
+    control: Control,
+    settings: &Settings,
+    state: &mut State,
+    callback: &mut dyn FnMut(Progress),
+) -> Report {
     match settings.method {
         Method::PolonskyKeer => polonsky_keer::solve(operator, shape, control, settings, 0, state, callback),
         Method::Preconditioned => {
             let report = preconditioned::solve(operator, shape, control, settings, state, callback);
-            if report.stop.solved() {
+            if report.stop != StopReason::Stalled {
                 return report;
             }
             let rest = polonsky_keer::solve(operator, shape, control, settings, report.iterations, state, callback);

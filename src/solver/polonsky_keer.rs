@@ -1,8 +1,8 @@
 //! Conjugate gradients of Polonsky & Keer, Wear 231 (1999) 206, the baseline.
 //!
-//! On {p > 0}: t = g + δ′ (G/G₀) t with G = Σ g² (δ′ = 0 right after samples have joined), τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p − τt, 0);
-//! samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over contact, Ct
-//! likewise, and p is scaled back to its mean.
+//! On {p > 0}: t = g + δ′ (G/G₀) t with G = Σ g² (δ′ = 0 right after samples have joined), τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p
+//! − τt, 0); samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over
+//! contact, Ct likewise, and p is scaled back to its mean.
 
 use super::{Control, Patience, Progress, Report, Settings, State, StopReason};
 use crate::field;
@@ -29,14 +29,7 @@ pub(super) fn solve(
     state.admit(control);
     loop {
         let check = state.check(operator, shape, control);
-        let stop = if check.converged(settings.tolerance) {
-            Some(StopReason::Converged)
-        } else if patience.ends(check.measure()) {
-            Some(StopReason::Stalled)
-        } else {
-            (iterations >= settings.max_iterations).then_some(StopReason::IterationLimit)
-        };
-        if let Some(stop) = stop {
+        if let Some(stop) = check.stop(settings, &mut patience, iterations) {
             return Report { stop, iterations, fell_back: false, residual: check.residual };
         }
         iterations += 1;

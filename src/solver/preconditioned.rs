@@ -1,9 +1,9 @@
 //! Conjugate gradients preconditioned with C⁻¹ on the active set.
 //!
-//! On I = {p > 0} ∪ {g < 0} the direction is t = z + βt with z = P_I F⁻¹C⁻¹F P_I g (Polak–Ribière β ≥ 0; a restart where
-//! I has grown). Under load control g and z are freed of their mean on I first, so that the load stays: the preconditioner
-//! is then symmetric on the admissible directions. Step τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p − τt, 0), and p is scaled back to its mean.
-//! C⁻¹ makes the spectrum of the iteration nearly independent of the grid.
+//! On I = {p > 0} ∪ {g < 0} the direction is t = z + βt with z = P_I F⁻¹C⁻¹F P_I g (Polak–Ribière β ≥ 0; a restart
+//! where I has grown). Under load control g and z are freed of their mean on I first, so that the load stays: the
+//! preconditioner is then symmetric on the admissible directions. Step τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p − τt, 0), and p is
+//! scaled back to its mean. C⁻¹ makes the spectrum of the iteration nearly independent of the grid.
 
 use super::{Control, Patience, Progress, Report, Settings, State, StopReason};
 use crate::field;
@@ -30,14 +30,7 @@ pub(super) fn solve(
     state.admit(control);
     loop {
         let check = state.check(operator, shape, control);
-        let stop = if check.converged(settings.tolerance) {
-            Some(StopReason::Converged)
-        } else if patience.ends(check.measure()) {
-            Some(StopReason::Stalled)
-        } else {
-            (iterations >= settings.max_iterations).then_some(StopReason::IterationLimit)
-        };
-        if let Some(stop) = stop {
+        if let Some(stop) = check.stop(settings, &mut patience, iterations) {
             return Report { stop, iterations, fell_back: false, residual: check.residual };
         }
         iterations += 1;

@@ -139,8 +139,8 @@ impl Field {
             .collect()
     }
 
-    /// States on the whole plane, on [n₁, n₂] `points` of the cell; waves that a grid coarser than the pressure's cannot
-    /// hold are left out.
+    /// States on the whole plane, on [n₁, n₂] `points` of the cell; waves that a grid coarser than the pressure's
+    /// cannot hold are left out.
     pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
         let amplitudes = self.amplitudes(depth);
         let coarser = points != self.grid.points();
@@ -199,7 +199,8 @@ pub(super) fn components(wave: &Wave, amplitudes: &Amplitudes, value: Complex64)
 
 /// State at the upper face of each material under the mean pressure, and the slope of u_z in it.
 ///
-/// u_z is measured from the mean plane of the deformed surface; lateral displacements under a lateral mean strain are left out.
+/// u_z is measured from the mean plane of the deformed surface; lateral displacements under a lateral mean strain are
+/// left out.
 fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64) -> Vec<(State, f64)> {
     let materials = half_space.layers().iter().map(|layer| layer.material()).chain([half_space.substrate()]);
     let mut uz = 0.0;

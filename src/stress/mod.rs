@@ -5,10 +5,12 @@
 //! σ_zz = s_zz c e^{i**q**·**x**},  σ_αz = −i n_α s_qz c e^{…},  σ_αβ = [n_α n_β s_qq + (δ_αβ − n_α n_β) s_tt] c e^{…},
 //! u_z = u_z c e^{…},  u_α = −i n_α u_q c e^{…}
 //!
-//! with the amplitudes of [`crate::layered::Interior`]; the mean pressure adds the state of [`MeanStress`]. At the depth z only waves with qz up to 60 count.
+//! with the amplitudes of [`crate::layered::Interior`]; the mean pressure adds the state of [`MeanStress`]. At the
+//! depth z only waves with qz up to 60 count.
 //!
 //! - **planes**: inverse transforms, one component at a time ([`Field::plane`]);
-//! - **sections** and **lines**: the waves are first collapsed across the section onto their wavenumbers along it ([`Field::section`]);
+//! - **sections** and **lines**: the waves are first collapsed across the section onto their wavenumbers along it
+//!   ([`Field::section`]);
 //! - **points**: the sum itself ([`Field::points`]);
 //! - **maxima** over each material and each face ([`maxima`]).
 

@@ -1,8 +1,9 @@
 //! Vertical sections and lines, without whole-plane transforms.
 //!
-//! On a line **x** = **x**₀ + s**d** a wave c e^{i**q**·**x**} is c e^{i**q**·**x**₀} e^{iκs} with κ = **q**·**d**. Waves with the same κ are
-//! added up first, depth by depth: along a lattice direction N² waves collapse onto a few N wavenumbers κ. Along a direction that is
-//! incommensurate with the lattice nothing collapses and the same sum takes longer.
+//! On a line **x** = **x**₀ + s**d** a wave c e^{i**q**·**x**} is c e^{i**q**·**x**₀} e^{iκs} with κ = **q**·**d**.
+//! Waves with the same κ are added up first, depth by depth: along a lattice direction N² waves collapse onto a few N
+//! wavenumbers κ. Along a direction that is incommensurate with the lattice nothing collapses and the same sum takes
+//! longer.
 
 use super::field::{Depth, Field, components};
 use super::tensor::State;

@@ -1,8 +1,9 @@
 //! The pressure as a sum of plane waves, ordered by wavenumber.
 //!
-//! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**}. A Fourier component whose shortest alias is not unique enters once for each of them with an equal part of
-//! its coefficient: factors that depend on the direction are averaged over tied aliases, and the symmetry of the lattice is kept.
-//! Waves of equal wavenumber form a **shell**; the half-space's amplitudes depend on the shell and the depth alone.
+//! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**}. A Fourier component whose shortest alias is not unique enters once for each
+//! of them with an equal part of its coefficient: factors that depend on the direction are averaged over tied aliases,
+//! and the symmetry of the lattice is kept. Waves of equal wavenumber form a **shell**; the half-space's amplitudes
+//! depend on the shell and the depth alone.
 
 use crate::fourier::Fourier;
 use crate::grid::Grid;
@@ -44,7 +45,8 @@ impl Spectrum {
         let [n1, n2] = grid.points();
         let components = Fourier::new([n1, n2]).analyse(pressure);
         let waves = components.par_chunks(n1).enumerate().flat_map_iter(|(k2, column)| {
-            // Of a component and its conjugate only the one with k₂ ≤ N₂/2 is stored; the others are their own conjugates' columns.
+            // Of a component and its conjugate only the one with k₂ ≤ N₂/2 is stored; the others are their own
+            // conjugates' columns.
             let weight = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
             column.iter().enumerate().filter(move |(k1, _)| (*k1, k2) != (0, 0)).flat_map(move |(k1, &value)| {
                 let aliases = grid.tied_wavevectors([k1, k2], TIE);

@@ -1,7 +1,7 @@
 //! One indenter alone, from a cell of twenty contact radii whose images are taken off.
 //!
-//! The images curve the surface by c₂ = PΔS₃/(4πE₁*) and lift it by PΔS₁/(πE₁*), ΔS_n their effective sums: the solver gets an indenter
-//! less curved by c₂, and the lift is taken off its penetration.
+//! The images curve the surface by c₂ = PΔS₃/(4πE₁*) and lift it by PΔS₁/(πE₁*), ΔS_n their effective sums: the solver
+//! gets an indenter less curved by c₂, and the lift is taken off its penetration.
 
 use super::series::{Contact, Sums, System, TRIANGULAR, Term, coated_images};
 use super::support::{Coating, Steps, hexagonal, homogeneous, relative};
@@ -15,7 +15,8 @@ const POINTS: usize = 400;
 /// Side of the cell over the contact radius.
 const SIDE: f64 = 20.0;
 
-/// Solved contact of a paraboloid of unit radius under `load` on a coating of unit thickness, and the penetration without images.
+/// Solved contact of a paraboloid of unit radius under `load` on a coating of unit thickness, and the penetration
+/// without images.
 pub fn alone(coating: &Coating, load: f64, radius: f64, side: f64, points: usize) -> (LevelObservables, f64) {
     let scale = PI * coating.modulus();
     let Sums([s1, s3, s5]) = coated_images(coating, side);
@@ -78,8 +79,9 @@ fn a_paraboloid_on_a_soft_coating_obeys_its_integral_equation() {
 
 #[test]
 fn an_incompressible_layer_on_a_rigid_base_carries_its_exact_load() {
-    // X = √(Rδ)/h and P/(4/3 E* √R δ^3/2) from the integral equation of the layer bonded to a rigid base, ν = ½ (their expansion in X
-    // is that of Garcia & Garcia, Biophys. J. 114 (2018) 2923). The layer keeps its volume: the mean plane of its surface does not move.
+    // X = √(Rδ)/h and P/(4/3 E* √R δ^3/2) from the integral equation of the layer bonded to a rigid base, ν = ½ (their
+    // expansion in X is that of Garcia & Garcia, Biophys. J. 114 (2018) 2923). The layer keeps its volume: the mean
+    // plane of its surface does not move.
     let coating = Coating { chi: 1e-6, poisson: [0.5, 0.3], thickness: 1.0 };
     for [x, ratio] in [[0.09622, 1.123544], [0.26740, 1.440023], [0.48694, 2.105576], [0.74794, 3.371097]] {
         let load = ratio * 4.0 / 3.0 * coating.modulus() * f64::powi(x, 3);
@@ -89,7 +91,8 @@ fn an_incompressible_layer_on_a_rigid_base_carries_its_exact_load() {
     }
 }
 
-/// One cone or power law c rⁿ of contact radius 1, E* = 1, `samples` to the radius: Galin's contact among its images, and as found.
+/// One cone or power law c rⁿ of contact radius 1, E* = 1, `samples` to the radius: Galin's contact among its images,
+/// and as found.
 pub fn power_law(shape: Shape, term: Term, samples: usize) -> (Contact, Observables, Vec<f64>) {
     let expected = System::single(1.0, TRIANGULAR.scaled(SIDE), vec![term]).contacts(&[1.0])[0];
     let alone = Contact::isolated(1.0, &[term], 1.0);

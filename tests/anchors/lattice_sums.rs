@@ -1,11 +1,12 @@
 //! The operator's response to a localised pressure holds the lattice sums.
 //!
-//! A Gaussian pressure of load P and width s has the displacement (Taylor series of the periodic Green function averaged over it)
+//! A Gaussian pressure of load P and width s has the displacement (Taylor series of the periodic Green function
+//! averaged over it)
 //!
 //! πE* w/P = √(π/2)/s + S₁ + S₃ s²/2 + 9 S₅ s⁴/8 + …
 //!
-//! at its centre, and without the first term at the sites of another sublattice. The polynomial in s² through several widths gives
-//! S₁, S₃ and S₅.
+//! at its centre, and without the first term at the sites of another sublattice. The polynomial in s² through several
+//! widths gives S₁, S₃ and S₅.
 
 use super::series::{Sums, TRIANGULAR, coated_triangular, moment};
 use super::support::{Coating, absolute, homogeneous, relative};
@@ -16,7 +17,8 @@ use percoat::material::{HalfSpace, Interface, Layer, Material};
 use percoat::operator::Operator;
 use std::f64::consts::PI;
 
-/// Sums seen at the loaded site and at the site (⅓, ⅓) of the cell, from six widths s between `width` and twice `width`.
+/// Sums seen at the loaded site and at the site (⅓, ⅓) of the cell, from six widths s between `width` and twice
+/// `width`.
 fn measured(cell: Cell, points: usize, half_space: &HalfSpace, width: f64) -> [Sums; 2] {
     let grid = Grid::new(cell, [points, points]).unwrap();
     let mut operator = Operator::new(&grid, &TransferFunction::new(half_space));
@@ -90,7 +92,8 @@ fn a_point_load_on_the_square_lattice_feels_its_epstein_zeta_sums() {
 
 #[test]
 fn three_sublattices_feel_their_own_sums_and_those_of_each_other() {
-    // Period 1 between neighbours, cell side √3. Sums from the sublattice to itself and to each other one, 30-digit Epstein zeta sums.
+    // Period 1 between neighbours, cell side √3. Sums from the sublattice to itself and to each other one, 30-digit
+    // Epstein zeta sums.
     let [own, other] = measured(Cell::hexagonal(3f64.sqrt()).unwrap(), 240, &homogeneous(), 0.025);
     let Sums([s1, s3, s5]) = own;
     absolute("own S1", s1, -2.4326206931833058, 1e-9);
@@ -102,8 +105,8 @@ fn three_sublattices_feel_their_own_sums_and_those_of_each_other() {
     relative("other S5", s5, 3.16406126590521, 1e-4);
 }
 
-/// Period 1. Thickness, χ, ν₁; effective S₁, S₃, S₅ of one level; S₁ of three levels to their own and to each other level, S₃ to each other
-/// level: Epstein zeta sums plus converged reciprocal sums of T − 1. ν₂ = 0.3.
+/// Period 1. Thickness, χ, ν₁; effective S₁, S₃, S₅ of one level; S₁ of three levels to their own and to each other
+/// level, S₃ to each other level: Epstein zeta sums plus converged reciprocal sums of T − 1. ν₂ = 0.3.
 const COATED: [([f64; 3], [f64; 3], [f64; 3]); 5] = [
     ([0.5, 2.0, 0.20], [-4.1420777668, 7.2083075374, 30.46992632], [-2.01909410, -1.06149184, 6.90140087]),
     ([0.5, 0.5, 0.45], [-4.2988675296, 15.6184581366, -21.68869048], [-2.86426157, -0.71730298, 2.07854439]),

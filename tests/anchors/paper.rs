@@ -1,7 +1,8 @@
 //! The parameter sets of Figs 2 and 3 of Goryacheva & Torskaya (2019), as the model itself answers them.
 //!
-//! Expected: an independent periodic solver, 756 points along three periods (residual 1e-10; 252 and 504 points give the same four
-//! digits). The pressures printed in the paper do not follow from the printed parameters and are no reference here.
+//! Expected: an independent periodic solver, 756 points along three periods (residual 1e-10; 252 and 504 points give
+//! the same four digits). The pressures printed in the paper do not follow from the printed parameters and are no
+//! reference here.
 
 use super::support::{Coating, Steps, hexagonal, relative};
 use percoat::indenter::Shape;

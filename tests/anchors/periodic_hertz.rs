@@ -15,7 +15,8 @@ fn series(modulus: f64, sums: Sums, mean_pressure: f64) -> Contact {
 
 #[test]
 fn one_level_has_the_peak_pressure_and_penetration_of_the_series_and_of_finer_grids() {
-    // p̄/E*; p(0), δ, a of the series; p(0), δ of an independent solver with the same digits at 280 × 484 and 560 × 970 points.
+    // p̄/E*; p(0), δ, a of the series; p(0), δ of an independent solver with the same digits at 280 × 484 and 560 × 970
+    // points.
     let rows = [
         [0.002, 0.08074, 0.010519, 0.10121, 0.08074, 0.010519],
         [0.010, 0.13897, 0.026131, 0.17249, 0.13897, 0.026131],
@@ -43,7 +44,8 @@ fn one_level_has_the_peak_pressure_and_penetration_of_the_series_and_of_finer_gr
 
 #[test]
 fn three_levels_share_the_load_as_the_series_and_finer_grids_say() {
-    // p̄/E*, step of the drops; p(0) of levels 1, 2, 3, their shares of the load, δ: an independent solver at 504 points along 3 periods.
+    // p̄/E*, step of the drops; p(0) of levels 1, 2, 3, their shares of the load, δ: an independent solver at 504
+    // points along 3 periods.
     let rows = [
         ([0.01, 0.005], [0.14939, 0.13862, 0.12711], [0.41453, 0.33071, 0.25476], 0.030971),
         ([0.03, 0.01], [0.21968, 0.20318, 0.18566], [0.41902, 0.33008, 0.25090], 0.054341),
@@ -69,7 +71,8 @@ fn three_levels_share_the_load_as_the_series_and_finer_grids_say() {
 
 #[test]
 fn a_coated_level_has_the_peak_pressure_and_penetration_of_finer_grids() {
-    // χ, ν₁; p̄/E₂, p(0), δ of an independent solver; h = 0.5, ν₂ = 0.3, E₂ = 1. At the lighter load the series is as good.
+    // χ, ν₁; p̄/E₂, p(0), δ of an independent solver; h = 0.5, ν₂ = 0.3, E₂ = 1. At the lighter load the series is as
+    // good.
     let rows = [
         ([2.0, 0.20], [0.01, 0.213797, 0.018369]),
         ([2.0, 0.20], [0.06, 0.395452, 0.045721]),

@@ -53,7 +53,8 @@ fn cones_and_power_laws_have_their_radius_too() {
 #[test]
 
 fn a_contact_wider_than_its_soft_coating_is_thick_has_its_radius() {
-    // Load of the contact of radius 2 on a coating of thickness 1 under a paraboloid of radius 1: integral equation of the coated contact.
+    // Load of the contact of radius 2 on a coating of thickness 1 under a paraboloid of radius 1: integral equation of
+    // the coated contact.
     let coating = Coating { chi: 0.5, poisson: [0.45, 0.3], thickness: 1.0 };
     let (found, _) = alone(&coating, 9.8112764528, 2.0, 40.0, 400);
     relative("radius", found.contact_radius.unwrap(), 2.0, 1e-3);

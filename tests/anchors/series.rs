@@ -4,9 +4,11 @@
 //!
 //! πE* w = 1/r + S₁ + S₃ r²/4 + 9 S₅ r⁴/64 + …,  S_n = Σ' 1/|R|ⁿ (S₁ without its uniform background).
 //!
-//! A contact of radius a then feels an indenter f = Σ c_n rⁿ, the images adding to c₂ and c₄, and (Galin 1946, Sneddon 1965)
+//! A contact of radius a then feels an indenter f = Σ c_n rⁿ, the images adding to c₂ and c₄, and (Galin 1946, Sneddon
+//! 1965)
 //!
-//! δ = Σ κ_n c_n aⁿ,  P = 2E* Σ n κ_n c_n aⁿ⁺¹/(n+1),  p(0) = (E*/π) Σ n κ_n c_n aⁿ⁻¹/(n−1),  κ_n = √π Γ(n/2+1)/Γ((n+1)/2).
+//! δ = Σ κ_n c_n aⁿ,  P = 2E* Σ n κ_n c_n aⁿ⁺¹/(n+1),  p(0) = (E*/π) Σ n κ_n c_n aⁿ⁻¹/(n−1),  κ_n = √π
+//! Γ(n/2+1)/Γ((n+1)/2).
 //!
 //! A coating replaces E* by its own E₁* and S_n by effective sums.
 

@@ -62,8 +62,8 @@ fn cosines(s: f64, t: f64) -> f64 {
     (TAU * s).cos() + (TAU * t).cos() + (TAU * (s + t)).cos()
 }
 
-// Converged tables: 512 points, pressures good to 2e-5, areas corrected for the perimeter and good to 5e-4. The egg-box rows 0.05 and 0.8
-// agree with an independent program to 5 digits of the pressure.
+// Converged tables: 512 points, pressures good to 2e-5, areas corrected for the perimeter and good to 5e-4. The egg-box
+// rows 0.05 and 0.8 agree with an independent program to 5 digits of the pressure.
 
 /// Johnson, Greenwood & Higginson (1985): p* = √2 πE*Δ/λ, two peaks in the cell.
 fn egg_box() -> Wavy {

@@ -34,7 +34,7 @@ fn check_says_what_a_case_means_and_writes_nothing() {
 fn check_finds_the_loads_of_first_touch() {
     let answer = Desk::new().percoat(&["check", "fig5"]);
     let touch = |level: usize| -> f64 {
-        let mark = format!("  level {level}: ");
+        let mark = format!("  level {level}: mean pressure ");
         answer.out.lines().find_map(|line| line.strip_prefix(&mark)).unwrap().parse().unwrap()
     };
     assert_eq!(touch(1), 0.0);
