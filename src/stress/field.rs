@@ -12,7 +12,7 @@ use rustfft::num_complex::Complex64;
 use std::fmt;
 
 /// Largest qz of a wave that still counts: its stresses are below e^{−60} of the pressure.
-const REACH: f64 = 60.0;
+pub(super) const REACH: f64 = 60.0;
 /// Waves summed at a time; fixed, so that sums do not depend on the number of threads.
 const BLOCK: usize = 4096;
 
@@ -87,9 +87,9 @@ impl Field {
         &self.grid
     }
 
-    /// Amplitudes of the shells that reach the depth; the waves of all of them come first.
-    pub(super) fn amplitudes(&self, depth: Depth) -> Vec<Amplitudes> {
-        let count = self.spectrum.shells_up_to(REACH / depth.z.max(f64::MIN_POSITIVE));
+    /// Amplitudes of the shells with qz up to `reach`; the waves of all of them come first.
+    pub(super) fn amplitudes(&self, depth: Depth, reach: f64) -> Vec<Amplitudes> {
+        let count = self.spectrum.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
         let below = depth.z - self.tops[depth.side - 1];
         self.spectrum.shells[..count]
             .par_iter()
@@ -112,7 +112,12 @@ impl Field {
 
     /// States at the points (x, y) of one depth: the sum over waves itself.
     pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<State> {
-        let amplitudes = self.amplitudes(depth);
+        self.points_within(depth, points, REACH)
+    }
+
+    /// States at points of one depth from the waves with qz up to `reach`.
+    pub(super) fn points_within(&self, depth: Depth, points: &[[f64; 2]], reach: f64) -> Vec<State> {
+        let amplitudes = self.amplitudes(depth, reach);
         let waves = self.waves(amplitudes.len());
         let mean = self.mean(depth);
         points
@@ -142,7 +147,7 @@ impl Field {
     /// States on the whole plane, on [n₁, n₂] `points` of the cell; waves that a grid coarser than the pressure's
     /// cannot hold are left out.
     pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
-        let amplitudes = self.amplitudes(depth);
+        let amplitudes = self.amplitudes(depth, REACH);
         let coarser = points != self.grid.points();
         let waves: Vec<&Wave> = self
             .waves(amplitudes.len())

@@ -15,6 +15,7 @@
 //! - **maxima** over each material and each face ([`maxima`]).
 
 mod field;
+pub mod maxima;
 mod mean;
 mod section;
 mod spectrum;

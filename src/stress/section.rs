@@ -5,7 +5,7 @@
 //! wavenumbers κ. Along a direction that is incommensurate with the lattice nothing collapses and the same sum takes
 //! longer.
 
-use super::field::{Depth, Field, components};
+use super::field::{Depth, Field, REACH, components};
 use super::tensor::State;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -79,7 +79,7 @@ impl Field {
     }
 
     fn line_at(&self, line: &Line, depth: Depth, collapsed: &Collapsed) -> Vec<State> {
-        let amplitudes = self.amplitudes(depth);
+        let amplitudes = self.amplitudes(depth, REACH);
         let waves = self.waves(amplitudes.len());
         let mut sums = vec![[Complex64::default(); 9]; collapsed.wavenumbers.len()];
         for (wave, &(index, coefficient)) in waves.iter().zip(&collapsed.waves) {

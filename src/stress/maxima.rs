@@ -1,0 +1,272 @@
+//! Where coating and substrate are stressed most: the largest principal shear stress τ₁ and the largest tension σ₁ in
+//! each material and on each of its faces.
+//!
+//! 1. **Planes** at depths that thicken towards the faces of each material: the largest sample of each is a candidate.
+//! A plane holds as many points as the waves that reach its depth need.
+//! 2. **Refinement** of the best candidate of a material: parabolas through neighbouring points, in turn
+//!    horizontally and in depth, on the exact sum over waves, until nothing moves. On a face the depth stays.
+//!
+//! On the surface itself, and within two samples of it, the series converges slowly (see the head of [`crate::stress`])
+//! and the samples of the pressure's own grid are taken as they are.
+
+use super::field::{Depth, Field, Plane};
+use super::tensor::State;
+use crate::fourier::fast_points;
+
+/// A largest value and where it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// The value, a pressure.
+    pub value: f64,
+    /// x, y, z; lengths.
+    pub position: [f64; 3],
+    /// Material, from 1; the substrate is layers + 1.
+    pub side: usize,
+}
+
+/// Maxima over a material or a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extremes {
+    /// Largest principal shear stress τ₁.
+    pub tau1: Peak,
+    /// Largest principal stress σ₁; negative where nothing is in tension.
+    pub tension: Peak,
+}
+
+/// All maxima of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Maxima {
+    /// Over each material, faces included, from the surface down.
+    pub materials: Vec<Extremes>,
+    /// Over each face: the surface, then both sides of each interface.
+    pub faces: Vec<Extremes>,
+}
+
+/// Ratio of successive distances from a face.
+const RATIO: f64 = 1.35;
+/// Waves with qz beyond this are left out of the search: e^{−25} of the pressure.
+const REACH: f64 = 25.0;
+/// Planes leave out waves with qz beyond this.
+const PLANE_REACH: f64 = 10.0;
+
+/// A quantity to be maximised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Tau1,
+    Tension,
+}
+
+impl Quantity {
+    fn of(self, state: &State) -> f64 {
+        match self {
+            Self::Tau1 => state.tau1(),
+            Self::Tension => state.s1(),
+        }
+    }
+}
+
+/// The best sample of a plane.
+#[derive(Debug, Clone, Copy)]
+struct Candidate {
+    value: f64,
+    depth: Depth,
+    place: [f64; 2],
+    /// Distance to neighbouring samples.
+    step: f64,
+}
+
+impl Field {
+    /// Maxima over all materials and faces. `radii`: the smallest and the largest contact radius (or half the width of
+    /// a contact), lengths.
+    pub fn maxima(&self, radii: [f64; 2]) -> Maxima {
+        let mut faces = Vec::new();
+        let mut materials = Vec::new();
+        for side in 1..=self.materials() {
+            let depths = self.search_depths(side, radii);
+            let candidates: Vec<[Candidate; 2]> =
+                depths.iter().map(|&z| self.candidates(Depth { z, side }, radii[0])).collect();
+            let (top, bottom) = self.faces(side);
+            let peaks =
+                |index: usize, quantity: Quantity| self.face_peak(&candidates[index][quantity as usize], quantity);
+            let face = |index: usize| Extremes {
+                tau1: peaks(index, Quantity::Tau1),
+                tension: peaks(index, Quantity::Tension),
+            };
+            let mut own = vec![face(0)];
+            if bottom.is_finite() {
+                own.push(face(depths.len() - 1));
+            }
+            let best = |quantity: Quantity| {
+                let index = (0..depths.len())
+                    .max_by(|&a, &b| {
+                        candidates[a][quantity as usize].value.total_cmp(&candidates[b][quantity as usize].value)
+                    })
+                    .unwrap_or(0);
+                let inside =
+                    self.refined(&candidates[index][quantity as usize], quantity, &depths, index, [top, bottom]);
+                let on_faces = own.iter().map(|extremes| match quantity {
+                    Quantity::Tau1 => extremes.tau1,
+                    Quantity::Tension => extremes.tension,
+                });
+                on_faces.fold(inside, |best, peak| if peak.value > best.value { peak } else { best })
+            };
+            materials.push(Extremes { tau1: best(Quantity::Tau1), tension: best(Quantity::Tension) });
+            faces.extend(own);
+        }
+        Maxima { materials, faces }
+    }
+
+    /// Depths at which planes are searched, ascending, faces first and last.
+    fn search_depths(&self, side: usize, [small, large]: [f64; 2]) -> Vec<f64> {
+        let (top, bottom) = self.faces(side);
+        let least = 0.1 * small;
+        // Below some six radii and a few coating thicknesses stresses only fall.
+        let reach = 6.0 * large + 3.0 * top;
+        let most = if bottom.is_finite() { 0.5 * (bottom - top) } else { reach };
+        let mut depths = vec![top];
+        let mut distance = least;
+        while distance < most.min(reach) {
+            depths.push(top + distance);
+            if bottom.is_finite() {
+                depths.push(bottom - distance);
+            }
+            distance *= RATIO;
+        }
+        if bottom.is_finite() {
+            depths.extend([0.5 * (top + bottom), bottom]);
+        }
+        depths.sort_by(f64::total_cmp);
+        depths.dedup();
+        depths
+    }
+
+    /// The best samples of the plane at a depth, for τ₁ and σ₁.
+    fn candidates(&self, depth: Depth, radius: f64) -> [Candidate; 2] {
+        let grid = self.grid();
+        let [e1, e2] = grid.steps();
+        let steps = [e1[0].hypot(e1[1]), e2[0].hypot(e2[1])];
+        let points = [0, 1].map(|k| {
+            let n = grid.points()[k];
+            let length = steps[k] * n as f64;
+            let needed = (PLANE_REACH * length / (std::f64::consts::PI * depth.z)).max(8.0 * length / radius);
+            if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
+        });
+        let plane = self.plane(depth, points);
+        let states: Vec<State> = (0..points[0] * points[1]).map(|index| plane.state(index)).collect();
+        [Quantity::Tau1, Quantity::Tension].map(|quantity| best_sample(&plane, &states, quantity, self, steps))
+    }
+
+    /// The peak on a face: between the samples of the plane by the exact sum, or, where that converges slowly, the
+    /// sample itself.
+    fn face_peak(&self, candidate: &Candidate, quantity: Quantity) -> Peak {
+        if candidate.depth.z < 2.0 * self.grid().spacing() {
+            return candidate.peak();
+        }
+        self.horizontally(candidate, quantity).peak()
+    }
+
+    /// The best peak near the candidate of plane `index`, the depth between those of the neighbouring planes.
+    fn refined(
+        &self,
+        candidate: &Candidate,
+        quantity: Quantity,
+        depths: &[f64],
+        index: usize,
+        faces: [f64; 2],
+    ) -> Peak {
+        if candidate.depth.z < 2.0 * self.grid().spacing() || faces.contains(&candidate.depth.z) {
+            return self.face_peak(candidate, quantity);
+        }
+        let low = depths[index.saturating_sub(1)];
+        let high = depths.get(index + 1).copied().unwrap_or(candidate.depth.z);
+        let mut best = *candidate;
+        for _ in 0..3 {
+            best = self.horizontally(&best, quantity);
+            let before = best.depth.z;
+            best = self.vertically(&best, quantity, [low, high]);
+            if (best.depth.z - before).abs() < 1e-3 * before {
+                break;
+            }
+        }
+        best.peak()
+    }
+
+    /// Moves a candidate to the top of the paraboloid through 3 × 3 points around it, with smaller and smaller steps.
+    fn horizontally(&self, candidate: &Candidate, quantity: Quantity) -> Candidate {
+        let mut best = *candidate;
+        for _ in 0..4 {
+            let [x, y] = best.place;
+            let step = best.step;
+            let around: Vec<[f64; 2]> =
+                (0..9).map(|k| [x + (f64::from(k / 3) - 1.0) * step, y + (f64::from(k % 3) - 1.0) * step]).collect();
+            let values: Vec<f64> =
+                self.points_within(best.depth, &around, REACH).iter().map(|state| quantity.of(state)).collect();
+            let highest = (0..9).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(4);
+            best.value = values[highest];
+            best.place = around[highest];
+            if highest == 4 {
+                let [dx, dy] = [[1, 7], [3, 5]].map(|[before, after]| {
+                    let curvature = values[before] + values[after] - 2.0 * values[4];
+                    let slope = 0.5 * (values[after] - values[before]);
+                    if curvature < 0.0 { (-slope / curvature).clamp(-1.0, 1.0) * step } else { 0.0 }
+                });
+                let moved = [x + dx, y + dy];
+                let value = quantity.of(&self.points_within(best.depth, &[moved], REACH)[0]);
+                if value > best.value {
+                    (best.value, best.place) = (value, moved);
+                }
+                best.step *= 0.3;
+            }
+        }
+        best
+    }
+
+    /// Moves a candidate in depth within [low, high] by golden sections.
+    fn vertically(&self, candidate: &Candidate, quantity: Quantity, [low, high]: [f64; 2]) -> Candidate {
+        let side = candidate.depth.side;
+        let value = |z: f64| quantity.of(&self.points_within(Depth { z, side }, &[candidate.place], REACH)[0]);
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        let (mut a, mut b) = (low, high);
+        let (mut c, mut d) = (b - golden * (b - a), a + golden * (b - a));
+        let (mut at_c, mut at_d) = (value(c), value(d));
+        while b - a > 2e-3 * b {
+            if at_c > at_d {
+                (b, d, at_d) = (d, c, at_c);
+                c = b - golden * (b - a);
+                at_c = value(c);
+            } else {
+                (a, c, at_c) = (c, d, at_d);
+                d = a + golden * (b - a);
+                at_d = value(d);
+            }
+        }
+        let (z, found) = if at_c > at_d { (c, at_c) } else { (d, at_d) };
+        if found > candidate.value {
+            Candidate { value: found, depth: Depth { z, side }, ..*candidate }
+        } else {
+            *candidate
+        }
+    }
+}
+
+impl Candidate {
+    fn peak(&self) -> Peak {
+        let [x, y] = self.place;
+        Peak { value: self.value, position: [x, y, self.depth.z], side: self.depth.side }
+    }
+}
+
+fn best_sample(plane: &Plane, states: &[State], quantity: Quantity, field: &Field, steps: [f64; 2]) -> Candidate {
+    let mut best = (f64::NEG_INFINITY, 0);
+    for (index, state) in states.iter().enumerate() {
+        let value = quantity.of(state);
+        // Equal values, to rounding, of symmetric places: the first one.
+        if value > best.0 + 1e-12 * value.abs() {
+            best = (value, index);
+        }
+    }
+    let [n1, n2] = plane.points;
+    let place = field.grid().cell().point([(best.1 / n2) as f64 / n1 as f64, (best.1 % n2) as f64 / n2 as f64]);
+    let scale = [0, 1].map(|k| steps[k] * field.grid().points()[k] as f64 / plane.points[k] as f64);
+    Candidate { value: best.0, depth: plane.depth, place, step: 0.5 * scale[0].min(scale[1]) }
+}
