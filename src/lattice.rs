@@ -138,9 +138,14 @@ pub struct Reduced {
 }
 
 impl Reduced {
+    /// A shortest lattice vector.
+    pub fn short(&self) -> [f64; 2] {
+        if norm(self.cell.a1) <= norm(self.cell.a2) { self.cell.a1 } else { self.cell.a2 }
+    }
+
     /// Length of the shortest lattice vector.
     pub fn shortest_vector(&self) -> f64 {
-        norm(self.cell.a1).min(norm(self.cell.a2))
+        norm(self.short())
     }
 
     /// Length of the longer one of r₁ and r₂.
@@ -274,6 +279,19 @@ impl Lattice {
         self.cell
     }
 
+    /// The vector from the place `from` (fractions of a₁, a₂) to the nearest indenter of `level` (from 1) that is not
+    /// there.
+    pub fn toward(&self, from: [f64; 2], level: usize) -> [f64; 2] {
+        let reduced = self.cell.reduced();
+        let other = |site: &[f64; 2]| {
+            let vector = reduced.nearest([site[0] - from[0], site[1] - from[1]]);
+            // The nearest image of the place itself is a shortest lattice vector away.
+            if norm(vector) > 1e-9 * reduced.longer_side() { vector } else { reduced.short() }
+        };
+        let vectors = self.sites[level - 1].iter().map(other);
+        vectors.min_by(|a, b| norm(*a).total_cmp(&norm(*b))).unwrap_or(self.cell.a1)
+    }
+
     /// Sites of each level, in fractions of a₁, a₂ within [0, 1).
     pub fn sites(&self) -> &[Vec<[f64; 2]>] {
         &self.sites
@@ -364,6 +382,15 @@ mod tests {
                     assert!((x[0] - y[0]).abs() < 1e-12 && (x[1] - y[1]).abs() < 1e-12);
                 }
             }
+        }
+    }
+
+    #[test]
+    fn the_nearest_indenter_of_a_level_is_one_period_away() {
+        let lattice = Lattice::hexagonal(0.7, 3).unwrap();
+        for (level, distance) in [(1, 0.7 * 3f64.sqrt()), (2, 0.7), (3, 0.7)] {
+            let vector = lattice.toward(lattice.sites()[0][0], level);
+            assert!((norm(vector) - distance).abs() < 1e-12, "level {level}: {vector:?}");
         }
     }
 

@@ -322,3 +322,37 @@ fn the_largest_shear_under_hertz_is_found_without_being_told_where() {
         }
     }
 }
+
+#[test]
+fn a_layer_counted_as_two_has_the_same_stresses() {
+    let material = Material::from_shear(5.0, 0.2).unwrap();
+    let substrate = Material::from_shear(1.0, 0.3).unwrap();
+    let layer = |thickness| Layer::new(material, thickness, Interface::Bonded).unwrap();
+    let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [12, 12]).unwrap();
+    let pressure = noise(144);
+    for mean in [MeanStress::Confined, MeanStress::HalfSpace] {
+        let whole = Field::new(&grid, &pressure, &HalfSpace::new(vec![layer(0.25)], substrate), mean);
+        let split = Field::new(&grid, &pressure, &HalfSpace::new(vec![layer(0.125), layer(0.125)], substrate), mean);
+        for (z, sides) in [(0.06, (1, 1)), (0.2, (1, 2)), (0.25, (1, 2)), (0.25, (2, 3)), (0.6, (2, 3))] {
+            let [a, b] = [(&whole, sides.0), (&split, sides.1)]
+                .map(|(field, side)| field.points(Depth { z, side }, &[[0.31, 0.17]])[0]);
+            assert!(worst(&a, &b) < 1e-12, "z = {z}: {a}\n{b}");
+        }
+    }
+}
+
+#[test]
+fn a_spring_lies_between_its_limits() {
+    let grid = Grid::new(Cell::square(1.0).unwrap(), [12, 12]).unwrap();
+    let pressure = noise(144);
+    let at = |interface| {
+        let half_space = common::coated(3.0, 0.1, [0.2, 0.3], interface);
+        let field = Field::new(&grid, &pressure, &half_space, MeanStress::Confined);
+        field.points(Depth { z: 0.1, side: 1 }, &[[0.31, 0.17]])[0]
+    };
+    let spring = |tangential| at(Interface::Spring { tangential, normal: f64::INFINITY });
+    assert!(worst(&spring(1e12), &at(Interface::Bonded)) < 1e-9);
+    assert!(worst(&spring(1e-12), &at(Interface::Frictionless)) < 1e-9);
+    let shear = [1e3, 10.0, 1.0, 0.1].map(|k| spring(k).xz.abs());
+    assert!(shear.windows(2).all(|pair| pair[0] > pair[1]), "softer springs carry less shear: {shear:?}");
+}

@@ -40,5 +40,5 @@ pub use localized::{CircleRadius, LocalizedSection};
 pub use model::Case;
 pub use overrides::choices;
 pub use source::Source;
-pub use stress::{Cut, MeanStress, StressSection};
+pub use stress::{Cut, StressSection, Toward, Volume};
 pub use surface::SurfaceSection;

@@ -3,7 +3,9 @@
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
+use super::node::Value;
 use super::reader::{Field, POSITIVE, Section};
+use crate::stress::MeanStress;
 
 /// The section `[stress]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -15,16 +17,23 @@ pub struct StressSection {
     /// A vertical cut.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<Cut>,
+    /// Single points x, y, z; lengths.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<[f64; 3]>,
+    /// A volume under the cell for ParaView.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume: Option<Volume>,
 }
 
-/// The mean lateral stress, which the periodic problem alone leaves open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MeanStress {
-    /// No mean lateral strain.
-    Confined,
-    /// That at the centre of a wide loaded disc on the half-space.
-    HalfSpace,
+/// The field under the whole cell.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Volume {
+    /// Down to this depth, a length.
+    pub depth: f64,
+    /// Intervals in depth.
+    pub rows: usize,
+    /// Points along each cell vector.
+    pub points: usize,
 }
 
 /// A vertical cut from the axis of an indenter toward a neighbour.
@@ -33,19 +42,36 @@ pub struct Cut {
     /// Level, from 1, of the indenter at whose axis the cut begins.
     #[serde(serialize_with = "write_level")]
     pub from: usize,
-    /// Level, from 1, of the nearest indenter toward which it runs.
-    #[serde(serialize_with = "write_level")]
-    pub toward: usize,
+    /// Where it runs.
+    pub toward: Toward,
     /// Length along the surface.
     pub length: f64,
     /// Depth, a length.
     pub depth: f64,
 }
 
+/// Where a cut runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Toward {
+    /// Toward the nearest other indenter of this level, from 1.
+    Level(usize),
+    /// Along this direction, of any length.
+    Direction([f64; 2]),
+}
+
+impl Serialize for Toward {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Level(level) => write_level(level, serializer),
+            Self::Direction(direction) => direction.serialize(serializer),
+        }
+    }
+}
+
 impl StressSection {
     /// Read the section of a case with this many levels (none: a surface from a file).
     pub(super) fn read(section: &Section<'_>, levels: usize) -> Result<Self, Refusal> {
-        section.only(&["planes", "mean", "section"], &[])?;
+        section.only(&["planes", "mean", "section", "points", "volume"], &[])?;
         let planes = match section.optional("planes") {
             Some(field) => {
                 let depths = field.list("a list of depths", "for example planes = [0.0, 0.5]")?;
@@ -60,7 +86,39 @@ impl StressSection {
             None => MeanStress::Confined,
         };
         let cut = section.optional("section").map(|field| Cut::read(&field, levels)).transpose()?;
-        Ok(Self { planes, mean, section: cut })
+        let points = match section.optional("points") {
+            Some(field) => {
+                let points = field.list("a list of points", "for example points = [[0.0, 0.0, 0.1]]")?;
+                points.iter().map(point).collect::<Result<_, _>>()?
+            }
+            None => Vec::new(),
+        };
+        let volume = section.optional("volume").map(|field| Volume::read(&field)).transpose()?;
+        Ok(Self { planes, mean, section: cut, points, volume })
+    }
+}
+
+/// A point [x, y, z] at or below the surface.
+fn point(field: &Field<'_>) -> Result<[f64; 3], Refusal> {
+    const WANTED: &str = "three numbers [x, y, z], z not less than 0";
+    let items = field.list(WANTED, WANTED)?;
+    let [x, y, z] = &items[..] else { return Err(field.refuse(WANTED)) };
+    Ok([x.number(..)?, y.number(..)?, z.number(0.0..)?])
+}
+
+impl Volume {
+    fn read(field: &Field<'_>) -> Result<Self, Refusal> {
+        let section = field.table("{ depth = 1.0, rows = 40, points = 96 }")?;
+        section.only(&["depth", "rows", "points"], &[])?;
+        let count = |key: &str, default: usize| match section.optional(key) {
+            Some(field) => field.integer(1..=2048),
+            None => Ok(default),
+        };
+        Ok(Self {
+            depth: section.required("depth", "how deep it goes")?.number(POSITIVE)?,
+            rows: count("rows", 40)?,
+            points: count("points", 96)?,
+        })
     }
 }
 
@@ -74,10 +132,26 @@ impl Cut {
         section.only(&["from", "toward", "length", "depth"], &[])?;
         Ok(Self {
             from: level(&section.required("from", "where the cut begins, such as \"level 1\"")?, levels)?,
-            toward: level(&section.required("toward", "where it runs to, such as \"level 2\"")?, levels)?,
+            toward: Toward::read(&section.required("toward", "where it runs to, such as \"level 2\"")?, levels)?,
             length: section.required("length", "its length along the surface")?.number(POSITIVE)?,
             depth: section.required("depth", "how deep it goes")?.number(POSITIVE)?,
         })
+    }
+}
+
+impl Toward {
+    fn read(field: &Field<'_>, levels: usize) -> Result<Self, Refusal> {
+        const WANTED: &str = "a level such as \"level 2\", or a direction [x, y]";
+        if !matches!(field.value(), Value::List(_)) {
+            return level(field, levels).map(Self::Level);
+        }
+        let items = field.list(WANTED, WANTED)?;
+        let [x, y] = &items[..] else { return Err(field.refuse(WANTED)) };
+        let direction = [x.number(..)?, y.number(..)?];
+        if direction == [0.0, 0.0] {
+            return Err(field.refuse("a direction [x, y] other than [0, 0]"));
+        }
+        Ok(Self::Direction(direction))
     }
 }
 

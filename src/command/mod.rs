@@ -4,6 +4,7 @@ mod cases;
 mod check;
 mod kernel;
 mod solve;
+mod stress;
 
 use clap::{Args, Parser, Subcommand};
 use percoat::case::{Case, CaseError, Source, embedded};

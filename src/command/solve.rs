@@ -1,5 +1,6 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
+use super::stress::{contact_radii, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
 use percoat::case::{Case, GridSection, LoadSection};
@@ -7,14 +8,17 @@ use percoat::grid::Grid;
 use percoat::hierarchy::Hierarchy;
 use percoat::number::number;
 use percoat::observables::{Observables, observe};
-use percoat::output::summary::{Step, Summary, curve};
-use percoat::output::{Fields, clear, make_folder, table, write_text};
+use percoat::output::summary::{Step, Stress, Summary, curve};
+use percoat::output::{Fields, Stresses, clear, make_folder, table, write_text, write_volume};
 use percoat::refinement::{FIRST_POINTS, MOST_POINTS, balanced_points, change};
 use percoat::solver::Control;
+use percoat::stress::{Field, surface_error};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+/// A larger error of the stresses on the surface than this is worth a warning.
+const WORTH_SAYING: f64 = 0.02;
 /// Fewer samples along a contact radius than this are worth a warning.
 const FEW_SAMPLES: f64 = 10.0;
 
@@ -51,12 +55,16 @@ struct Run<'a> {
 struct Gridded {
     hierarchy: Hierarchy,
     fields: Fields,
+    stresses: Option<Stresses>,
     solved: Solved,
 }
 
 impl Gridded {
     fn finished(self) -> Result<Solved, Failure> {
         self.fields.finish(self.hierarchy.grid(), self.hierarchy.texture())?;
+        if let Some(stresses) = self.stresses {
+            stresses.finish()?;
+        }
         Ok(self.solved)
     }
 }
@@ -114,6 +122,7 @@ impl Run<'_> {
         clear(&self.folder)?;
         write_text(&self.folder.join("case.toml"), &self.case.to_toml())?;
         let mut fields = Fields::new(&self.folder)?;
+        let mut stresses = None;
         let progress = self.progress();
         let mut solved = Solved { steps: Vec::new(), observables: Vec::new(), accuracy: None };
         for &control in &self.controls {
@@ -125,13 +134,32 @@ impl Run<'_> {
                 eprintln!("{observables}\n{}\n{}", solution.report, solution.certificate);
             }
             fields.add(hierarchy.grid(), observables.mean_pressure, &solution)?;
-            solved.steps.push(Step::new(&observables, &solution, points));
+            let mut step = Step::new(&observables, &solution, points);
+            if let Some(section) = &self.case.stress {
+                progress.set_message("stresses");
+                let field = Field::new(hierarchy.grid(), &solution.pressure, self.case.half_space(), section.mean);
+                let (radii, samples) = contact_radii(&hierarchy, &observables);
+                if observables.max_pressure > 0.0 {
+                    step.stress = Some(Stress::new(&field.maxima(radii), surface_error(samples)));
+                }
+                let stresses = match &mut stresses {
+                    Some(stresses) => stresses,
+                    None => stresses.insert(Stresses::new(&self.folder, wanted(self.case, section, &field))?),
+                };
+                stresses.add(&field)?;
+                if let Some(volume) = section.volume {
+                    let name = format!("stress.{:04}.vts", solved.steps.len() + 1);
+                    let depths = field.section_depths(volume.depth, volume.rows);
+                    write_volume(&self.folder.join(name), &field, &depths, [volume.points; 2])?;
+                }
+            }
+            solved.steps.push(step);
             solved.observables.push(observables);
             self.record(&solved.steps, false, &[], None)?;
             progress.inc(1);
         }
         progress.finish_and_clear();
-        Ok(Gridded { hierarchy, fields, solved })
+        Ok(Gridded { hierarchy, fields, stresses, solved })
     }
 
     /// No load reaches a penetration at which contact is complete: refused before anything is written.
@@ -215,8 +243,14 @@ impl Run<'_> {
                 solved.accuracy.unwrap_or(f64::INFINITY)
             ));
         }
-        if self.case.stress.is_some() {
-            warnings.push("[stress] is read and checked, but this version does not compute stress fields".to_owned());
+        let rough = |step: &&Step| step.stress.as_ref().is_some_and(|stress| stress.surface_error > WORTH_SAYING);
+        let worst = solved.steps.iter().filter(rough).filter_map(|step| step.stress.as_ref());
+        if let Some(error) = worst.map(|stress| stress.surface_error).reduce(f64::max) {
+            warnings.push(format!(
+                "stresses on the surface near the edge of contact may err by {:.0} % (stress.surface_error of each step); \
+                 raise grid.points",
+                100.0 * error
+            ));
         }
         warnings
     }
@@ -238,6 +272,11 @@ impl Run<'_> {
             "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy within {gap:.0e} of its minimum",
             steps.len()
         )?;
+        for (number, stress) in (1..).zip(steps).filter_map(|(n, step): (usize, _)| Some((n, step.stress.as_ref()?))) {
+            if steps.len() <= table::DETAILED {
+                writeln!(out, "step {number}: {}", table::stress(stress))?;
+            }
+        }
         if let Some(accuracy) = solved.accuracy {
             writeln!(out, "change from the next coarser grid: {accuracy:.1e}")?;
         }

@@ -6,10 +6,16 @@
 
 mod fields;
 mod npz;
+mod steps;
+mod stress;
 pub mod summary;
 pub mod table;
+mod volume;
 
 pub use fields::Fields;
+pub use steps::StepArrays;
+pub use stress::{Section, Stresses, Wanted};
+pub use volume::write_volume;
 
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -50,9 +56,11 @@ pub fn clear(folder: &Path) -> Result<(), OutputError> {
     for entry in entries {
         let path = entry.map_err(|error| OutputError::new(folder, error))?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let temporary = FILES.iter().any(|file| name.starts_with(&format!(".{file}."))) && name.ends_with(".tmp");
+        let volume = name.starts_with("stress.") && name.ends_with(".vts");
+        let temporary = FILES.iter().any(|file| name.starts_with(&format!(".{file}.")) || name.starts_with(".stress."))
+            && name.ends_with(".tmp");
         // The case may be the one that is running.
-        if temporary || (name != "case.toml" && FILES.contains(&&*name)) {
+        if temporary || volume || (name != "case.toml" && FILES.contains(&&*name)) {
             fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;
         }
     }

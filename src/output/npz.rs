@@ -7,7 +7,14 @@ use zip::write::SimpleFileOptions;
 /// An `.npz` archive that is being written.
 pub struct Archive<W: Write + Seek>(zip::ZipWriter<W>);
 
+impl<W: Write + Seek> std::fmt::Debug for Archive<W> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Archive")
+    }
+}
+
 impl<W: Write + Seek> Archive<W> {
+    /// An empty archive.
     pub fn new(writer: W) -> Self {
         Self(zip::ZipWriter::new(writer))
     }
@@ -25,6 +32,7 @@ impl<W: Write + Seek> Archive<W> {
         npy(&mut self.0, shape, values)
     }
 
+    /// Ends the archive.
     pub fn finish(self) -> io::Result<()> {
         self.0.finish()?.flush()
     }

@@ -2,6 +2,7 @@
 
 use crate::hierarchy::Solution;
 use crate::observables::Observables;
+use crate::stress::maxima::{self, Maxima};
 use serde::Serialize;
 use serde_json::Value;
 use std::fmt::Write;
@@ -37,6 +38,69 @@ pub struct Step {
     pub points: [usize; 2],
     /// Per level.
     pub levels: Vec<Level>,
+    /// Largest stresses, where the case asks for stresses and there is contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stress: Option<Stress>,
+}
+
+/// Largest stresses of a step, see [`crate::stress::maxima`].
+#[derive(Debug, Clone, Serialize)]
+pub struct Stress {
+    /// Largest principal shear stress of all.
+    pub max_tau1: Peak,
+    /// Largest tension of all.
+    pub max_tension: Peak,
+    /// Over each material, from the surface down.
+    pub materials: Vec<Extremes>,
+    /// On each face: the surface, then both sides of each interface.
+    pub faces: Vec<Extremes>,
+    /// Estimated relative error of the largest tension on the surface.
+    pub surface_error: f64,
+}
+
+/// Largest stresses over a material or a face.
+#[derive(Debug, Clone, Serialize)]
+pub struct Extremes {
+    /// Largest principal shear stress.
+    pub max_tau1: Peak,
+    /// Largest principal stress; negative where nothing is in tension.
+    pub max_tension: Peak,
+}
+
+/// A largest value and where it stands.
+#[derive(Debug, Clone, Serialize)]
+pub struct Peak {
+    /// The value.
+    pub value: f64,
+    /// Where, lengths.
+    pub x: f64,
+    /// See `x`.
+    pub y: f64,
+    /// See `x`; depth below the surface.
+    pub z: f64,
+    /// Material, from 1; the substrate is layers + 1.
+    pub material: usize,
+}
+
+impl Stress {
+    /// From the maxima of a field and the estimated error of its surface stresses.
+    pub fn new(maxima: &Maxima, surface_error: f64) -> Self {
+        let peak = |peak: &maxima::Peak| {
+            let [x, y, z] = peak.position;
+            Peak { value: peak.value, x, y, z, material: peak.side }
+        };
+        let extremes = |extremes: &maxima::Extremes| Extremes {
+            max_tau1: peak(&extremes.tau1),
+            max_tension: peak(&extremes.tension),
+        };
+        Self {
+            max_tau1: peak(&maxima.tau1()),
+            max_tension: peak(&maxima.tension()),
+            materials: maxima.materials.iter().map(extremes).collect(),
+            faces: maxima.faces.iter().map(extremes).collect(),
+            surface_error,
+        }
+    }
 }
 
 /// See [`crate::solver::Certificate`].
@@ -99,6 +163,7 @@ impl Step {
                 load: certificate.load,
             },
             points,
+            stress: None,
             levels: observables
                 .levels
                 .iter()

@@ -1,11 +1,11 @@
 //! The result table a person reads.
 
-use super::summary::Step;
+use super::summary::{Peak, Step, Stress};
 use crate::number::number;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Up to this many steps every level gets a row of its own.
-const DETAILED: usize = 6;
+pub const DETAILED: usize = 6;
 
 /// The load steps as a table: in detail for a few steps, one row a step for many.
 pub fn steps(steps: &[Step]) -> String {
@@ -90,4 +90,14 @@ pub fn render(header: &[String], rows: &[Vec<String>]) -> String {
 
 fn percent(x: f64) -> String {
     format!("{:.2} %", 100.0 * x)
+}
+
+/// The largest stresses of a step in one line.
+pub fn stress(stress: &Stress) -> String {
+    let peak = |name: &str, peak: &Peak| {
+        let Peak { value, x, y, z, material } = *peak;
+        let [value, x, y, z] = [value, x, y, z].map(number);
+        format!("{name} {value} in material {material} at ({x}, {y}, {z})")
+    };
+    format!("{}; {}", peak("largest τ₁", &stress.max_tau1), peak("largest tension", &stress.max_tension))
 }

@@ -2,12 +2,12 @@
 //! each material and on each of its faces.
 //!
 //! 1. **Planes** at depths that thicken towards the faces of each material: the largest sample of each is a candidate.
-//! A plane holds as many points as the waves that reach its depth need.
-//! 2. **Refinement** of the best candidate of a material: parabolas through neighbouring points, in turn
-//!    horizontally and in depth, on the exact sum over waves, until nothing moves. On a face the depth stays.
+//!    A plane holds as many points as the waves that reach its depth need.
+//! 2. **Refinement** of the best candidate of a material: parabolas through neighbouring points horizontally and golden
+//!    sections in depth, in turn, on the exact sum over waves, until nothing moves. On a face the depth stays.
 //!
-//! On the surface itself, and within two samples of it, the series converges slowly (see the head of [`crate::stress`])
-//! and the samples of the pressure's own grid are taken as they are.
+//! On the surface itself, and within two samples of it, the series converges slowly (see [`super::surface_error`]) and
+//! the samples of the pressure's own grid are taken as they are.
 
 use super::field::{Depth, Field, Plane};
 use super::tensor::State;
@@ -40,6 +40,25 @@ pub struct Maxima {
     pub materials: Vec<Extremes>,
     /// Over each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
+}
+
+impl Maxima {
+    /// The largest τ₁ of all.
+    pub fn tau1(&self) -> Peak {
+        self.largest(|extremes| extremes.tau1)
+    }
+
+    /// The largest tension of all.
+    pub fn tension(&self) -> Peak {
+        self.largest(|extremes| extremes.tension)
+    }
+
+    fn largest(&self, quantity: impl Fn(&Extremes) -> Peak) -> Peak {
+        let all = self.materials.iter().map(quantity);
+        // There is always a substrate.
+        let none = Peak { value: f64::NEG_INFINITY, position: [0.0; 3], side: self.materials.len() };
+        all.fold(none, |best, peak| if peak.value > best.value { peak } else { best })
+    }
 }
 
 /// Ratio of successive distances from a face.

@@ -25,3 +25,8 @@ pub use field::{Depth, Field, Plane};
 pub use mean::MeanStress;
 pub use section::Line;
 pub use tensor::State;
+
+/// Estimated relative error of the largest tension on the surface.
+pub fn surface_error(samples: f64) -> f64 {
+    0.5 / samples
+}

@@ -29,6 +29,12 @@ impl Line {
         (0..self.points).map(|i| self.span[0] + i as f64 * self.step()).collect()
     }
 
+    /// Places (x, y) of the points.
+    pub fn places(&self) -> Vec<[f64; 2]> {
+        let unit = self.unit();
+        self.distances().into_iter().map(|s| [0, 1].map(|k| self.origin[k] + s * unit[k])).collect()
+    }
+
     fn step(&self) -> f64 {
         (self.span[1] - self.span[0]) / (self.points.max(2) - 1) as f64
     }
@@ -72,6 +78,17 @@ impl Collapsed {
 }
 
 impl Field {
+    /// Rows of a section down to `depth`, `rows` equal intervals of it; both sides of each interface are among them.
+    pub fn section_depths(&self, depth: f64, rows: usize) -> Vec<Depth> {
+        let mut depths: Vec<f64> = (0..=rows).map(|row| row as f64 * depth / rows as f64).collect();
+        let faces = (2..=self.materials()).map(|side| self.faces(side).0);
+        depths.extend(faces.filter(|&face| face <= depth));
+        depths.sort_by(f64::total_cmp);
+        // A row that is an interface but for rounding is that interface.
+        depths.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * depth);
+        depths.into_iter().flat_map(|z| self.depths(z)).collect()
+    }
+
     /// States on a vertical section: for each depth those at the points of the line.
     pub fn section(&self, line: &Line, depths: &[Depth]) -> Vec<Vec<State>> {
         let collapsed = Collapsed::new(self, line);

@@ -1,0 +1,133 @@
+//! Arrays that grow by one entry a load step, gathered in an `.npz` archive at the end.
+//!
+//! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
+
+use super::npz::{Archive, npy};
+use super::{OutputError, make_folder, write_file};
+use std::fs;
+use std::io::{self, BufReader, BufWriter};
+use std::path::{Path, PathBuf};
+
+/// An archive that is being gathered on disk.
+#[derive(Debug)]
+pub struct StepArrays {
+    folder: PathBuf,
+    name: &'static str,
+    arrays: Vec<Entry>,
+    steps: usize,
+}
+
+/// What each step adds to an array.
+#[derive(Debug)]
+struct Entry {
+    array: String,
+    /// Shape of the entry without its parts.
+    shape: Vec<usize>,
+    /// Number of equal parts it comes in, one after the other; none: it comes whole.
+    parts: Option<usize>,
+}
+
+impl StepArrays {
+    /// Nothing yet of the archive `<name>.npz` in the output `folder`. What an earlier run left unfinished is removed.
+    ///
+    /// # Errors
+    /// [`OutputError`] when the folder cannot be made or cleared.
+    pub fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
+        let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps: 0 };
+        let partial = arrays.partial();
+        if partial.exists() {
+            fs::remove_dir_all(&partial).map_err(|error| OutputError::new(&partial, error))?;
+        }
+        make_folder(&partial)?;
+        Ok(arrays)
+    }
+
+    fn partial(&self) -> PathBuf {
+        self.folder.join(format!("{}.partial", self.name))
+    }
+
+    /// Where the entry of an array for a step (from 1), or a part of it (from 1), waits.
+    fn waiting(&self, array: &str, step: usize, part: Option<usize>) -> PathBuf {
+        let part = part.map_or(String::new(), |part| format!(".{part:03}"));
+        self.partial().join(format!("{array}.{step:04}{part}.npy"))
+    }
+
+    /// Begins the next load step.
+    pub fn next_step(&mut self) {
+        self.steps += 1;
+    }
+
+    /// Puts the present step's entry of an array on disk. Every step has the same arrays of the same shapes.
+    ///
+    /// # Errors
+    /// [`OutputError`] when it cannot be written.
+    pub fn add(
+        &mut self,
+        array: &str,
+        shape: &[usize],
+        values: impl IntoIterator<Item = f64>,
+    ) -> Result<(), OutputError> {
+        if self.steps == 1 {
+            self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: None });
+        }
+        write_file(&self.waiting(array, self.steps, None), |writer| npy(writer, shape, values))
+    }
+
+    /// Puts the next `part` (from 1) of the present step's entry of an array on disk; the parts become its first axis.
+    ///
+    /// # Errors
+    /// [`OutputError`] when it cannot be written.
+    pub fn add_part(
+        &mut self,
+        array: &str,
+        part: usize,
+        shape: &[usize],
+        values: impl IntoIterator<Item = f64>,
+    ) -> Result<(), OutputError> {
+        if self.steps == 1 {
+            match self.arrays.iter_mut().find(|entry| entry.array == array) {
+                Some(entry) => entry.parts = Some(part),
+                None => {
+                    self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: Some(part) });
+                }
+            }
+        }
+        write_file(&self.waiting(array, self.steps, Some(part)), |writer| npy(writer, shape, values))
+    }
+
+    /// Gathers all steps in the archive, after the arrays that `constants` adds.
+    ///
+    /// # Errors
+    /// [`OutputError`] when the archive cannot be written; the waiting files then stay.
+    pub fn finish(
+        self,
+        constants: impl FnOnce(&mut Archive<&mut BufWriter<fs::File>>) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        write_file(&self.folder.join(format!("{}.npz", self.name)), |writer| {
+            let mut archive = Archive::new(writer);
+            constants(&mut archive)?;
+            for Entry { array, shape, parts } in &self.arrays {
+                let numbers: Vec<Option<usize>> = parts.map_or(vec![None], |parts| (1..=parts).map(Some).collect());
+                let files = (1..=self.steps)
+                    .flat_map(|step| numbers.iter().map(move |&part| (step, part)))
+                    .map(|(step, part)| self.waiting(array, step, part));
+                let mut failure = None;
+                let values = files.flat_map(|file| {
+                    read(&file).unwrap_or_else(|error| {
+                        failure = Some(error);
+                        Vec::new()
+                    })
+                });
+                let shape: Vec<usize> = [self.steps].into_iter().chain(*parts).chain(shape.iter().copied()).collect();
+                archive.array(array, &shape, values).map_err(|error| failure.unwrap_or(error))?;
+            }
+            archive.finish()
+        })?;
+        let partial = self.partial();
+        fs::remove_dir_all(&partial).map_err(|error| OutputError::new(&partial, error))
+    }
+}
+
+fn read(path: &Path) -> io::Result<Vec<f64>> {
+    npyz::NpyFile::new(BufReader::new(fs::File::open(path)?))?.into_vec()
+}

@@ -1,0 +1,116 @@
+//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step.
+
+use super::{OutputError, StepArrays};
+use crate::stress::{Depth, Field, Line, State};
+use std::path::Path;
+
+/// Names of the stored components: σ_xx … σ_yz, displacements, and what is derived from the tensor.
+const COMPONENTS: [&str; 12] = ["xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", "uz", "tau1", "mises", "s1"];
+
+/// A vertical section: the states below a line down to a depth.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// The line on the surface.
+    pub line: Line,
+    /// Its rows; a row on an interface stands twice, once for each side.
+    pub depths: Vec<Depth>,
+}
+
+/// Where stresses are wanted.
+#[derive(Debug, Clone, Default)]
+pub struct Wanted {
+    /// Horizontal planes; a depth on an interface stands twice.
+    pub planes: Vec<Depth>,
+    /// A vertical section.
+    pub section: Option<Section>,
+    /// Single points, x, y and a depth.
+    pub points: Vec<([f64; 2], Depth)>,
+}
+
+/// Stresses of the load steps so far, kept on disk.
+#[derive(Debug)]
+pub struct Stresses {
+    arrays: StepArrays,
+    wanted: Wanted,
+}
+
+impl Stresses {
+    /// No steps yet; `folder` is the output folder.
+    ///
+    /// # Errors
+    /// [`OutputError`] when the folder cannot be made or cleared.
+    pub fn new(folder: &Path, wanted: Wanted) -> Result<Self, OutputError> {
+        Ok(Self { arrays: StepArrays::new(folder, "stress")?, wanted })
+    }
+
+    /// Puts the stresses of the next step on disk, one plane at a time.
+    ///
+    /// # Errors
+    /// [`OutputError`] when they cannot be written.
+    pub fn add(&mut self, field: &Field) -> Result<(), OutputError> {
+        self.arrays.next_step();
+        let points = field.grid().points();
+        for (number, &depth) in (1..).zip(&self.wanted.planes) {
+            let plane = field.plane(depth, points);
+            let states: Vec<State> = (0..points[0] * points[1]).map(|index| plane.state(index)).collect();
+            for (c, name) in COMPONENTS.iter().enumerate() {
+                let values = states.iter().map(|state| component(state, c));
+                self.arrays.add_part(&format!("planes_{name}"), number, &points, values)?;
+            }
+        }
+        if let Some(Section { line, depths }) = &self.wanted.section {
+            let states: Vec<State> = field.section(line, depths).concat();
+            for (c, name) in COMPONENTS.iter().enumerate() {
+                let values = states.iter().map(|state| component(state, c));
+                self.arrays.add(&format!("section_{name}"), &[depths.len(), line.points], values)?;
+            }
+        }
+        if !self.wanted.points.is_empty() {
+            let states: Vec<State> =
+                self.wanted.points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
+            for (c, name) in COMPONENTS.iter().enumerate() {
+                let values = states.iter().map(|state| component(state, c));
+                self.arrays.add(&format!("points_{name}"), &[states.len()], values)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Gathers all steps in `stress.npz`.
+    ///
+    /// # Errors
+    /// [`OutputError`] when the archive cannot be written; what waits then stays.
+    pub fn finish(self) -> Result<(), OutputError> {
+        let Wanted { planes, section, points } = &self.wanted;
+        let sides = |depths: &[Depth]| depths.iter().map(|depth| depth.side as i32).collect::<Vec<_>>();
+        let zs = |depths: &[Depth]| depths.iter().map(|depth| depth.z).collect::<Vec<_>>();
+        self.arrays.finish(|archive| {
+            archive.array("planes_z", &[planes.len()], zs(planes))?;
+            archive.array("planes_side", &[planes.len()], sides(planes))?;
+            if let Some(Section { line, depths }) = section {
+                let places: Vec<[f64; 2]> = line.places();
+                archive.array("section_s", &[line.points], line.distances())?;
+                archive.array("section_x", &[line.points], places.iter().map(|place| place[0]))?;
+                archive.array("section_y", &[line.points], places.iter().map(|place| place[1]))?;
+                archive.array("section_z", &[depths.len()], zs(depths))?;
+                archive.array("section_side", &[depths.len()], sides(depths))?;
+            }
+            if !points.is_empty() {
+                let xyz = points.iter().flat_map(|&([x, y], depth)| [x, y, depth.z]);
+                archive.array("points_xyz", &[points.len(), 3], xyz)?;
+                archive.array("points_side", &[points.len()], points.iter().map(|(_, depth)| depth.side as i32))?;
+            }
+            Ok(())
+        })
+    }
+}
+
+/// A component by its place in [`COMPONENTS`].
+fn component(state: &State, c: usize) -> f64 {
+    match c {
+        9 => state.tau1(),
+        10 => state.mises(),
+        11 => state.s1(),
+        c => state.components()[c],
+    }
+}

@@ -1,0 +1,102 @@
+//! The stress field of one load step in three dimensions, for ParaView.
+//!
+//! A structured grid in VTK's XML format (`.vts`) with its numbers appended as raw bytes: some forty lines of ours,
+//! since the library at hand, vtkio 0.6, needs parsers that newer compilers reject and four times the file in memory.
+//! VTK itself reads what is written (`tests/volume.rs`). VTK's z axis points upwards out of the body, so that depth is
+//! drawn downwards: coordinates are −z, displacements −u_z.
+
+use super::{OutputError, write_file};
+use crate::stress::{Depth, Field, State};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Scalars at the points, in the order of [`values`].
+const SCALARS: [&str; 10] =
+    ["sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_xz", "sigma_yz", "tau1", "mises", "sigma1", "material"];
+
+/// Writes the field on a stack of planes as a VTK structured grid; `path` should end in `.vts`.
+///
+/// - **Points**: [n₁ + 1, n₂ + 1, `depths`] along a₁, a₂ and upwards (the last depth first, so that the grid is
+///   right-handed), a₁ fastest. `points` are the samples [n₁, n₂] of [`Field::plane`], at least 1 each; the border
+///   i = n₁, j = n₂ repeats i = 0, j = 0, so that the cell closes. A depth on an interface that is given once for each
+///   side makes a layer of cells without thickness, across which the field jumps. Coordinates x, y, −z are lengths.
+/// - **Values at points**, 64-bit: `sigma_xx`, `sigma_yy`, `sigma_zz`, `sigma_xy`, `sigma_xz`, `sigma_yz`, the
+///   principal shear stress `tau1`, the von Mises stress `mises` and the largest tension `sigma1`, all in the unit of
+///   the pressure, positive in tension; `material` ([`Depth::side`]); the vector `displacement` (u_x, u_y, −u_z), a
+///   length, along the drawn axes.
+///
+/// Stresses keep the axes of [`State`], z into the body; along the drawn axes σ_xz and σ_yz have the opposite sign.
+/// Waves that `points` cannot hold are left out. Planes are computed one at a time; the states of all points are kept
+/// until they are written, about the size of the file.
+///
+/// # Errors
+/// [`OutputError`] when the file cannot be written, or when there are no depths or no points; nothing is left behind.
+pub fn write_volume(path: &Path, field: &Field, depths: &[Depth], points: [usize; 2]) -> Result<(), OutputError> {
+    write_file(path, |writer| {
+        let [n1, n2] = points;
+        if depths.is_empty() || n1 == 0 || n2 == 0 {
+            let reason = format!("a grid of {n1} × {n2} points at {} depths is empty", depths.len());
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
+        }
+        let upwards: Vec<Depth> = depths.iter().rev().copied().collect();
+        let states: Vec<State> = upwards.iter().flat_map(|&depth| closed_plane(field, depth, points)).collect();
+        let per_layer = (n1 + 1) * (n2 + 1);
+        head(writer, [n1, n2, depths.len() - 1], states.len())?;
+        for c in 0..SCALARS.len() {
+            let value = |(index, state): (usize, &State)| values(state, upwards[index / per_layer].side)[c];
+            block(writer, states.len(), states.iter().enumerate().map(value))?;
+        }
+        let displacement = states.iter().flat_map(|state| {
+            let [ux, uy, uz] = state.displacement;
+            [ux, uy, -uz]
+        });
+        block(writer, 3 * states.len(), displacement)?;
+        let place = |(index, _): (usize, &State)| {
+            let (i, j) = (index % (n1 + 1), index / (n1 + 1) % (n2 + 1));
+            let [x, y] = field.grid().cell().point([i as f64 / n1 as f64, j as f64 / n2 as f64]);
+            [x, y, -upwards[index / per_layer].z]
+        };
+        block(writer, 3 * states.len(), states.iter().enumerate().flat_map(place))?;
+        write!(writer, "\n</AppendedData>\n</VTKFile>\n")
+    })
+}
+
+/// States of a plane, a₁ fastest, its border repeated.
+fn closed_plane(field: &Field, depth: Depth, points: [usize; 2]) -> Vec<State> {
+    let ([n1, n2], plane) = (points, field.plane(depth, points));
+    (0..=n2).flat_map(|j| (0..=n1).map(move |i| (i, j))).map(|(i, j)| plane.state(i % n1 * n2 + j % n2)).collect()
+}
+
+/// What stands before the numbers: extents, and where the block of each array begins.
+fn head(writer: &mut impl Write, [n1, n2, layers]: [usize; 3], points: usize) -> io::Result<()> {
+    let extent = format!("0 {n1} 0 {n2} 0 {layers}");
+    // Each block is preceded by its length, 8 bytes.
+    let (scalar, vector) = (8 + 8 * points, 8 + 24 * points);
+    let array = |name: &str, components: usize, offset: usize| {
+        let kind = format!("type=\"Float64\" Name=\"{name}\" NumberOfComponents=\"{components}\"");
+        format!("<DataArray {kind} format=\"appended\" offset=\"{offset}\"/>")
+    };
+    writeln!(writer, "<?xml version=\"1.0\"?>")?;
+    let order = "version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"";
+    writeln!(writer, "<VTKFile type=\"StructuredGrid\" {order}>")?;
+    writeln!(writer, "<StructuredGrid WholeExtent=\"{extent}\">\n<Piece Extent=\"{extent}\">")?;
+    writeln!(writer, "<PointData Scalars=\"tau1\" Vectors=\"displacement\">")?;
+    for (number, name) in SCALARS.iter().enumerate() {
+        writeln!(writer, "{}", array(name, 1, number * scalar))?;
+    }
+    writeln!(writer, "{}\n</PointData>", array("displacement", 3, SCALARS.len() * scalar))?;
+    writeln!(writer, "<Points>\n{}\n</Points>", array("points", 3, SCALARS.len() * scalar + vector))?;
+    write!(writer, "</Piece>\n</StructuredGrid>\n<AppendedData encoding=\"raw\">\n_")
+}
+
+/// Length in bytes, then the numbers.
+fn block(writer: &mut impl Write, len: usize, values: impl Iterator<Item = f64>) -> io::Result<()> {
+    writer.write_all(&(8 * len as u64).to_le_bytes())?;
+    values.into_iter().try_for_each(|value| writer.write_all(&value.to_le_bytes()))
+}
+
+/// The values of [`SCALARS`].
+fn values(state: &State, side: usize) -> [f64; SCALARS.len()] {
+    let State { xx, yy, zz, xy, xz, yz, .. } = *state;
+    [xx, yy, zz, xy, xz, yz, state.tau1(), state.mises(), state.s1(), side as f64]
+}
