@@ -18,5 +18,7 @@ mod numpy;
 mod program;
 #[path = "command_line/solve.rs"]
 mod solve;
+#[path = "command_line/stress.rs"]
+mod stress;
 #[path = "command_line/topography.rs"]
 mod topography;

@@ -1,0 +1,90 @@
+//! `[stress]` of a case, through to `stress.npz`, the summary and the volume.
+
+use crate::archive::Archive;
+use crate::program::{Desk, number};
+use serde_json::Value;
+use std::fs;
+
+const STRESS: [&str; 12] = [
+    "fig6b",
+    "--set",
+    "grid.points=72",
+    "--set",
+    "load.mean_pressure=[0.002, 0.004]",
+    "--set",
+    "stress.planes=[0.0, 0.023, 0.1]",
+    "--set",
+    "stress.points=[[0.0, 0.0, 0.01], [0.1, 0.0, 0.023]]",
+    "--set",
+    "stress.volume={ depth = 0.1, rows = 5, points = 12 }",
+    "--quiet",
+];
+
+#[test]
+fn stresses_have_their_shapes_and_agree_with_each_other() {
+    let desk = Desk::new();
+    let folder = desk.solve("out", &STRESS);
+    let mut stress = Archive::open(&folder.0.join("stress.npz"));
+    assert_eq!(stress.field("planes_z").values, [0.0, 0.023, 0.023, 0.1]);
+    assert_eq!(stress.array::<i32>("planes_side").values, [1, 1, 2, 2]);
+    let (s, z) = (stress.field("section_s").values, stress.field("section_z").values);
+    assert!(s[0] == 0.0 && (s[s.len() - 1] - 0.6).abs() < 1e-12 && z[0] == 0.0);
+    assert_eq!(z.iter().filter(|&&z| z == 0.023).count(), 2, "both sides of the interface");
+    for name in ["xx", "yy", "zz", "xy", "xz", "yz", "tau1", "mises", "s1", "ux", "uy", "uz"] {
+        assert_eq!(stress.field(&format!("planes_{name}")).shape, [2, 4, 72, 72], "{name}");
+        assert_eq!(stress.field(&format!("section_{name}")).shape, [2, z.len(), s.len()], "{name}");
+        assert_eq!(stress.field(&format!("points_{name}")).shape, [2, 3], "the second point has two sides");
+    }
+    // The section starts at the indenter of level 1, which is sample (0, 0): σ_zz = −p there.
+    let pressure = Archive::open(&folder.0.join("contact.npz")).field("pressure").values;
+    let (planes, section) = (stress.field("planes_zz").values, stress.field("section_zz").values);
+    assert!((planes[0] + pressure[0]).abs() < 1e-12 && (section[0] + pressure[0]).abs() < 1e-9);
+    // The largest values stand in the summary, and are not below those of any plane or of the section.
+    let summary: Value = serde_json::from_str(&fs::read_to_string(folder.0.join("summary.json")).unwrap()).unwrap();
+    for (step, name) in [(0, "tau1"), (1, "tau1"), (0, "s1"), (1, "s1")] {
+        let stress_of_step = &summary["steps"][step]["stress"];
+        let key = if name == "tau1" { "max_tau1" } else { "max_tension" };
+        let largest = number(&stress_of_step[key], "/value");
+        let section = stress.field(&format!("section_{name}")).values;
+        let half = section.len() / 2;
+        let found = section[step * half..(step + 1) * half].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // At the surface samples are taken as they are: the error there is the one the step states.
+        let error = number(stress_of_step, "/surface_error");
+        assert!(largest >= found - error * largest.abs(), "{name} of step {step}: {largest} below {found}");
+        assert_eq!(stress_of_step["materials"].as_array().unwrap().len(), 2);
+        assert_eq!(stress_of_step["faces"].as_array().unwrap().len(), 3, "surface, and both sides of the interface");
+    }
+    let curve = fs::read_to_string(folder.0.join("curve.csv")).unwrap();
+    assert!(curve.lines().next().unwrap().contains("stress.materials.1.max_tau1.value"));
+    assert!(folder.names().contains("stress.0002.vts") && !folder.names().contains("stress.partial"));
+}
+
+#[test]
+fn a_second_run_without_stresses_leaves_none() {
+    let desk = Desk::new();
+    desk.solve("out", &STRESS);
+    let folder = desk.solve("out", &["fig2", "--set", "grid.points=48"]);
+    assert!(folder.names().iter().all(|name| !name.starts_with("stress")), "{:?}", folder.names());
+}
+
+#[test]
+fn a_direction_is_as_good_as_a_level_and_the_mean_has_two_names() {
+    let desk = Desk::new();
+    let section = |toward: &str, mean: &str, name: &str| {
+        let cut = format!("stress.section={{ from = \"level 1\", toward = {toward}, length = 0.3, depth = 0.05 }}");
+        let mean = format!("stress.mean=\"{mean}\"");
+        let more = ["fig6b", "--set", "grid.points=48", "--set", "stress.planes=[]", "--set", &cut, "--set", &mean];
+        Archive::open(&desk.solve(name, &more).0.join("stress.npz")).field("section_xx").values
+    };
+    let toward_level = section("\"level 2\"", "confined", "a");
+    let along = section("[3.0, 1.7320508075688772]", "confined", "b");
+    let scale = toward_level.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    assert!(toward_level.iter().zip(&along).all(|(a, b)| (a - b).abs() < 1e-9 * scale));
+    // The means differ by a constant in each material.
+    let wide = section("\"level 2\"", "half-space", "c");
+    let shift = wide[0] - toward_level[0];
+    assert!(shift.abs() > 1e-5 && (wide[5] - toward_level[5] - shift).abs() < 1e-9 * scale);
+    desk.percoat(&["solve", "fig6b", "--set", "stress.mean=\"free\""]).complains(2, &["confined", "half-space"]);
+    let nowhere = "stress.section={ from = \"level 1\", toward = [0.0, 0.0], length = 1.0, depth = 1.0 }";
+    desk.percoat(&["solve", "fig6b", "--set", nowhere]).complains(2, &["direction"]);
+}
