@@ -138,7 +138,8 @@ fn coated_tension(points: usize, shift: [f64; 2], chi: f64) -> (f64, f64, f64) {
 /// Bound on the relative error of the largest tension on the surface.
 ///
 /// Up to some 40 samples it is too low: no sample stands at the edge itself, and stresses fall at once on both sides of
-/// it. Then it is too high by the overshoot of the series just outside, 0.24/√n − 1.3/n with its top of 1 % near n = 120.
+/// it. Then it is too high by the overshoot of the series just outside, 0.24/√n − 1.3/n with its top of 1 % near n =
+/// 120.
 fn tension_bound(n: f64) -> f64 {
     (1.2 * n.powf(-1.2)).max(0.012)
 }

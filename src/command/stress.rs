@@ -45,5 +45,5 @@ pub fn contact_radii(hierarchy: &Hierarchy, observables: &Observables) -> ([f64;
     let whole = (observables.contact_fraction * grid.cell().area() / std::f64::consts::PI).sqrt();
     let least = radii.iter().copied().fold(f64::INFINITY, f64::min).min(whole).max(4.0 * grid.spacing());
     let most = radii.iter().copied().fold(0.0, f64::max).max(if radii.is_empty() { whole } else { 0.0 });
-    ([least, most.max(least)], least / grid.spacing())
+    ([least, most.max(least)], least / grid.sample_area().sqrt())
 }
