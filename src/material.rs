@@ -79,7 +79,8 @@ impl Material {
 
 impl fmt::Display for Material {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "E {:.6e}, ν {}, G {:.6e}, E* {:.6e}", self.young(), self.poisson, self.shear, self.contact_modulus())
+        let [young, shear, contact] = [self.young(), self.shear, self.contact_modulus()].map(number);
+        write!(f, "E {young}, ν {}, G {shear}, E* {contact}", self.poisson)
     }
 }
 

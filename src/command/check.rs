@@ -25,7 +25,7 @@ pub fn run(path: &Path, common: &Common) -> Result<Outcome, Failure> {
         GridSection::Accuracy(accuracy) => writeln!(out, "grid: refined until results change by less than {accuracy}")?,
     }
     let (name, values) = (case.load.quantity(), case.load.values());
-    let (first, last) = (values[0], values[values.len() - 1]);
+    let [first, last] = [values[0], values[values.len() - 1]].map(number);
     match values.len() {
         1 => writeln!(out, "load: {name} {first}")?,
         count => writeln!(out, "load: {name} {first} … {last}, {count} steps")?,

@@ -1,6 +1,6 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
-use super::stress::{contact_radii, wanted};
+use super::stress::{largest, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
 use percoat::case::{Case, GridSection, LoadSection};
@@ -8,11 +8,11 @@ use percoat::grid::Grid;
 use percoat::hierarchy::Hierarchy;
 use percoat::number::number;
 use percoat::observables::{Observables, observe};
-use percoat::output::summary::{Step, Stress, Summary, curve};
-use percoat::output::{Fields, Stresses, clear, make_folder, table, write_text, write_volume};
+use percoat::output::summary::{Step, Summary, curve};
+use percoat::output::{Fields, Stresses, clear, make_folder, table, write_text};
 use percoat::refinement::{FIRST_POINTS, MOST_POINTS, balanced_points, change};
 use percoat::solver::Control;
-use percoat::stress::{Field, surface_error};
+use percoat::stress::Field;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -138,20 +138,14 @@ impl Run<'_> {
             if let Some(section) = &self.case.stress {
                 progress.set_message("stresses");
                 let field = Field::new(hierarchy.grid(), &solution.pressure, self.case.half_space(), section.mean);
-                let (radii, samples) = contact_radii(&hierarchy, &observables);
                 if observables.max_pressure > 0.0 {
-                    step.stress = Some(Stress::new(&field.maxima(radii), surface_error(samples)));
+                    step.stress = Some(largest(&field, &hierarchy, &observables));
                 }
                 let stresses = match &mut stresses {
                     Some(stresses) => stresses,
                     None => stresses.insert(Stresses::new(&self.folder, wanted(self.case, section, &field))?),
                 };
                 stresses.add(&field)?;
-                if let Some(volume) = section.volume {
-                    let name = format!("stress.{:04}.vts", solved.steps.len() + 1);
-                    let depths = field.section_depths(volume.depth, volume.rows);
-                    write_volume(&self.folder.join(name), &field, &depths, [volume.points; 2])?;
-                }
             }
             solved.steps.push(step);
             solved.observables.push(observables);
@@ -164,14 +158,14 @@ impl Run<'_> {
 
     /// No load reaches a penetration at which contact is complete: refused before anything is written.
     fn refuse_beyond_full_contact(&self) -> Result<(), Failure> {
+        if matches!(self.case.load, LoadSection::MeanPressure(_)) {
+            return Ok(());
+        }
         let surface = self.case.surface();
         let points = match self.case.grid {
             GridSection::Points(points) => points,
             GridSection::Accuracy(_) => balanced_points(&surface.cell(), 8 * FIRST_POINTS),
         };
-        if matches!(self.case.load, LoadSection::MeanPressure(_)) {
-            return Ok(());
-        }
         let grid = Grid::new(surface.cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
         let full = surface.sample(&grid).mean();
         for control in &self.controls {

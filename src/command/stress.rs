@@ -3,9 +3,11 @@
 use percoat::case::{Case, Cut, StressSection, Toward};
 use percoat::hierarchy::Hierarchy;
 use percoat::observables::Observables;
-use percoat::output::{Section, Wanted};
-use percoat::stress::{Field, Line};
+use percoat::output::summary::Stress;
+use percoat::output::{Section, Volume, Wanted};
+use percoat::stress::{Field, Line, surface_error};
 use percoat::texture::Surface;
+use std::f64::consts::PI;
 
 /// Rows and columns of a section.
 const ROWS: usize = 200;
@@ -22,6 +24,10 @@ pub fn wanted(case: &Case, section: &StressSection, field: &Field) -> Wanted {
             Some(Section { line: line(case, &cut)?, depths })
         }),
         points: section.points.iter().flat_map(point).collect(),
+        volume: section.volume.map(|volume| Volume {
+            depths: field.section_depths(volume.depth, volume.rows),
+            points: [volume.points; 2],
+        }),
     }
 }
 
@@ -36,14 +42,21 @@ fn line(case: &Case, cut: &Cut) -> Option<Line> {
     Some(Line { origin: lattice.cell().point(place), direction, span: [0.0, cut.length], points: COLUMNS })
 }
 
-/// Smallest and largest contact radius of a step, and the samples along the smallest; where contacts have no radius,
-/// that of a disc of the whole contact's area, and a few samples.
-pub fn contact_radii(hierarchy: &Hierarchy, observables: &Observables) -> ([f64; 2], f64) {
-    let radii: Vec<f64> =
-        observables.levels.iter().filter(|level| level.load > 0.0).filter_map(|level| level.contact_radius).collect();
+/// The largest stresses of a step that has contact.
+pub fn largest(field: &Field, hierarchy: &Hierarchy, observables: &Observables) -> Stress {
+    let radii = contact_radii(hierarchy, observables);
+    let samples = radii[0] / hierarchy.grid().sample_area().sqrt();
+    Stress::new(&field.maxima(radii), surface_error(samples))
+}
+
+/// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's
+/// area. The smallest is taken to have four samples at least.
+fn contact_radii(hierarchy: &Hierarchy, observables: &Observables) -> [f64; 2] {
     let grid = hierarchy.grid();
-    let whole = (observables.contact_fraction * grid.cell().area() / std::f64::consts::PI).sqrt();
-    let least = radii.iter().copied().fold(f64::INFINITY, f64::min).min(whole).max(4.0 * grid.spacing());
-    let most = radii.iter().copied().fold(0.0, f64::max).max(if radii.is_empty() { whole } else { 0.0 });
-    ([least, most.max(least)], least / grid.sample_area().sqrt())
+    let whole = (observables.contact_fraction * grid.cell().area() / PI).sqrt();
+    let touching = observables.levels.iter().filter(|level| level.load > 0.0);
+    let radii: Vec<f64> = touching.filter_map(|level| level.contact_radius).collect();
+    let least = radii.iter().copied().fold(whole, f64::min).max(4.0 * grid.spacing());
+    let most = if radii.is_empty() { whole } else { radii.iter().copied().fold(0.0, f64::max) };
+    [least, most.max(least)]
 }

@@ -11,6 +11,7 @@ pub use boundary::Boundary;
 
 use crate::field;
 use crate::hierarchy::{Hierarchy, Solution};
+use crate::number::number;
 use boundary::Polar;
 use std::f64::consts::PI;
 use std::fmt;
@@ -197,18 +198,20 @@ impl fmt::Display for Observables {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "mean pressure {:.6e}, penetration {:.6e}, contact fraction {:.5}",
-            self.mean_pressure, self.penetration, self.contact_fraction
+            "mean pressure {}, penetration {}, contact fraction {}",
+            number(self.mean_pressure),
+            number(self.penetration),
+            number(self.contact_fraction)
         )?;
         for level in &self.levels {
             write!(
                 f,
-                "\nlevel {}: load {:.6e} ({:.3} %), peak pressure {:.6e}, contact area {:.6e}{}",
+                "\nlevel {}: load {} ({:.3} %), peak pressure {}, contact area {}{}",
                 level.level,
-                level.load,
+                number(level.load),
                 100.0 * level.load_share,
-                level.max_pressure,
-                level.contact_area,
+                number(level.max_pressure),
+                number(level.contact_area),
                 if level.merged { ", merged with a neighbour" } else { "" }
             )?;
         }

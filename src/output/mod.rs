@@ -14,7 +14,7 @@ mod volume;
 
 pub use fields::Fields;
 pub use steps::StepArrays;
-pub use stress::{Section, Stresses, Wanted};
+pub use stress::{Section, Stresses, Volume, Wanted};
 pub use volume::write_volume;
 
 use std::fs;
@@ -46,8 +46,8 @@ pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
 /// What a run writes into its folder.
 const FILES: [&str; 5] = ["summary.json", "curve.csv", "case.toml", "contact.npz", "stress.npz"];
 
-/// Removes what an earlier run left in `folder` and this one has not made yet: its files, and temporary ones if it
-/// was killed while it wrote one.
+/// Removes what an earlier run left in `folder` and this one has not made yet: its files, and what waits or is
+/// temporary if it was killed.
 ///
 /// # Errors
 /// [`OutputError`] with the path that cannot be read or removed.
@@ -59,6 +59,10 @@ pub fn clear(folder: &Path) -> Result<(), OutputError> {
         let volume = name.starts_with("stress.") && name.ends_with(".vts");
         let temporary = FILES.iter().any(|file| name.starts_with(&format!(".{file}.")) || name.starts_with(".stress."))
             && name.ends_with(".tmp");
+        if name == "contact.partial" || name == "stress.partial" {
+            fs::remove_dir_all(&path).map_err(|error| OutputError::new(&path, error))?;
+            continue;
+        }
         // The case may be the one that is running.
         if temporary || volume || (name != "case.toml" && FILES.contains(&&*name)) {
             fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;

@@ -57,6 +57,11 @@ impl StepArrays {
         self.steps += 1;
     }
 
+    /// Number of load steps so far.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
     /// Puts the present step's entry of an array on disk. Every step has the same arrays of the same shapes.
     ///
     /// # Errors

@@ -1,8 +1,9 @@
-//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step.
+//! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step; and a
+//! VTK file of the volume for each.
 
-use super::{OutputError, StepArrays};
+use super::{OutputError, StepArrays, write_volume};
 use crate::stress::{Depth, Field, Line, State};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Names of the stored components: σ_xx … σ_yz, displacements, and what is derived from the tensor.
 const COMPONENTS: [&str; 12] = ["xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", "uz", "tau1", "mises", "s1"];
@@ -25,11 +26,23 @@ pub struct Wanted {
     pub section: Option<Section>,
     /// Single points, x, y and a depth.
     pub points: Vec<([f64; 2], Depth)>,
+    /// A volume, one VTK file a step.
+    pub volume: Option<Volume>,
+}
+
+/// The field under the whole cell, see [`write_volume`].
+#[derive(Debug, Clone)]
+pub struct Volume {
+    /// Depths of its planes.
+    pub depths: Vec<Depth>,
+    /// Points along a₁ and a₂.
+    pub points: [usize; 2],
 }
 
 /// Stresses of the load steps so far, kept on disk.
 #[derive(Debug)]
 pub struct Stresses {
+    folder: PathBuf,
     arrays: StepArrays,
     wanted: Wanted,
 }
@@ -40,7 +53,7 @@ impl Stresses {
     /// # Errors
     /// [`OutputError`] when the folder cannot be made or cleared.
     pub fn new(folder: &Path, wanted: Wanted) -> Result<Self, OutputError> {
-        Ok(Self { arrays: StepArrays::new(folder, "stress")?, wanted })
+        Ok(Self { folder: folder.to_owned(), arrays: StepArrays::new(folder, "stress")?, wanted })
     }
 
     /// Puts the stresses of the next step on disk, one plane at a time.
@@ -73,6 +86,10 @@ impl Stresses {
                 self.arrays.add(&format!("points_{name}"), &[states.len()], values)?;
             }
         }
+        if let Some(Volume { depths, points }) = &self.wanted.volume {
+            let name = format!("stress.{:04}.vts", self.arrays.steps());
+            write_volume(&self.folder.join(name), field, depths, *points)?;
+        }
         Ok(())
     }
 
@@ -81,7 +98,7 @@ impl Stresses {
     /// # Errors
     /// [`OutputError`] when the archive cannot be written; what waits then stays.
     pub fn finish(self) -> Result<(), OutputError> {
-        let Wanted { planes, section, points } = &self.wanted;
+        let Wanted { planes, section, points, .. } = &self.wanted;
         let sides = |depths: &[Depth]| depths.iter().map(|depth| depth.side as i32).collect::<Vec<_>>();
         let zs = |depths: &[Depth]| depths.iter().map(|depth| depth.z).collect::<Vec<_>>();
         self.arrays.finish(|archive| {

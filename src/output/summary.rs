@@ -5,7 +5,6 @@ use crate::observables::Observables;
 use crate::stress::maxima::{self, Maxima};
 use serde::Serialize;
 use serde_json::Value;
-use std::fmt::Write;
 
 /// One load step as it stands in `summary.json`.
 #[derive(Debug, Clone, Serialize)]
@@ -213,17 +212,18 @@ impl<C: Serialize> Summary<'_, C> {
 }
 
 /// The steps as a CSV table: one row a step, one column a scalar, nested names joined by dots (`levels.1.load`).
-/// Absent values are empty.
+/// What a step does not have stays empty.
 pub fn curve(steps: &[Step]) -> String {
     let rows: Vec<Vec<(String, String)>> = steps.iter().map(row).collect();
-    let mut text = String::new();
-    if let Some(first) = rows.first() {
-        let names: Vec<&str> = first.iter().map(|(name, _)| name.as_str()).collect();
-        let _ = writeln!(text, "{}", names.join(","));
+    let mut names: Vec<&str> = Vec::new();
+    // The step with most scalars has those of all others: only a step without contact lacks some.
+    if let Some(longest) = rows.iter().max_by_key(|row| row.len()) {
+        names.extend(longest.iter().map(|(name, _)| name.as_str()));
     }
+    let mut text = names.join(",") + "\n";
     for row in &rows {
-        let values: Vec<&str> = row.iter().map(|(_, value)| value.as_str()).collect();
-        let _ = writeln!(text, "{}", values.join(","));
+        let value = |name: &&str| row.iter().find(|(own, _)| own == name).map_or("", |(_, value)| value.as_str());
+        text += &(names.iter().map(value).collect::<Vec<_>>().join(",") + "\n");
     }
     text
 }

@@ -7,6 +7,7 @@ use crate::fourier::Fourier;
 use crate::grid::Grid;
 use crate::layered::{Amplitudes, Interior, TransferFunction};
 use crate::material::{HalfSpace, Interface};
+use crate::number::number;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::fmt;
@@ -229,11 +230,11 @@ impl fmt::Display for Field {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "stress field of {} plane waves in {} shells, {} materials, mean pressure {:.6e}",
+            "stress field of {} plane waves in {} shells, {} materials, mean pressure {}",
             self.spectrum.waves.len(),
             self.spectrum.shells.len(),
             self.materials(),
-            self.spectrum.mean
+            number(self.spectrum.mean)
         )
     }
 }

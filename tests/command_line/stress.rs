@@ -88,3 +88,14 @@ fn a_direction_is_as_good_as_a_level_and_the_mean_has_two_names() {
     let nowhere = "stress.section={ from = \"level 1\", toward = [0.0, 0.0], length = 1.0, depth = 1.0 }";
     desk.percoat(&["solve", "fig6b", "--set", nowhere]).complains(2, &["direction"]);
 }
+
+#[test]
+fn a_step_without_contact_has_no_largest_stresses_and_the_curve_keeps_its_columns() {
+    let desk = Desk::new();
+    let folder = desk.solve("out", &["fig6b", "--set", "grid.points=48", "--set", "load.mean_pressure=[0.0, 0.002]"]);
+    let curve = fs::read_to_string(folder.0.join("curve.csv")).unwrap();
+    let lines: Vec<Vec<&str>> = curve.lines().map(|line| line.split(',').collect()).collect();
+    assert!(lines.iter().all(|line| line.len() == lines[0].len()));
+    let column = lines[0].iter().position(|name| *name == "stress.max_tau1.value").unwrap();
+    assert!(lines[1][column].is_empty() && lines[2][column].parse::<f64>().unwrap() > 0.0);
+}
