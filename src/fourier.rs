@@ -16,6 +16,9 @@ use std::sync::Arc;
 
 /// Columns transformed together: 8 complex numbers are two cache lines of each row.
 const COLUMNS: usize = 8;
+/// Complex numbers between columns, and between blocks, so that a power of two points does not put them all into the same
+/// lines of a cache.
+const PAD: usize = 8;
 /// Parts the rows, and the column blocks, are divided into.
 const PARTS: usize = 16;
 
@@ -88,6 +91,16 @@ impl Fourier {
         self.points[1] / 2 + 1
     }
 
+    /// Complex numbers from one row to the next: whole blocks of columns, whose borders are borders of cache lines.
+    fn row_stride(&self) -> usize {
+        self.half().div_ceil(COLUMNS) * COLUMNS
+    }
+
+    /// Complex numbers from one block of columns to the next.
+    fn block_stride(&self) -> usize {
+        COLUMNS * self.points[0] + PAD
+    }
+
     /// Buffers for [`Fourier::convolve`].
     pub fn workspace(&self) -> Workspace {
         let [n1, n2] = self.points;
@@ -101,12 +114,12 @@ impl Fourier {
         let scratch = Scratch {
             real: vec![0.0; n2],
             spectrum: vec![zero; self.half()],
-            columns: vec![zero; COLUMNS * n1],
+            columns: vec![zero; COLUMNS * (n1 + PAD)],
             fft: vec![zero; fft.into_iter().max().unwrap_or(0)],
         };
         Workspace {
-            rows: vec![zero; n1 * self.half()],
-            blocks: vec![zero; self.half().div_ceil(COLUMNS) * COLUMNS * n1],
+            rows: vec![zero; n1 * self.row_stride()],
+            blocks: vec![zero; self.half().div_ceil(COLUMNS) * self.block_stride()],
             scratch: vec![scratch; PARTS],
         }
     }
@@ -135,7 +148,7 @@ impl Fourier {
         assert_eq!(input.len(), n1 * n2, "input of a convolution");
         assert_eq!(output.len(), n1 * n2, "output of a convolution");
         assert_eq!(multiplier.table.len(), self.half() * n1, "multiplier of a convolution");
-        assert_eq!(workspace.rows.len(), n1 * self.half(), "workspace of a convolution");
+        assert_eq!(workspace.rows.len(), n1 * self.row_stride(), "workspace of a convolution");
         let Workspace { rows, blocks, scratch } = workspace;
         self.rows_forward(input, rows, scratch);
         self.columns(multiplier, rows, blocks, scratch);
@@ -152,7 +165,7 @@ impl Fourier {
         let mut columns = vec![Complex64::new(0.0, 0.0); half * n1];
         columns.par_chunks_mut(n1).enumerate().for_each(|(k2, column)| {
             for (i, value) in column.iter_mut().enumerate() {
-                *value = normalisation * rows[i * half + k2];
+                *value = normalisation * rows[i * self.row_stride() + k2];
             }
             self.column_forward.process(column);
         });
@@ -187,12 +200,13 @@ impl Fourier {
     }
 
     fn rows_forward(&self, input: &[f64], rows: &mut [Complex64], scratch: &mut [Scratch]) {
-        let ([n1, n2], half) = (self.points, self.half());
+        let ([n1, n2], half, stride) = (self.points, self.half(), self.row_stride());
         let part = n1.div_ceil(PARTS);
-        rows.par_chunks_mut(part * half).zip(input.par_chunks(part * n2)).zip(scratch).for_each(
+        rows.par_chunks_mut(part * stride).zip(input.par_chunks(part * n2)).zip(scratch).for_each(
             |((rows, input), scratch)| {
-                for (row, samples) in rows.chunks_exact_mut(half).zip(input.chunks_exact(n2)) {
+                for (row, samples) in rows.chunks_exact_mut(stride).zip(input.chunks_exact(n2)) {
                     scratch.real.copy_from_slice(samples);
+                    let row = &mut row[..half];
                     let done = self.row_forward.process_with_scratch(&mut scratch.real, row, &mut scratch.fft);
                     debug_assert!(done.is_ok(), "lengths were planned");
                 }
@@ -201,27 +215,30 @@ impl Fourier {
     }
 
     fn columns(&self, multiplier: &Multiplier, rows: &[Complex64], blocks: &mut [Complex64], scratch: &mut [Scratch]) {
-        let ([n1, _], half) = (self.points, self.half());
+        let ([n1, _], half, stride) = (self.points, self.half(), self.row_stride());
         let part = half.div_ceil(COLUMNS).div_ceil(PARTS);
-        let size = COLUMNS * n1;
+        let size = self.block_stride();
         blocks.par_chunks_mut(part * size).enumerate().zip(scratch).for_each(|((part_index, blocks), scratch)| {
+            let Scratch { columns, fft, .. } = scratch;
             for (index, block) in blocks.chunks_exact_mut(size).enumerate() {
                 let first = (part_index * part + index) * COLUMNS;
                 let count = COLUMNS.min(half - first);
-                let columns = &mut scratch.columns[..count * n1];
-                for (i, row) in rows.chunks_exact(half).enumerate() {
+                for (i, row) in rows.chunks_exact(stride).enumerate() {
                     for (c, &value) in row[first..first + count].iter().enumerate() {
-                        columns[c * n1 + i] = value;
+                        columns[c * (n1 + PAD) + i] = value;
                     }
                 }
-                self.column_forward.process_with_scratch(columns, &mut scratch.fft);
-                for (value, &factor) in columns.iter_mut().zip(&multiplier.table[first * n1..]) {
-                    *value *= factor;
+                for (c, column) in columns.chunks_exact_mut(n1 + PAD).take(count).enumerate() {
+                    let column = &mut column[..n1];
+                    self.column_forward.process_with_scratch(column, fft);
+                    for (value, &factor) in column.iter_mut().zip(&multiplier.table[(first + c) * n1..]) {
+                        *value *= factor;
+                    }
+                    self.column_inverse.process_with_scratch(column, fft);
                 }
-                self.column_inverse.process_with_scratch(columns, &mut scratch.fft);
-                for (i, line) in block.chunks_exact_mut(COLUMNS).enumerate() {
+                for (i, line) in block[..COLUMNS * n1].chunks_exact_mut(COLUMNS).enumerate() {
                     for (c, value) in line[..count].iter_mut().enumerate() {
-                        *value = columns[c * n1 + i];
+                        *value = columns[c * (n1 + PAD) + i];
                     }
                 }
             }
@@ -234,7 +251,8 @@ impl Fourier {
         output.par_chunks_mut(part * n2).enumerate().zip(scratch).for_each(|((part_index, output), scratch)| {
             for (index, samples) in output.chunks_exact_mut(n2).enumerate() {
                 let i = part_index * part + index;
-                for (line, block) in scratch.spectrum.chunks_mut(COLUMNS).zip(blocks.chunks_exact(COLUMNS * n1)) {
+                for (line, block) in scratch.spectrum.chunks_mut(COLUMNS).zip(blocks.chunks_exact(self.block_stride()))
+                {
                     line.copy_from_slice(&block[i * COLUMNS..i * COLUMNS + line.len()]);
                 }
                 self.row_inverse_real(&mut scratch.spectrum, samples, &mut scratch.fft);
