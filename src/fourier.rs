@@ -16,8 +16,8 @@ use std::sync::Arc;
 
 /// Columns transformed together: 8 complex numbers are two cache lines of each row.
 const COLUMNS: usize = 8;
-/// Complex numbers between columns, and between blocks, so that a power of two points does not put them all into the same
-/// lines of a cache.
+/// Complex numbers between columns, and between blocks, so that a power of two points does not put them all into the
+/// same lines of a cache.
 const PAD: usize = 8;
 /// Parts the rows, and the column blocks, are divided into.
 const PARTS: usize = 16;

@@ -313,6 +313,12 @@ fn the_largest_shear_under_hertz_is_found_without_being_told_where() {
         assert!((found.value / tau1 - 1.0).abs() < 1e-3, "ν = {nu}: τ₁ = {found:?}");
         assert!((found.position[2] / radius - depth).abs() < 1e-2, "ν = {nu}: at {found:?}");
         assert!((found.position[0] - 0.5).hypot(found.position[1] - 0.5) < 0.02 * radius);
+        // The tension at the edge of contact acts along the radius.
+        let tension = maxima.faces[0].tension;
+        let [x, y] = [tension.position[0] - 0.5, tension.position[1] - 0.5];
+        let along = (tension.direction[0] * x + tension.direction[1] * y).abs() / x.hypot(y);
+        assert!(tension.position[2] == 0.0 && (x.hypot(y) / radius - 1.0).abs() < 0.1, "{tension:?}");
+        assert!(along > 0.99, "ν = {nu}: {tension:?}");
         // The stresses on the axis.
         for zeta in [0.3f64, 1.0, 2.0] {
             let state = field.points(Depth { z: zeta * radius, side: 1 }, &[[0.5, 0.5]])[0];

@@ -79,6 +79,8 @@ pub struct Peak {
     pub z: f64,
     /// Material, from 1; the substrate is layers + 1.
     pub material: usize,
+    /// Direction along which σ₁ acts there, a unit vector.
+    pub direction: [f64; 3],
 }
 
 impl Stress {
@@ -86,7 +88,7 @@ impl Stress {
     pub fn new(maxima: &Maxima, surface_error: f64) -> Self {
         let peak = |peak: &maxima::Peak| {
             let [x, y, z] = peak.position;
-            Peak { value: peak.value, x, y, z, material: peak.side }
+            Peak { value: peak.value, x, y, z, material: peak.side, direction: peak.direction }
         };
         let extremes = |extremes: &maxima::Extremes| Extremes {
             max_tau1: peak(&extremes.tau1),

@@ -95,7 +95,7 @@ fn percent(x: f64) -> String {
 /// The largest stresses of a step in one line.
 pub fn stress(stress: &Stress) -> String {
     let peak = |name: &str, peak: &Peak| {
-        let Peak { value, x, y, z, material } = *peak;
+        let Peak { value, x, y, z, material, .. } = *peak;
         let [value, x, y, z] = [value, x, y, z].map(number);
         format!("{name} {value} in material {material} at ({x}, {y}, {z})")
     };

@@ -22,6 +22,8 @@ pub struct Peak {
     pub position: [f64; 3],
     /// Material, from 1; the substrate is layers + 1.
     pub side: usize,
+    /// Direction along which σ₁ acts there, a unit vector: a crack opens across it.
+    pub direction: [f64; 3],
 }
 
 /// Maxima over a material or a face.
@@ -56,7 +58,8 @@ impl Maxima {
     fn largest(&self, quantity: impl Fn(&Extremes) -> Peak) -> Peak {
         let all = self.materials.iter().map(quantity);
         // There is always a substrate.
-        let none = Peak { value: f64::NEG_INFINITY, position: [0.0; 3], side: self.materials.len() };
+        let none =
+            Peak { value: f64::NEG_INFINITY, position: [0.0; 3], side: self.materials.len(), direction: [0.0; 3] };
         all.fold(none, |best, peak| if peak.value > best.value { peak } else { best })
     }
 }
@@ -179,9 +182,9 @@ impl Field {
     /// sample itself.
     fn face_peak(&self, candidate: &Candidate, quantity: Quantity) -> Peak {
         if candidate.depth.z < 2.0 * self.grid().spacing() {
-            return candidate.peak();
+            return self.peak(candidate);
         }
-        self.horizontally(candidate, quantity).peak()
+        self.peak(&self.horizontally(candidate, quantity))
     }
 
     /// The best peak near the candidate of plane `index`, the depth between those of the neighbouring planes.
@@ -207,7 +210,14 @@ impl Field {
                 break;
             }
         }
-        best.peak()
+        self.peak(&best)
+    }
+
+    /// A candidate as it is, with the direction of σ₁ there.
+    fn peak(&self, candidate: &Candidate) -> Peak {
+        let [x, y] = candidate.place;
+        let direction = self.points_within(candidate.depth, &[[x, y]], REACH)[0].s1_direction();
+        Peak { value: candidate.value, position: [x, y, candidate.depth.z], side: candidate.depth.side, direction }
     }
 
     /// Moves a candidate to the top of the paraboloid through 3 × 3 points around it, with smaller and smaller steps.
@@ -265,13 +275,6 @@ impl Field {
         } else {
             *candidate
         }
-    }
-}
-
-impl Candidate {
-    fn peak(&self) -> Peak {
-        let [x, y] = self.place;
-        Peak { value: self.value, position: [x, y, self.depth.z], side: self.depth.side }
     }
 }
 
