@@ -38,7 +38,6 @@ pub use levels::LevelSection;
 pub use load::LoadSection;
 pub use localized::{CircleRadius, LocalizedSection};
 pub use model::Case;
-pub use overrides::choices;
 pub use source::Source;
 pub use stress::{Cut, StressSection, Toward, Volume};
 pub use surface::SurfaceSection;

@@ -2,7 +2,7 @@
 //!
 //! KEY is a dotted path, items of lists counted from 0; VALUE is TOML, a bare word counts as text.
 
-use super::error::{CaseError, Refusal};
+use super::error::Refusal;
 use super::node::{Entry, Node, Place, Table, Value};
 
 /// Alternatives of which a table takes one: setting a key of one removes the keys of the others.
@@ -33,48 +33,6 @@ impl Step {
     fn index(&self) -> Option<usize> {
         self.name.parse().ok()
     }
-}
-
-/// Every override that `KEY=V1,V2,…` stands for, as texts `KEY=V1`, `KEY=V2`, …: what a sweep runs through.
-///
-/// Commas inside brackets, braces and quotes do not separate: `load.mean_pressure=[1,2],[3]` has two values.
-///
-/// # Errors
-/// [`CaseError`] when the text has no `=`, an empty key or an empty value.
-pub fn choices(text: &str) -> Result<Vec<String>, CaseError> {
-    let refuse = |refusal| CaseError::new("--set", text, refusal);
-    let (key, values) = split(text, 0).map_err(refuse)?;
-    let first = key.len() + 1;
-    let (mut depth, mut quote, mut escaped) = (0usize, None, false);
-    let mut cuts = vec![0];
-    for (at, c) in values.char_indices() {
-        match (quote, c) {
-            (Some('"'), '\\') if !escaped => {
-                escaped = true;
-                continue;
-            }
-            (Some(open), _) if open == c && !escaped => quote = None,
-            (Some(_), _) => {}
-            (None, '"' | '\'') => quote = Some(c),
-            (None, '[' | '{') => depth += 1,
-            (None, ']' | '}') => depth = depth.saturating_sub(1),
-            (None, ',') if depth == 0 => cuts.push(at + 1),
-            (None, _) => {}
-        }
-        escaped = false;
-    }
-    cuts.push(values.len() + 1);
-    cuts.windows(2)
-        .map(|cut| {
-            let (start, end) = (cut[0], cut[1] - 1);
-            let value = values[start..end].trim();
-            if value.is_empty() {
-                let place = Place::new(0, first + start..first + end);
-                return Err(refuse(empty_value(place, key.trim())));
-            }
-            Ok(format!("{}={value}", key.trim()))
-        })
-        .collect()
 }
 
 impl Override {
@@ -273,15 +231,5 @@ mod tests {
         for text in ["layers.1.thickness=1", "layers.thickness=1", "load.mean_pressure.from=1", "levels.0.radius=1"] {
             assert!(set(case, text).is_err(), "{text}");
         }
-    }
-
-    #[test]
-    fn a_sweep_splits_values_at_outer_commas_only() {
-        assert_eq!(choices("a.b=1,2 , 3").unwrap(), ["a.b=1", "a.b=2", "a.b=3"]);
-        assert_eq!(choices("a=[1,2],{ b = 1, c = 2 }").unwrap(), ["a=[1,2]", "a={ b = 1, c = 2 }"]);
-        assert_eq!(choices(r#"t="x,\",y",z"#).unwrap(), [r#"t="x,\",y""#, "t=z"]);
-        assert!(choices("a=1,,2").is_err());
-        assert!(choices("a=").is_err());
-        assert!(choices("a").is_err());
     }
 }
