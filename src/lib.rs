@@ -22,10 +22,12 @@
 //! lattice, indenter ─────────────→ texture ─┐
 //! lattice → grid → fourier ─────────────────┤
 //! material → layered ─────────→ operator ───┴→ solver → hierarchy → observables → refinement, touch
+//! indenter, lattice, layered ────────────────→ localized
 //!                                                         case → output → command line
 //! ```
 //!
-//! [`field`] (sums that do not depend on the number of threads), [`least_squares`] and [`number`] serve all of them.
+//! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`boundary`] (the outline of a
+//! contact between samples) and [`number`] serve all of them.
 //! Nothing left of [`case`] reads a file or prints.
 //!
 //! # Example
@@ -57,6 +59,7 @@
 //! # }
 //! ```
 
+pub mod boundary;
 pub mod case;
 pub mod field;
 pub mod fourier;
@@ -66,6 +69,7 @@ pub mod indenter;
 pub mod lattice;
 pub mod layered;
 pub mod least_squares;
+pub mod localized;
 pub mod material;
 pub mod number;
 pub mod observables;

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::reader::Section;
+use crate::localized::CircleRadius;
 
 /// The section `[localized]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -16,16 +17,6 @@ pub struct LocalizedSection {
     pub radius: CircleRadius,
     /// Whether the indenters around the one looked at act on it.
     pub mutual_effect: bool,
-}
-
-/// Rule for the radius R of the circle outside of which the nominal pressure acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CircleRadius {
-    /// The indenters inside carry π R² p̄.
-    LoadBalanced,
-    /// The cells of the indenters inside have the area π R².
-    AreaBalanced,
 }
 
 impl Default for LocalizedSection {
@@ -45,8 +36,7 @@ impl LocalizedSection {
             if circles.is_empty() {
                 return Err(field.refuse(WANTED).help("for example indenters = [7, 13]"));
             }
-            localized.indenters =
-                circles.iter().map(|circle| circle.integer(1..=usize::MAX)).collect::<Result<_, _>>()?;
+            localized.indenters = circles.iter().map(|circle| circle.integer(1..=10_000)).collect::<Result<_, _>>()?;
         }
         if let Some(elements) = section.optional("elements") {
             localized.elements = elements.integer(4..=1000)?;

@@ -36,7 +36,7 @@ pub use lattice::LatticeSection;
 pub use layers::{LayerSection, Modulus, SubstrateSection};
 pub use levels::LevelSection;
 pub use load::LoadSection;
-pub use localized::{CircleRadius, LocalizedSection};
+pub use localized::LocalizedSection;
 pub use model::Case;
 pub use source::Source;
 pub use stress::{Cut, StressSection, Toward, Volume};

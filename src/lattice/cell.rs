@@ -140,6 +140,14 @@ impl Reduced {
         nearest
     }
 
+    /// All lattice vectors of at most the length `reach`, and some a little longer.
+    pub fn vectors_within(&self, reach: f64) -> Vec<[f64; 2]> {
+        // In a reduced basis |m₁r₁ + m₂r₂|² ≥ ½ (m₁²|r₁|² + m₂²|r₂|²).
+        let most = [self.cell.a1, self.cell.a2].map(|r| (reach * 2f64.sqrt() / norm(r)).ceil() as i32);
+        let multiples = (-most[0]..=most[0]).flat_map(|i| (-most[1]..=most[1]).map(move |j| [i, j].map(f64::from)));
+        multiples.map(|m| self.cell.point(m)).filter(|&x| norm(x) <= reach * (1.0 + 1e-9)).collect()
+    }
+
     /// Fractions of r₁, r₂ of the vector s₁a₁ + s₂a₂: the inverse of an integer matrix of determinant ±1 is one too.
     fn fractions(&self, [s1, s2]: [f64; 2]) -> [f64; 2] {
         let [[m11, m12], [m21, m22]] = self.matrix.map(|row| row.map(f64::from));

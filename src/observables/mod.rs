@@ -4,15 +4,15 @@
 //! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning.
 
 pub mod area;
-pub mod boundary;
+
 pub mod peak;
 
-pub use boundary::Boundary;
+pub use crate::boundary::Boundary;
 
+use crate::boundary::Polar;
 use crate::field;
 use crate::hierarchy::{Hierarchy, Solution};
 use crate::number::number;
-use boundary::Polar;
 use std::f64::consts::PI;
 use std::fmt;
 

@@ -1,0 +1,183 @@
+//! Square elements around an indenter's axis, and what a pattern of pressures on one such mesh does on another.
+//!
+//! All spots of a solution have meshes of one element size e, centred on their axes, so that the displacement of the
+//! spot m under the indenters of site c inside its circle is a sum over differences of element numbers,
+//!
+//! u_m(t) = Σ_s A_mc(t − s) p_c(s),  A_mc(Δ) = Σ_i w(Δe − r_i),
+//!
+//! w the influence coefficient of one element, r_i from the centre of the circle to the images of c inside it. Images
+//! far from the mesh make a smooth contribution to A, which a Chebyshev series in both directions carries.
+
+use super::square::Squares;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// A square mesh of `width` × `width` elements, the central one on the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mesh {
+    /// Elements along a side, odd.
+    pub width: usize,
+    /// Side of an element, a length.
+    pub size: f64,
+}
+
+impl Mesh {
+    /// Number of elements.
+    pub fn elements(&self) -> usize {
+        self.width * self.width
+    }
+
+    /// Half the side of the mesh, a length.
+    pub fn half(&self) -> f64 {
+        0.5 * self.width as f64 * self.size
+    }
+
+    /// Centre (x, y) of an element, measured from the axis: lengths.
+    pub fn place(&self, index: usize) -> [f64; 2] {
+        let middle = (self.width / 2) as f64;
+        [(index / self.width) as f64, (index % self.width) as f64].map(|k| (k - middle) * self.size)
+    }
+
+    /// Whether an element lies on the rim.
+    pub fn on_rim(&self, index: usize) -> bool {
+        [index / self.width, index % self.width].into_iter().any(|k| k == 0 || k == self.width - 1)
+    }
+
+    /// A field between the centres of its elements, bilinear; 0 beyond them.
+    pub fn interpolated(&self, field: &[f64], place: [f64; 2]) -> f64 {
+        let [u, v] = place.map(|x| x / self.size + (self.width / 2) as f64);
+        let value = |i: f64, j: f64| {
+            let inside = |k: f64| (0.0..self.width as f64).contains(&k);
+            if inside(i) && inside(j) { field[i as usize * self.width + j as usize] } else { 0.0 }
+        };
+        let (i, j) = (u.floor(), v.floor());
+        let (s, t) = (u - i, v - j);
+        (1.0 - s) * ((1.0 - t) * value(i, j) + t * value(i, j + 1.0))
+            + s * ((1.0 - t) * value(i + 1.0, j) + t * value(i + 1.0, j + 1.0))
+    }
+}
+
+/// Terms of the Chebyshev series in each direction.
+const TERMS: usize = 14;
+/// Distance, in half-sides of the table, from which images are summed in the series: it then errs by 1e-11.
+const FAR: f64 = 3.5;
+
+/// A_mc of two spots.
+#[derive(Debug, Clone)]
+pub struct Influence {
+    width: usize,
+    /// A(Δ) for Δ from −(width−1) to width−1 along x and y, y fastest.
+    table: Vec<f64>,
+}
+
+impl Influence {
+    /// Influence on a spot of the indenters at the places `images` relative to it.
+    pub fn new(squares: &Squares<'_>, mesh: Mesh, images: &[[f64; 2]]) -> Self {
+        let (side, last) = (2 * mesh.width - 1, mesh.width as f64 - 1.0);
+        let half = last.max(1.0) * mesh.size;
+        let (far, near): (Vec<[f64; 2]>, Vec<[f64; 2]>) = images.iter().partition(|[x, y]| x.hypot(*y) > FAR * half);
+        let under = |images: &[[f64; 2]], x: f64, y: f64| -> f64 {
+            images.iter().map(|[u, v]| squares.coefficient(x - u, y - v)).sum()
+        };
+        let series = if far.is_empty() { Vec::new() } else { chebyshev(half, |x, y| under(&far, x, y)) };
+        let offset = |k: usize| (k as f64 - last) * mesh.size;
+        let mut table = vec![0.0; side * side];
+        table.par_chunks_mut(side).enumerate().for_each(|(i, row)| {
+            let x = offset(i);
+            let waves = polynomials(x / half);
+            // The series in y at this x.
+            let line: Vec<f64> =
+                series.iter().map(|in_x: &Vec<f64>| in_x.iter().zip(&waves).map(|(c, t)| c * t).sum()).collect();
+            for (j, value) in row.iter_mut().enumerate() {
+                let y = offset(j);
+                let smooth: f64 = line.iter().zip(polynomials(y / half)).map(|(c, t)| c * t).sum();
+                *value = under(&near, x, y) + smooth;
+            }
+        });
+        Self { width: mesh.width, table }
+    }
+
+    /// A(0): displacement of an element under unit pressure on itself (and on its images).
+    pub fn diagonal(&self) -> f64 {
+        self.table[self.table.len() / 2]
+    }
+
+    /// Adds the displacement under `pressure` to `displacement`: one value per element each.
+    pub fn add(&self, pressure: &[f64], displacement: &mut [f64]) {
+        let (width, side) = (self.width, 2 * self.width - 1);
+        let loaded: Vec<usize> =
+            (0..width).filter(|&row| pressure[row * width..(row + 1) * width].iter().any(|&p| p != 0.0)).collect();
+        displacement.par_chunks_mut(width).enumerate().for_each(|(target, out)| {
+            for &source in &loaded {
+                let row = &self.table[(target + width - 1 - source) * side..][..side];
+                for (j, &p) in pressure[source * width..(source + 1) * width].iter().enumerate() {
+                    if p != 0.0 {
+                        for (u, a) in out.iter_mut().zip(&row[width - 1 - j..]) {
+                            *u += p * a;
+                        }
+                    }
+                }
+            }
+        });
+    }
+}
+
+/// T₀ … at x in [−1, 1].
+fn polynomials(x: f64) -> [f64; TERMS] {
+    let mut values = [1.0; TERMS];
+    values[1] = x;
+    for k in 2..TERMS {
+        values[k] = 2.0 * x * values[k - 1] - values[k - 2];
+    }
+    values
+}
+
+/// Coefficients c[l][k] of T_k(x/half) T_l(y/half) of a smooth function on the square |x|, |y| ≤ half.
+fn chebyshev(half: f64, f: impl Fn(f64, f64) -> f64 + Sync) -> Vec<Vec<f64>> {
+    let angle = |k: usize| PI * (k as f64 + 0.5) / TERMS as f64;
+    let node = |k: usize| half * angle(k).cos();
+    let values: Vec<Vec<f64>> =
+        (0..TERMS).into_par_iter().map(|i| (0..TERMS).map(|j| f(node(i), node(j))).collect()).collect();
+    let weight = |k: usize, i: usize| {
+        let scale = if k == 0 { 1.0 } else { 2.0 };
+        scale / TERMS as f64 * (k as f64 * angle(i)).cos()
+    };
+    let coefficient = |k: usize, l: usize| -> f64 {
+        let row = |i: usize| (0..TERMS).map(|j| weight(l, j) * values[i][j]).sum::<f64>();
+        (0..TERMS).map(|i| weight(k, i) * row(i)).sum()
+    };
+    (0..TERMS).map(|l| (0..TERMS).map(|k| coefficient(k, l)).collect()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::point::PointKernel;
+    use super::*;
+    use crate::material::{HalfSpace, Interface, Layer, Material};
+
+    #[test]
+    fn tables_are_sums_of_coefficients_near_and_far() {
+        let substrate = Material::from_young(1.0, 0.3).unwrap();
+        let coating = Material::from_young(4.0, 0.2).unwrap();
+        let half_space = HalfSpace::new(vec![Layer::new(coating, 0.3, Interface::Bonded).unwrap()], substrate);
+        let kernel = PointKernel::new(&half_space, 20.0);
+        let squares = Squares::new(&kernel, 0.02);
+        let mesh = Mesh { width: 9, size: 0.04 };
+        let images = [[0.0, 0.0], [1.0, 0.2], [-1.2, 0.1], [3.0, 4.0], [-5.0, 2.0]];
+        let influence = Influence::new(&squares, mesh, &images);
+        let mut pressure = vec![0.0; mesh.elements()];
+        (pressure[3], pressure[40], pressure[57]) = (1.0, 0.5, 2.0);
+        let mut displacement = vec![0.0; mesh.elements()];
+        influence.add(&pressure, &mut displacement);
+        for target in [0, 17, 40, 80] {
+            let mut expected = 0.0;
+            for (source, p) in pressure.iter().enumerate() {
+                let (t, s) = (mesh.place(target), mesh.place(source));
+                for r in images {
+                    expected += p * squares.coefficient(t[0] - s[0] - r[0], t[1] - s[1] - r[1]);
+                }
+            }
+            assert!((displacement[target] / expected - 1.0).abs() < 1e-10);
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The paper's own method: boundary elements inside a circle, the nominal pressure outside it.
+//!
+//! Around an indenter of each level a circle holds a number of indenters, each with its own pressure (the same pattern
+//! for all indenters of a site); outside it acts p̄. The displacement under the indenter in its centre is
+//!
+//! w(**x**) = Σ_c Σ_i ∫ K(|**x** − **r**_i − **y**|) p_c(**y**) d²y − p̄ D_R(|**x**|),
+//!
+//! K the displacement under a point force on the layered surface, D_R that under a disc of the circle's radius: uniform
+//! p̄ outside the disc is p̄ everywhere, which only moves the mean plane, minus p̄ on the disc. Contact means w + f − δ
+//! = 0 with one penetration δ for all levels, and all pressures together carry p̄, Eq. (5).
+//!
+//! It shares nothing with the spectral solver but the indenters' shapes, the transfer function and the reading of a
+//! contact's boundary, so that each checks the other. In the order of building:
+//!
+//! - [`quadrature`], [`point`]: K by adaptive quadrature of the layer correction, tabulated;
+//! - [`square`], [`disc`]: influence coefficients, Eq. (7), and the far field;
+//! - [`circle`]: who stands inside, and the radius, Eq. (4);
+//! - [`mesh`], [`press`]: elements and the contact of one spot; [`spot`]: what is read off it;
+//! - [`solver`]: level by level to one penetration and one load;
+//! - [`system`]: the whole, and the additional displacement w_a of Eq. (8); [`stress`]: the stresses below.
+
+pub mod circle;
+pub mod disc;
+mod exchange;
+pub mod mesh;
+pub mod point;
+pub mod press;
+pub mod quadrature;
+pub mod solver;
+pub mod spot;
+pub mod square;
+pub mod stress;
+pub mod system;
+
+pub use circle::CircleRadius;
+pub use solver::{Coupled, Solution, Stop};
+pub use system::{LevelReading, Localized, Setup};

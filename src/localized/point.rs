@@ -1,0 +1,154 @@
+//! Displacement of the layered surface at the distance r from a unit point force on it.
+//!
+//! With c = (1−ν₁)/G₁ of the surface material and the layer correction T,
+//!
+//! K(r) = c/(2π) [1/r + C(r)],  C(r) = ∫₀^∞ (T(q) − 1) J₀(qr) dq.
+//!
+//! C is smooth at r = 0 and goes to (T(0) − 1)/r far away, where K is the substrate's. It is integrated adaptively and
+//! kept as Chebyshev series on intervals of r, each halved until it agrees with the integral between its nodes.
+
+use super::quadrature::{Bessel, Estimate, hankel};
+use crate::layered::TransferFunction;
+use crate::material::{HalfSpace, Layer};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Nodes of one Chebyshev series.
+const NODES: usize = 16;
+/// Error of a series, relative to K, at which its interval is not halved any more.
+const TOLERANCE: f64 = 2e-11;
+/// Relative tolerance of the integrals over the layer correction, which is exact to 1e-15.
+pub(super) const QUADRATURE: f64 = 1e-13;
+/// qh at which T − 1 ~ (qh)² e^{−2qh} has died out.
+const EXTINCT: f64 = 24.0;
+/// Halvings of an interval at most.
+const DEPTH: usize = 8;
+
+/// Point kernel of a layered half-space, tabulated up to a distance.
+#[derive(Debug, Clone)]
+pub struct PointKernel {
+    transfer: TransferFunction,
+    /// c = (1−ν₁)/G₁.
+    compliance: f64,
+    /// Thickness of the first layer; `None` without layers.
+    thickness: Option<f64>,
+    /// Upper ends of the intervals, ascending, and their series of C.
+    intervals: Vec<(f64, [f64; NODES])>,
+    reach: f64,
+    error: f64,
+}
+
+impl PointKernel {
+    /// Kernel of `half_space`, tabulated for distances up to `reach`, a length.
+    pub fn new(half_space: &HalfSpace, reach: f64) -> Self {
+        let surface = half_space.surface_material();
+        let mut kernel = Self {
+            transfer: TransferFunction::new(half_space),
+            compliance: (1.0 - surface.poisson()) / surface.shear(),
+            thickness: half_space.layers().first().map(Layer::thickness),
+            intervals: Vec::new(),
+            reach,
+            error: 0.0,
+        };
+        if let Some(thickness) = kernel.thickness {
+            let mut bounds = vec![0.0, thickness.min(reach)];
+            while let Some(&last) = bounds.last().filter(|&&last| last < reach) {
+                bounds.push((2.0 * last).min(reach));
+            }
+            let pieces: Vec<_> = bounds.par_windows(2).map(|ends| kernel.fitted(ends[0], ends[1], DEPTH)).collect();
+            kernel.error = pieces.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+            kernel.intervals = pieces.into_iter().flat_map(|(intervals, _)| intervals).collect();
+        }
+        kernel
+    }
+
+    /// Largest distance of the table, a length.
+    pub fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// Largest relative error of K found between the nodes of the table, with that of the integrals.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// c/(2π), the factor of 1/r + C(r): a length times a length per force.
+    pub fn factor(&self) -> f64 {
+        self.compliance / (2.0 * PI)
+    }
+
+    /// Thickness of the first layer; `None` without layers.
+    pub(super) fn thickness(&self) -> Option<f64> {
+        self.thickness
+    }
+
+    /// Wavenumber beyond which the layers are not felt at the surface; 0 without layers.
+    pub(super) fn extinction(&self) -> f64 {
+        self.thickness.map_or(0.0, |thickness| EXTINCT / thickness)
+    }
+
+    /// T(q) − 1.
+    pub(super) fn excess(&self, wavenumber: f64) -> f64 {
+        self.transfer.correction(wavenumber) - 1.0
+    }
+
+    /// C(r) by quadrature, 1/length.
+    pub fn correction_by_quadrature(&self, r: f64) -> Estimate {
+        match self.thickness {
+            Some(_) => hankel(Bessel::Zero, r, self.extinction(), QUADRATURE, |q| self.excess(q)),
+            None => Estimate::default(),
+        }
+    }
+
+    /// C(r) from the table, 1/length, for r up to [`PointKernel::reach`].
+    pub fn correction(&self, r: f64) -> f64 {
+        if self.intervals.is_empty() {
+            return 0.0;
+        }
+        let index = self.intervals.partition_point(|(end, _)| *end < r).min(self.intervals.len() - 1);
+        let start = if index == 0 { 0.0 } else { self.intervals[index - 1].0 };
+        let (end, series) = &self.intervals[index];
+        clenshaw(series, (2.0 * r - start - end) / (end - start))
+    }
+
+    /// K(r) for r > 0, a length per force.
+    pub fn at(&self, r: f64) -> f64 {
+        self.factor() * (1.0 / r + self.correction(r))
+    }
+
+    /// Series on [a, b] and, where one is not enough, on its halves; with the largest relative error found.
+    fn fitted(&self, a: f64, b: f64, depth: usize) -> (Vec<(f64, [f64; NODES])>, f64) {
+        let place = |x: f64| 0.5 * ((b - a) * x + a + b);
+        let node = |k: usize| (PI * (k as f64 + 0.5) / NODES as f64).cos();
+        let values: [f64; NODES] = std::array::from_fn(|k| self.correction_by_quadrature(place(node(k))).value);
+        let series: [f64; NODES] = std::array::from_fn(|j| {
+            let wave = |k: usize| values[k] * (PI * j as f64 * (k as f64 + 0.5) / NODES as f64).cos();
+            let sum: f64 = (0..NODES).map(wave).sum();
+            sum * if j == 0 { 1.0 } else { 2.0 } / NODES as f64
+        });
+        let error = [-0.995, -0.47, 0.098, 0.61, 0.995].into_iter().map(|x| {
+            let r = place(x);
+            let exact = self.correction_by_quadrature(r);
+            // Nearly incompressible layers on stiff ground heave: K itself has zeros.
+            let size = (1.0 / r + exact.value).abs().max(1e-3 / r);
+            ((clenshaw(&series, x) - exact.value).abs() + exact.error) / size
+        });
+        let error = error.fold(0.0, f64::max);
+        if error < TOLERANCE || depth == 0 {
+            return (vec![(b, series)], error);
+        }
+        let middle = 0.5 * (a + b);
+        let ((mut lower, one), (upper, two)) = (self.fitted(a, middle, depth - 1), self.fitted(middle, b, depth - 1));
+        lower.extend(upper);
+        (lower, one.max(two))
+    }
+}
+
+/// Σ cⱼ Tⱼ(x).
+pub(super) fn clenshaw(series: &[f64], x: f64) -> f64 {
+    let (mut one, mut two) = (0.0, 0.0);
+    for &c in series[1..].iter().rev() {
+        (one, two) = (2.0 * x * one - two + c, one);
+    }
+    x * one - two + series[0]
+}

@@ -1,0 +1,100 @@
+//! Contact of one spot whose surface is pressed to given displacements.
+//!
+//! A p ≥ b, p ≥ 0, p (A p − b) = 0: b = δ − f − u is what the spot's own pressures (with their images in the circle)
+//! must displace. A is symmetric and positive; Polonsky & Keer's (1999) conjugate gradients without their constraint on
+//! the load.
+
+use super::mesh::Influence;
+
+/// Iterations at most.
+const ITERATIONS: usize = 400;
+
+/// Brings `pressure` to the solution for the wanted displacements b = `wanted`; `tolerance` is relative to the largest
+/// of them. Gives back A p − b, the gap.
+pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> Vec<f64> {
+    let len = wanted.len();
+    let scale = wanted.iter().copied().fold(0.0, f64::max);
+    if scale == 0.0 {
+        // Nothing is displaced far enough to touch.
+        pressure.fill(0.0);
+        return wanted.iter().map(|b| -b).collect();
+    }
+    let residual = |pressure: &[f64]| {
+        let mut gap: Vec<f64> = wanted.iter().map(|b| -b).collect();
+        influence.add(pressure, &mut gap);
+        gap
+    };
+    let mut gap = residual(pressure);
+    let mut direction = vec![0.0; len];
+    let mut before: Option<(Vec<f64>, f64)> = None;
+    for _ in 0..ITERATIONS {
+        let active: Vec<usize> = (0..len).filter(|&i| pressure[i] > 0.0 || gap[i] < 0.0).collect();
+        let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale;
+        let worst = active.iter().filter(counts).map(|&i| gap[i].abs()).fold(0.0, f64::max);
+        if worst <= tolerance * scale {
+            return gap;
+        }
+        // An element that is penetrated but carries nothing yet joins the contact: a new start.
+        let grown = active.iter().any(|&i| pressure[i] == 0.0);
+        let square: f64 = active.iter().map(|&i| gap[i] * gap[i]).sum();
+        let beta = match &before {
+            Some((last, last_square)) if !grown => {
+                let change: f64 = active.iter().map(|&i| gap[i] * (gap[i] - last[i])).sum();
+                (change / last_square).max(0.0)
+            }
+            _ => 0.0,
+        };
+        let mut next = vec![0.0; len];
+        active.iter().for_each(|&i| next[i] = gap[i] + beta * direction[i]);
+        direction = next;
+        let mut image = vec![0.0; len];
+        influence.add(&direction, &mut image);
+        let dot = |a: &[f64]| active.iter().map(|&i| a[i] * direction[i]).sum::<f64>();
+        let step = dot(&gap) / dot(&image);
+        let mut clipped = false;
+        for &i in &active {
+            pressure[i] -= step * direction[i];
+            if pressure[i] < 0.0 {
+                pressure[i] = 0.0;
+                clipped = true;
+            }
+        }
+        before = Some((gap.clone(), square));
+        if clipped {
+            gap = residual(pressure);
+        } else {
+            gap.iter_mut().zip(&image).for_each(|(g, u)| *g -= step * u);
+        }
+    }
+    gap
+}
+
+/// Pressures on the elements in contact that displace all of them by one unit: their sum times the area of an element
+/// is the stiffness dP/dδ. `start` is a first guess.
+pub fn punch(influence: &Influence, pressure: &[f64], tolerance: f64, mut start: Vec<f64>) -> Vec<f64> {
+    let len = pressure.len();
+    let active: Vec<usize> = (0..len).filter(|&i| pressure[i] > 0.0).collect();
+    (0..len).filter(|&i| pressure[i] == 0.0).for_each(|i| start[i] = 0.0);
+    let mut rest = vec![-1.0; len];
+    influence.add(&start, &mut rest);
+    let mut direction = vec![0.0; len];
+    let mut square_before = f64::INFINITY;
+    for _ in 0..ITERATIONS {
+        let square: f64 = active.iter().map(|&i| rest[i] * rest[i]).sum();
+        if square <= tolerance * tolerance * active.len() as f64 {
+            break;
+        }
+        let beta = square / square_before;
+        square_before = square;
+        let mut next = vec![0.0; len];
+        active.iter().for_each(|&i| next[i] = rest[i] + beta * direction[i]);
+        direction = next;
+        let mut image = vec![0.0; len];
+        influence.add(&direction, &mut image);
+        let dot = |a: &[f64]| active.iter().map(|&i| a[i] * direction[i]).sum::<f64>();
+        let step = dot(&rest) / dot(&image);
+        active.iter().for_each(|&i| start[i] -= step * direction[i]);
+        rest.iter_mut().zip(&image).for_each(|(r, u)| *r -= step * u);
+    }
+    start
+}

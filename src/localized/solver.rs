@@ -1,0 +1,306 @@
+//! Level by level: the contact of every spot with its circle, one penetration, one load (paper, §2.3).
+//!
+//! Each sweep presses every spot to the present penetration δ against the displacement by the other levels inside its
+//! circle, each with the pattern of its last sweep, and by p̄ outside it. Then the levels exchange loads
+//! ([`super::exchange`]) so that all have one penetration and carry p̄ together, Eq. (5). Only shapes lag behind, so
+//! that some eight sweeps are enough however many indenters stand in the circle. A level comes into contact when a
+//! sweep finds it penetrated, and leaves it when it would be pulled.
+
+use super::circle::{Circle, CircleRadius};
+use super::disc::FarField;
+use super::exchange::Sweep;
+use super::mesh::{Influence, Mesh};
+use super::press::{press, punch};
+use super::spot::Spot;
+use super::square::Squares;
+use super::system::Localized;
+use crate::solver::Control;
+use std::f64::consts::PI;
+use std::fmt;
+
+/// Sweeps at most.
+const SWEEPS: usize = 60;
+/// Relative tolerance of the loads, of the surfaces pressed, and of the stiffness.
+const TOLERANCE: f64 = 1e-8;
+const SURFACE_TOLERANCE: f64 = 1e-9;
+const STIFFNESS_TOLERANCE: f64 = 1e-4;
+
+/// How a localized solution ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// Loads stand still to 1e-8 of the whole one.
+    Converged,
+    /// They still moved after 60 sweeps.
+    Stalled,
+    /// A contact reaches the rim of its mesh.
+    Rim,
+    /// A contact reaches half the way to its neighbour: the method needs spots that stand apart.
+    Merged,
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
+            Self::Stalled => "stalled: loads still moved after 60 sweeps",
+            Self::Rim => "a contact reaches the rim of its mesh",
+            Self::Merged => "merged: a contact reaches half the way to its neighbour",
+        })
+    }
+}
+
+/// A localized solution.
+#[derive(Debug, Clone)]
+pub struct Solution {
+    /// Nominal pressure p̄.
+    pub mean_pressure: f64,
+    /// Penetration δ, common to all levels, a length.
+    pub penetration: f64,
+    /// The spots, one per site of the cell.
+    pub spots: Vec<Spot>,
+    /// How the iteration ended.
+    pub stop: Stop,
+    /// Sweeps over the levels.
+    pub sweeps: usize,
+}
+
+/// Circles and influence tables of a system on one mesh.
+#[derive(Debug)]
+pub struct Coupled<'a> {
+    system: &'a Localized,
+    mesh: Mesh,
+    circles: Vec<Circle>,
+    /// `tables[m][c]`; `None` where no indenter of c stands in the circle around m.
+    tables: Vec<Vec<Option<Influence>>>,
+    /// Profile plus drop at each element, per site.
+    shapes: Vec<Vec<f64>>,
+    mutual_effect: bool,
+}
+
+/// What the sweeps carry on.
+struct Patterns {
+    penetration: f64,
+    loads: Vec<f64>,
+    pressures: Vec<Vec<f64>>,
+}
+
+impl Patterns {
+    /// Those of an earlier solution on the present mesh, or none.
+    fn new(mesh: Mesh, sites: usize, start: Option<&Solution>) -> Self {
+        let mut patterns = Self {
+            penetration: start.map_or(0.0, |start| start.penetration),
+            loads: vec![0.0; sites],
+            pressures: vec![vec![0.0; mesh.elements()]; sites],
+        };
+        for (m, spot) in start.into_iter().flat_map(|start| &start.spots).enumerate() {
+            let carried = (0..mesh.elements()).map(|index| spot.mesh.interpolated(&spot.pressure, mesh.place(index)));
+            patterns.pressures[m] = carried.collect();
+            let load = patterns.pressures[m].iter().sum::<f64>() * mesh.size * mesh.size;
+            patterns.scale(m, if load > 0.0 { spot.load() / load } else { 0.0 }, spot.load());
+        }
+        patterns
+    }
+
+    fn scale(&mut self, m: usize, factor: f64, load: f64) {
+        self.pressures[m].iter_mut().for_each(|p| *p *= factor);
+        self.loads[m] = if factor > 0.0 { load } else { 0.0 };
+    }
+}
+
+impl<'a> Coupled<'a> {
+    /// Circles of at least `indenters` (in whole shells) on `mesh`; without mutual effect every indenter is alone.
+    pub fn new(system: &'a Localized, mesh: Mesh, indenters: usize, mutual_effect: bool) -> Self {
+        let squares = Squares::new(system.kernel(), 0.5 * mesh.size);
+        let circles = system.circles(if mutual_effect { indenters } else { 1 });
+        let table = |images: &Vec<[f64; 2]>| (!images.is_empty()).then(|| Influence::new(&squares, mesh, images));
+        let tables = circles.iter().map(|circle| circle.images.iter().map(table).collect()).collect();
+        let shape = |site| {
+            let at = |index| {
+                let [x, y] = mesh.place(index);
+                system.profile(site, x.hypot(y))
+            };
+            (0..mesh.elements()).map(at).collect()
+        };
+        let shapes = (0..system.sites().len()).map(shape).collect();
+        Self { system, mesh, circles, tables, shapes, mutual_effect }
+    }
+
+    /// Indenters inside the circles: the largest number of any of them.
+    pub fn indenters(&self) -> usize {
+        self.circles.iter().map(Circle::indenters).max().unwrap_or(0)
+    }
+
+    /// Solves one load step, from an earlier solution where there is one.
+    pub fn solve(&self, control: Control, rule: CircleRadius, start: Option<&Solution>) -> Solution {
+        let count = self.circles.len();
+        let cell = self.system.cell_area();
+        let element = self.mesh.size * self.mesh.size;
+        let mut patterns = Patterns::new(self.mesh, count, start);
+        if let Control::Penetration(penetration) = control {
+            patterns.penetration = penetration;
+        }
+        let mut gaps = vec![Vec::new(); count];
+        let mut punches = vec![vec![0.0; self.mesh.elements()]; count];
+        let mut radii = vec![f64::INFINITY; count];
+        let mut mean_pressure = 0.0;
+        let (mut stop, mut sweeps) = (Stop::Stalled, 0);
+        while sweeps < SWEEPS {
+            sweeps += 1;
+            mean_pressure = match control {
+                Control::MeanPressure(pressure) => pressure,
+                Control::Penetration(_) => patterns.loads.iter().sum::<f64>() / cell,
+            };
+            let mut sweep = Sweep::new(patterns.loads.clone());
+            for m in 0..count {
+                let others = self.others(m, &patterns);
+                let far = self.far(m, rule, mean_pressure, &sweep.used);
+                radii[m] = far.as_ref().map_or(f64::INFINITY, |(far, _)| far.radius);
+                let wanted: Vec<f64> = (0..self.mesh.elements())
+                    .map(|i| {
+                        let moved: f64 = others.iter().flatten().map(|other| other[i]).sum();
+                        let outside = far.as_ref().map_or(0.0, |(_, under)| mean_pressure * under[i]);
+                        patterns.penetration - self.shapes[m][i] - moved + outside
+                    })
+                    .collect();
+                let own = self.own(m);
+                gaps[m] = press(own, &wanted, SURFACE_TOLERANCE, &mut patterns.pressures[m]);
+                sweep.found[m] = patterns.pressures[m].iter().sum::<f64>() * element;
+                if sweep.found[m] == 0.0 {
+                    continue;
+                }
+                punches[m] = punch(own, &patterns.pressures[m], STIFFNESS_TOLERANCE, std::mem::take(&mut punches[m]));
+                let sum: f64 = punches[m].iter().sum();
+                sweep.stiffness[m] = sum * element;
+                let under = |field: &[f64]| punches[m].iter().zip(field).map(|(s, u)| s * u).sum::<f64>() / sum;
+                for c in 0..count {
+                    // A level without a pattern acts from its axes.
+                    let direct = match &others[c] {
+                        Some(displacement) => under(displacement) / sweep.used[c],
+                        None if c == m => 0.0,
+                        None => self.by_axes(m, c),
+                    };
+                    let outside =
+                        far.as_ref().map_or(0.0, |(far, d)| self.far_coupling(control, rule, m, c, far, under(d)));
+                    sweep.coupling[m][c] = direct - outside;
+                }
+            }
+            let whole: f64 = sweep.found.iter().sum();
+            let prescribed = match control {
+                Control::MeanPressure(pressure) => Some(pressure * cell),
+                Control::Penetration(_) => None,
+            };
+            if sweep.unrest(prescribed.unwrap_or(whole)) <= TOLERANCE * prescribed.unwrap_or(whole) {
+                stop = self.reached(&patterns);
+                break;
+            }
+            if let (Some(load), true) = (prescribed, whole == 0.0) {
+                // Nobody touches yet: deep enough for one element to carry the load, the most compliant contact.
+                let own = self.own(0).diagonal();
+                patterns.penetration += load / element * own;
+                continue;
+            }
+            let (loads, rise) = sweep.exchanged(prescribed);
+            patterns.penetration += rise;
+            for m in 0..count {
+                let factor = if sweep.found[m] > 0.0 { loads[m] / sweep.found[m] } else { 0.0 };
+                patterns.scale(m, factor, loads[m]);
+            }
+        }
+        let spots = (0..count)
+            .map(|m| Spot {
+                level: self.system.sites()[m].level,
+                place: self.system.sites()[m].place,
+                mesh: self.mesh,
+                pressure: std::mem::take(&mut patterns.pressures[m]),
+                gap: std::mem::take(&mut gaps[m]),
+                circle: self.circles[m].clone(),
+                radius: radii[m],
+            })
+            .collect();
+        Solution { mean_pressure, penetration: patterns.penetration, spots, stop, sweeps }
+    }
+
+    fn own(&self, m: usize) -> &Influence {
+        self.tables[m][m].as_ref().expect("the centre stands in its own circle")
+    }
+
+    /// Displacement of the spot m by each other site's indenters inside its circle; `None` for those without load.
+    fn others(&self, m: usize, patterns: &Patterns) -> Vec<Option<Vec<f64>>> {
+        let by = |c: usize| {
+            let table = self.tables[m][c].as_ref().filter(|_| c != m && patterns.loads[c] > 0.0)?;
+            let mut displacement = vec![0.0; self.mesh.elements()];
+            table.add(&patterns.pressures[c], &mut displacement);
+            Some(displacement)
+        };
+        (0..self.circles.len()).map(by).collect()
+    }
+
+    /// The disc that is cut out around m, and the displacement under unit pressure on it.
+    fn far(&self, m: usize, rule: CircleRadius, mean_pressure: f64, loads: &[f64]) -> Option<(FarField<'_>, Vec<f64>)> {
+        if !self.mutual_effect {
+            return None;
+        }
+        let circle = &self.circles[m];
+        let radius = match rule {
+            CircleRadius::AreaBalanced => circle.area_balanced(self.system.cell_area() / self.circles.len() as f64),
+            CircleRadius::LoadBalanced => circle.load_balanced(loads, mean_pressure),
+        };
+        let far = FarField::new(self.system.kernel(), radius, 2f64.sqrt() * self.mesh.half());
+        let at = |index| {
+            let [x, y] = self.mesh.place(index);
+            far.at(x.hypot(y))
+        };
+        let under = (0..self.mesh.elements()).map(at).collect();
+        Some((far, under))
+    }
+
+    /// Displacement at the centre of m's circle under unit forces on the axes of c's indenters inside it.
+    fn by_axes(&self, m: usize, c: usize) -> f64 {
+        let kernel = self.system.kernel();
+        self.circles[m].images[c].iter().map(|[x, y]| kernel.at(x.hypot(*y))).sum()
+    }
+
+    /// d(p̄D)/dP_c under the spot m, D = `under` there: the disc's rim moves with the load inside (∂D/∂R = 2πR K(R)), p̄
+    /// itself with the penetration prescribed.
+    fn far_coupling(
+        &self,
+        control: Control,
+        rule: CircleRadius,
+        m: usize,
+        c: usize,
+        far: &FarField<'_>,
+        under: f64,
+    ) -> f64 {
+        let share = match control {
+            Control::MeanPressure(_) => 0.0,
+            Control::Penetration(_) => 1.0 / self.system.cell_area(),
+        };
+        match rule {
+            CircleRadius::AreaBalanced => under * share,
+            CircleRadius::LoadBalanced if far.radius == 0.0 => 0.0,
+            CircleRadius::LoadBalanced => {
+                let rim = self.system.kernel().at(far.radius);
+                let inside = self.circles[m].images[c].len() as f64;
+                inside * rim + (under - PI * far.radius * far.radius * rim) * share
+            }
+        }
+    }
+
+    /// How converged patterns stand to their meshes and neighbours.
+    fn reached(&self, patterns: &Patterns) -> Stop {
+        let half_way = 0.5 * self.system.nearest();
+        let loaded = |index: usize| patterns.pressures.iter().any(|pressure| pressure[index] > 0.0);
+        let beyond = |index: usize| {
+            let [x, y] = self.mesh.place(index);
+            x.hypot(y) + 0.5 * self.mesh.size > half_way
+        };
+        let elements = || (0..self.mesh.elements()).filter(|&index| loaded(index));
+        if elements().any(beyond) {
+            Stop::Merged
+        } else if elements().any(|index| self.mesh.on_rim(index)) {
+            Stop::Rim
+        } else {
+            Stop::Converged
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Contacts of single indenters and of levels.
+
+use crate::common::{PAPER, coated, paraboloid, solve};
+use crate::{alone, homogeneous, setup, two_layers};
+use percoat::lattice::Lattice;
+use percoat::localized::{Localized, Stop};
+use percoat::material::{HalfSpace, Interface};
+use percoat::solver::Control;
+use std::f64::consts::PI;
+
+fn single(half_space: &HalfSpace) -> Localized {
+    Localized::new(&Lattice::hexagonal(10.0, 1).unwrap(), &[paraboloid(1.0, 0.0)], half_space, 1)
+}
+
+/// a = (3PR/4E*)^{1/3}, δ = a²/R, p₀ = 2E*a/(πR), whatever the size of the contact in the cell; errors fall with the
+/// element size.
+#[test]
+fn an_indenter_alone_on_a_half_space_obeys_hertz() {
+    let system = single(&homogeneous());
+    for a in [0.01, 1.0] {
+        let error = |elements| {
+            let load = 4.0 / 3.0 * f64::powi(a, 3);
+            let solution = system.solve(Control::MeanPressure(load / system.cell_area()), &alone(elements));
+            assert_eq!(solution.stop, Stop::Converged);
+            let found = system.observe(&solution)[0];
+            assert!((found.load / load - 1.0).abs() < 1e-8);
+            [solution.penetration / (a * a), found.max_pressure * PI / (2.0 * a), found.contact_radius / a]
+                .map(|ratio| (ratio - 1.0).abs())
+        };
+        let (coarse, fine) = (error(16), error(64));
+        println!("a = {a}: δ, p₀, a err by {coarse:?} at 16 elements, {fine:?} at 64");
+        assert!(fine.iter().all(|error| *error < 1e-4));
+        // δ at 16 elements errs by less than the contact's outline promises, by chance.
+        assert!(coarse.iter().all(|error| *error < 5e-3) && fine[1] < coarse[1] / 8.0);
+    }
+}
+
+/// The Fredholm equation of the coated contact after Abel's transformation, 60 to 140 Gauss points: E₂ = 1, h = 1,
+/// R = 1; a/h, P, δ, p(0).
+#[test]
+fn an_indenter_alone_on_a_coating_obeys_its_integral_equation() {
+    let tables = [
+        (
+            2.0,
+            0.2,
+            [
+                [0.1, 0.0025633856, 0.0103930073, 0.1223925569],
+                [0.3, 0.0687561769, 0.0998754442, 0.3647066518],
+                [0.5, 0.3120348446, 0.2898603133, 0.5950257264],
+                [1.0, 2.2825080348, 1.1947458790, 1.0686694765],
+                [2.0, 15.6606283229, 4.6035461523, 1.7339225282],
+            ],
+        ),
+        (
+            0.5,
+            0.45,
+            [
+                [0.1, 0.0009326574, 0.0097130919, 0.0445311458],
+                [0.3, 0.0253446217, 0.0828597089, 0.1344804291],
+                [0.5, 0.1196315249, 0.2212290823, 0.2288640504],
+                [1.0, 1.0452409113, 0.8540365489, 0.5090555470],
+                [2.0, 9.8112764528, 3.5311309063, 1.2542901641],
+            ],
+        ),
+    ];
+    for (chi, nu1, rows) in tables {
+        let system = single(&coated(chi, 1.0, [nu1, 0.3], Interface::Bonded));
+        for [radius, load, penetration, peak] in rows {
+            let solution = system.solve(Control::MeanPressure(load / system.cell_area()), &alone(48));
+            let found = system.observe(&solution)[0];
+            let pairs = [
+                (solution.penetration, penetration, 3e-4),
+                (found.max_pressure, peak, 3e-4),
+                (found.contact_radius, radius, 1e-3),
+            ];
+            for (found, expected, tolerance) in pairs {
+                assert!((found / expected - 1.0).abs() < tolerance, "a/h {radius}: {found} against {expected}");
+            }
+        }
+    }
+}
+
+/// Isolated exact laws under one rigid plane with the whole load of Fig. 2: p₀ 0.3964, 0.3791, 0.3607, δ 0.10462.
+#[test]
+fn levels_without_mutual_effect_share_the_load_of_isolated_laws() {
+    let paper = PAPER[0];
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 1);
+    let solution = system.solve(Control::MeanPressure(paper.pressure), &alone(48));
+    for (found, expected) in system.observe(&solution).iter().zip([0.3964, 0.3791, 0.3607]) {
+        assert!((found.max_pressure - expected).abs() < 2e-4, "{found:?}");
+    }
+    assert!((solution.penetration - 0.10462).abs() < 2e-5);
+}
+
+#[test]
+fn the_penetration_found_under_a_load_gives_the_load_back() {
+    let paper = PAPER[1];
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 37);
+    for setup in [setup(37, 24), alone(24)] {
+        let loaded = system.solve(Control::MeanPressure(paper.pressure), &setup);
+        let pressed = system.solve(Control::Penetration(loaded.penetration), &setup);
+        assert_eq!((loaded.stop, pressed.stop), (Stop::Converged, Stop::Converged));
+        // The meshes differ in the last digits of the contact's size.
+        assert!((pressed.mean_pressure / paper.pressure - 1.0).abs() < 1e-5, "{}", pressed.mean_pressure);
+    }
+}
+
+/// Levels 2 and 3 of Fig. 2 touch at p̄ = 0.00094 and 0.00365 (converged periodic solution).
+#[test]
+fn levels_come_into_contact_one_after_the_other() {
+    let paper = PAPER[0];
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 37);
+    let touching = |pressure: f64| {
+        let solution = system.solve(Control::MeanPressure(pressure), &setup(37, 24));
+        assert_eq!(solution.stop, Stop::Converged);
+        solution.spots.iter().filter(|spot| spot.touches()).count()
+    };
+    assert_eq!([0.0009, 0.001, 0.0035, 0.0038].map(touching), [1, 2, 2, 3]);
+    let none = system.solve(Control::Penetration(-1e-3), &setup(37, 24));
+    assert!(none.spots.iter().all(|spot| !spot.touches()) && none.mean_pressure == 0.0);
+}
+
+#[test]
+fn the_additional_displacement_of_eq_8_is_the_penetration() {
+    for half_space in [PAPER[0].half_space(), two_layers()] {
+        let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &half_space, 37);
+        let solution = system.solve(Control::MeanPressure(0.02), &setup(37, 24));
+        let additional = system.additional_displacement(&solution);
+        assert!((additional / solution.penetration - 1.0).abs() < 1e-6, "{additional} {}", solution.penetration);
+    }
+}
+
+#[test]
+fn contacts_that_meet_are_reported() {
+    let system = Localized::new(&Lattice::hexagonal(1.0, 1).unwrap(), &[paraboloid(0.8, 0.0)], &homogeneous(), 7);
+    assert_eq!(system.solve(Control::MeanPressure(0.4), &setup(7, 24)).stop, Stop::Merged);
+}
+
+/// χ = 2, h/l = 0.5, ν 0.2/0.3, R = 0.8 l, steps 0.01 l, p̄ = 0.03.
+#[test]
+fn load_balanced_circles_need_few_indenters_and_area_balanced_ones_many() {
+    let paper = PAPER[0];
+    let control = Control::MeanPressure(0.03);
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 451);
+    let (_, _, spectral) = solve(&paper.surface(), &paper.half_space(), [384, 384], control);
+    let deviation = |setup| {
+        let solution = system.solve(control, &setup);
+        let mut largest = [0.0f64; 2];
+        for (own, reference) in system.observe(&solution).iter().zip(&spectral.levels) {
+            largest[0] = largest[0].max((own.load_share - reference.load_share).abs());
+            largest[1] = largest[1].max((own.max_pressure / reference.max_pressure - 1.0).abs());
+        }
+        println!(
+            "{}: share, peak {largest:?}, δ {:e}",
+            setup.indenters,
+            solution.penetration / spectral.penetration - 1.0
+        );
+        (largest, (solution.penetration / spectral.penetration - 1.0).abs())
+    };
+    for (indenters, penetration) in [(7, 0.025), (13, 0.013), (37, 0.006), (451, 0.001)] {
+        let ([share, peak], delta) = deviation(setup(indenters, 32));
+        assert!(share < 0.007 && peak < 0.007 && delta < penetration);
+    }
+    let area = |indenters| percoat::localized::Setup {
+        radius: percoat::localized::CircleRadius::AreaBalanced,
+        ..setup(indenters, 32)
+    };
+    let ([share, peak], _) = deviation(area(73));
+    assert!(share > 0.1 && peak > 0.05);
+}
