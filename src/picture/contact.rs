@@ -12,6 +12,9 @@ use super::snapshot::Snapshot;
 use super::tiling::{around, images, window};
 use std::f64::consts::TAU;
 
+/// Least range of deviations from a circle that is shown, per cent: a fitted boundary is good to some 0.03.
+const LEAST: f64 = 0.1;
+
 /// The picture; `None` for a topography. `without_mutual_effect`: per level the contact radius that indenters would
 /// have without each other, a length, drawn dashed.
 pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Canvas> {
@@ -85,11 +88,15 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<C
             });
         }
     }
+    // Deviations near the accuracy of the fit are not blown up.
+    let largest = curves.iter().flat_map(|curve| &curve.points).map(|point| point[1].abs()).fold(0.0, f64::max);
+    let y = Axis::linear("boundary radius, ρ/a − 1 (%)");
+    let y = if largest < LEAST { y.from_to(-LEAST, LEAST) } else { y };
     (!curves.is_empty()).then(|| Chart {
         title: "(b) boundary".into(),
         caption: Vec::new(),
         x: Axis { scale: Scale::Degrees, ..Axis::linear("direction θ (degrees)").from_to(0.0, 360.0) },
-        y: Axis::linear("boundary radius, ρ/a − 1 (%)"),
+        y,
         curves,
     })
 }

@@ -10,7 +10,7 @@ use super::sheet::sheet;
 use super::snapshot::{Snapshot, equals};
 
 /// Height over width of a cut that is not shown to scale, least and largest.
-const ASPECT: [f64; 2] = [0.45, 1.1];
+const ASPECT: [f64; 2] = [0.4, 1.1];
 
 /// The picture.
 pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
