@@ -23,7 +23,7 @@
 //! lattice → grid → fourier ─────────────────┤
 //! material → layered ─────────→ operator ───┴→ solver → hierarchy → observables → refinement, touch
 //! indenter, lattice, layered ────────────────→ localized
-//!                                                         case → output → command line
+//!                                                         case → output → picture → command line
 //! ```
 //!
 //! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`boundary`] (the outline of a
@@ -75,6 +75,7 @@ pub mod number;
 pub mod observables;
 pub mod operator;
 pub mod output;
+pub mod picture;
 pub mod refinement;
 pub mod solver;
 pub mod stress;

@@ -1,0 +1,81 @@
+//! Pictures as a journal prints them: charts and fields, as PNG or SVG files.
+//!
+//! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. What is
+//! drawn goes on a sheet measured in points ([`Canvas`]), which becomes pixels or an SVG file.
+//!
+//! - Any curves: [`Chart`], and [`Figure`] for several side by side.
+//! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
+//! - Its stresses under a line ([`Cut`]): [`section`](section()), [`lines`](lines()).
+//! - The steps of a run: [`load_curves`](load_curves()).
+
+mod axis;
+mod canvas;
+mod chart;
+mod colour;
+mod contact;
+mod contour;
+mod curve;
+mod cut;
+mod frame;
+mod legend;
+mod lines;
+mod load_curves;
+mod map;
+mod pressure;
+mod profiles;
+mod raster;
+mod section;
+mod sheet;
+mod snapshot;
+mod text;
+mod tiling;
+mod units;
+mod vector;
+
+pub use axis::{Axis, Scale};
+pub use canvas::Canvas;
+pub use chart::{Chart, Figure};
+pub use contact::contact;
+pub use curve::{Curve, Style};
+pub use cut::Cut;
+pub use lines::lines;
+pub use load_curves::load_curves;
+pub use pressure::pressure;
+pub use profiles::profiles;
+pub use section::section;
+pub use snapshot::Snapshot;
+pub use units::Units;
+
+use crate::output::{OutputError, write_file};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// File format of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Format {
+    /// Pixels, 300 dots per inch.
+    #[default]
+    Png,
+    /// Lines, texts and, for fields, embedded pixels.
+    Svg,
+}
+
+impl Format {
+    /// Ending of a file name.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+        }
+    }
+}
+
+/// Writes a picture as `<folder>/<name>.png` or `.svg`, whole or not at all; returns its path.
+///
+/// # Errors
+/// [`OutputError`] with the path.
+pub fn write_picture(folder: &Path, name: &str, format: Format, picture: &[u8]) -> Result<PathBuf, OutputError> {
+    let path = folder.join(format!("{name}.{}", format.extension()));
+    write_file(&path, |writer| writer.write_all(picture))?;
+    Ok(path)
+}

@@ -1,0 +1,194 @@
+//! A solved load step with what is known about it: what the pictures of fields are drawn from.
+
+use super::axis::{power, signed};
+use super::units::{Units, lowered, period, substrate_index};
+use crate::grid::Grid;
+use crate::hierarchy::{Hierarchy, Solution};
+use crate::indenter::{Level, Shape, drops};
+use crate::material::{HalfSpace, Interface};
+use crate::observables::{Boundary, Observables};
+use crate::texture::{Surface, Texture};
+
+/// One load step.
+#[derive(Debug, Clone)]
+pub struct Snapshot<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// The counterbody.
+    pub surface: &'a Surface,
+    /// Coating and substrate.
+    pub half_space: &'a HalfSpace,
+    /// The finest grid.
+    pub grid: &'a Grid,
+    /// The counterbody's surface on it.
+    pub texture: &'a Texture,
+    /// Pressure, one value per sample, a₂ fastest.
+    pub pressure: &'a [f64],
+    /// Mean pressure p̄.
+    pub mean_pressure: f64,
+    /// Penetration δ, a length.
+    pub penetration: f64,
+    /// Per site, the boundary of its contact where it has one; empty for a topography.
+    pub boundaries: &'a [Option<Boundary>],
+    /// What lengths and pressures are measured in.
+    pub units: Units,
+}
+
+impl<'a> Snapshot<'a> {
+    /// The load step that `hierarchy` solved last, and what was observed of it.
+    pub fn new(
+        title: &'a str,
+        surface: &'a Surface,
+        half_space: &'a HalfSpace,
+        hierarchy: &'a Hierarchy,
+        solution: &'a Solution,
+        observables: &'a Observables,
+    ) -> Self {
+        Self {
+            title,
+            surface,
+            half_space,
+            grid: hierarchy.grid(),
+            texture: hierarchy.texture(),
+            pressure: &solution.pressure,
+            mean_pressure: observables.mean_pressure,
+            penetration: solution.penetration,
+            boundaries: &observables.boundaries,
+            units: Units::of(surface, half_space),
+        }
+    }
+
+    /// Number of levels; 0 for a topography.
+    pub fn levels(&self) -> usize {
+        self.surface.levels()
+    }
+
+    /// Index of the first site of a level (from 1).
+    pub fn site_of(&self, level: usize) -> Option<usize> {
+        self.texture.sites.iter().position(|site| site.level == level)
+    }
+
+    /// Largest sample of the pressure.
+    pub fn max_pressure(&self) -> f64 {
+        self.pressure.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Caption: the title, the case's parameters and the load.
+    pub fn caption(&self) -> Vec<String> {
+        let [n1, n2] = self.grid.points();
+        let load = [
+            equals(&self.units.pressure_symbol("p̄"), &[self.mean_pressure]),
+            equals(&self.units.length_symbol("δ"), &[self.penetration]),
+        ];
+        let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");
+        caption(self.title, self.surface, self.half_space, &[load.join(", "), samples])
+    }
+}
+
+/// Title and parameters of a case, then what else is to be said about it.
+pub fn caption(title: &str, surface: &Surface, half_space: &HalfSpace, more: &[String]) -> Vec<String> {
+    let units = Units::of(surface, half_space);
+    let title = title.trim_end_matches('.');
+    let title = (!title.is_empty()).then(|| format!("{title}."));
+    let parts =
+        [materials(half_space, &units)].into_iter().chain(geometry(surface, &units)).chain(more.iter().cloned());
+    title.into_iter().chain([format!("{}.", parts.collect::<Vec<_>>().join("; "))]).collect()
+}
+
+/// A symbol and its values, which no line break parts from the first one.
+pub fn equals(symbol: &str, values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|&x| short(x)).collect();
+    format!("{}\u{a0}=\u{a0}{}", symbol.replace(' ', "\u{a0}"), values.join(", "))
+}
+
+fn materials(half_space: &HalfSpace, units: &Units) -> String {
+    let substrate = half_space.substrate();
+    let single = half_space.layers().len() == 1;
+    let mut parts = Vec::new();
+    for (number, layer) in (1..).zip(half_space.layers()) {
+        let index = lowered(number);
+        let own = if single { "" } else { &index };
+        let mut part = [
+            equals(&format!("χ{own}"), &[layer.material().shear() / substrate.shear()]),
+            equals(&units.length_symbol(&format!("h{own}")), &[layer.thickness()]),
+            equals(&format!("ν{index}"), &[layer.material().poisson()]),
+        ]
+        .join(", ");
+        match layer.interface() {
+            Interface::Bonded => {}
+            Interface::Frictionless => part += ", frictionless below",
+            Interface::Spring { .. } => part += ", springs below",
+        }
+        parts.push(part);
+    }
+    let index = substrate_index(half_space);
+    let mut last = equals(&format!("ν{index}"), &[substrate.poisson()]);
+    if units.pressure_symbol("E") == "E" {
+        last += &format!(", {}", equals(&format!("E{index}"), &[substrate.young()]));
+    }
+    parts.push(last);
+    parts.join(if single { ", " } else { "; " })
+}
+
+fn geometry(surface: &Surface, units: &Units) -> Option<String> {
+    let Surface::Indenters { levels, .. } = surface else { return None };
+    let mut parts = Vec::new();
+    let l = units.length_symbol("l");
+    if l != "l/l" {
+        parts.extend(period(surface).map(|period| equals(&l, &[period])));
+    }
+    let radius = |level: &Level| match level.shape() {
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
+        _ => None,
+    };
+    let shape = |level: &Level| match level.shape() {
+        Shape::Cone { slope } => format!("cone of slope {}", short(slope)),
+        Shape::Power { coefficient, exponent } => format!("{}·rⁿ, n = {}", short(coefficient), short(exponent)),
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
+            format!("{} of {}", level.shape().name(), equals(&units.length_symbol("r"), &[radius]))
+        }
+    };
+    match levels.iter().map(radius).collect::<Option<Vec<f64>>>() {
+        Some(radii) => {
+            let same = radii.iter().all(|x| *x == radii[0]);
+            parts.push(equals(&units.length_symbol("rₘ"), if same { &radii[..1] } else { &radii }));
+        }
+        None => parts.extend(levels.iter().map(shape)),
+    }
+    if levels.len() > 1 {
+        let symbol = units.length_symbol("(h₁ − hₘ)");
+        let bare = symbol.strip_suffix(')').and_then(|symbol| symbol.strip_prefix('(')).unwrap_or(&symbol);
+        parts.push(equals(bare, &drops(levels)[1..]));
+    }
+    Some(parts.join(", "))
+}
+
+/// A number with up to five digits, as print has it.
+pub fn short(x: f64) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let scientific = format!("{x:.4e}");
+    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let trimmed = |text: &str| {
+        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
+        signed(text)
+    };
+    match exponent {
+        -3..6 => trimmed(&format!("{x:.*}", usize::try_from(4 - exponent).unwrap_or(0))),
+        _ if trimmed(digits) == "1" => power(exponent),
+        _ => format!("{}·{}", trimmed(digits), power(exponent)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_printed_as_a_journal_does() {
+        let texts = [0.06, 2.0, -0.055395, 2.1e11, 1e-6, 0.0, 20e-6, 123456.0].map(short);
+        assert_eq!(texts, ["0.06", "2", "−0.055395", "2.1·10¹¹", "10⁻⁶", "0", "2·10⁻⁵", "123456"]);
+    }
+}
