@@ -58,6 +58,7 @@
 //! ```
 
 pub mod case;
+pub mod exact;
 pub mod field;
 pub mod fourier;
 pub mod grid;
@@ -76,3 +77,4 @@ pub mod solver;
 pub mod stress;
 pub mod texture;
 pub mod touch;
+pub mod validation;

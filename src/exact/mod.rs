@@ -1,0 +1,15 @@
+//! Closed forms of contact mechanics that percoat is held against.
+//!
+//! They share nothing with the solver: each is an equation of its own source, written down once for the tests, for
+//! [`crate::validation`] and for whoever needs a number without a grid.
+
+pub mod coating;
+pub mod galin;
+pub mod lattice_sums;
+pub mod linear;
+pub mod periodic_hertz;
+
+pub use coating::Coating;
+pub use galin::{Contact, Term};
+pub use lattice_sums::Sums;
+pub use periodic_hertz::System;
