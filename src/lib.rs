@@ -22,7 +22,7 @@
 //! lattice, indenter ─────────────→ texture ─┐
 //! lattice → grid → fourier ─────────────────┤
 //! material → layered ─────────→ operator ───┴→ solver → hierarchy → observables → refinement, touch
-//!                                                         case → output → command line
+//!                                                         case → output → picture → command line
 //! ```
 //!
 //! [`field`] (sums that do not depend on the number of threads), [`least_squares`] and [`number`] serve all of them.
@@ -72,6 +72,7 @@ pub mod number;
 pub mod observables;
 pub mod operator;
 pub mod output;
+pub mod picture;
 pub mod refinement;
 pub mod solver;
 pub mod stress;

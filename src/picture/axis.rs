@@ -1,0 +1,230 @@
+//! Axes: a quantity with its unit, a range, and numbers that a reader can read off.
+
+/// How values are spread along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// In proportion.
+    Linear,
+    /// In proportion to the logarithm; values that are not positive have no place.
+    Log,
+}
+
+/// An axis of a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// Quantity and unit.
+    pub label: String,
+    /// How values are spread.
+    pub scale: Scale,
+    /// First and last value; none: what the curves need.
+    pub range: Option<[f64; 2]>,
+}
+
+impl Axis {
+    /// A linear axis for the values of the curves.
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self { label: label.into(), scale: Scale::Linear, range: None }
+    }
+
+    /// A logarithmic axis for the values of the curves.
+    pub fn log(label: impl Into<String>) -> Self {
+        Self { label: label.into(), scale: Scale::Log, range: None }
+    }
+
+    /// The same axis from `first` to `last`.
+    #[must_use]
+    pub fn from_to(self, first: f64, last: f64) -> Self {
+        Self { range: Some([first, last]), ..self }
+    }
+
+    /// The range, from the values if it is not given: on a linear axis with zero where that is near, `margin` of the
+    /// length beyond the values.
+    pub(super) fn reach(&self, values: impl Iterator<Item = f64>, margin: f64) -> [f64; 2] {
+        if let Some([first, last]) = self.range {
+            return [first, last];
+        }
+        let usable = |x: &f64| x.is_finite() && (self.scale == Scale::Linear || *x > 0.0);
+        let (least, most) = values
+            .filter(usable)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)));
+        match self.scale {
+            _ if least > most => [if self.scale == Scale::Log { 0.1 } else { 0.0 }, 1.0],
+            Scale::Linear => {
+                // Zero belongs to it where it is not far.
+                let (low, high) = (if least > 0.0 && least < 0.6 * most { 0.0 } else { least }, most);
+                let high = if high < 0.0 && high > 0.6 * least { 0.0 } else { high };
+                let length = if high > low { high - low } else { high.abs().max(1e-300) };
+                let beyond = |end: f64, sign: f64| if end == 0.0 { 0.0 } else { end + sign * margin * length };
+                if high > low {
+                    [beyond(low, -1.0), beyond(high, 1.0)]
+                } else {
+                    [low - 0.5 * length, high + 0.5 * length]
+                }
+            }
+            Scale::Log => {
+                let factor = (most / least).powf(margin).max(1.1);
+                [least / factor, most * factor]
+            }
+        }
+    }
+}
+
+/// Where an axis is marked.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Ticks {
+    /// Values with numbers, the number to be multiplied by ten to the `exponent`.
+    pub numbered: Vec<(f64, String)>,
+    /// Values with a short mark only.
+    pub plain: Vec<f64>,
+    /// See `numbered`.
+    pub exponent: i32,
+}
+
+/// Ticks of a range with at most `most` numbers.
+pub(super) fn ticks(range: [f64; 2], scale: Scale, most: usize) -> Ticks {
+    match scale {
+        Scale::Linear => linear_ticks(range, most.max(2)),
+        Scale::Log => log_ticks(range, most.max(2)),
+    }
+}
+
+fn linear_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
+    let (low, high) = (first.min(last), first.max(last));
+    let largest = low.abs().max(high.abs());
+    let rough = (high - low) / most as f64;
+    let mut power = rough.log10().floor() as i32;
+    let mut step = f64::INFINITY;
+    let mut parts = 1;
+    'search: for _ in 0..3 {
+        for (factor, own_parts) in [(1.0, 5), (2.0, 4), (5.0, 5)] {
+            step = factor * 10f64.powi(power);
+            parts = own_parts;
+            let slack = 1e-9 * step;
+            let count = ((high + slack) / step).floor() - ((low - slack) / step).ceil() + 1.0;
+            if count <= most as f64 {
+                break 'search;
+            }
+        }
+        power += 1;
+    }
+    // Numbers from 0.01 to 9999 stand as they are.
+    let magnitude = if largest > 0.0 { (largest * (1.0 + 1e-12)).log10().floor() as i32 } else { 0 };
+    let exponent = if (-2..4).contains(&magnitude) { 0 } else { magnitude.div_euclid(3) * 3 };
+    let decimals = usize::try_from(exponent - power).unwrap_or(0);
+    let slack = 1e-9 * step;
+    let multiples = |step: f64| {
+        let (from, to) = (((low - slack) / step).ceil() as i64, ((high + slack) / step).floor() as i64);
+        (from..=to).map(move |k| (k, k as f64 * step))
+    };
+    let unit = 10f64.powi(exponent);
+    let numbered = multiples(step).map(|(_, x)| (x, signed(&format!("{:.decimals$}", x / unit)))).collect();
+    let plain = multiples(step / f64::from(parts)).filter(|(k, _)| k % i64::from(parts) != 0).map(|(_, x)| x).collect();
+    Ticks { numbered, plain, exponent }
+}
+
+fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
+    let (low, high) = (first.min(last) * (1.0 - 1e-9), first.max(last) * (1.0 + 1e-9));
+    let decades = low.log10().ceil() as i32..=high.log10().floor() as i32;
+    let count = decades.clone().count();
+    let within = |x: &f64| (low..=high).contains(x);
+    let all = |factors: &'static [u8]| {
+        let decades = low.log10().floor() as i32..=high.log10().floor() as i32;
+        decades
+            .flat_map(move |k| factors.iter().map(move |&f| (f, k)))
+            .map(|(f, k)| (f, k, f64::from(f) * 10f64.powi(k)))
+    };
+    if count >= 2 {
+        let stride = count.div_ceil(most) as i32;
+        let numbered: Vec<(f64, String)> =
+            decades.clone().filter(|k| k.rem_euclid(stride) == 0).map(|k| (10f64.powi(k), power(k))).collect();
+        let plain = if count <= 8 {
+            all(&[2, 3, 4, 5, 6, 7, 8, 9]).map(|(_, _, x)| x).filter(within).collect()
+        } else {
+            decades.filter(|k| k.rem_euclid(stride) != 0).map(|k| 10f64.powi(k)).collect()
+        };
+        return Ticks { numbered, plain, exponent: 0 };
+    }
+    // Within one decade or two: numbers between the powers.
+    let named = |(f, k, x): (u8, i32, f64)| {
+        let text = match k {
+            -2..0 => format!("{x:.*}", usize::try_from(-k).unwrap_or(0)),
+            0..4 => format!("{x:.0}"),
+            _ if f == 1 => power(k),
+            _ => format!("{f}·{}", power(k)),
+        };
+        (x, text)
+    };
+    let choices: [&'static [u8]; 3] = [&[1, 2, 3, 4, 5, 6, 7, 8, 9], &[1, 2, 5], &[1, 3]];
+    let fits = |factors: &&&'static [u8]| all(factors).filter(|(_, _, x)| within(x)).count() <= most;
+    let factors = choices.iter().find(fits).unwrap_or(&choices[2]);
+    let numbered: Vec<(f64, String)> = all(factors).filter(|(_, _, x)| within(x)).map(named).collect();
+    let taken = |x: &f64| !numbered.iter().any(|(own, _)| (own / x - 1.0).abs() < 1e-9);
+    let plain = all(choices[0]).map(|(_, _, x)| x).filter(within).filter(taken).collect();
+    Ticks { numbered, plain, exponent: 0 }
+}
+
+/// 10ⁿ.
+pub(super) fn power(exponent: i32) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        digit => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit.to_digit(10).unwrap_or(0) as usize],
+    };
+    match exponent {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        n => format!("10{}", n.to_string().chars().map(raised).collect::<String>()),
+    }
+}
+
+/// A number with a true minus sign, and no sign at zero.
+pub(super) fn signed(text: &str) -> String {
+    match text.strip_prefix('-') {
+        Some(rest) if rest.chars().any(|c| ('1'..='9').contains(&c)) => format!("−{rest}"),
+        Some(rest) => rest.to_owned(),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(range: [f64; 2], scale: Scale, most: usize) -> (Vec<String>, i32) {
+        let ticks = ticks(range, scale, most);
+        (ticks.numbered.into_iter().map(|(_, text)| text).collect(), ticks.exponent)
+    }
+
+    #[test]
+    fn linear_ticks_are_round_and_few() {
+        assert_eq!(numbers([0.0, 0.06], Scale::Linear, 5).0, ["0.00", "0.02", "0.04", "0.06"]);
+        assert_eq!(numbers([-1.1, 1.1], Scale::Linear, 6).0, ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
+        let (texts, exponent) = numbers([0.0, 9.3e9], Scale::Linear, 6);
+        assert_eq!((texts.join(" "), exponent), ("0 2 4 6 8".to_owned(), 9));
+        let (texts, exponent) = numbers([0.0, 2.1e-5], Scale::Linear, 6);
+        assert_eq!((texts.join(" "), exponent), ("0 5 10 15 20".to_owned(), -6));
+        for most in 2..12 {
+            for k in 1..40 {
+                let range = [-0.37 * f64::from(k), 1.9f64.powi(k)];
+                let found = ticks(range, Scale::Linear, most).numbered;
+                assert!(found.len() <= most && found.len() * 3 >= most.min(6), "{range:?} {most}: {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn logarithmic_ticks_are_powers_of_ten() {
+        assert_eq!(numbers([2e-4, 3.0], Scale::Log, 8).0, ["10⁻³", "10⁻²", "10⁻¹", "1"]);
+        assert_eq!(numbers([1e-12, 1.0], Scale::Log, 5).0.len(), 5);
+        assert_eq!(numbers([0.01, 0.06], Scale::Log, 4).0, ["0.01", "0.02", "0.05"]);
+        assert_eq!(numbers([60.0, 700.0], Scale::Log, 5).0, ["100", "200", "500"]);
+    }
+
+    #[test]
+    fn a_range_reaches_to_zero_when_zero_is_near() {
+        let axis = Axis::linear("p");
+        assert_eq!(axis.reach([0.1, 1.0].into_iter(), 0.05), [0.0, 1.05]);
+        assert_eq!(axis.reach([3.0, 3.0, f64::NAN].into_iter(), 0.05), [1.5, 4.5]);
+        let [low, high] = Axis::log("p").reach([0.0, 1e-3, 1.0].into_iter(), 0.05);
+        assert!(low < 1e-3 && low > 5e-4 && high > 1.0 && high < 2.0);
+    }
+}

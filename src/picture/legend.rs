@@ -1,0 +1,90 @@
+//! The legend of a chart: where no curve runs, or else below the chart.
+
+use super::canvas::Canvas;
+use super::chart::{Curve, sample};
+use super::sheet::NUMBERS;
+use super::text;
+
+/// Length of the piece of line before an entry, points.
+const PIECE: f64 = 16.0;
+/// Distance between piece and text, and around the whole.
+const GAP: f64 = 3.5;
+/// Height of an entry.
+const ROW: f64 = 1.4 * NUMBERS;
+
+/// A legend laid out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Legend {
+    /// Upper left corners of the entries relative to the legend's; indices of the curves.
+    entries: Vec<(usize, [f64; 2])>,
+    /// Width and height, points.
+    pub size: [f64; 2],
+}
+
+fn entry_width(curve: &Curve) -> f64 {
+    PIECE + GAP + text::width(&curve.label, NUMBERS)
+}
+
+fn named(curves: &[Curve]) -> impl Iterator<Item = (usize, &Curve)> {
+    curves.iter().enumerate().filter(|(_, curve)| !curve.label.is_empty())
+}
+
+impl Legend {
+    /// One entry below the other; `None` without any.
+    pub fn stacked(curves: &[Curve]) -> Option<Self> {
+        let entries: Vec<(usize, [f64; 2])> = (0..)
+            .zip(named(curves))
+            .map(|(row, (index, _))| (index, [GAP, 0.5 * GAP + f64::from(row) * ROW]))
+            .collect();
+        let width = named(curves).map(|(_, curve)| entry_width(curve)).fold(0.0, f64::max);
+        let size = [width + 2.0 * GAP, entries.len() as f64 * ROW + GAP];
+        (!entries.is_empty()).then_some(Self { entries, size })
+    }
+
+    /// Entries in columns of equal width that together fit into `width`.
+    pub fn spread(curves: &[Curve], width: f64) -> Option<Self> {
+        let widest = named(curves).map(|(_, curve)| entry_width(curve)).fold(0.0, f64::max) + 3.0 * GAP;
+        let count = named(curves).count();
+        let columns = ((width / widest) as usize).clamp(1, count.max(1));
+        let rows = count.div_ceil(columns);
+        let entries: Vec<(usize, [f64; 2])> = named(curves)
+            .enumerate()
+            .map(|(k, (index, _))| (index, [(k / rows) as f64 * widest, (k % rows) as f64 * ROW]))
+            .collect();
+        (count > 0).then_some(Self { entries, size: [columns as f64 * widest, rows as f64 * ROW + GAP] })
+    }
+
+    /// The upper left corner of a place in the plot (corner and size) that no point of `taken` comes near.
+    pub fn free_place(&self, [x, y]: [f64; 2], [width, height]: [f64; 2], taken: &[[f64; 2]]) -> Option<[f64; 2]> {
+        const STEPS: u8 = 6;
+        let room = [width - self.size[0] - 2.0 * GAP, height - self.size[1] - 2.0 * GAP];
+        if room[0] < 0.0 || room[1] < 0.0 || self.size[1] > 0.6 * height {
+            return None;
+        }
+        let mut places: Vec<[u8; 2]> = (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |j| [i, j])).collect();
+        // Corners first, then along the borders, the upper right one before all.
+        let inside = |k: u8| k.min(STEPS - k);
+        places.sort_by_key(|&[i, j]| (inside(i).min(inside(j)), inside(i) + inside(j), j, STEPS - i));
+        let corner = |[i, j]: [u8; 2]| {
+            let part = |k: u8| f64::from(k) / f64::from(STEPS);
+            [x + GAP + part(i) * room[0], y + GAP + part(j) * room[1]]
+        };
+        places.into_iter().map(corner).find(|[left, top]| {
+            let near = |&[px, py]: &[f64; 2]| {
+                px > left - GAP && px < left + self.size[0] + GAP && py > top - GAP && py < top + self.size[1] + GAP
+            };
+            !taken.iter().any(near)
+        })
+    }
+
+    /// Draws the entries with the upper left corner at `corner`.
+    pub fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], curves: &[Curve]) {
+        for &(index, [dx, dy]) in &self.entries {
+            let middle = [corner[0] + dx, corner[1] + dy + 0.5 * ROW];
+            sample(canvas, middle, PIECE, &curves[index]);
+        }
+    }
+}
+
+/// Distance between a piece of line and its text.
+pub const TEXT_GAP: f64 = GAP;

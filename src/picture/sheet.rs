@@ -1,0 +1,70 @@
+//! Panels side by side on one sheet, each with its title and caption, under a common title and above a common caption.
+
+use super::canvas::{Anchor, COLUMN, Canvas};
+use super::colour::Colour;
+use super::text::wrapped;
+
+/// Size of the numbers on axes, points.
+pub const NUMBERS: f64 = 7.0;
+/// Size of the quantities on axes and of legends.
+pub const LABELS: f64 = 7.5;
+/// Size of titles.
+pub const TITLES: f64 = 8.0;
+/// Size of captions.
+pub const CAPTIONS: f64 = 6.5;
+/// Width of frames, points.
+pub const HAIR: f64 = 0.6;
+/// Distance from the border of the sheet and between panels.
+const MARGIN: f64 = 5.0;
+/// Distance of lines of text over their size.
+const LEADING: f64 = 1.3;
+
+/// A part of a picture.
+pub trait Panel {
+    /// What stands over it.
+    fn title(&self) -> &str;
+    /// What stands under it.
+    fn caption(&self) -> &[String];
+    /// Height of the body without title and caption at a given width, points.
+    fn height(&self, width: f64) -> f64;
+    /// Draws the body with its upper left corner at `corner`.
+    fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], width: f64);
+}
+
+/// Puts panels in `columns` columns on a sheet.
+pub fn sheet(title: &str, caption: &[String], panels: &[&dyn Panel], columns: usize) -> Canvas {
+    let columns = columns.clamp(1, panels.len().max(1));
+    let width = COLUMN * columns as f64;
+    let inner = width - 2.0 * MARGIN;
+    let own = (inner - 2.0 * MARGIN * (columns - 1) as f64) / columns as f64;
+    let mut canvas = Canvas::new([width, 0.0]);
+    let mut y = MARGIN;
+    y += paragraph(&mut canvas, &[title.to_owned()], [MARGIN, y], TITLES, inner, Colour::BLACK);
+    for row in panels.chunks(columns) {
+        let lines = |text: &str| wrapped(text, TITLES, own).len() as f64;
+        let head = row.iter().map(|panel| lines(panel.title())).fold(0.0, f64::max) * LEADING * TITLES;
+        let mut deepest: f64 = 0.0;
+        for (column, panel) in row.iter().enumerate() {
+            let x = MARGIN + column as f64 * (own + 2.0 * MARGIN);
+            paragraph(&mut canvas, &[panel.title().to_owned()], [x, y], TITLES, own, Colour::BLACK);
+            let below = y + head + panel.height(own);
+            panel.draw(&mut canvas, [x, y + head], own);
+            let text = paragraph(&mut canvas, panel.caption(), [x, below], CAPTIONS, own, Colour::GREY);
+            deepest = deepest.max(below + text);
+        }
+        y = deepest + MARGIN;
+    }
+    y += paragraph(&mut canvas, caption, [MARGIN, y - 0.5 * MARGIN], CAPTIONS, inner, Colour::GREY);
+    canvas.size[1] = y;
+    canvas
+}
+
+/// Draws lines of text, broken to the width, below `corner`; returns their height.
+fn paragraph(canvas: &mut Canvas, lines: &[String], corner: [f64; 2], size: f64, width: f64, colour: Colour) -> f64 {
+    let broken: Vec<String> = lines.iter().flat_map(|line| wrapped(line, size, width)).collect();
+    for (number, line) in (1..).zip(&broken) {
+        let baseline = corner[1] + f64::from(number) * LEADING * size - 0.35 * size;
+        canvas.text(line, [corner[0], baseline], Anchor::Left, size, colour);
+    }
+    broken.len() as f64 * LEADING * size
+}

@@ -1,0 +1,122 @@
+//! Text in the embedded typeface: how wide it is, and its pixels.
+//!
+//! The typeface is DejaVu Sans (its licence stands beside it): Latin, Greek, Cyrillic, indices and signs, so that
+//! pictures look the same on every machine. Combining marks, as the bar of p̄, are centred over the letter before them.
+
+use ab_glyph::{Font, FontRef, GlyphId, Point};
+use std::sync::LazyLock;
+
+/// Names under which a viewer of SVG files may have a typeface of the same widths.
+pub const FAMILY: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, sans-serif";
+
+static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
+    FontRef::try_from_slice(include_bytes!("font/DejaVuSans.ttf")).expect("the embedded typeface is whole")
+});
+
+/// Height of capital letters over the size.
+pub const CAPITALS: f64 = 0.73;
+
+/// A glyph and where its origin stands, in units of the size.
+#[derive(Debug, Clone, Copy)]
+struct Placed {
+    glyph: GlyphId,
+    x: f64,
+}
+
+/// The glyphs of a text in a line, and its width, in units of the size.
+fn placed(text: &str) -> (Vec<Placed>, f64) {
+    let em = f64::from(FONT.units_per_em().unwrap_or(2048.0));
+    let advance = |glyph: GlyphId| f64::from(FONT.h_advance_unscaled(glyph)) / em;
+    let middle = |glyph: GlyphId| {
+        let bounds = FONT.outline(glyph).map(|outline| outline.bounds);
+        bounds.map_or(0.0, |bounds| 0.5 * f64::from(bounds.min.x + bounds.max.x) / em)
+    };
+    let (mut glyphs, mut end, mut before): (Vec<Placed>, f64, Option<Placed>) = (Vec::new(), 0.0, None);
+    for letter in text.chars() {
+        let glyph = FONT.glyph_id(letter);
+        let combining = ('\u{300}'..='\u{36f}').contains(&letter);
+        match before {
+            Some(base) if combining => {
+                glyphs.push(Placed { glyph, x: base.x + middle(base.glyph) - middle(glyph) });
+            }
+            _ => {
+                let kern = before.map_or(0.0, |base| f64::from(FONT.kern_unscaled(base.glyph, glyph)) / em);
+                let here = Placed { glyph, x: end + kern };
+                end = here.x + advance(glyph);
+                before = Some(here);
+                glyphs.push(here);
+            }
+        }
+    }
+    (glyphs, end)
+}
+
+/// Width of a line of text of the given size, in the unit of the size.
+pub fn width(text: &str, size: f64) -> f64 {
+    size * placed(text).1
+}
+
+/// The text in lines not wider than `width`, broken at spaces.
+pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size) <= most => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// Calls `put` with place and coverage (0 to 1) of every pixel of a line of text that starts at `origin` on its
+/// baseline, x to the right and y down; `size` in pixels.
+pub fn draw(text: &str, size: f64, [x, y]: [f64; 2], mut put: impl FnMut(i32, i32, f32)) {
+    // The scale of the crate is the height of a line, not of the em.
+    let scale = size * f64::from(FONT.height_unscaled() / FONT.units_per_em().unwrap_or(2048.0));
+    for Placed { glyph, x: offset } in placed(text).0 {
+        let place = Point { x: (x + size * offset) as f32, y: y as f32 };
+        if let Some(outline) = FONT.outline_glyph(glyph.with_scale_and_position(scale as f32, place)) {
+            let corner = outline.px_bounds().min;
+            outline.draw(|i, j, coverage| put(corner.x as i32 + i as i32, corner.y as i32 + j as i32, coverage));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sign_of_the_pictures_has_a_glyph() {
+        for letter in "p̄δσντχ₀₁₂₃₉⁰¹²³⁴⁵⁶⁷⁸⁹⁻₋−–×·√Åµ°∞≈≤".chars()
+        {
+            assert_ne!(FONT.glyph_id(letter).0, 0, "{letter} is missing");
+        }
+    }
+
+    #[test]
+    fn a_bar_over_a_letter_takes_no_width_and_stands_over_it() {
+        assert!((width("p̄", 10.0) - width("p", 10.0)).abs() < 1e-12);
+        let ink = |text: &str| {
+            let (mut least, mut most, mut top) = (i32::MAX, i32::MIN, i32::MAX);
+            draw(text, 100.0, [0.0, 0.0], |x, y, coverage| {
+                if coverage > 0.5 {
+                    (least, most, top) = (least.min(x), most.max(x), top.min(y));
+                }
+            });
+            (least, most, top)
+        };
+        let (bare, barred) = (ink("p"), ink("p̄"));
+        assert!(barred.0 >= bare.0 - 2 && barred.1 <= bare.1 + 2 && barred.2 < bare.2 - 3, "{bare:?} {barred:?}");
+    }
+
+    #[test]
+    fn long_text_is_broken_at_spaces_into_lines_that_fit() {
+        let lines = wrapped("relatively hard coating with three levels in contact", 7.0, 80.0);
+        assert!(lines.len() > 2 && lines.iter().all(|line| width(line, 7.0) <= 80.0));
+        assert_eq!(lines.join(" "), "relatively hard coating with three levels in contact");
+    }
+}
