@@ -2,6 +2,7 @@
 
 use super::{Common, Failure, Outcome};
 use percoat::output::{make_folder, write_text};
+use percoat::picture::{Format, write_picture};
 use percoat::validation::{self, Report, STUDIES, Study, differences};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -60,9 +61,12 @@ fn unknown(name: &str) -> Failure {
     Failure::Refused(format!("there is no study {name}; there are {}", names.join(", ")))
 }
 
-/// The data of a study.
+/// The figures and data of a study.
 fn write(folder: &Path, outcome: &validation::Outcome) -> Result<(), Failure> {
     make_folder(folder)?;
+    for (name, figure) in &outcome.figures {
+        write_picture(folder, name, Format::Png, &figure.draw(Format::Png))?;
+    }
     for data in &outcome.data {
         write_text(&folder.join(format!("{}.data.csv", data.name)), &data.csv())?;
     }

@@ -12,11 +12,22 @@
 //! ```
 
 mod check;
+mod convergence;
+mod draw;
+mod hertz;
+mod hertz_stresses;
+mod isolated;
+mod iterations;
 mod kernel;
+mod lattice_sums;
 mod outcome;
+mod peer;
 mod periodic_hertz;
 mod report;
+mod sinusoidal_stresses;
 mod steps;
+mod wavy;
+mod westergaard;
 
 pub use check::{Check, Tolerance};
 pub use outcome::{Data, Outcome};
@@ -37,7 +48,20 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 2] = [kernel::STUDY, periodic_hertz::STUDY];
+pub const STUDIES: [Study; 12] = [
+    kernel::STUDY,
+    lattice_sums::STUDY,
+    hertz::STUDY,
+    periodic_hertz::STUDY,
+    westergaard::STUDY,
+    wavy::STUDY,
+    isolated::STUDY,
+    hertz_stresses::STUDY,
+    sinusoidal_stresses::STUDY,
+    convergence::STUDY,
+    iterations::STUDY,
+    peer::STUDY,
+];
 
 /// The study of a name.
 pub fn find(name: &str) -> Option<&'static Study> {

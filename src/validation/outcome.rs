@@ -1,12 +1,15 @@
-//! What a study gives: its checks and the data they rest on.
+//! What a study gives: its checks, the figure that shows them, and the data they rest on.
 
 use super::check::Check;
+use crate::picture::Figure;
 
 /// What a study found.
 #[derive(Debug, Clone, Default)]
 pub struct Outcome {
     /// The comparisons, in the order of the report.
     pub checks: Vec<Check>,
+    /// Figures by the name of their file, without its ending; the first one shows the agreement at a glance.
+    pub figures: Vec<(&'static str, Figure)>,
     /// Everything computed, for whoever wants to draw or look closer.
     pub data: Vec<Data>,
 }
@@ -18,7 +21,7 @@ impl Outcome {
     }
 }
 
-/// A table of numbers, written as `<name>.csv`.
+/// A table of numbers, written as `<name>.data.csv`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Data {
     /// Name of the file, without its ending.

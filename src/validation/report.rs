@@ -63,6 +63,9 @@ impl Report {
         }
         for (study, result) in &self.results {
             text += &format!("\n## {}\n\n{}.\n\n", study.name, study.title);
+            for (name, _) in result.iter().flat_map(|outcome| &outcome.figures) {
+                text += &format!("![{0}, {name}]({0}/{name}.png)\n\n", study.name);
+            }
             text += &format!("| {} |\n|{}\n", COLUMNS[1..].join(" | "), "---|".repeat(6));
             for row in rows(study, result) {
                 text += &format!("| {} |\n", row[1..].join(" | "));

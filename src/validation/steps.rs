@@ -3,6 +3,7 @@
 use super::StudyError;
 use crate::case::{Case, Source};
 use crate::hierarchy::{Hierarchy, Solution};
+use crate::lattice::Cell;
 use crate::material::HalfSpace;
 use crate::observables::{Observables, observe};
 use crate::solver::{Control, Settings};
@@ -43,4 +44,12 @@ impl Steps {
 pub fn case(name: &str, text: &str, overrides: &[String]) -> Result<Case, StudyError> {
     let source = Source { name: format!("validation/{name}"), text: text.to_owned(), folder: PathBuf::new() };
     Case::read(&source, overrides).map_err(|error| error.render(false).into())
+}
+
+/// Topography with the heights h(s₁, s₂) at the samples, s in fractions of the cell vectors.
+pub fn topography(cell: Cell, points: [usize; 2], height: impl Fn(f64, f64) -> f64) -> Surface {
+    let [n1, n2] = points;
+    let place = |index: usize| ((index / n2) as f64 / n1 as f64, (index % n2) as f64 / n2 as f64);
+    let heights = (0..n1 * n2).map(place).map(|(s, t)| height(s, t)).collect();
+    Surface::Heights { cell, points, heights }
 }
