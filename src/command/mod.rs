@@ -3,6 +3,7 @@
 mod cases;
 mod check;
 mod kernel;
+mod pictures;
 mod solve;
 mod stress;
 mod validate;
@@ -10,6 +11,7 @@ mod validate;
 use clap::{Args, Parser, Subcommand};
 use percoat::case::{Case, CaseError, Source, embedded};
 use percoat::output::OutputError;
+use pictures::PictureOptions;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -31,6 +33,8 @@ enum Command {
     Solve {
         /// Case file, or the name of an embedded case
         case: Option<PathBuf>,
+        #[command(flatten)]
+        pictures: PictureOptions,
     },
     /// Response of the layered half-space to a harmonic pressure cos(qx), as JSON lines
     Kernel {
@@ -122,7 +126,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         return ExitCode::from(4);
     }
     let outcome = match &arguments.command {
-        Command::Solve { case } => solve::run(case.as_deref(), common),
+        Command::Solve { case, pictures } => solve::run(case.as_deref(), pictures, common),
         Command::Kernel { case, wavenumber, depth } => kernel::run(case.as_deref(), wavenumber, depth, common),
         Command::Check { case } => check::run(case, common),
         Command::Cases { name } => cases::run(name.as_deref()),

@@ -1,15 +1,17 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
+use super::pictures::PictureOptions;
 use super::stress::{largest, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
 use percoat::case::{Case, GridSection, LoadSection};
 use percoat::grid::Grid;
-use percoat::hierarchy::Hierarchy;
+use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
 use percoat::observables::{Observables, observe};
 use percoat::output::summary::{Step, Summary, curve};
-use percoat::output::{Fields, Stresses, clear, make_folder, table, write_text};
+use percoat::output::{Fields, Section, Stresses, clear, make_folder, table, write_text};
+use percoat::picture::{Cut, Snapshot};
 use percoat::refinement::{FIRST_POINTS, MOST_POINTS, balanced_points, change};
 use percoat::solver::Control;
 use percoat::stress::Field;
@@ -22,14 +24,14 @@ const WORTH_SAYING: f64 = 0.02;
 /// Fewer samples along a contact radius than this are worth a warning.
 const FEW_SAMPLES: f64 = 10.0;
 
-pub fn run(case: Option<&Path>, common: &Common) -> Result<Outcome, Failure> {
+pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Outcome, Failure> {
     let (case, name) = read_case(case, common)?;
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
-    let run = Run { case: &case, controls: case.load.controls(), folder, common };
+    let run = Run { case: &case, controls: case.load.controls(), folder, pictures, common };
     run.refuse_beyond_full_contact()?;
     let result = match case.grid {
-        GridSection::Points(points) => run.on_grid(points)?.finished()?,
+        GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
     };
     let warnings = run.warnings(&result);
@@ -48,25 +50,18 @@ struct Run<'a> {
     case: &'a Case,
     controls: Vec<Control>,
     folder: PathBuf,
+    pictures: &'a PictureOptions,
     common: &'a Common,
 }
 
 /// All load steps on one grid, their fields not yet gathered.
 struct Gridded {
     hierarchy: Hierarchy,
+    /// The last step.
+    last: Option<Solution>,
     fields: Fields,
     stresses: Option<Stresses>,
     solved: Solved,
-}
-
-impl Gridded {
-    fn finished(self) -> Result<Solved, Failure> {
-        self.fields.finish(self.hierarchy.grid(), self.hierarchy.texture())?;
-        if let Some(stresses) = self.stresses {
-            stresses.finish()?;
-        }
-        Ok(self.solved)
-    }
 }
 
 struct Solved {
@@ -86,6 +81,23 @@ impl Solved {
 }
 
 impl Run<'_> {
+    /// Gathers the fields and draws the pictures.
+    fn finished(&self, gridded: Gridded) -> Result<Solved, Failure> {
+        let Gridded { hierarchy, last, fields, mut stresses, solved } = gridded;
+        fields.finish(hierarchy.grid(), hierarchy.texture())?;
+        let cut = stresses.as_mut().and_then(Stresses::take_section);
+        if let Some(stresses) = stresses {
+            stresses.finish()?;
+        }
+        if let Some(solution) = last.filter(|_| self.pictures.wanted()) {
+            let (surface, half_space) = (self.case.surface(), self.case.half_space());
+            let snapshot = Snapshot::new(&self.case.title, surface, half_space, &hierarchy, &solution);
+            let cut = cut.map(|(Section { line, depths }, states)| Cut { line, depths, states });
+            self.pictures.draw(&self.folder, &snapshot, cut.as_ref(), &solved.steps)?;
+        }
+        Ok(solved)
+    }
+
     /// All load steps on finer and finer grids until they change by less than `accuracy`.
     fn refined(&self, accuracy: f64) -> Result<Solved, Failure> {
         let cell = self.case.surface().cell();
@@ -95,7 +107,7 @@ impl Run<'_> {
             points *= 2;
             let finer = balanced_points(&cell, points);
             if finer.iter().any(|&n| n > MOST_POINTS) {
-                return gridded.finished();
+                return self.finished(gridded);
             }
             let before = std::mem::take(&mut gridded.solved.observables);
             drop(gridded);
@@ -106,7 +118,7 @@ impl Run<'_> {
                 eprintln!("{finer:?} points: change {change:.2e}");
             }
             if change < accuracy {
-                return gridded.finished();
+                return self.finished(gridded);
             }
         }
     }
@@ -123,9 +135,12 @@ impl Run<'_> {
         write_text(&self.folder.join("case.toml"), &self.case.to_toml())?;
         let mut fields = Fields::new(&self.folder)?;
         let mut stresses = None;
+        let mut last = None;
         let progress = self.progress();
         let mut solved = Solved { steps: Vec::new(), observables: Vec::new(), accuracy: None };
         for &control in &self.controls {
+            // Its memory goes before the next one takes as much.
+            drop(last.take());
             let solution = hierarchy.solve(control, &mut |iteration| {
                 progress.set_message(format!("iteration {}, ε = {:.1e}", iteration.iteration, iteration.residual));
             });
@@ -150,10 +165,11 @@ impl Run<'_> {
             solved.steps.push(step);
             solved.observables.push(observables);
             self.record(&solved.steps, false, &[], None)?;
+            last = Some(solution);
             progress.inc(1);
         }
         progress.finish_and_clear();
-        Ok(Gridded { hierarchy, fields, stresses, solved })
+        Ok(Gridded { hierarchy, last, fields, stresses, solved })
     }
 
     /// No load reaches a penetration at which contact is complete: refused before anything is written.

@@ -119,6 +119,11 @@ pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
     Observables { mean_pressure, penetration: solution.penetration, contact_fraction, max_pressure, levels }
 }
 
+/// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few samples.
+pub fn boundaries(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Option<Boundary>> {
+    spots(hierarchy, solution).into_iter().map(|spot| spot.boundary).collect()
+}
+
 fn spots(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Spot> {
     let (grid, texture, pressure) = (hierarchy.grid(), hierarchy.texture(), &solution.pressure);
     let (reduced, [n1, n2]) = (grid.cell().reduced(), grid.points());

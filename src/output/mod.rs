@@ -46,6 +46,9 @@ pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
 /// What a run writes into its folder.
 const FILES: [&str; 5] = ["summary.json", "curve.csv", "case.toml", "contact.npz", "stress.npz"];
 
+/// What a run draws, as PNG or SVG files.
+const PICTURES: [&str; 6] = ["pressure", "contact", "profiles", "section", "lines", "curve"];
+
 /// Removes what an earlier run left in `folder` and this one has not made yet: its files, and what waits or is
 /// temporary if it was killed.
 ///
@@ -57,14 +60,18 @@ pub fn clear(folder: &Path) -> Result<(), OutputError> {
         let path = entry.map_err(|error| OutputError::new(folder, error))?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let volume = name.starts_with("stress.") && name.ends_with(".vts");
-        let temporary = FILES.iter().any(|file| name.starts_with(&format!(".{file}.")) || name.starts_with(".stress."))
-            && name.ends_with(".tmp");
+        let pictures =
+            || PICTURES.iter().flat_map(|picture| ["png", "svg"].map(|format| format!("{picture}.{format}")));
+        let picture = pictures().any(|file| name == file);
+        let files = FILES.iter().map(|&file| file.to_owned()).chain(pictures());
+        let temporary = name.ends_with(".tmp")
+            && (name.starts_with(".stress.") || files.into_iter().any(|file| name.starts_with(&format!(".{file}."))));
         if name == "contact.partial" || name == "stress.partial" {
             fs::remove_dir_all(&path).map_err(|error| OutputError::new(&path, error))?;
             continue;
         }
         // The case may be the one that is running.
-        if temporary || volume || (name != "case.toml" && FILES.contains(&&*name)) {
+        if temporary || volume || picture || (name != "case.toml" && FILES.contains(&&*name)) {
             fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;
         }
     }

@@ -45,6 +45,8 @@ pub struct Stresses {
     folder: PathBuf,
     arrays: StepArrays,
     wanted: Wanted,
+    /// States of the last step on the section.
+    section: Vec<Vec<State>>,
 }
 
 impl Stresses {
@@ -53,7 +55,7 @@ impl Stresses {
     /// # Errors
     /// [`OutputError`] when the folder cannot be made or cleared.
     pub fn new(folder: &Path, wanted: Wanted) -> Result<Self, OutputError> {
-        Ok(Self { folder: folder.to_owned(), arrays: StepArrays::new(folder, "stress")?, wanted })
+        Ok(Self { folder: folder.to_owned(), arrays: StepArrays::new(folder, "stress")?, wanted, section: Vec::new() })
     }
 
     /// Puts the stresses of the next step on disk, one plane at a time.
@@ -72,9 +74,9 @@ impl Stresses {
             }
         }
         if let Some(Section { line, depths }) = &self.wanted.section {
-            let states: Vec<State> = field.section(line, depths).concat();
+            self.section = field.section(line, depths);
             for (c, name) in COMPONENTS.iter().enumerate() {
-                let values = states.iter().map(|state| component(state, c));
+                let values = self.section.iter().flatten().map(|state| component(state, c));
                 self.arrays.add(&format!("section_{name}"), &[depths.len(), line.points], values)?;
             }
         }
@@ -91,6 +93,12 @@ impl Stresses {
             write_volume(&self.folder.join(name), field, depths, *points)?;
         }
         Ok(())
+    }
+
+    /// Takes the section with the states of the last step: for each depth those at the points of the line.
+    pub fn take_section(&mut self) -> Option<(Section, Vec<Vec<State>>)> {
+        let section = self.wanted.section.clone()?;
+        (!self.section.is_empty()).then(|| (section, std::mem::take(&mut self.section)))
     }
 
     /// Gathers all steps in `stress.npz`.

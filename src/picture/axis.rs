@@ -7,6 +7,8 @@ pub enum Scale {
     Linear,
     /// In proportion to the logarithm; values that are not positive have no place.
     Log,
+    /// In proportion, with numbers at parts of a full turn.
+    Degrees,
 }
 
 /// An axis of a chart.
@@ -43,13 +45,13 @@ impl Axis {
         if let Some([first, last]) = self.range {
             return [first, last];
         }
-        let usable = |x: &f64| x.is_finite() && (self.scale == Scale::Linear || *x > 0.0);
+        let usable = |x: &f64| x.is_finite() && (self.scale != Scale::Log || *x > 0.0);
         let (least, most) = values
             .filter(usable)
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| (least.min(x), most.max(x)));
         match self.scale {
             _ if least > most => [if self.scale == Scale::Log { 0.1 } else { 0.0 }, 1.0],
-            Scale::Linear => {
+            Scale::Linear | Scale::Degrees => {
                 // Zero belongs to it where it is not far.
                 let (low, high) = (if least > 0.0 && least < 0.6 * most { 0.0 } else { least }, most);
                 let high = if high < 0.0 && high > 0.6 * least { 0.0 } else { high };
@@ -85,6 +87,7 @@ pub(super) fn ticks(range: [f64; 2], scale: Scale, most: usize) -> Ticks {
     match scale {
         Scale::Linear => linear_ticks(range, most.max(2)),
         Scale::Log => log_ticks(range, most.max(2)),
+        Scale::Degrees => degree_ticks(range, most.max(2)),
     }
 }
 
@@ -120,6 +123,18 @@ fn linear_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     let numbered = multiples(step).map(|(_, x)| (x, signed(&format!("{:.decimals$}", x / unit)))).collect();
     let plain = multiples(step / f64::from(parts)).filter(|(k, _)| k % i64::from(parts) != 0).map(|(_, x)| x).collect();
     Ticks { numbered, plain, exponent }
+}
+
+fn degree_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
+    let (low, high) = (first.min(last), first.max(last));
+    let count = |step: f64| (high / step).floor() - (low / step).ceil() + 1.0;
+    let steps = [(15.0, 3), (30.0, 3), (60.0, 4), (90.0, 3), (180.0, 4), (360.0, 4)];
+    let (step, parts) = steps.into_iter().find(|&(step, _)| count(step) <= most as f64).unwrap_or((360.0, 4));
+    let multiples =
+        |step: f64| ((low / step).ceil() as i64..=(high / step).floor() as i64).map(move |k| (k, k as f64 * step));
+    let numbered = multiples(step).map(|(_, x)| (x, signed(&format!("{x:.0}")))).collect();
+    let plain = multiples(step / f64::from(parts)).filter(|(k, _)| k % i64::from(parts) != 0).map(|(_, x)| x).collect();
+    Ticks { numbered, plain, exponent: 0 }
 }
 
 fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
@@ -217,6 +232,11 @@ mod tests {
         assert_eq!(numbers([1e-12, 1.0], Scale::Log, 5).0.len(), 5);
         assert_eq!(numbers([0.01, 0.06], Scale::Log, 4).0, ["0.01", "0.02", "0.05"]);
         assert_eq!(numbers([60.0, 700.0], Scale::Log, 5).0, ["100", "200", "500"]);
+    }
+
+    #[test]
+    fn a_turn_is_marked_in_parts_of_it() {
+        assert_eq!(numbers([0.0, 360.0], Scale::Degrees, 7).0, ["0", "60", "120", "180", "240", "300", "360"]);
     }
 
     #[test]

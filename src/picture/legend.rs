@@ -1,13 +1,13 @@
 //! The legend of a chart: where no curve runs, or else below the chart.
 
 use super::canvas::Canvas;
-use super::chart::{Curve, sample};
+use super::curve::{Curve, TEXT_GAP};
 use super::sheet::NUMBERS;
 use super::text;
 
 /// Length of the piece of line before an entry, points.
 const PIECE: f64 = 16.0;
-/// Distance between piece and text, and around the whole.
+/// Distance around the whole.
 const GAP: f64 = 3.5;
 /// Height of an entry.
 const ROW: f64 = 1.4 * NUMBERS;
@@ -22,7 +22,7 @@ pub struct Legend {
 }
 
 fn entry_width(curve: &Curve) -> f64 {
-    PIECE + GAP + text::width(&curve.label, NUMBERS)
+    PIECE + TEXT_GAP + text::width(&curve.label, NUMBERS)
 }
 
 fn named(curves: &[Curve]) -> impl Iterator<Item = (usize, &Curve)> {
@@ -81,10 +81,7 @@ impl Legend {
     pub fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], curves: &[Curve]) {
         for &(index, [dx, dy]) in &self.entries {
             let middle = [corner[0] + dx, corner[1] + dy + 0.5 * ROW];
-            sample(canvas, middle, PIECE, &curves[index]);
+            curves[index].entry(canvas, middle, PIECE);
         }
     }
 }
-
-/// Distance between a piece of line and its text.
-pub const TEXT_GAP: f64 = GAP;

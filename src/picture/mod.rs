@@ -1,21 +1,50 @@
 //! Pictures as a journal prints them: charts and fields, as PNG or SVG files.
 //!
 //! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. What is
-//! drawn goes on a sheet measured in points ([`canvas`]), which becomes pixels or an SVG file.
+//! drawn goes on a sheet measured in points ([`Canvas`]), which becomes pixels or an SVG file.
+//!
+//! - Any curves: [`Chart`], and [`Figure`] for several side by side.
+//! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
+//! - Its stresses under a line ([`Cut`]): [`section`](section()), [`lines`](lines()).
+//! - The steps of a run: [`load_curves`](load_curves()).
 
 mod axis;
 mod canvas;
-pub mod chart;
+mod chart;
 mod colour;
+mod contact;
+mod contour;
+mod curve;
+mod cut;
+mod frame;
 mod legend;
+mod lines;
+mod load_curves;
+mod map;
+mod pressure;
+mod profiles;
 mod raster;
+mod section;
 mod sheet;
+mod snapshot;
 mod text;
+mod tiling;
+mod units;
 mod vector;
 
 pub use axis::{Axis, Scale};
-pub use chart::{Chart, Curve, Figure, Style};
-pub use colour::{Colour, ColourMap};
+pub use canvas::Canvas;
+pub use chart::{Chart, Figure};
+pub use contact::contact;
+pub use curve::{Curve, Style};
+pub use cut::Cut;
+pub use lines::lines;
+pub use load_curves::load_curves;
+pub use pressure::pressure;
+pub use profiles::profiles;
+pub use section::section;
+pub use snapshot::Snapshot;
+pub use units::Units;
 
 use crate::output::{OutputError, write_file};
 use std::io::Write;

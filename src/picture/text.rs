@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn every_sign_of_the_pictures_has_a_glyph() {
-        for letter in "p̄δσντχ₀₁₂₃₉⁰¹²³⁴⁵⁶⁷⁸⁹⁻₋−–×·√Åµ°∞≈≤".chars()
+        for letter in "p̄δσντχρθ₀₁₂₃₉ₘ⁰¹²³⁴⁵⁶⁷⁸⁹⁻₋−–×·√Åµ°∞≈≤".chars()
         {
             assert_ne!(FONT.glyph_id(letter).0, 0, "{letter} is missing");
         }

@@ -1,0 +1,68 @@
+//! The pictures of a run, drawn without being asked.
+
+use super::Failure;
+use clap::Args;
+use percoat::output::summary::Step;
+use percoat::picture::{self, Canvas, Cut, Format, Snapshot, write_picture};
+use rayon::prelude::*;
+use std::path::Path;
+
+/// Options of the commands that draw.
+#[derive(Debug, Clone, Args)]
+pub struct PictureOptions {
+    /// Draw no pictures
+    #[arg(long, conflicts_with = "pictures")]
+    no_pictures: bool,
+    /// Format of the pictures: png, svg, or both
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_enum, default_value = "png")]
+    pictures: Vec<PictureFormat>,
+}
+
+/// Format of a picture as it is typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum PictureFormat {
+    Png,
+    Svg,
+}
+
+impl PictureOptions {
+    /// Whether there are any pictures.
+    pub fn wanted(&self) -> bool {
+        !self.no_pictures
+    }
+
+    /// Draws what a solved step shows, a cut through its stresses if there is one, and the steps before it.
+    pub fn draw(&self, folder: &Path, last: &Snapshot, cut: Option<&Cut>, steps: &[Step]) -> Result<(), Failure> {
+        if !self.wanted() {
+            return Ok(());
+        }
+        type Draw<'a> = &'a (dyn Fn() -> Option<Canvas> + Sync);
+        let touching = last.mean_pressure > 0.0;
+        let touching_cut = cut.filter(|_| touching);
+        let pictures: [(&str, Draw); 6] = [
+            ("pressure", &|| touching.then(|| picture::pressure(last))),
+            ("contact", &|| picture::contact(last, None).filter(|_| touching)),
+            ("profiles", &|| picture::profiles(last, None)),
+            ("section", &|| Some(picture::section(last, touching_cut?))),
+            ("lines", &|| Some(picture::lines(last, touching_cut?))),
+            ("curve", &|| picture::load_curves(last.title, last.surface, last.half_space, steps)),
+        ];
+        let mut formats: Vec<Format> = Vec::new();
+        for format in &self.pictures {
+            let format = match format {
+                PictureFormat::Png => Format::Png,
+                PictureFormat::Svg => Format::Svg,
+            };
+            if !formats.contains(&format) {
+                formats.push(format);
+            }
+        }
+        pictures.par_iter().try_for_each(|(name, draw)| {
+            let Some(canvas) = draw() else { return Ok(()) };
+            formats.iter().try_for_each(|&format| {
+                write_picture(folder, name, format, &canvas.file(format))?;
+                Ok(())
+            })
+        })
+    }
+}

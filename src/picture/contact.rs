@@ -1,0 +1,110 @@
+//! Contact spots by level with their boundaries, and how far each boundary is from a circle (Fig. 2b).
+
+use super::axis::{Axis, Scale};
+use super::canvas::{Canvas, Dash};
+use super::chart::Chart;
+use super::colour::Colour;
+use super::curve::{Curve, Style};
+use super::map::{Fill, Map, Over};
+use super::pressure::{aspect, axes, numbers, unit_cell};
+use super::sheet::sheet;
+use super::snapshot::Snapshot;
+use super::tiling::{around, images, window};
+use std::f64::consts::TAU;
+
+/// The picture; `None` for a topography. `without_mutual_effect`: per level the contact radius that indenters would
+/// have without each other, a length, drawn dashed.
+pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Canvas> {
+    (snapshot.levels() > 0).then(|| {
+        let window = window(snapshot.grid.cell());
+        let colour = |place: [f64; 2]| {
+            snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
+        };
+        let [x, y] = axes(snapshot, window);
+        let mut over = vec![unit_cell(snapshot)];
+        let cell = snapshot.grid.cell();
+        for (site, boundary) in snapshot.texture.sites.iter().zip(&snapshot.boundaries) {
+            for centre in images(cell, site.place, widened(window)) {
+                let ring = |radius: &dyn Fn(f64) -> f64, dash: Dash, width: f64, colour: Colour| {
+                    let point = |k: u32| {
+                        let theta = TAU * f64::from(k) / 180.0;
+                        [centre[0] + radius(theta) * theta.cos(), centre[1] + radius(theta) * theta.sin()]
+                    };
+                    Over::Line { points: (0..=180).map(point).collect(), width, dash, colour }
+                };
+                if let Some(boundary) = boundary {
+                    over.push(ring(&|theta| boundary.radius(theta), Dash::Solid, 0.9, Colour::line(site.level)));
+                }
+                if let Some(&radius) = without_mutual_effect.and_then(|radii| radii.get(site.level - 1)) {
+                    over.push(ring(&|_| radius, Dash::Dashed, 0.7, Colour::BLACK));
+                }
+            }
+        }
+        over.extend(numbers(snapshot, window, |_| Colour::BLACK));
+        let fill = Fill::Colours(&colour);
+        let spots = Map { title: "(a) contact spots".into(), x, y, aspect: aspect(window), fill, over };
+        let radii = radii(snapshot, without_mutual_effect);
+        let mut caption = snapshot.caption();
+        let mut what = "Numbers are levels; θ is the direction from the x axis.".to_owned();
+        if without_mutual_effect.is_some() {
+            what += " Dashed circles and lines: without the mutual effect of the indenters.";
+        }
+        caption.push(what);
+        match radii {
+            Some(radii) => sheet("", &caption, &[&spots, &radii], 2),
+            None => sheet("", &caption, &[&Map { title: String::new(), ..spots }], 1),
+        }
+    })
+}
+
+/// Boundary radius against direction, relative to the radius of the circle of equal area; `None` when no spot has a
+/// boundary of its own.
+fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Chart> {
+    let degrees = |k: usize, count: usize| 360.0 * k as f64 / count as f64;
+    let mut curves = Vec::new();
+    for level in 1..=snapshot.levels() {
+        let site = snapshot.site_of(level)?;
+        let Some(boundary) = &snapshot.boundaries[site] else { continue };
+        let mean = (boundary.area() / (0.5 * TAU)).sqrt();
+        let count = boundary.radii.len();
+        let points = (0..=count).map(|k| [degrees(k, count), 100.0 * (boundary.radii[k % count] / mean - 1.0)]);
+        curves.push(Curve {
+            label: format!("level {level}"),
+            points: points.collect(),
+            style: Style::Line,
+            colour: level,
+        });
+        if let Some(radius) = without_mutual_effect.and_then(|radii| radii.get(level - 1)) {
+            let deviation = 100.0 * (radius / mean - 1.0);
+            curves.push(Curve {
+                label: String::new(),
+                points: vec![[0.0, deviation], [360.0, deviation]],
+                style: Style::Dashed,
+                colour: level,
+            });
+        }
+    }
+    (!curves.is_empty()).then(|| Chart {
+        title: "(b) boundary".into(),
+        caption: Vec::new(),
+        x: Axis { scale: Scale::Degrees, ..Axis::linear("direction θ (degrees)").from_to(0.0, 360.0) },
+        y: Axis::linear("radius over mean radius, ρ/a − 1 (%)"),
+        curves,
+    })
+}
+
+/// A window with the spots that reach into it.
+fn widened(window: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    window.map(|[first, last]| [first - 0.25 * (last - first), last + 0.25 * (last - first)])
+}
+
+impl Snapshot<'_> {
+    /// Level whose indenter is in contact at a place, if one is.
+    fn level_in_contact(&self, place: [f64; 2]) -> Option<usize> {
+        self.pressure_at(place)?;
+        let touching = |&(index, _): &(usize, f64)| self.pressure[index] > 0.0;
+        let nearest = around(self.grid, place).into_iter().filter(touching).max_by(|a, b| a.1.total_cmp(&b.1));
+        let (index, _) = nearest?;
+        Some(self.texture.sites[*self.texture.owner.get(index)? as usize].level)
+    }
+}

@@ -1,0 +1,151 @@
+//! A curve of a chart: its points, how it is drawn, and its marker.
+
+use super::canvas::{Anchor, Canvas, Dash};
+use super::colour::Colour;
+use super::sheet::NUMBERS;
+
+/// A curve of a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Its name in the legend; empty: it is not there.
+    pub label: String,
+    /// Points (x, y); one that is not finite, or not positive on a logarithmic axis, interrupts the curve.
+    pub points: Vec<[f64; 2]>,
+    /// How it is drawn.
+    pub style: Style,
+    /// Index of its colour: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue.
+    pub colour: usize,
+}
+
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// A solid line.
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// A dotted line.
+    Dotted,
+    /// Open markers without a line.
+    Markers,
+    /// Filled markers on a line.
+    LineMarkers,
+}
+
+/// Width of curves, points.
+const STROKE: f64 = 1.1;
+/// Half the size of a marker.
+const MARKER: f64 = 1.9;
+/// Distance between a piece of line in a legend and its text.
+pub(super) const TEXT_GAP: f64 = 3.5;
+
+impl Curve {
+    /// Draws an uninterrupted piece of the curve, given by its places on the sheet, within a rectangle.
+    pub(super) fn draw(&self, canvas: &mut Canvas, run: &[[f64; 2]], bounds: [[f64; 2]; 2]) {
+        if let Some(dash) = self.style.dash() {
+            for piece in clipped(run, bounds) {
+                canvas.dashed(&piece, STROKE, dash, Colour::line(self.colour));
+            }
+        }
+        let [low, high] = bounds;
+        let within = |place: &&[f64; 2]| (0..2).all(|k| place[k] >= low[k] - 0.1 && place[k] <= high[k] + 0.1);
+        for &place in run.iter().filter(within) {
+            self.mark(canvas, place);
+        }
+    }
+
+    /// Draws the curve's entry in a legend: a piece of it, then its name.
+    pub(super) fn entry(&self, canvas: &mut Canvas, [x, y]: [f64; 2], length: f64) {
+        if let Some(dash) = self.style.dash() {
+            canvas.dashed(&[[x, y], [x + length, y]], STROKE, dash, Colour::line(self.colour));
+        }
+        self.mark(canvas, [x + 0.5 * length, y]);
+        canvas.label(&self.label, [x + length + TEXT_GAP, y], Anchor::Left, NUMBERS, Colour::BLACK);
+    }
+
+    /// Draws the marker, if the curve has one: shapes alternate with the colours.
+    fn mark(&self, canvas: &mut Canvas, [x, y]: [f64; 2]) {
+        let open = match self.style {
+            Style::Markers => true,
+            Style::LineMarkers => false,
+            _ => return,
+        };
+        let colour = Colour::line(self.colour);
+        let shape = |radius: f64| -> Vec<[f64; 2]> {
+            match self.colour % 4 {
+                1 => vec![
+                    [x - radius, y - radius],
+                    [x + radius, y - radius],
+                    [x + radius, y + radius],
+                    [x - radius, y + radius],
+                ],
+                2 => {
+                    vec![[x, y - 1.35 * radius], [x + 1.35 * radius, y], [x, y + 1.35 * radius], [x - 1.35 * radius, y]]
+                }
+                _ => vec![[x, y - 1.3 * radius], [x + 1.25 * radius, y + radius], [x - 1.25 * radius, y + radius]],
+            }
+        };
+        if self.colour.is_multiple_of(4) {
+            canvas.disc([x, y], MARKER + if open { 0.35 } else { 0.0 }, colour);
+            if open {
+                canvas.disc([x, y], MARKER - 0.45, Colour::WHITE);
+            }
+        } else if open {
+            canvas.area(&shape(MARKER), Colour::WHITE);
+            canvas.outline(&shape(MARKER), 0.8, colour);
+        } else {
+            canvas.area(&shape(MARKER), colour);
+        }
+    }
+}
+
+impl Style {
+    fn dash(self) -> Option<Dash> {
+        match self {
+            Self::Line | Self::LineMarkers => Some(Dash::Solid),
+            Self::Dashed => Some(Dash::Dashed),
+            Self::Dotted => Some(Dash::Dotted),
+            Self::Markers => None,
+        }
+    }
+}
+
+/// The pieces of a line within a rectangle (Liang–Barsky).
+pub(super) fn clipped(points: &[[f64; 2]], [low, high]: [[f64; 2]; 2]) -> Vec<Vec<[f64; 2]>> {
+    let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
+    for pair in points.windows(2) {
+        let (a, d) = (pair[0], [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]]);
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for k in 0..2 {
+            if d[k] == 0.0 {
+                if a[k] < low[k] || a[k] > high[k] {
+                    to = -1.0;
+                }
+                continue;
+            }
+            let (s, t) = ((low[k] - a[k]) / d[k], (high[k] - a[k]) / d[k]);
+            from = from.max(s.min(t));
+            to = to.min(s.max(t));
+        }
+        if from > to {
+            continue;
+        }
+        let at = |t: f64| [a[0] + t * d[0], a[1] + t * d[1]];
+        match pieces.last_mut() {
+            Some(piece) if from == 0.0 && piece.last() == Some(&a) => piece.push(at(to)),
+            _ => pieces.push(vec![at(from), at(to)]),
+        }
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_at_the_frame() {
+        let pieces = clipped(&[[-1.0, 0.5], [0.5, 0.5], [0.5, 3.0], [0.7, 3.0], [0.7, 0.0]], [[0.0; 2], [1.0; 2]]);
+        assert_eq!(pieces, [vec![[0.0, 0.5], [0.5, 0.5], [0.5, 1.0]], vec![[0.7, 1.0], [0.7, 0.0]]]);
+    }
+}

@@ -1,0 +1,115 @@
+//! A vertical cut through coating and substrate: the states on its lines, and the largest stresses in it.
+
+use crate::stress::{Depth, Line, State};
+
+/// Stresses under a line on the surface.
+#[derive(Debug, Clone)]
+pub struct Cut {
+    /// The line.
+    pub line: Line,
+    /// Depths of its rows from the surface down; one on an interface stands twice, once for each side.
+    pub depths: Vec<Depth>,
+    /// Per row, the states at the points of the line.
+    pub states: Vec<Vec<State>>,
+}
+
+/// A stress that the pictures show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// The normal stress along the line: tension and compression, σ_r of the paper when it begins at an axis.
+    Along,
+    /// The principal shear stress τ₁.
+    Tau1,
+}
+
+/// Where a stress is largest in a cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Largest {
+    /// The value.
+    pub value: f64,
+    /// Distance along the line.
+    pub s: f64,
+    /// Where in depth.
+    pub depth: Depth,
+}
+
+impl Cut {
+    /// The stress of a state.
+    pub fn stress(&self, quantity: Quantity, state: &State) -> f64 {
+        match quantity {
+            Quantity::Along => {
+                let [dx, dy] = self.line.direction;
+                (dx * dx * state.xx + 2.0 * dx * dy * state.xy + dy * dy * state.yy) / (dx * dx + dy * dy)
+            }
+            Quantity::Tau1 => state.tau1(),
+        }
+    }
+
+    /// All values of a stress, row by row.
+    pub fn values(&self, quantity: Quantity) -> Vec<Vec<f64>> {
+        let row = |row: &Vec<State>| row.iter().map(|state| self.stress(quantity, state)).collect();
+        self.states.iter().map(row).collect()
+    }
+
+    /// Value at a distance along the line and a depth, between the nearest rows of its material.
+    pub fn at(&self, values: &[Vec<f64>], s: f64, z: f64) -> Option<f64> {
+        let below = self.depths.partition_point(|depth| depth.z <= z);
+        let (before, after) = (below.checked_sub(1)?, below.min(self.depths.len() - 1));
+        let [z0, z1] = [before, after].map(|row| self.depths[row].z);
+        let t = if z1 > z0 { (z - z0) / (z1 - z0) } else { 0.0 };
+        let count = self.line.points;
+        let [first, last] = self.line.span;
+        let place = ((s - first) / (last - first) * (count - 1) as f64).clamp(0.0, (count - 1) as f64);
+        let column = (place as usize).min(count - 2);
+        let u = place - column as f64;
+        let at = |row: usize| (1.0 - u) * values[row][column] + u * values[row][column + 1];
+        Some((1.0 - t) * at(before) + t * at(after))
+    }
+
+    /// The largest of the values.
+    pub fn largest(&self, values: &[Vec<f64>]) -> Option<Largest> {
+        let distances = self.line.distances();
+        let mut best: Option<Largest> = None;
+        for (row, &depth) in values.iter().zip(&self.depths) {
+            for (&value, &s) in row.iter().zip(&distances) {
+                if best.is_none_or(|best| value > best.value) {
+                    best = Some(Largest { value, s, depth });
+                }
+            }
+        }
+        best
+    }
+
+    /// Depths of the interfaces within the cut.
+    pub fn interfaces(&self) -> Vec<f64> {
+        self.depths.windows(2).filter(|pair| pair[0].side != pair[1].side).map(|pair| pair[1].z).collect()
+    }
+
+    /// The rows on the surface and on both sides of each interface, by their index.
+    pub fn face_rows(&self) -> Vec<usize> {
+        let sides = self.depths.windows(2).enumerate().filter(|(_, pair)| pair[0].side != pair[1].side);
+        let surface = (self.depths.first().is_some_and(|depth| depth.z == 0.0)).then_some(0);
+        surface.into_iter().chain(sides.flat_map(|(row, _)| [row, row + 1])).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_taken_from_the_side_of_the_interface_where_they_are() {
+        let depths = [(0.0, 1), (1.0, 1), (1.0, 2), (2.0, 2)].map(|(z, side)| Depth { z, side }).to_vec();
+        let line = Line { origin: [0.0; 2], direction: [2.0, 0.0], span: [0.0, 1.0], points: 3 };
+        let rows = [1.0, 3.0, -2.0, -1.0];
+        let states = rows.map(|xx| vec![State { xx, ..State::default() }; 3]).to_vec();
+        let cut = Cut { line, depths, states };
+        let values = cut.values(Quantity::Along);
+        assert_eq!(cut.at(&values, 0.3, 0.5), Some(2.0));
+        assert_eq!(cut.at(&values, 0.3, 0.999).map(f64::round), Some(3.0));
+        assert_eq!(cut.at(&values, 0.3, 1.001).map(f64::round), Some(-2.0));
+        assert_eq!(cut.interfaces(), [1.0]);
+        assert_eq!(cut.face_rows(), [0, 1, 2]);
+        assert_eq!(cut.largest(&values).unwrap().value, 3.0);
+    }
+}

@@ -1,0 +1,55 @@
+//! Stresses along the surface and both sides of each interface (Fig. 7).
+
+use super::axis::Axis;
+use super::canvas::Canvas;
+use super::chart::Chart;
+use super::curve::{Curve, Style};
+use super::cut::{Cut, Quantity};
+use super::sheet::sheet;
+use super::snapshot::Snapshot;
+
+/// The picture.
+pub fn lines(snapshot: &Snapshot, cut: &Cut) -> Canvas {
+    let distances = cut.line.distances();
+    let interfaces = cut.interfaces().len();
+    let name = |row: usize| {
+        let depth = cut.depths[row];
+        let upper = cut.depths.get(row + 1).is_some_and(|next| next.z == depth.z);
+        match (row, interfaces, upper) {
+            (0, ..) => "surface".to_owned(),
+            (_, 1, true) => "interface, coating".to_owned(),
+            (_, 1, false) => "interface, substrate".to_owned(),
+            (_, _, true) => format!("interface {}, above", depth.side),
+            (_, _, false) => format!("interface {}, below", depth.side - 1),
+        }
+    };
+    let chart = |title: &str, quantity: Quantity, y: Axis| Chart {
+        title: title.to_owned(),
+        caption: Vec::new(),
+        x: Axis::linear(snapshot.units.length("distance", "s")),
+        y,
+        curves: (1..)
+            .zip(cut.face_rows())
+            .map(|(colour, row)| Curve {
+                label: name(row),
+                points: distances
+                    .iter()
+                    .zip(&cut.states[row])
+                    .map(|(&s, state)| [s, cut.stress(quantity, state)])
+                    .collect(),
+                style: if colour % 3 == 0 { Style::Dashed } else { Style::Line },
+                colour,
+            })
+            .collect(),
+    };
+    let along = Axis::linear(snapshot.units.pressure("stress along the section", "σₛ"));
+    let tau1 = Axis::linear(snapshot.units.pressure("principal shear stress", "τ₁"));
+    let charts = [
+        chart("(a) tension and compression", Quantity::Along, along),
+        chart("(b) principal shear stress", Quantity::Tau1, tau1),
+    ];
+    let mut caption = snapshot.caption();
+    let [dx, dy] = cut.line.direction;
+    caption.push(format!("Lines along {:.0}° from the x axis.", dy.atan2(dx).to_degrees()));
+    sheet("", &caption, &[&charts[0], &charts[1]], 2)
+}

@@ -1,0 +1,142 @@
+//! Load curves: what changes with the mean pressure over the steps of a run (Figs 4 and 5).
+
+use super::axis::Axis;
+use super::canvas::Canvas;
+use super::chart::Chart;
+use super::curve::{Curve, Style};
+use super::sheet::{Panel, sheet};
+use super::snapshot::caption;
+use super::units::Units;
+use crate::material::HalfSpace;
+use crate::output::summary::{Extremes, Level, Step};
+use crate::texture::Surface;
+
+/// The picture; `None` for less than two steps.
+pub fn load_curves(title: &str, surface: &Surface, half_space: &HalfSpace, steps: &[Step]) -> Option<Canvas> {
+    if steps.len() < 2 {
+        return None;
+    }
+    let units = Units::of(surface, half_space);
+    let run = Run { steps, levels: surface.levels(), units: &units };
+    let mut charts = vec![run.peak_pressure(), run.extent(), run.penetration()];
+    if run.levels > 1 {
+        charts.push(run.shares());
+    }
+    charts.extend(run.stresses());
+    for (letter, chart) in ('a'..).zip(&mut charts) {
+        chart.title = format!("({letter}) {}", chart.title);
+    }
+    let mut text = caption(title, surface, half_space);
+    if let Some([n1, n2]) = steps.last().map(|step| step.points) {
+        text.push(format!("{} load steps; {n1} × {n2} samples.", steps.len()));
+    }
+    let panels: Vec<&dyn Panel> = charts.iter().map(|chart| chart as &dyn Panel).collect();
+    Some(sheet("", &text, &panels, 2))
+}
+
+struct Run<'a> {
+    steps: &'a [Step],
+    levels: usize,
+    units: &'a Units,
+}
+
+impl Run<'_> {
+    /// Whether the steps are spread evenly on a logarithmic axis rather than on a linear one.
+    fn logarithmic(&self) -> bool {
+        let loads: Vec<f64> = self.steps.iter().map(|step| step.mean_pressure).collect();
+        let spread = |value: fn(f64) -> f64| {
+            let gaps: Vec<f64> = loads.windows(2).map(|pair| (value(pair[1]) - value(pair[0])).abs()).collect();
+            let (least, most) = gaps.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &gap| (a.min(gap), b.max(gap)));
+            most / least
+        };
+        loads.len() > 3 && loads.iter().all(|&p| p > 0.0) && spread(f64::ln) < 0.5 * spread(|p| p)
+    }
+
+    fn axis(&self, label: String) -> Axis {
+        if self.logarithmic() { Axis::log(label) } else { Axis::linear(label) }
+    }
+
+    fn chart(&self, title: &str, y: Axis, curves: Vec<Curve>) -> Chart {
+        let loads = self.steps.iter().map(|step| step.mean_pressure);
+        let last = loads.clone().fold(0.0, f64::max);
+        let first = if self.logarithmic() { loads.fold(f64::INFINITY, f64::min) } else { 0.0 };
+        let x = self.axis(self.units.pressure("mean pressure", "p̄")).from_to(first, last);
+        Chart { title: title.to_owned(), caption: Vec::new(), x, y, curves }
+    }
+
+    fn curve(&self, label: &str, colour: usize, value: impl Fn(&Step) -> f64) -> Curve {
+        let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.mean_pressure, value(step)]).collect();
+        // Markers show the steps where they are few.
+        let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
+        Curve { label: label.to_owned(), points, style, colour }
+    }
+
+    /// One curve a level; where it has no value, or no contact, there is no curve.
+    fn by_level(&self, value: impl Fn(&Level) -> Option<f64>) -> Vec<Curve> {
+        let touching = |level: &Level| if level.load > 0.0 { value(level) } else { None };
+        let of = |level: usize| {
+            self.curve(&format!("level {level}"), level, |step| touching(&step.levels[level - 1]).unwrap_or(f64::NAN))
+        };
+        (1..=self.levels).map(of).collect()
+    }
+
+    fn peak_pressure(&self) -> Chart {
+        let label = self.units.pressure("peak pressure", "p");
+        let curves = match self.levels {
+            0 => vec![self.curve("", 1, |step| step.max_pressure)],
+            _ => self.by_level(|level| Some(level.max_pressure)),
+        };
+        self.chart("peak pressure", self.axis(label), curves)
+    }
+
+    fn extent(&self) -> Chart {
+        match self.levels {
+            0 => {
+                let curve = self.curve("", 1, |step| step.contact_fraction);
+                self.chart("contact area", self.axis("fraction of the cell in contact".into()), vec![curve])
+            }
+            _ => {
+                let label = self.units.length("contact radius", "a");
+                self.chart("contact radius", self.axis(label), self.by_level(|level| level.contact_radius))
+            }
+        }
+    }
+
+    fn penetration(&self) -> Chart {
+        let label = self.units.length("additional displacement", "δ");
+        let curve = self.curve("", 0, |step| step.penetration);
+        self.chart("additional displacement", self.axis(label), vec![curve])
+    }
+
+    fn shares(&self) -> Chart {
+        let curves = self.by_level(|level| Some(100.0 * level.load_share));
+        self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 100.0), curves)
+    }
+
+    /// The largest stresses in each material, where the case asks for stresses.
+    fn stresses(&self) -> Vec<Chart> {
+        let materials = self.steps.iter().filter_map(|step| step.stress.as_ref()).map(|stress| stress.materials.len());
+        let Some(materials) = materials.max() else { return Vec::new() };
+        let name = |index: usize| match (index + 1 == materials, materials) {
+            (true, 1) => String::new(),
+            (true, _) => "substrate".to_owned(),
+            (false, 2) => "coating".to_owned(),
+            (false, _) => format!("layer {}", index + 1),
+        };
+        let curves = |value: &dyn Fn(&Extremes) -> f64| -> Vec<Curve> {
+            let of = |index: usize| {
+                self.curve(&name(index), index + 1, |step| {
+                    let extremes = step.stress.as_ref().and_then(|stress| stress.materials.get(index));
+                    extremes.map_or(f64::NAN, value)
+                })
+            };
+            (0..materials).map(of).collect()
+        };
+        let tau1 = self.units.pressure("largest principal shear stress", "τ₁");
+        let tension = self.units.pressure("largest tension", "σ₁");
+        vec![
+            self.chart("principal shear stress", self.axis(tau1), curves(&|extremes| extremes.max_tau1.value)),
+            self.chart("tension", Axis::linear(tension), curves(&|extremes| extremes.max_tension.value)),
+        ]
+    }
+}

@@ -1,0 +1,225 @@
+//! A field over a rectangle in colours, with a colour bar and what is drawn over it.
+
+use super::axis::{Axis, Scale, ticks};
+use super::canvas::{Anchor, Canvas, Dash, PIXELS};
+use super::colour::{Colour, ColourMap};
+use super::curve::clipped;
+use super::frame::{Frame, all, factor, widest};
+use super::sheet::{HAIR, LABELS, NUMBERS, Panel};
+use rayon::prelude::*;
+
+/// What colours stand for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bar {
+    /// Quantity and unit.
+    pub label: String,
+    /// The map.
+    pub colours: ColourMap,
+    /// Least and largest value shown. A diverging map is white at zero and as dark at −x as at x.
+    pub span: [f64; 2],
+}
+
+/// What is drawn over a field, in its coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Over {
+    /// A line.
+    Line {
+        /// Points.
+        points: Vec<[f64; 2]>,
+        /// Width, points (1/72 inch).
+        width: f64,
+        /// How it is interrupted.
+        dash: Dash,
+        /// Its colour.
+        colour: Colour,
+    },
+    /// A centred word.
+    Word {
+        /// The word.
+        word: String,
+        /// Its middle.
+        at: [f64; 2],
+        /// Its colour.
+        colour: Colour,
+    },
+    /// A cross in a ring, where something is largest.
+    Mark {
+        /// Where.
+        at: [f64; 2],
+        /// The colour of the cross, on a ring of the opposite lightness.
+        colour: Colour,
+    },
+}
+
+/// The colour of a place.
+pub enum Fill<'a> {
+    /// A value; `None` stays white.
+    Values(Bar, &'a (dyn Fn([f64; 2]) -> Option<f64> + Sync)),
+    /// A colour without a scale.
+    Colours(&'a (dyn Fn([f64; 2]) -> Colour + Sync)),
+}
+
+/// A field.
+pub struct Map<'a> {
+    /// What stands over it.
+    pub title: String,
+    /// The horizontal axis, with a range.
+    pub x: Axis,
+    /// The vertical axis, with a range.
+    pub y: Axis,
+    /// Height over width.
+    pub aspect: f64,
+    /// What it shows.
+    pub fill: Fill<'a>,
+    /// What is drawn over it, the first one lowest.
+    pub over: Vec<Over>,
+}
+
+/// Width of a colour bar and its distance from the plot, points.
+const BAR: f64 = 7.0;
+const GAP: f64 = 6.0;
+
+impl Bar {
+    /// The colour of a value.
+    fn colour(&self, table: &[Colour], value: f64) -> Colour {
+        let [low, high] = self.span;
+        let part = match self.colours {
+            ColourMap::Sequential => (value - low) / (high - low),
+            ColourMap::Diverging => 0.5 + 0.5 * value / low.abs().max(high.abs()),
+        };
+        table[(part * 255.0).round().clamp(0.0, 255.0) as usize]
+    }
+
+    /// Width with its numbers and its quantity.
+    fn width(&self) -> f64 {
+        GAP + BAR + 4.0 + widest(&ticks(self.span, Scale::Linear, 6)) + 1.6 * LABELS
+    }
+
+    fn draw(&self, canvas: &mut Canvas, [x, top]: [f64; 2], height: f64) {
+        let rows = (height * PIXELS).round() as usize;
+        let columns = (BAR * PIXELS).round() as usize;
+        let table = self.colours.table();
+        let [low, high] = self.span;
+        let colour = |row: usize| self.colour(&table, high + (low - high) * (row as f64 + 0.5) / rows as f64);
+        let pixels = (0..rows).flat_map(|row| colour(row).0.repeat(columns)).collect();
+        canvas.image([x, top], [BAR, height], [columns, rows], pixels);
+        canvas.outline(&[[x, top], [x + BAR, top], [x + BAR, top + height], [x, top + height]], HAIR, Colour::BLACK);
+        let ticks = ticks(self.span, Scale::Linear, 6);
+        for (value, number) in all(&ticks) {
+            let y = top + height * (high - value) / (high - low);
+            let length = if number.is_some() { 2.2 } else { 1.2 };
+            canvas.line(&[[x + BAR, y], [x + BAR + length, y]], HAIR, Colour::BLACK);
+            if let Some(number) = number {
+                canvas.label(number, [x + BAR + 4.0, y], Anchor::Left, NUMBERS, Colour::BLACK);
+            }
+        }
+        if let Some(factor) = factor(&ticks) {
+            canvas.text(&factor, [x, top - 3.0], Anchor::Left, NUMBERS, Colour::BLACK);
+        }
+        let right = x + BAR + 4.0 + widest(&ticks) + 1.35 * LABELS;
+        canvas.upward(&self.label, [right, top + 0.5 * height], LABELS, Colour::BLACK);
+    }
+}
+
+impl Map<'_> {
+    fn ranges(&self) -> [[f64; 2]; 2] {
+        [&self.x, &self.y].map(|axis| axis.range.unwrap_or([0.0, 1.0]))
+    }
+
+    fn frame(&self, width: f64) -> Frame {
+        let right = match &self.fill {
+            Fill::Values(bar, _) => bar.width(),
+            Fill::Colours(_) => GAP,
+        };
+        let mut frame = Frame::new([&self.x, &self.y], self.ranges(), width, right, self.aspect).outward();
+        if let Fill::Values(bar, _) = &self.fill
+            && factor(&ticks(bar.span, Scale::Linear, 6)).is_some()
+            && frame.corner[1] < NUMBERS
+        {
+            // Room for the power of ten over the bar.
+            frame.corner[1] += 0.9 * NUMBERS;
+            frame.height += 0.9 * NUMBERS;
+        }
+        frame
+    }
+
+    /// The field's pixels, row by row from the top.
+    fn pixels(&self, [columns, rows]: [usize; 2]) -> Vec<u8> {
+        let [[x0, x1], [y0, y1]] = self.ranges();
+        let place = |row: usize, column: usize| {
+            let across = (column as f64 + 0.5) / columns as f64;
+            let down = (row as f64 + 0.5) / rows as f64;
+            [x0 + (x1 - x0) * across, y1 + (y0 - y1) * down]
+        };
+        let table = match &self.fill {
+            Fill::Values(bar, _) => bar.colours.table(),
+            Fill::Colours(_) => Vec::new(),
+        };
+        let colour = |place: [f64; 2]| match &self.fill {
+            Fill::Values(bar, value) => value(place).map_or(Colour::WHITE, |value| bar.colour(&table, value)),
+            Fill::Colours(colour) => colour(place),
+        };
+        let mut pixels = vec![0; 3 * columns * rows];
+        pixels.par_chunks_mut(3 * columns).enumerate().for_each(|(row, line)| {
+            for (column, pixel) in line.chunks_exact_mut(3).enumerate() {
+                pixel.copy_from_slice(&colour(place(row, column)).0);
+            }
+        });
+        pixels
+    }
+}
+
+impl Panel for Map<'_> {
+    fn title(&self) -> &str {
+        &self.title
+    }
+
+    fn caption(&self) -> &[String] {
+        &[]
+    }
+
+    fn height(&self, width: f64) -> f64 {
+        self.frame(width).height
+    }
+
+    fn draw(&self, canvas: &mut Canvas, [ox, oy]: [f64; 2], width: f64) {
+        let frame = self.frame(width);
+        let bounds = frame.bounds([ox, oy]);
+        let pixels = frame.size.map(|length| (length * PIXELS).round() as usize);
+        canvas.image(bounds[0], frame.size, pixels, self.pixels(pixels));
+        let at = |place: [f64; 2]| frame.place(place).map(|[x, y]| [ox + x, oy + y]);
+        for over in &self.over {
+            match over {
+                Over::Line { points, width, dash, colour } => {
+                    let places: Vec<[f64; 2]> = points.iter().filter_map(|&point| at(point)).collect();
+                    for piece in clipped(&places, bounds) {
+                        canvas.dashed(&piece, *width, *dash, *colour);
+                    }
+                }
+                Over::Word { word, at: place, colour } => {
+                    if let Some(place) = at(*place) {
+                        canvas.label(word, place, Anchor::Centre, NUMBERS, *colour);
+                    }
+                }
+                Over::Mark { at: place, colour } => {
+                    if let Some(place) = at(*place) {
+                        cross(canvas, place, *colour);
+                    }
+                }
+            }
+        }
+        frame.draw(canvas, [ox, oy]);
+        if let Fill::Values(bar, _) = &self.fill {
+            bar.draw(canvas, [bounds[1][0] + GAP, bounds[0][1]], frame.size[1]);
+        }
+    }
+}
+
+/// A cross with an edge of the opposite lightness.
+fn cross(canvas: &mut Canvas, [x, y]: [f64; 2], colour: Colour) {
+    let edge = if colour.lightness() > 0.5 { Colour::BLACK } else { Colour::WHITE };
+    for (width, arm, colour) in [(2.2, 3.6, edge), (1.0, 3.1, colour)] {
+        canvas.line(&[[x - arm, y], [x + arm, y]], width, colour);
+        canvas.line(&[[x, y - arm], [x, y + arm]], width, colour);
+    }
+}

@@ -1,0 +1,66 @@
+//! The contact pressure over the surface, true to scale, several cells side by side (Fig. 2a).
+
+use super::axis::Axis;
+use super::canvas::{Canvas, Dash};
+use super::colour::{Colour, ColourMap};
+use super::map::{Bar, Fill, Map, Over};
+use super::sheet::sheet;
+use super::snapshot::Snapshot;
+use super::tiling::{Window, cell_corners, images, window};
+
+/// The picture; white is where there is no contact.
+pub fn pressure(snapshot: &Snapshot) -> Canvas {
+    let window = window(snapshot.grid.cell());
+    let value = |place: [f64; 2]| snapshot.pressure_at(place);
+    let most = snapshot.max_pressure();
+    let bar = Bar {
+        label: snapshot.units.pressure("contact pressure", "p"),
+        colours: ColourMap::Sequential,
+        span: [0.0, if most > 0.0 { most } else { 1.0 }],
+    };
+    let [x, y] = axes(snapshot, window);
+    let mut over = vec![unit_cell(snapshot)];
+    over.extend(numbers(snapshot, window, |place| {
+        let dark = snapshot.pressure_at(place).is_some_and(|p| p < 0.6 * most);
+        if dark { Colour::WHITE } else { Colour::BLACK }
+    }));
+    let map = Map { title: String::new(), x, y, aspect: aspect(window), fill: Fill::Values(bar, &value), over };
+    let mut caption = snapshot.caption();
+    caption.push(if snapshot.levels() > 0 {
+        "Numbers are levels; white: no contact; dashed: the unit cell.".to_owned()
+    } else {
+        "White: no contact; dashed: the unit cell.".to_owned()
+    });
+    sheet("", &caption, &[&map], 1)
+}
+
+/// Height over width of a window.
+pub fn aspect([[x0, x1], [y0, y1]]: Window) -> f64 {
+    (y1 - y0) / (x1 - x0)
+}
+
+/// Axes along the surface.
+pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
+    [
+        Axis::linear(snapshot.units.length("", "x")).from_to(x0, x1),
+        Axis::linear(snapshot.units.length("", "y")).from_to(y0, y1),
+    ]
+}
+
+/// The unit cell's outline.
+pub fn unit_cell(snapshot: &Snapshot) -> Over {
+    let corners = cell_corners(snapshot.grid.cell());
+    let points = corners.into_iter().chain([corners[0]]).collect();
+    Over::Line { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) }
+}
+
+/// The number of the level at each site within the window.
+pub fn numbers(snapshot: &Snapshot, window: Window, colour: impl Fn([f64; 2]) -> Colour) -> Vec<Over> {
+    let [[x0, x1], [y0, y1]] = window;
+    let border = 0.02 * (x1 - x0).min(y1 - y0);
+    let inner = [[x0 + border, x1 - border], [y0 + border, y1 - border]];
+    let cell = snapshot.grid.cell();
+    let sites = snapshot.texture.sites.iter();
+    let places = sites.flat_map(|site| images(cell, site.place, inner).into_iter().map(|at| (site.level, at)));
+    places.map(|(level, at)| Over::Word { word: level.to_string(), at, colour: colour(at) }).collect()
+}

@@ -1,0 +1,112 @@
+//! Pressure through the middle of each level's contact, along the line of its largest extent (Fig. 3).
+
+use super::axis::Axis;
+use super::canvas::Canvas;
+use super::chart::Chart;
+use super::curve::{Curve, Style};
+use super::sheet::sheet;
+use super::snapshot::Snapshot;
+use super::tiling::around;
+use std::f64::consts::PI;
+
+/// The picture; `None` for a topography or without contact. `isolated`: per level the points (distance from the axis,
+/// pressure) of an indenter that carries the same load alone, drawn dashed on both sides.
+pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Option<Canvas> {
+    let mut curves = Vec::new();
+    let mut directions = Vec::new();
+    for level in 1..=snapshot.levels() {
+        let Some(profile) = snapshot.profile(level) else { continue };
+        curves.push(Curve {
+            label: format!("level {level}"),
+            points: profile.points,
+            style: Style::Line,
+            colour: level,
+        });
+        directions.push(format!("{:.0}°", profile.direction.to_degrees()));
+        if let Some(points) = isolated.and_then(|levels| levels.get(level - 1)) {
+            let left = points.iter().rev().map(|[r, p]| [-r, *p]);
+            curves.push(Curve {
+                label: String::new(),
+                points: left.chain(points.iter().copied()).collect(),
+                style: Style::Dashed,
+                colour: level,
+            });
+        }
+    }
+    let reach = curves.iter().flat_map(|curve| &curve.points).map(|[s, _]| s.abs()).fold(0.0, f64::max);
+    (!curves.is_empty()).then(|| {
+        let mut caption = snapshot.caption();
+        let mut what = format!("Lines of largest extent: {} from the x axis.", directions.join(", "));
+        if isolated.is_some() {
+            what += " Dashed: isolated indenters under the same loads.";
+        }
+        caption.push(what);
+        let chart = Chart {
+            title: String::new(),
+            caption: Vec::new(),
+            x: Axis::linear(snapshot.units.length("distance from the axis", "s")).from_to(-reach, reach),
+            y: Axis::linear(snapshot.units.pressure("contact pressure", "p")),
+            curves,
+        };
+        sheet("", &caption, &[&chart], 1)
+    })
+}
+
+/// Pressure along a line through an indenter's axis.
+struct Profile {
+    /// Direction of the line from the x axis, radians.
+    direction: f64,
+    /// Distance from the axis and pressure.
+    points: Vec<[f64; 2]>,
+}
+
+/// Points on either side of the axis.
+const POINTS: u32 = 240;
+
+impl Snapshot<'_> {
+    fn profile(&self, level: usize) -> Option<Profile> {
+        let site = self.site_of(level)?;
+        let centre = self.grid.cell().point(self.texture.sites[site].place);
+        if self.pressure_squared(centre) <= 0.0 {
+            return None;
+        }
+        let (direction, [left, right]) = match &self.boundaries[site] {
+            Some(boundary) => {
+                let ends = |theta: f64| [boundary.radius(theta + PI), boundary.radius(theta)];
+                // Of equal extents the first one.
+                let (mut best, mut widest) = (0.0, 0.0);
+                for theta in (0..180).map(|k| f64::from(k).to_radians()) {
+                    let extent: f64 = ends(theta).iter().sum();
+                    if extent > widest * (1.0 + 1e-4) {
+                        (best, widest) = (theta, extent);
+                    }
+                }
+                (best, ends(best))
+            }
+            // Merged: halfway to the nearest equal indenter.
+            None => {
+                let [x, y] = self.grid.cell().reduced().short();
+                (y.atan2(x), [0.5 * x.hypot(y); 2])
+            }
+        };
+        let (sin, cos) = direction.sin_cos();
+        let at = |s: f64| [s, self.pressure_squared([centre[0] + s * cos, centre[1] + s * sin]).max(0.0).sqrt()];
+        let mut points: Vec<[f64; 2]> = (0..=2 * POINTS)
+            .map(|k| f64::from(k) / f64::from(POINTS) - 1.0)
+            // Points gather at the edge, where the pressure ends like a square root.
+            .map(|t| (t * 0.5 * PI).sin())
+            .map(|t| at(if t < 0.0 { t * left } else { t * right }))
+            .collect();
+        if self.boundaries[site].is_some() {
+            let last = points.len() - 1;
+            points[0] = [-left, 0.0];
+            points[last] = [right, 0.0];
+        }
+        Some(Profile { direction, points })
+    }
+
+    /// Square of the pressure between the samples: near the edge it is almost linear, as the pressure is not.
+    fn pressure_squared(&self, place: [f64; 2]) -> f64 {
+        around(self.grid, place).iter().map(|&(index, weight)| weight * self.pressure[index].powi(2)).sum()
+    }
+}
