@@ -22,11 +22,12 @@
 //! lattice, indenter ─────────────→ texture ─┐
 //! lattice → grid → fourier ─────────────────┤
 //! material → layered ─────────→ operator ───┴→ solver → hierarchy → observables → refinement, touch
-//!                                                         case → output → picture → command line
+//!                                                         case → output → picture → validation → command line
 //! ```
 //!
 //! [`field`] (sums that do not depend on the number of threads), [`least_squares`] and [`number`] serve all of them.
-//! Nothing left of [`case`] reads a file or prints.
+//! Nothing left of [`case`] reads a file or prints. [`exact`] holds the closed forms that [`validation`] compares with; the
+//! solver knows nothing of it.
 //!
 //! # Example
 //!

@@ -5,7 +5,8 @@
 //! T = [1 + 4xκθ − λκθ²] / [1 − (λ + κ + 4κx²)θ + λκθ²],
 //! λ = 1 − 4(1−ν₁)/(1 + χ(3−4ν₂)), κ = (χ−1)/(χ + 3 − 4ν₁), χ = G₁/G₂
 //!
-//! (plane strain, Burmister 1945, in the notation of Goryacheva & Torskaya 2019, Eq. (7)).
+//! (plane strain with the surface loaded as in Eq. (6) and the interface bonded as in Eq. (3) of Goryacheva & Torskaya
+//! 2019).
 
 use crate::material::{HalfSpace, Interface, Layer, Material, MaterialError};
 

@@ -2,7 +2,12 @@
 //!
 //! δ = Σ κ_n c_n aⁿ,  P = 2E* Σ n κ_n c_n aⁿ⁺¹/(n+1),  p(0) = (E*/π) Σ n κ_n c_n aⁿ⁻¹/(n−1),
 //! κ_n = √π Γ(n/2+1)/Γ((n+1)/2), and from the same density the moments ∫p r², ∫p r⁴.
+//!
+//! For f = c₂r² + c₄r⁴ the pressure is p = (4E*/π)√(a²−r²)[c₂ + (8/9)c₄(a² + 2r²)]; on the axis it causes (Boussinesq)
+//!
+//! σ_z = −3z³ ∫ p r dr/ρ⁵,  σ_r = σ_θ = ½ ∫ p r [(1−2ν)z/ρ³ − 3zr²/ρ⁵] dr,  ρ² = r² + z².
 
+use super::quadrature::rule;
 use std::f64::consts::PI;
 
 /// √π Γ(7/4)/Γ(5/4).
@@ -54,6 +59,22 @@ impl Contact {
     }
 }
 
+/// σ_z and σ_r = σ_θ on the axis at the depth z > 0 (a length) under an indenter c₂r² + c₄r⁴ with contact radius a;
+/// pressures, positive in tension.
+pub fn axis_stresses([c2, c4]: [f64; 2], radius: f64, modulus: f64, nu: f64, z: f64) -> [f64; 2] {
+    let mut stresses = [0.0; 2];
+    // r = a sin θ makes the square root smooth.
+    for [angle, weight] in rule(0.0, 0.5 * PI, 64) {
+        let (r, root) = (radius * angle.sin(), radius * angle.cos());
+        let pressure = 4.0 * modulus / PI * root * (c2 + 8.0 / 9.0 * c4 * (radius * radius + 2.0 * r * r));
+        let part = weight * pressure * r * root;
+        let rho = r.hypot(z);
+        stresses[0] -= 3.0 * part * z.powi(3) / rho.powi(5);
+        stresses[1] += 0.5 * part * ((1.0 - 2.0 * nu) * z / rho.powi(3) - 3.0 * z * r * r / rho.powi(5));
+    }
+    stresses
+}
+
 /// κ_n by κ_n = n/(n−1) κ_{n−2} from n = 1, 1.5 and 2; not a number for other exponents.
 fn kappa(n: f64) -> f64 {
     if n > 2.0 {
@@ -81,5 +102,21 @@ mod tests {
         assert!((sphere.load / (4.0 / 3.0 * 5.0 * 8.0 / 7.0) - 1.0).abs() < 1e-15);
         assert!((sphere.penetration / (4.0 / 7.0) - 1.0).abs() < 1e-15);
         assert!((sphere.axis / (2.0 * 5.0 * 2.0 / (PI * 7.0)) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_axis_of_a_paraboloid_is_hubers_and_a_fourth_power_carries_its_load() {
+        let (modulus, nu, a) = (3.0, 0.3, 0.4);
+        let peak = Contact::isolated(a, &[paraboloid(1.0)], modulus).axis;
+        for zeta in [0.3f64, 1.0, 2.0] {
+            let [axial, lateral] = axis_stresses([0.5, 0.0], a, modulus, nu, zeta * a);
+            let fall = 1.0 / (1.0 + zeta * zeta);
+            let exact = -(1.0 + nu) * (1.0 - zeta * (1.0 / zeta).atan()) + 0.5 * fall;
+            assert!((axial / peak + fall).abs() < 1e-12 && (lateral / peak - exact).abs() < 1e-12);
+        }
+        // Far below, any contact is a point load: σ_z = −3P/(2πz²).
+        let load = Contact::isolated(a, &[Term { coefficient: 2.0, exponent: 4.0 }], modulus).load;
+        let [axial, _] = axis_stresses([0.0, 2.0], a, modulus, nu, 1e4);
+        assert!((axial / (-1.5 * load / (PI * 1e8)) - 1.0).abs() < 1e-8);
     }
 }

@@ -10,6 +10,7 @@ pub mod hertz;
 pub mod lattice_sums;
 mod linear;
 pub mod periodic_hertz;
+mod quadrature;
 pub mod sinusoidal;
 pub mod wavy;
 pub mod westergaard;

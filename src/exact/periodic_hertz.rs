@@ -44,8 +44,8 @@ impl System {
         }
     }
 
-    /// Curvature coefficients c₂, c₄ and displacement that the images give level m.
-    fn images(&self, m: usize, contacts: &[Contact]) -> [f64; 3] {
+    /// Coefficients c₂ and c₄ (r² and r⁴) and displacement that the images of all `contacts` give level m, from 0.
+    pub fn images(&self, m: usize, contacts: &[Contact]) -> [f64; 3] {
         let [mut c2, mut c4, mut lift] = [0.0; 3];
         for (contact, Sums([s1, s3, s5])) in contacts.iter().zip(&self.sums[m]) {
             let (load, [second, fourth]) = (contact.load, contact.moments);

@@ -2,7 +2,8 @@
 //!
 //! Heights Δ·wave on a cell of area A₀ and side 1, E* = 1. One wavelength of wavenumber q gives p* = E*q/2 · Δ · max(−wave).
 //!
-//! - light load: Hertz at each of n crests of curvature 1/R, A = nπa²/A₀, a³ = 3(p̄A₀/n)R/(4E*);
+//! - light load: Hertz at each of n crests of curvature 1/R, A = nπa²/A₀, a³ = 3(p̄A₀/n)R/(4E*), largest pressure
+//!   3p̄/(2A); the next terms are smaller by (p̄/p*)^{2/3};
 //! - near complete contact each hole is a crack that closes when its stress intensity vanishes:
 //!   1 − A = c(1 − p̄/p*).
 //!
@@ -93,6 +94,11 @@ impl Wavy {
         // Δ cancels: p̄ grows and R falls with it.
         let cube = 0.75 * fraction * self.complete() * area / count * radius;
         count * PI * cube.powf(2.0 / 3.0) / area
+    }
+
+    /// Largest pressure over p* under p̄ = `fraction` · p* as `fraction` → 0.
+    pub fn light_peak(self, fraction: f64) -> f64 {
+        1.5 * fraction / self.light(fraction)
     }
 
     /// Fraction in contact under p̄ = `fraction` · p* as `fraction` → 1.

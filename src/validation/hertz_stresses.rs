@@ -130,22 +130,17 @@ fn figure(data: &Data) -> Figure {
         ("σ_z", 7, |s: Stresses| s.axial, 2),
         ("τ_rz", 9, |s: Stresses| s.shear, 3),
     ] {
-        let depths = linear(0.0, 1.6, 100).into_iter().map(|z| [z, of(Stresses::at(0.0, z, DRAWN))]);
-        axis.push(curve("", Style::Line, colour, depths));
-        axis.push(curve(
-            name,
-            Style::Markers,
-            colour,
-            rows().filter(|row| row[2] == 0.0).map(|row| [row[1], row[column]]),
-        ));
+        // On the axis the shear vanishes.
+        if colour < 3 {
+            let depths = linear(0.0, 1.6, 100).into_iter().map(|z| [z, of(Stresses::at(0.0, z, DRAWN))]);
+            let found = rows().filter(|row| row[2] == 0.0).map(|row| [row[1], row[column]]);
+            axis.push(curve("", Style::Line, colour, depths));
+            axis.push(curve(name, Style::Markers, colour, found));
+        }
         let places = linear(0.0, 2.1, 150).into_iter().map(|r| [r, of(Stresses::at(r, 0.25, DRAWN))]);
         across.push(curve("", Style::Line, colour, places));
-        across.push(curve(
-            name,
-            Style::Markers,
-            colour,
-            rows().filter(|row| row[1] == 0.25).map(|row| [row[2], row[column]]),
-        ));
+        let found = rows().filter(|row| row[1] == 0.25).map(|row| [row[2], row[column]]);
+        across.push(curve(name, Style::Markers, colour, found));
     }
     let tau1 = linear(0.0, 1.6, 100).into_iter().map(|z| [z, Stresses::at(0.0, z, DRAWN).tau1()]);
     axis.push(curve("", Style::Line, 4, tau1));

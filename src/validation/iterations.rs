@@ -72,20 +72,26 @@ fn table(method: Method, sizes: &[usize]) -> Result<Data, StudyError> {
 
 fn figure(preconditioned: &Data, baseline: &Data) -> Figure {
     let mut curves = Vec::new();
-    for (data, style, label) in
-        [(preconditioned, Style::LineMarkers, "preconditioned"), (baseline, Style::Markers, "Polonsky–Keer")]
-    {
+    for (data, style) in [(preconditioned, Style::LineMarkers), (baseline, Style::Markers)] {
         for ((name, _), colour) in CASES.into_iter().zip(1..) {
+            let label = match style {
+                Style::LineMarkers => name,
+                _ if colour == 1 => "Polonsky–Keer (open)",
+                _ => "",
+            };
             let points = data.column("points").into_iter().zip(data.column(name)).map(|(x, y)| [x, y]);
-            curves.push(curve(format!("{label}, {name}"), style, colour, points));
+            curves.push(curve(label, style, colour, points));
         }
     }
     let chart = Chart {
         title: String::new(),
         caption: Vec::new(),
-        x: Axis::log("points along the cell N"),
+        x: Axis::log("points along the cell N").from_to(100.0, 2000.0),
         y: Axis::log("iterations on the finest grid").from_to(5.0, 300.0),
         curves,
     };
-    draw::figure(vec![chart], "Iterations to the tolerance 1e-8 on the cases of the paper's figures.")
+    draw::figure(
+        vec![chart],
+        "Iterations to the tolerance 1e-8 on the cases of the paper: preconditioned (filled) and Polonsky–Keer (open).",
+    )
 }

@@ -150,24 +150,30 @@ fn run() -> Result<Outcome, StudyError> {
     Ok(Outcome { checks, figures: vec![("figure", figure(&square, &bare)?)], data: vec![data] })
 }
 
-/// The response itself, whose value, slope and curvature at s = 0 are the sums.
+/// The response less S₁, whose slope and curvature at s = 0 are the other sums.
 fn figure(square: &Response, bare: &HalfSpace) -> Result<Figure, StudyError> {
     let triangular = Response::new(Cell::hexagonal(1.0)?, 144, bare, 0.025)?;
+    let coating = Coating::new(2.0, [0.2, 0.3], 0.5)?;
+    let coated = Response::new(Cell::hexagonal(1.0)?, 144, coating.half_space(), 0.025)?;
     let mut curves = Vec::new();
-    for (name, response, Sums([s1, s3, s5]), colour) in
-        [("triangular", &triangular, TRIANGULAR, 1), ("square", square, SQUARE, 2)]
-    {
-        let found = response.squares.iter().zip(&response.values[0]).map(|(&x, &y)| [x, y]);
-        let closed = linear(0.0, 0.0026, 50).into_iter().map(|x| [x, s1 + 0.5 * s3 * x + 1.125 * s5 * x * x]);
-        curves.push(curve(format!("{name}: S₁ + S₃s²/2 + 9S₅s⁴/8"), Style::Line, colour, closed));
-        curves.push(curve(format!("{name}: operator"), Style::Markers, colour, found));
+    for (name, response, Sums([s1, s3, s5]), colour) in [
+        ("triangular", &triangular, TRIANGULAR, 1),
+        ("square", square, SQUARE, 2),
+        ("triangular, coated", &coated, coated_triangular(&coating, 1.0), 3),
+    ] {
+        let found = response.squares.iter().zip(&response.values[0]).map(|(&x, &y)| [x, y - s1]);
+        let closed = linear(0.0, 0.0026, 50).into_iter().map(|x| [x, 0.5 * s3 * x + 1.125 * s5 * x * x]);
+        curves.push(curve(if colour == 1 { "S₃s²/2 + 9S₅s⁴/8" } else { "" }, Style::Line, colour, closed));
+        curves.push(curve(name, Style::Markers, colour, found));
     }
     let chart = Chart {
         title: String::new(),
         caption: Vec::new(),
         x: Axis::linear("width of the load s²/l²"),
-        y: Axis::linear("πE*wl/P − √(π/2) l/s").from_to(-4.25, -3.8),
+        y: Axis::linear("πE*wl/P − √(π/2) l/s − S₁l"),
         curves,
     };
-    Ok(draw::figure(vec![chart], "Displacement at a Gaussian load among its images, its own part taken off."))
+    let caption =
+        "Displacement at a Gaussian load, less its own part and S₁: lattice sums (lines) and operator (markers).";
+    Ok(draw::figure(vec![chart], caption))
 }

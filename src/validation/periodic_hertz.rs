@@ -2,12 +2,14 @@
 //!
 //! Expected: the series of [`crate::exact::periodic_hertz`] where a/l is small, and an independent solver at all loads.
 
+use super::draw::{self, curve, logarithmic};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use crate::exact::galin::paraboloid;
 use crate::exact::lattice_sums::{TRIANGULAR, coated_triangular};
-use crate::exact::{Coating, Contact, Sums, System};
+use crate::exact::{Coating, Contact, Hertz, Sums, System};
 use crate::observables::Observables;
+use crate::picture::{Axis, Chart, Figure, Style};
 
 pub const STUDY: Study = Study {
     name: "periodic-hertz",
@@ -34,6 +36,8 @@ fn run() -> Result<Outcome, StudyError> {
     three_levels(&mut outcome)?;
     coated(&mut outcome)?;
     three_coated_levels(&mut outcome)?;
+    let figure = figure(&outcome.data)?;
+    outcome.figures.push(("figure", figure));
     Ok(outcome)
 }
 
@@ -85,7 +89,7 @@ fn one_level(outcome: &mut Outcome) -> Result<(), StudyError> {
     for (quantity, tolerance) in [("peak", 2e-4), ("penetration", 2e-4), ("radius", 1e-3)] {
         let pairs = data.column(quantity).into_iter().zip(data.column(&format!("{quantity}_series"))).take(light);
         let tolerance = Tolerance::Relative(tolerance);
-        outcome.checks.push(Check::worst(format!("one level: {quantity}, series, p̄ ≤ 0.03 E*"), pairs, tolerance));
+        outcome.checks.push(Check::worst(format!("one level: {quantity}, series, loads to 0.03 E*"), pairs, tolerance));
     }
     for quantity in ["peak", "penetration"] {
         let pairs = data.column(quantity).into_iter().zip(reference.column(quantity));
@@ -143,7 +147,7 @@ fn coated(outcome: &mut Outcome) -> Result<(), StudyError> {
             series.penetration,
         ]);
     }
-    against_series.check("coated", "series, p̄ ≤ 0.03 E₂", [3e-4, 3e-4, 1e-3], outcome);
+    against_series.check("coated", "series, loads to 0.03 E₂", [3e-4, 3e-4, 1e-3], outcome);
     against_solver.check("coated", "independent solver", [2e-4, 2e-4, 1e-3], outcome);
     outcome.data.push(data);
     Ok(())
@@ -198,4 +202,45 @@ impl Pairs {
             }
         }
     }
+}
+
+/// Peak pressures and penetrations of one level against load.
+fn figure(data: &[Data]) -> Result<Figure, StudyError> {
+    let (mut peaks, mut depths) = (Vec::new(), Vec::new());
+    let hertz = |mean_pressure: f64| Hertz::loaded(RADIUS, mean_pressure * AREA, 1.0);
+    let loads = || logarithmic(1e-3, 0.12, 40);
+    peaks.push(curve("Hertz alone, bare", Style::Dotted, 0, loads().into_iter().map(|p| [p, hertz(p).peak])));
+    depths.push(curve("", Style::Dotted, 0, loads().into_iter().map(|p| [p, hertz(p).penetration])));
+    let (hard, soft) = (Coating::new(2.0, [0.2, 0.3], 0.5)?, Coating::new(0.5, [0.45, 0.3], 0.5)?);
+    for (name, modulus, sums, colour) in [
+        ("bare", 1.0, TRIANGULAR, 1),
+        ("χ = 2", hard.modulus(), coated_triangular(&hard, 1.0), 2),
+        ("χ = 0.5", soft.modulus(), coated_triangular(&soft, 1.0), 3),
+    ] {
+        let (mut peak, mut depth) = (Vec::new(), Vec::new());
+        // The series ends where contacts come too close.
+        for mean_pressure in loads().into_iter().filter(|p| *p < 0.06 * modulus) {
+            let contact = series(modulus, sums, mean_pressure)?;
+            peak.push([mean_pressure, contact.axis]);
+            depth.push([mean_pressure, contact.penetration]);
+        }
+        peaks.push(curve(if colour == 1 { "series of the images" } else { "" }, Style::Line, colour, peak));
+        depths.push(curve("", Style::Line, colour, depth));
+        let rows: Vec<&Vec<f64>> = match colour {
+            1 => data[0].rows.iter().collect(),
+            _ => data[1].rows.iter().filter(|row| (row[0] > 1.0) == (colour == 2)).collect(),
+        };
+        let [load, found, lift] = if colour == 1 { [0, 1, 3] } else { [2, 3, 5] };
+        peaks.push(curve(name, Style::Markers, colour, rows.iter().map(|row| [row[load], row[found]])));
+        depths.push(curve("", Style::Markers, colour, rows.iter().map(|row| [row[load], row[lift]])));
+    }
+    let chart = |y: &str, curves| Chart {
+        title: String::new(),
+        caption: Vec::new(),
+        x: Axis::log("mean pressure over E* (bare), E₂"),
+        y: Axis::log(y),
+        curves,
+    };
+    let panels = vec![chart("peak pressure", peaks), chart("penetration over period", depths)];
+    Ok(draw::figure(panels, "One level, R = 0.8 of the period, coatings of half a period."))
 }

@@ -15,7 +15,7 @@ use std::f64::consts::{E, TAU};
 pub const STUDY: Study =
     Study { name: "sinusoidal-stresses", title: "Stresses and displacements under sinusoidal pressures", run };
 
-const POINTS: usize = 12;
+const POINTS: usize = 24;
 const NU: f64 = 0.3;
 
 /// Pressure Σ cos(**q**·**x**) of waves (m₁, m₂) on a cell, its field and its wavevectors.

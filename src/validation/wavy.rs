@@ -20,8 +20,8 @@ const AMPLITUDE: f64 = 0.01;
 /// Samples along the cell, and for the search of the load of merging.
 const POINTS: usize = 384;
 const FEW: usize = 192;
-/// Light enough for the asymptote: the contacts' own interaction is of the order p̄^{2/3}.
-const LIGHT: f64 = 1e-3;
+/// Loads f = p̄/p* light enough for the asymptote, from which the pressure departs as f^{2/3}.
+const LIGHT: [f64; 2] = [0.0025, 0.01];
 
 fn steps(wavy: Wavy, points: usize) -> Result<Steps, StudyError> {
     let half_space = HalfSpace::new(vec![], Material::from_young(1.0, 0.0)?);
@@ -47,13 +47,14 @@ fn run() -> Result<Outcome, StudyError> {
         let mut check = |check| outcome.checks.push(check);
         let found = steps.hierarchy.full_contact_pressure();
         check(Check::relative(format!("{name}: p*"), found, complete, 1e-12));
-        let light = steps.loaded(LIGHT * complete)?;
-        check(Check::relative(
-            format!("{name}: area, Hertz, f = {LIGHT}"),
-            light.contact_fraction,
-            wavy.light(LIGHT),
-            1e-2,
-        ));
+        let mut departures = Vec::new();
+        for fraction in LIGHT {
+            let peak = steps.loaded(fraction * complete)?.max_pressure / complete;
+            departures.push(1.0 - peak / wavy.light_peak(fraction));
+        }
+        check(Check::absolute(format!("{name}: departure from Hertz' peak, f = 0.0025"), departures[0], 0.0, 1e-2));
+        let order = (departures[1] / departures[0]).ln() / 4f64.ln();
+        check(Check::order(format!("{name}: order in f of that departure"), order, 2.0 / 3.0, 0.1));
         let mut data = Data::new(key, &["fraction", "area", "peak"]);
         for fraction in reference.column("fraction") {
             let found = steps.loaded(fraction * complete)?;
@@ -122,32 +123,34 @@ fn merged_at(wavy: Wavy, near: f64) -> Result<f64, StudyError> {
 }
 
 fn figure(found: &[Data], reference: &Data) -> Figure {
-    let mut areas = Vec::new();
-    let mut peaks = Vec::new();
+    let [mut areas, mut light, mut holes, mut peaks] = [const { Vec::new() }; 4];
     for ((wavy, data), colour) in Wavy::ALL.into_iter().zip(found).zip(1..) {
-        let pairs = |column: &str| data.column("fraction").into_iter().zip(data.column(column)).map(|(x, y)| [x, y]);
-        let table = |column: &str| {
-            let values = reference.column(&format!("{}_{column}", key(wavy)));
-            reference.column("fraction").into_iter().zip(values).map(|(x, y)| [x, y])
-        };
-        let light = logarithmic(0.01, 0.2, 30).into_iter().map(|f| [f, wavy.light(f)]);
-        let nearly = draw::linear(0.8, 1.0, 2).into_iter().map(|f| [f, wavy.nearly_complete(f)]);
-        areas.push(curve(if colour == 1 { "asymptotes" } else { "" }, Style::Dashed, colour, light));
-        areas.push(curve("", Style::Dashed, colour, nearly));
-        areas.push(curve("", Style::Line, colour, table("area")));
-        areas.push(curve(wavy.name(), Style::Markers, colour, pairs("area")));
+        let fractions = data.column("fraction");
+        let pairs = |values: Vec<f64>| fractions.iter().copied().zip(values).map(|(x, y)| [x, y]).collect::<Vec<_>>();
+        let (area, peak) = (pairs(data.column("area")), pairs(data.column("peak")));
+        let table = |column: &str| pairs(reference.column(&format!("{}_{column}", key(wavy))));
+        let hertz = logarithmic(0.005, 0.3, 30).into_iter().map(|f| [f, wavy.light(f)]);
+        let cracks = logarithmic(0.01, 0.4, 30).into_iter().map(|rest| [rest, 1.0 - wavy.nearly_complete(1.0 - rest)]);
+        let open = area.iter().map(|[f, area]| [1.0 - f, 1.0 - area]).collect::<Vec<_>>();
+        areas.push(curve(if colour == 1 { "converged table" } else { "" }, Style::Line, colour, table("area")));
+        areas.push(curve(wavy.name(), Style::Markers, colour, area.clone()));
+        light.push(curve(if colour == 1 { "Hertz" } else { "" }, Style::Dashed, colour, hertz));
+        light.push(curve("", Style::Markers, colour, area));
+        holes.push(curve(if colour == 1 { "cracks" } else { "" }, Style::Dashed, colour, cracks));
+        holes.push(curve("", Style::Markers, colour, open));
         peaks.push(curve("", Style::Line, colour, table("peak")));
-        peaks.push(curve(wavy.name(), Style::Markers, colour, pairs("peak")));
+        peaks.push(curve("", Style::Markers, colour, peak));
     }
-    let chart = |y: &str, curves| Chart {
-        title: String::new(),
-        caption: Vec::new(),
-        x: Axis::linear("mean pressure p̄/p*").from_to(0.0, 1.0),
-        y: Axis::linear(y),
-        curves,
-    };
-    let mut area = chart("fraction in contact", areas);
-    area.y = area.y.from_to(0.0, 1.0);
-    let caption = "Markers: 384 samples across the cell; lines: converged table of an independent solver.";
-    draw::figure(vec![area, chart("largest pressure over p*", peaks)], caption)
+    let chart = |x, y, curves| Chart { title: String::new(), caption: Vec::new(), x, y, curves };
+    let load = "mean pressure p̄/p*";
+    let panels = vec![
+        chart(Axis::linear(load).from_to(0.0, 1.0), Axis::linear("fraction in contact A").from_to(0.0, 1.0), areas),
+        chart(Axis::linear(load).from_to(0.0, 1.0), Axis::linear("largest pressure over p*"), peaks),
+        chart(Axis::log(load), Axis::log("fraction in contact A"), light),
+        chart(Axis::log("distance from completion 1 − p̄/p*"), Axis::log("fraction out of contact 1 − A"), holes),
+    ];
+    draw::figure(
+        panels,
+        "Markers: 384 samples across the cell. Above against an independent solver, below against the asymptotes.",
+    )
 }
