@@ -55,10 +55,14 @@ impl Stresses {
     pub fn at(r: f64, z: f64, nu: f64) -> Self {
         let s = r * r + z * z - 1.0;
         let root = (s * s + 4.0 * z * z).sqrt();
-        // The form that does not cancel.
-        let u = if s > 0.0 { 0.5 * (s + root) } else { 2.0 * z * z / (root - s) };
         // On the surface inside the contact u = 0: t = √(1 − r²), t³u/(u² + z²) = t.
         let inside = z == 0.0 && r <= 1.0;
+        // The form that does not cancel.
+        let u = match s {
+            _ if inside => 0.0,
+            s if s > 0.0 => 0.5 * (s + root),
+            s => 2.0 * z * z / (root - s),
+        };
         let root = u.sqrt();
         let t = if inside { (1.0 - r * r).sqrt() } else { z / root };
         let fall = if inside { t } else { t.powi(3) * u / (u * u + z * z) };
