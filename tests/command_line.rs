@@ -14,6 +14,8 @@ mod inspection;
 mod interruption;
 #[path = "command_line/numpy.rs"]
 mod numpy;
+#[path = "command_line/pictures.rs"]
+mod pictures;
 #[path = "command_line/program.rs"]
 mod program;
 #[path = "command_line/solve.rs"]

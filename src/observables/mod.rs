@@ -29,6 +29,9 @@ pub struct Observables {
     pub max_pressure: f64,
     /// Per level; empty for a topography.
     pub levels: Vec<LevelObservables>,
+    /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
+    /// samples. Empty for a topography.
+    pub boundaries: Vec<Option<Boundary>>,
 }
 
 /// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, the
@@ -116,12 +119,8 @@ pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
         })
         .collect();
     let contact_fraction = contact_area / cell;
-    Observables { mean_pressure, penetration: solution.penetration, contact_fraction, max_pressure, levels }
-}
-
-/// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few samples.
-pub fn boundaries(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Option<Boundary>> {
-    spots(hierarchy, solution).into_iter().map(|spot| spot.boundary).collect()
+    let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
+    Observables { mean_pressure, penetration: solution.penetration, contact_fraction, max_pressure, levels, boundaries }
 }
 
 fn spots(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Spot> {

@@ -13,6 +13,13 @@ pub const COLUMN: f64 = 241.0;
 /// Pixels per point: 300 dots per inch.
 pub const PIXELS: f64 = 300.0 / 72.0;
 
+/// Points of a line closer together than this are one, points.
+const CLOSE: f64 = 0.25;
+
+fn distance([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+    (x1 - x0).hypot(y1 - y0)
+}
+
 /// Where a text stands relative to its anchor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
@@ -106,10 +113,18 @@ impl Canvas {
         Self { size, marks: Vec::new() }
     }
 
-    /// A line through points.
+    /// A line through points; those closer together than an eye can see are left out.
     pub fn line(&mut self, points: &[[f64; 2]], width: f64, colour: Colour) {
-        if points.len() > 1 {
-            self.marks.push(Mark::Line { points: points.to_vec(), width, colour });
+        let Some((&last, others)) = points.split_last() else { return };
+        let mut seen: Vec<[f64; 2]> = Vec::new();
+        for &point in others {
+            if seen.last().is_none_or(|before| distance(*before, point) > CLOSE) {
+                seen.push(point);
+            }
+        }
+        seen.push(last);
+        if seen.len() > 1 {
+            self.marks.push(Mark::Line { points: seen, width, colour });
         }
     }
 
@@ -180,7 +195,7 @@ fn pieces(points: &[[f64; 2]], on: f64, off: f64) -> Vec<Vec<[f64; 2]>> {
     let (mut piece, mut left): (Option<Vec<[f64; 2]>>, f64) = (points.first().map(|&p| vec![p]), on);
     for pair in points.windows(2) {
         let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
-        let length = (x1 - x0).hypot(y1 - y0);
+        let length = distance([x0, y0], [x1, y1]);
         let mut done = 0.0;
         while length - done > left {
             done += left;

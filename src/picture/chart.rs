@@ -6,7 +6,7 @@ use super::canvas::Canvas;
 use super::curve::{Curve, Style};
 use super::frame::Frame;
 use super::legend::Legend;
-use super::sheet::{Panel, sheet};
+use super::sheet::{Margins, Panel, sheet};
 
 /// A chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,20 +39,31 @@ pub struct Figure {
 impl Chart {
     /// The picture as a file.
     pub fn draw(&self, format: Format) -> Vec<u8> {
-        sheet("", &[], &[self], 1).file(format)
+        sheet("", &[], &[&Plot::new(self)], 1).file(format)
     }
 }
 
 impl Figure {
     /// The picture as a file.
     pub fn draw(&self, format: Format) -> Vec<u8> {
-        let panels: Vec<&dyn Panel> = self.panels.iter().map(|chart| chart as &dyn Panel).collect();
-        sheet(&self.title, &self.caption, &panels, self.columns).file(format)
+        plots(&self.title, &self.caption, &self.panels, self.columns).file(format)
     }
 }
 
-/// Height of a plot over its width.
-const ASPECT: f64 = 0.68;
+/// Charts in columns on a sheet.
+pub(super) fn plots(title: &str, caption: &[String], charts: &[Chart], columns: usize) -> Canvas {
+    let plots: Vec<Plot> = charts.iter().map(Plot::new).collect();
+    let panels: Vec<&dyn Panel> = plots.iter().map(|plot| plot as &dyn Panel).collect();
+    sheet(title, caption, &panels, columns)
+}
+
+/// A chart of given proportions.
+pub(super) struct Plot<'a> {
+    pub chart: &'a Chart,
+    /// Height over width.
+    pub aspect: f64,
+}
+
 /// What stays free beside a plot, points.
 const RIGHT: f64 = 6.0;
 
@@ -64,19 +75,28 @@ struct Layout {
     height: f64,
 }
 
-impl Chart {
-    fn layout(&self, width: f64) -> Layout {
-        let values = |axis: usize| self.curves.iter().flat_map(move |curve| curve.points.iter().map(move |p| p[axis]));
-        let dots = self.curves.iter().any(|curve| matches!(curve.style, Style::Markers | Style::LineMarkers));
-        let ranges = [self.x.reach(values(0), if dots { 0.03 } else { 0.0 }), self.y.reach(values(1), 0.05)];
-        let frame = Frame::new([&self.x, &self.y], ranges, width, RIGHT, ASPECT);
-        let inside = Legend::stacked(&self.curves).and_then(|legend| {
+impl<'a> Plot<'a> {
+    fn new(chart: &'a Chart) -> Self {
+        Self { chart, aspect: 0.68 }
+    }
+
+    fn ranges(&self) -> [[f64; 2]; 2] {
+        let Chart { x, y, curves, .. } = self.chart;
+        let values = |axis: usize| curves.iter().flat_map(move |curve| curve.points.iter().map(move |p| p[axis]));
+        let dots = curves.iter().any(|curve| matches!(curve.style, Style::Markers | Style::LineMarkers));
+        [x.reach(values(0), if dots { 0.03 } else { 0.0 }), y.reach(values(1), 0.05)]
+    }
+
+    fn layout(&self, width: f64, margins: Margins) -> Layout {
+        let Chart { x, y, curves, .. } = self.chart;
+        let frame = Frame::new([x, y], self.ranges(), width, margins, self.aspect, false);
+        let inside = Legend::stacked(curves).and_then(|legend| {
             let place = legend.free_place(frame.corner, frame.size, &self.taken(&frame))?;
             Some((legend, place))
         });
         let mut height = frame.height;
         let legend = inside.or_else(|| {
-            let legend = Legend::spread(&self.curves, frame.size[0])?;
+            let legend = Legend::spread(curves, frame.size[0])?;
             let place = [frame.corner[0], height + 2.0];
             height += legend.size[1] + 2.0;
             Some((legend, place))
@@ -87,7 +107,7 @@ impl Chart {
     /// Points that the legend must keep clear of.
     fn taken(&self, frame: &Frame) -> Vec<[f64; 2]> {
         let mut taken = Vec::new();
-        for run in self.curves.iter().flat_map(|curve| runs(curve, frame)) {
+        for run in self.chart.curves.iter().flat_map(|curve| runs(curve, frame)) {
             for pair in run.windows(2) {
                 let [[x0, y0], [x1, y1]] = [pair[0], pair[1]];
                 let steps = ((x1 - x0).hypot(y1 - y0) / 3.0).ceil().clamp(1.0, 400.0);
@@ -113,31 +133,35 @@ fn runs(curve: &Curve, frame: &Frame) -> Vec<Vec<[f64; 2]>> {
     runs
 }
 
-impl Panel for Chart {
+impl Panel for Plot<'_> {
     fn title(&self) -> &str {
-        &self.title
+        &self.chart.title
     }
 
     fn caption(&self) -> &[String] {
-        &self.caption
+        &self.chart.caption
     }
 
-    fn height(&self, width: f64) -> f64 {
-        self.layout(width).height
+    fn margins(&self, width: f64) -> Margins {
+        Frame::margins([&self.chart.x, &self.chart.y], self.ranges(), [width, RIGHT], self.aspect, false)
     }
 
-    fn draw(&self, canvas: &mut Canvas, [ox, oy]: [f64; 2], width: f64) {
-        let Layout { frame, legend, .. } = self.layout(width);
+    fn height(&self, width: f64, margins: Margins) -> f64 {
+        self.layout(width, margins).height
+    }
+
+    fn draw(&self, canvas: &mut Canvas, [ox, oy]: [f64; 2], width: f64, margins: Margins) {
+        let Layout { frame, legend, .. } = self.layout(width, margins);
         frame.draw(canvas, [ox, oy]);
         frame.draw_zero(canvas, [ox, oy]);
-        for curve in &self.curves {
+        for curve in &self.chart.curves {
             for run in runs(curve, &frame) {
                 let run: Vec<[f64; 2]> = run.into_iter().map(|[x, y]| [ox + x, oy + y]).collect();
                 curve.draw(canvas, &run, frame.bounds([ox, oy]));
             }
         }
         if let Some((legend, [x, y])) = &legend {
-            legend.draw(canvas, [ox + x, oy + y], &self.curves);
+            legend.draw(canvas, [ox + x, oy + y], &self.chart.curves);
         }
     }
 }
@@ -150,6 +174,11 @@ mod tests {
         Chart { title: "Test".into(), caption: vec![], x: Axis::linear("x"), y: Axis::log("error"), curves }
     }
 
+    fn laid_out(chart: &Chart) -> Layout {
+        let plot = Plot::new(chart);
+        plot.layout(230.0, plot.margins(230.0))
+    }
+
     fn line(points: Vec<[f64; 2]>) -> Curve {
         Curve { label: "a curve".into(), points, style: Style::Line, colour: 1 }
     }
@@ -158,20 +187,23 @@ mod tests {
     fn points_without_a_place_interrupt_a_curve() {
         let chart =
             chart(vec![line(vec![[0.0, 1.0], [1.0, 0.1], [2.0, f64::NAN], [3.0, 0.1], [4.0, -1.0], [5.0, 2.0]])]);
-        let runs = runs(&chart.curves[0], &chart.layout(230.0).frame);
+        let runs = runs(&chart.curves[0], &laid_out(&chart).frame);
         assert_eq!(runs.iter().map(Vec::len).collect::<Vec<_>>(), [2, 1, 1]);
     }
 
     #[test]
     fn the_legend_keeps_clear_of_the_curves() {
         let rising = chart(vec![line((1..50).map(|k| [f64::from(k), 10f64.powi(k / 10)]).collect())]);
-        let layout = rising.layout(230.0);
+        let layout = laid_out(&rising);
         let (legend, [x, y]) = layout.legend.clone().unwrap();
         let covered = |p: &[f64; 2]| p[0] > x && p[0] < x + legend.size[0] && p[1] > y && p[1] < y + legend.size[1];
-        assert!(!rising.taken(&layout.frame).iter().any(covered) && y < layout.frame.corner[1] + layout.frame.size[1]);
+        assert!(
+            !Plot::new(&rising).taken(&layout.frame).iter().any(covered)
+                && y < layout.frame.corner[1] + layout.frame.size[1]
+        );
         // No room: below.
         let zigzag = chart(vec![line((0..200).map(|k| [f64::from(k), if k % 2 == 0 { 1.0 } else { 10.0 }]).collect())]);
-        let layout = zigzag.layout(230.0);
+        let layout = laid_out(&zigzag);
         assert!(layout.legend.unwrap().1[1] > layout.frame.corner[1] + layout.frame.size[1]);
     }
 

@@ -2,7 +2,7 @@
 
 use super::axis::{Axis, Scale};
 use super::canvas::{Canvas, Dash};
-use super::chart::Chart;
+use super::chart::{Chart, Plot};
 use super::colour::Colour;
 use super::curve::{Curve, Style};
 use super::map::{Fill, Map, Over};
@@ -11,6 +11,9 @@ use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::{around, images, window};
 use std::f64::consts::TAU;
+
+/// Least range of deviations from a circle that is shown, per cent: a fitted boundary is good to some 0.03.
+const LEAST: f64 = 0.1;
 
 /// The picture; `None` for a topography. `without_mutual_effect`: per level the contact radius that indenters would
 /// have without each other, a length, drawn dashed.
@@ -21,9 +24,9 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
             snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
         };
         let [x, y] = axes(snapshot, window);
-        let mut over = vec![unit_cell(snapshot)];
+        let mut over = unit_cell(snapshot);
         let cell = snapshot.grid.cell();
-        for (site, boundary) in snapshot.texture.sites.iter().zip(&snapshot.boundaries) {
+        for (site, boundary) in snapshot.texture.sites.iter().zip(snapshot.boundaries) {
             for centre in images(cell, site.place, widened(window)) {
                 let ring = |radius: &dyn Fn(f64) -> f64, dash: Dash, width: f64, colour: Colour| {
                     let point = |k: u32| {
@@ -45,13 +48,14 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
         let spots = Map { title: "(a) contact spots".into(), x, y, aspect: aspect(window), fill, over };
         let radii = radii(snapshot, without_mutual_effect);
         let mut caption = snapshot.caption();
-        let mut what = "Numbers are levels; θ is the direction from the x axis.".to_owned();
+        let mut what = "Numbers are levels; ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the contact area.".to_owned();
         if without_mutual_effect.is_some() {
             what += " Dashed circles and lines: without the mutual effect of the indenters.";
         }
         caption.push(what);
+        let caption = [caption.join(" ")];
         match radii {
-            Some(radii) => sheet("", &caption, &[&spots, &radii], 2),
+            Some(chart) => sheet("", &caption, &[&spots, &Plot { chart: &chart, aspect: aspect(window).min(1.0) }], 2),
             None => sheet("", &caption, &[&Map { title: String::new(), ..spots }], 1),
         }
     })
@@ -84,11 +88,15 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<C
             });
         }
     }
+    // Deviations near the accuracy of the fit are not blown up.
+    let largest = curves.iter().flat_map(|curve| &curve.points).map(|point| point[1].abs()).fold(0.0, f64::max);
+    let y = Axis::linear("boundary radius, ρ/a − 1 (%)");
+    let y = if largest < LEAST { y.from_to(-LEAST, LEAST) } else { y };
     (!curves.is_empty()).then(|| Chart {
         title: "(b) boundary".into(),
         caption: Vec::new(),
         x: Axis { scale: Scale::Degrees, ..Axis::linear("direction θ (degrees)").from_to(0.0, 360.0) },
-        y: Axis::linear("radius over mean radius, ρ/a − 1 (%)"),
+        y,
         curves,
     })
 }

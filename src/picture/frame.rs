@@ -3,18 +3,21 @@
 use super::axis::{Axis, Scale, Ticks, power, ticks};
 use super::canvas::{Anchor, Canvas};
 use super::colour::Colour;
-use super::sheet::{HAIR, LABELS, NUMBERS};
-use super::text;
+use super::sheet::{HAIR, LABELS, Margins, NUMBERS};
+use super::text::{self, wrapped};
 
 /// Length of a numbered tick, points.
 const TICK: f64 = 3.0;
+/// How far numbers stand away from a plot with outward ticks.
+const BEYOND: f64 = 0.7 * TICK;
 /// Most numbers on a vertical axis.
 const MOST: usize = 6;
 
 /// A frame, laid out relative to the upper left corner of its panel.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    labels: [String; 2],
+    /// Quantities, line by line.
+    labels: [Vec<String>; 2],
     scales: [Scale; 2],
     ranges: [[f64; 2]; 2],
     ticks: [Ticks; 2],
@@ -29,12 +32,33 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame of the axes x and y over their ranges that is `width` wide with all its numbers; `right` points beside
-    /// the plot stay free, and the plot is `aspect` times as high as wide.
-    pub fn new(axes: [&Axis; 2], ranges: [[f64; 2]; 2], width: f64, right: f64, aspect: f64) -> Self {
-        let y_ticks = ticks(ranges[1], axes[1].scale, MOST);
-        let widest = widest(&y_ticks);
-        let left = LABELS * 1.35 + widest + 3.5;
+    /// Room that the axes x and y need over their ranges in a panel of the given width with `right` points beside the
+    /// plot, which is `aspect` times as high as wide; `outward`: see the field.
+    pub fn margins(
+        axes: [&Axis; 2],
+        ranges: [[f64; 2]; 2],
+        [width, right]: [f64; 2],
+        aspect: f64,
+        outward: bool,
+    ) -> Margins {
+        let ticks = ticks(ranges[1], axes[1].scale, MOST);
+        let beyond = if outward { BEYOND } else { 0.0 };
+        let numbers = widest(&ticks) + 3.5 + beyond;
+        let high = aspect * (width - 1.35 * LABELS - numbers - right);
+        let lines = wrapped(&axes[1].label, LABELS, high).len().max(1) as f64;
+        let top = if factor(&ticks).is_some() { 1.5 * NUMBERS } else { 0.6 * NUMBERS };
+        Margins { left: (0.1 + 1.25 * lines) * LABELS + numbers, right, top }
+    }
+
+    /// A frame of the axes x and y over their ranges in a panel of the given width and margins.
+    pub fn new(
+        axes: [&Axis; 2],
+        ranges: [[f64; 2]; 2],
+        width: f64,
+        Margins { left, right, top }: Margins,
+        aspect: f64,
+        outward: bool,
+    ) -> Self {
         let wide = width - left - right;
         let x_ticks = {
             // As many numbers as stand apart.
@@ -45,28 +69,18 @@ impl Frame {
             };
             ticks(ranges[0], axes[0].scale, (2..=7).rev().find(fits).unwrap_or(2))
         };
-        let top = if y_ticks.exponent == 0 { 0.6 * NUMBERS } else { 1.5 * NUMBERS };
         let high = aspect * wide;
+        let beyond = if outward { BEYOND } else { 0.0 };
         Self {
-            labels: axes.map(|axis| axis.label.clone()),
+            labels: [vec![axes[0].label.clone()], wrapped(&axes[1].label, LABELS, high)],
             scales: axes.map(|axis| axis.scale),
             ranges,
-            ticks: [x_ticks, y_ticks],
-            outward: false,
+            ticks: [x_ticks, ticks(ranges[1], axes[1].scale, MOST)],
+            outward,
             corner: [left, top],
             size: [wide, high],
-            height: top + high + NUMBERS * 1.45 + LABELS * 1.5,
+            height: top + high + beyond + NUMBERS * 1.45 + LABELS * 1.5,
         }
-    }
-
-    /// The same frame with ticks that point away from the plot.
-    pub fn outward(self) -> Self {
-        let beyond = 0.7 * TICK;
-        let [[left, top], [wide, high]] = [self.corner, self.size];
-        let aspect = high / wide;
-        let size = [wide - beyond, aspect * (wide - beyond)];
-        let height = self.height - high + size[1] + beyond;
-        Self { outward: true, corner: [left + beyond, top], size, height, ..self }
     }
 
     /// Place of a point of the plot, if it has one.
@@ -96,7 +110,7 @@ impl Frame {
         let [x_ticks, y_ticks] = &self.ticks;
         let [[x0, _], [y0, _]] = self.ranges;
         let sign = if self.outward { -1.0 } else { 1.0 };
-        let (beyond, length) = (if self.outward { 0.7 * TICK } else { 0.0 }, sign * TICK);
+        let (beyond, length) = (if self.outward { BEYOND } else { 0.0 }, sign * TICK);
         for (value, number) in all(x_ticks) {
             let Some([x, _]) = at(value, y0) else { continue };
             let length = if number.is_some() { length } else { 0.55 * length };
@@ -120,10 +134,17 @@ impl Frame {
             }
         }
         let below = bottom + beyond + 1.45 * NUMBERS + 1.05 * LABELS;
-        canvas.text(&self.labels[0], [0.5 * (left + right), below], Anchor::Centre, LABELS, Colour::BLACK);
-        canvas.upward(&self.labels[1], [ox + LABELS, 0.5 * (top + bottom)], LABELS, Colour::BLACK);
+        for label in &self.labels[0] {
+            canvas.text(label, [0.5 * (left + right), below], Anchor::Centre, LABELS, Colour::BLACK);
+        }
+        // Next to the widest number of this axis.
+        let nearest = left - beyond - 3.0 - widest(y_ticks) - 0.45 * LABELS;
+        for (number, label) in (1..).zip(self.labels[1].iter().rev()) {
+            let x = nearest - 1.2 * LABELS * f64::from(number - 1);
+            canvas.upward(label, [x, 0.5 * (top + bottom)], LABELS, Colour::BLACK);
+        }
         if let Some(factor) = factor(y_ticks) {
-            canvas.text(&factor, [left, top - 3.0], Anchor::Left, NUMBERS, Colour::BLACK);
+            canvas.text(&factor, [left - beyond - 1.0, top - 3.5], Anchor::Right, NUMBERS, Colour::BLACK);
         }
         if let Some(factor) = factor(x_ticks) {
             canvas.text(&factor, [right, below], Anchor::Right, NUMBERS, Colour::BLACK);

@@ -2,10 +2,9 @@
 
 use super::axis::Axis;
 use super::canvas::Canvas;
-use super::chart::Chart;
+use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
 use super::cut::{Cut, Quantity};
-use super::sheet::sheet;
 use super::snapshot::Snapshot;
 
 /// The picture.
@@ -51,5 +50,5 @@ pub fn lines(snapshot: &Snapshot, cut: &Cut) -> Canvas {
     let mut caption = snapshot.caption();
     let [dx, dy] = cut.line.direction;
     caption.push(format!("Lines along {:.0}° from the x axis.", dy.atan2(dx).to_degrees()));
-    sheet("", &caption, &[&charts[0], &charts[1]], 2)
+    plots("", &[caption.join(" ")], &charts, 2)
 }

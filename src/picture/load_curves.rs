@@ -2,9 +2,8 @@
 
 use super::axis::Axis;
 use super::canvas::Canvas;
-use super::chart::Chart;
+use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
-use super::sheet::{Panel, sheet};
 use super::snapshot::caption;
 use super::units::Units;
 use crate::material::HalfSpace;
@@ -26,12 +25,10 @@ pub fn load_curves(title: &str, surface: &Surface, half_space: &HalfSpace, steps
     for (letter, chart) in ('a'..).zip(&mut charts) {
         chart.title = format!("({letter}) {}", chart.title);
     }
-    let mut text = caption(title, surface, half_space);
-    if let Some([n1, n2]) = steps.last().map(|step| step.points) {
-        text.push(format!("{} load steps; {n1} × {n2} samples.", steps.len()));
-    }
-    let panels: Vec<&dyn Panel> = charts.iter().map(|chart| chart as &dyn Panel).collect();
-    Some(sheet("", &text, &panels, 2))
+    let [n1, n2] = steps[0].points;
+    let more = [format!("{} load steps", steps.len()), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
+    let text = caption(title, surface, half_space, &more);
+    Some(plots("", &[text.join(" ")], &charts, 2))
 }
 
 struct Run<'a> {
@@ -60,6 +57,7 @@ impl Run<'_> {
         let loads = self.steps.iter().map(|step| step.mean_pressure);
         let last = loads.clone().fold(0.0, f64::max);
         let first = if self.logarithmic() { loads.fold(f64::INFINITY, f64::min) } else { 0.0 };
+        let (first, last) = if self.logarithmic() { (first / 1.1, last * 1.1) } else { (first, 1.03 * last) };
         let x = self.axis(self.units.pressure("mean pressure", "p̄")).from_to(first, last);
         Chart { title: title.to_owned(), caption: Vec::new(), x, y, curves }
     }
@@ -110,7 +108,7 @@ impl Run<'_> {
 
     fn shares(&self) -> Chart {
         let curves = self.by_level(|level| Some(100.0 * level.load_share));
-        self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 100.0), curves)
+        self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 105.0), curves)
     }
 
     /// The largest stresses in each material, where the case asks for stresses.

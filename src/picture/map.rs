@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Canvas, Dash, PIXELS};
 use super::colour::{Colour, ColourMap};
 use super::curve::clipped;
 use super::frame::{Frame, all, factor, widest};
-use super::sheet::{HAIR, LABELS, NUMBERS, Panel};
+use super::sheet::{HAIR, LABELS, Margins, NUMBERS, Panel};
 use rayon::prelude::*;
 
 /// What colours stand for.
@@ -42,11 +42,16 @@ pub enum Over {
         /// Its colour.
         colour: Colour,
     },
-    /// A cross in a ring, where something is largest.
+    /// A bar on top of the plot, where the counterbody touches.
+    Roof {
+        /// First and last place along the horizontal axis.
+        from_to: [f64; 2],
+    },
+    /// A cross, where something is largest.
     Mark {
         /// Where.
         at: [f64; 2],
-        /// The colour of the cross, on a ring of the opposite lightness.
+        /// Its colour; its edge has the opposite lightness.
         colour: Colour,
     },
 }
@@ -78,6 +83,8 @@ pub struct Map<'a> {
 /// Width of a colour bar and its distance from the plot, points.
 const BAR: f64 = 7.0;
 const GAP: f64 = 6.0;
+/// Height of a bar on top of a plot.
+const ROOF: f64 = 2.6;
 
 impl Bar {
     /// The colour of a value.
@@ -126,29 +133,16 @@ impl Map<'_> {
         [&self.x, &self.y].map(|axis| axis.range.unwrap_or([0.0, 1.0]))
     }
 
-    fn frame(&self, width: f64) -> Frame {
-        let right = match &self.fill {
-            Fill::Values(bar, _) => bar.width(),
-            Fill::Colours(_) => GAP,
-        };
-        let mut frame = Frame::new([&self.x, &self.y], self.ranges(), width, right, self.aspect).outward();
-        if let Fill::Values(bar, _) = &self.fill
-            && factor(&ticks(bar.span, Scale::Linear, 6)).is_some()
-            && frame.corner[1] < NUMBERS
-        {
-            // Room for the power of ten over the bar.
-            frame.corner[1] += 0.9 * NUMBERS;
-            frame.height += 0.9 * NUMBERS;
-        }
-        frame
+    fn frame(&self, width: f64, margins: Margins) -> Frame {
+        Frame::new([&self.x, &self.y], self.ranges(), width, margins, self.aspect, true)
     }
 
     /// The field's pixels, row by row from the top.
     fn pixels(&self, [columns, rows]: [usize; 2]) -> Vec<u8> {
         let [[x0, x1], [y0, y1]] = self.ranges();
-        let place = |row: usize, column: usize| {
-            let across = (column as f64 + 0.5) / columns as f64;
-            let down = (row as f64 + 0.5) / rows as f64;
+        let place = |row: f64, column: f64| {
+            let across = (column + 0.5) / columns as f64;
+            let down = (row + 0.5) / rows as f64;
             [x0 + (x1 - x0) * across, y1 + (y0 - y1) * down]
         };
         let table = match &self.fill {
@@ -162,9 +156,38 @@ impl Map<'_> {
         let mut pixels = vec![0; 3 * columns * rows];
         pixels.par_chunks_mut(3 * columns).enumerate().for_each(|(row, line)| {
             for (column, pixel) in line.chunks_exact_mut(3).enumerate() {
-                pixel.copy_from_slice(&colour(place(row, column)).0);
+                pixel.copy_from_slice(&colour(place(row as f64, column as f64)).0);
             }
         });
+        // The edges of what is white are smoothed: pixels next to them become means of several places.
+        const PARTS: u8 = 4;
+        let white = |row: usize, column: usize| pixels[3 * (row * columns + column)..][..3] == [255; 3];
+        let is_edge = |row: usize, column: usize| {
+            let neighbours = [
+                (row.saturating_sub(1), column),
+                ((row + 1).min(rows - 1), column),
+                (row, column.saturating_sub(1)),
+                (row, (column + 1).min(columns - 1)),
+            ];
+            neighbours.into_iter().any(|(i, j)| white(i, j) != white(row, column))
+        };
+        let edges: Vec<(usize, [u8; 3])> = (0..rows * columns)
+            .into_par_iter()
+            .filter(|index| is_edge(index / columns, index % columns))
+            .map(|index| {
+                let mut sum = [0u32; 3];
+                for (i, j) in (0..PARTS).flat_map(|i| (0..PARTS).map(move |j| (i, j))) {
+                    let shift = |k: u8| (f64::from(k) + 0.5) / f64::from(PARTS) - 0.5;
+                    let Colour(own) =
+                        colour(place((index / columns) as f64 + shift(i), (index % columns) as f64 + shift(j)));
+                    sum = [0, 1, 2].map(|k| sum[k] + u32::from(own[k]));
+                }
+                (index, sum.map(|c| (c / u32::from(PARTS * PARTS)) as u8))
+            })
+            .collect();
+        for (index, colour) in edges {
+            pixels[3 * index..][..3].copy_from_slice(&colour);
+        }
         pixels
     }
 }
@@ -178,12 +201,21 @@ impl Panel for Map<'_> {
         &[]
     }
 
-    fn height(&self, width: f64) -> f64 {
-        self.frame(width).height
+    fn margins(&self, width: f64) -> Margins {
+        let (right, factor) = match &self.fill {
+            Fill::Values(bar, _) => (bar.width(), factor(&ticks(bar.span, Scale::Linear, 6)).is_some()),
+            Fill::Colours(_) => (GAP, false),
+        };
+        let own = Frame::margins([&self.x, &self.y], self.ranges(), [width, right], self.aspect, true);
+        Margins { top: own.top.max(if factor { 1.5 * NUMBERS } else { 0.0 }), ..own }
     }
 
-    fn draw(&self, canvas: &mut Canvas, [ox, oy]: [f64; 2], width: f64) {
-        let frame = self.frame(width);
+    fn height(&self, width: f64, margins: Margins) -> f64 {
+        self.frame(width, margins).height
+    }
+
+    fn draw(&self, canvas: &mut Canvas, [ox, oy]: [f64; 2], width: f64, margins: Margins) {
+        let frame = self.frame(width, margins);
         let bounds = frame.bounds([ox, oy]);
         let pixels = frame.size.map(|length| (length * PIXELS).round() as usize);
         canvas.image(bounds[0], frame.size, pixels, self.pixels(pixels));
@@ -199,6 +231,13 @@ impl Panel for Map<'_> {
                 Over::Word { word, at: place, colour } => {
                     if let Some(place) = at(*place) {
                         canvas.label(word, place, Anchor::Centre, NUMBERS, *colour);
+                    }
+                }
+                Over::Roof { from_to: [from, to] } => {
+                    let top = bounds[0][1] - 0.5 * HAIR;
+                    if let (Some([x0, _]), Some([x1, _])) = (at([*from, 0.0]), at([*to, 0.0])) {
+                        let corners = [[x0, top - ROOF], [x1, top - ROOF], [x1, top], [x0, top]];
+                        canvas.area(&corners, Colour::GREY);
                     }
                 }
                 Over::Mark { at: place, colour } => {

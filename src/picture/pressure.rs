@@ -19,7 +19,7 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
         span: [0.0, if most > 0.0 { most } else { 1.0 }],
     };
     let [x, y] = axes(snapshot, window);
-    let mut over = vec![unit_cell(snapshot)];
+    let mut over = unit_cell(snapshot);
     over.extend(numbers(snapshot, window, |place| {
         let dark = snapshot.pressure_at(place).is_some_and(|p| p < 0.6 * most);
         if dark { Colour::WHITE } else { Colour::BLACK }
@@ -31,7 +31,7 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     } else {
         "White: no contact; dashed: the unit cell.".to_owned()
     });
-    sheet("", &caption, &[&map], 1)
+    sheet("", &[caption.join(" ")], &[&map], 1)
 }
 
 /// Height over width of a window.
@@ -47,11 +47,27 @@ pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
     ]
 }
 
-/// The unit cell's outline.
-pub fn unit_cell(snapshot: &Snapshot) -> Over {
+/// The unit cell's outline between the contacts.
+pub fn unit_cell(snapshot: &Snapshot) -> Vec<Over> {
+    const STEPS: u32 = 400;
     let corners = cell_corners(snapshot.grid.cell());
-    let points = corners.into_iter().chain([corners[0]]).collect();
-    Over::Line { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) }
+    let mut lines = Vec::new();
+    for k in 0..4 {
+        let (from, to) = (corners[k], corners[(k + 1) % 4]);
+        let at = |t: u32| [0, 1].map(|c| from[c] + (to[c] - from[c]) * f64::from(t) / f64::from(STEPS));
+        let mut points: Vec<[f64; 2]> = Vec::new();
+        for t in 0..=STEPS {
+            let open = snapshot.pressure_at(at(t)).is_none();
+            if open {
+                points.push(at(t));
+            }
+            if !open || t == STEPS {
+                let points = std::mem::take(&mut points);
+                lines.push(Over::Line { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) });
+            }
+        }
+    }
+    lines
 }
 
 /// The number of the level at each site within the window.

@@ -2,9 +2,8 @@
 
 use super::axis::Axis;
 use super::canvas::Canvas;
-use super::chart::Chart;
+use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
-use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::around;
 use std::f64::consts::PI;
@@ -44,11 +43,11 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
         let chart = Chart {
             title: String::new(),
             caption: Vec::new(),
-            x: Axis::linear(snapshot.units.length("distance from the axis", "s")).from_to(-reach, reach),
+            x: Axis::linear(snapshot.units.length("distance from the axis", "s")).from_to(-1.06 * reach, 1.06 * reach),
             y: Axis::linear(snapshot.units.pressure("contact pressure", "p")),
             curves,
         };
-        sheet("", &caption, &[&chart], 1)
+        plots("", &[caption.join(" ")], &[chart], 1)
     })
 }
 
@@ -90,18 +89,21 @@ impl Snapshot<'_> {
             }
         };
         let (sin, cos) = direction.sin_cos();
-        let at = |s: f64| [s, self.pressure_squared([centre[0] + s * cos, centre[1] + s * sin]).max(0.0).sqrt()];
-        let mut points: Vec<[f64; 2]> = (0..=2 * POINTS)
+        let squared = |s: f64| self.pressure_squared([centre[0] + s * cos, centre[1] + s * sin]);
+        // Between the outermost samples and the edge the square of the pressure falls evenly to zero.
+        let rim = if self.boundaries[site].is_some() { 1.5 * self.grid.spacing() } else { 0.0 };
+        let at = |s: f64| {
+            let (end, sign) = if s < 0.0 { (left, -1.0) } else { (right, 1.0) };
+            let inside = end - s.abs();
+            let square = if inside < rim { squared(sign * (end - rim)) * inside / rim } else { squared(s) };
+            [s, square.max(0.0).sqrt()]
+        };
+        let points = (0..=2 * POINTS)
             .map(|k| f64::from(k) / f64::from(POINTS) - 1.0)
             // Points gather at the edge, where the pressure ends like a square root.
             .map(|t| (t * 0.5 * PI).sin())
             .map(|t| at(if t < 0.0 { t * left } else { t * right }))
             .collect();
-        if self.boundaries[site].is_some() {
-            let last = points.len() - 1;
-            points[0] = [-left, 0.0];
-            points[last] = [right, 0.0];
-        }
         Some(Profile { direction, points })
     }
 

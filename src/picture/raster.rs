@@ -14,16 +14,19 @@ const DOTS: usize = 3;
 pub fn png(canvas: &Canvas) -> Vec<u8> {
     let [width, height] = canvas.size.map(|length| (length * PIXELS).round() as usize);
     let mut dots = vec![255; 3 * width * height * DOTS * DOTS];
+    // Images stand below all other marks.
+    canvas.marks.iter().for_each(|mark| lay(&mut dots, [width * DOTS, height * DOTS], mark));
     let mut backend = BitMapBackend::with_buffer(&mut dots, ((width * DOTS) as u32, (height * DOTS) as u32));
-    let images = canvas.marks.iter().filter(|mark| matches!(mark, Mark::Image { .. }));
-    let others = canvas.marks.iter().filter(|mark| !matches!(mark, Mark::Image { .. }));
-    for mark in images.chain(others) {
+    for mark in &canvas.marks {
         // Drawing into memory cannot fail; what stands outside the sheet is left out.
         let _ = put(&mut backend, mark);
     }
     drop(backend);
     encode([width, height], &averaged(&dots, [width, height]))
 }
+
+/// Tangent of the least angle at which a line needs a round joint.
+const SHARP: f64 = 0.2;
 
 /// Dots per point.
 const SCALE: f64 = PIXELS * DOTS as f64;
@@ -51,9 +54,14 @@ fn put(backend: &mut impl DrawingBackend, mark: &Mark) -> Option<()> {
                     backend.fill_polygon(corners.map(|[x, y]| (x.round() as i32, y.round() as i32)), &style).ok()?;
                 }
             }
-            // Round joints.
-            for &point in points.get(1..points.len() - 1).unwrap_or(&[]) {
-                backend.draw_circle(dot(point), half.round() as u32, &style, true).ok()?;
+            // Round joints where the line turns; elsewhere its pieces meet without a gap.
+            for corner in points.windows(3) {
+                let [before, after] = [0, 1].map(|k| [0, 1].map(|c| corner[k + 1][c] - corner[k][c]));
+                let along = before[0] * after[0] + before[1] * after[1];
+                let aside = before[0] * after[1] - before[1] * after[0];
+                if aside.abs() > SHARP * along {
+                    backend.draw_circle(dot(corner[1]), half.round() as u32, &style, true).ok()?;
+                }
             }
         }
         Mark::Area { corners, colour } => {
@@ -81,16 +89,23 @@ fn put(backend: &mut impl DrawingBackend, mark: &Mark) -> Option<()> {
             });
             result?;
         }
-        Mark::Image { corner, pixels: [columns, rows], colours, .. } => {
-            let (x, y) = dot(*corner);
-            let enlarged: Vec<u8> = (0..rows * DOTS)
-                .flat_map(|row| colours[3 * columns * (row / DOTS)..3 * columns * (row / DOTS + 1)].chunks_exact(3))
-                .flat_map(|pixel| pixel.repeat(DOTS))
-                .collect();
-            backend.blit_bitmap((x, y), ((columns * DOTS) as u32, (rows * DOTS) as u32), &enlarged).ok()?;
-        }
+        Mark::Image { .. } => {}
     }
     Some(())
+}
+
+/// Lays an image on the dots; one that reaches beyond the sheet is cut.
+fn lay(dots: &mut [u8], [across, down]: [usize; 2], mark: &Mark) {
+    let Mark::Image { corner, pixels: [columns, rows], colours, .. } = mark else { return };
+    let [x, y] = [dot(*corner).0, dot(*corner).1].map(|c| usize::try_from(c).unwrap_or(0));
+    let (wide, high) = ((columns * DOTS).min(across.saturating_sub(x)), (rows * DOTS).min(down.saturating_sub(y)));
+    dots.par_chunks_mut(3 * across).skip(y).take(high).enumerate().for_each(|(row, line)| {
+        let own = &colours[3 * columns * (row / DOTS)..][..3 * columns];
+        let line = &mut line[3 * x..3 * (x + wide)];
+        for (dots, pixel) in line.chunks_mut(3 * DOTS).zip(own.chunks_exact(3)) {
+            dots.chunks_mut(3).for_each(|dot| dot.copy_from_slice(&pixel[..dot.len()]));
+        }
+    });
 }
 
 /// The mean of the dots of each pixel.
@@ -98,15 +113,14 @@ fn averaged(dots: &[u8], [width, height]: [usize; 2]) -> Vec<u8> {
     let line = 3 * width * DOTS;
     let mut pixels = vec![0; 3 * width * height];
     pixels.par_chunks_mut(3 * width).zip(dots.par_chunks(line * DOTS)).for_each(|(row, dots)| {
-        for (x, pixel) in row.chunks_exact_mut(3).enumerate() {
+        let mut sums = vec![0u16; line];
+        for dots in dots.chunks_exact(line) {
+            sums.iter_mut().zip(dots).for_each(|(sum, &dot)| *sum += u16::from(dot));
+        }
+        for (pixel, sums) in row.chunks_exact_mut(3).zip(sums.chunks_exact(3 * DOTS)) {
             for (c, value) in pixel.iter_mut().enumerate() {
-                let mut sum = 0;
-                for j in 0..DOTS {
-                    for i in 0..DOTS {
-                        sum += u32::from(dots[j * line + 3 * (x * DOTS + i) + c]);
-                    }
-                }
-                *value = (sum / (DOTS * DOTS) as u32) as u8;
+                let sum: u16 = sums[c..].iter().step_by(3).sum();
+                *value = (sum / (DOTS * DOTS) as u16) as u8;
             }
         }
     });

@@ -7,10 +7,10 @@ use super::contour::zero_line;
 use super::cut::{Cut, Largest, Quantity};
 use super::map::{Bar, Fill, Map, Over};
 use super::sheet::sheet;
-use super::snapshot::{Snapshot, short};
+use super::snapshot::{Snapshot, equals};
 
 /// Height over width of a cut that is not shown to scale, least and largest.
-const ASPECT: [f64; 2] = [0.35, 1.0];
+const ASPECT: [f64; 2] = [0.4, 1.1];
 
 /// The picture.
 pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
@@ -21,13 +21,9 @@ pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
     });
     let spans = [0, 1].map(|k| span(&values[k]));
     let bars = [
+        Bar { label: snapshot.units.pressure("", "σₛ"), colours: ColourMap::Diverging, span: spans[0] },
         Bar {
-            label: snapshot.units.pressure("stress along the section", "σₛ"),
-            colours: ColourMap::Diverging,
-            span: spans[0],
-        },
-        Bar {
-            label: snapshot.units.pressure("principal shear stress", "τ₁"),
+            label: snapshot.units.pressure("", "τ₁"),
             colours: ColourMap::Sequential,
             span: [0.0, spans[1][1].max(f64::MIN_POSITIVE)],
         },
@@ -66,35 +62,32 @@ pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
     over.extend(contacts(snapshot, cut));
     over.extend(mark(places[0], Colour::BLACK));
     let fill = Fill::Values(bar_along, &along);
-    let first_map = Map { title: "(a) tension and compression".into(), x, y, aspect, fill, over };
+    let first_map = Map { title: "(a) stress along the section σₛ".into(), x, y, aspect, fill, over };
     let [x, y] = axes();
     let mut over: Vec<Over> = interfaces(Colour::WHITE).collect();
     over.extend(contacts(snapshot, cut));
     over.extend(mark(places[1], Colour::WHITE));
     let fill = Fill::Values(bar_tau1, &tau1);
-    let second_map = Map { title: "(b) principal shear stress".into(), x, y, aspect, fill, over };
+    let second_map = Map { title: "(b) principal shear stress τ₁".into(), x, y, aspect, fill, over };
 
     let mut caption = snapshot.caption();
     let [dx, dy] = cut.line.direction;
     let to_scale = if aspect == scale { "" } else { " Depth is stretched." };
     caption.push(format!(
-        "Section along {:.0}° from the x axis; dashed: interface; thick: contact; grey in (a): σₛ = 0.{to_scale}",
-        dy.atan2(dx).to_degrees()
+        "Section along {:.0}° from the x axis; dashed: interface; bars on top: contacts; thin line in (a): {}.{to_scale}",
+        dy.atan2(dx).to_degrees(),
+        equals("σₛ", &[0.0])
     ));
     let words = |largest: Option<Largest>, symbol: &str| {
         largest.map(|Largest { value, s, depth }| {
             let symbol = snapshot.units.pressure_symbol(symbol);
-            format!(
-                "{symbol} = {} at s = {}, z = {}",
-                short(rounded(value)),
-                short(rounded(s)),
-                short(rounded(depth.z))
-            )
+            let place = [equals("s", &[rounded(s)]), equals("z", &[rounded(depth.z)])].join(", ");
+            format!("{} at {place}", equals(&symbol, &[rounded(value)]))
         })
     };
     let largest: Vec<String> = words(places[0], "σₛ").into_iter().chain(words(places[1], "τ₁")).collect();
     caption.push(format!("Crosses: the largest values here, {}.", largest.join("; ")));
-    sheet("", &caption, &[&first_map, &second_map], 2)
+    sheet("", &[caption.join(" ")], &[&first_map, &second_map], 2)
 }
 
 /// Least and largest value, with zero.
@@ -107,7 +100,7 @@ fn rounded(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
 }
 
-/// The contacts along the cut, as thick lines on the surface.
+/// The contacts along the cut, as bars on the surface.
 fn contacts(snapshot: &Snapshot, cut: &Cut) -> Vec<Over> {
     let [first, last] = cut.line.span;
     let length = cut.line.direction[0].hypot(cut.line.direction[1]);
@@ -116,19 +109,18 @@ fn contacts(snapshot: &Snapshot, cut: &Cut) -> Vec<Over> {
         snapshot.pressure_at(place).is_some()
     };
     const STEPS: u32 = 800;
-    let mut lines = Vec::new();
+    let mut bars = Vec::new();
     let mut start = None;
     for k in 0..=STEPS {
         let s = first + (last - first) * f64::from(k) / f64::from(STEPS);
         match (start, touches(s) && k < STEPS) {
             (None, true) => start = Some(s),
             (Some(from), false) => {
-                let points = vec![[from, 0.0], [s, 0.0]];
-                lines.push(Over::Line { points, width: 3.0, dash: Dash::Solid, colour: Colour::BLACK });
+                bars.push(Over::Roof { from_to: [from, s] });
                 start = None;
             }
             _ => {}
         }
     }
-    lines
+    bars
 }

@@ -19,16 +19,36 @@ const MARGIN: f64 = 5.0;
 /// Distance of lines of text over their size.
 const LEADING: f64 = 1.3;
 
+/// Room that a panel needs around its plot, points.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Margins {
+    /// For the numbers and the quantity of the vertical axis.
+    pub left: f64,
+    /// For a colour bar.
+    pub right: f64,
+    /// For a power of ten.
+    pub top: f64,
+}
+
+impl Margins {
+    /// Room for both.
+    pub fn union(self, other: Self) -> Self {
+        Self { left: self.left.max(other.left), right: self.right.max(other.right), top: self.top.max(other.top) }
+    }
+}
+
 /// A part of a picture.
 pub trait Panel {
     /// What stands over it.
     fn title(&self) -> &str;
     /// What stands under it.
     fn caption(&self) -> &[String];
-    /// Height of the body without title and caption at a given width, points.
-    fn height(&self, width: f64) -> f64;
+    /// Room that the panel needs around its plot at a given width, points.
+    fn margins(&self, width: f64) -> Margins;
+    /// Height of the body without title and caption at a given width, with at least the room that it needs.
+    fn height(&self, width: f64, margins: Margins) -> f64;
     /// Draws the body with its upper left corner at `corner`.
-    fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], width: f64);
+    fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], width: f64, margins: Margins);
 }
 
 /// Puts panels in `columns` columns on a sheet.
@@ -40,15 +60,19 @@ pub fn sheet(title: &str, caption: &[String], panels: &[&dyn Panel], columns: us
     let mut canvas = Canvas::new([width, 0.0]);
     let mut y = MARGIN;
     y += paragraph(&mut canvas, &[title.to_owned()], [MARGIN, y], TITLES, inner, Colour::BLACK);
+    // All plots of a sheet begin and end in line.
+    let all = panels.iter().map(|panel| panel.margins(own)).fold(Margins::default(), Margins::union);
     for row in panels.chunks(columns) {
+        let top = row.iter().map(|panel| panel.margins(own).top).fold(0.0, f64::max);
+        let margins = Margins { top, ..all };
         let lines = |text: &str| wrapped(text, TITLES, own).len() as f64;
         let head = row.iter().map(|panel| lines(panel.title())).fold(0.0, f64::max) * LEADING * TITLES;
         let mut deepest: f64 = 0.0;
         for (column, panel) in row.iter().enumerate() {
             let x = MARGIN + column as f64 * (own + 2.0 * MARGIN);
             paragraph(&mut canvas, &[panel.title().to_owned()], [x, y], TITLES, own, Colour::BLACK);
-            let below = y + head + panel.height(own);
-            panel.draw(&mut canvas, [x, y + head], own);
+            let below = y + head + panel.height(own, margins);
+            panel.draw(&mut canvas, [x, y + head], own, margins);
             let text = paragraph(&mut canvas, panel.caption(), [x, below], CAPTIONS, own, Colour::GREY);
             deepest = deepest.max(below + text);
         }

@@ -4,9 +4,9 @@ use super::axis::{power, signed};
 use super::units::{Units, lowered, period, substrate_index};
 use crate::grid::Grid;
 use crate::hierarchy::{Hierarchy, Solution};
-use crate::indenter::{Shape, drops};
+use crate::indenter::{Level, Shape, drops};
 use crate::material::{HalfSpace, Interface};
-use crate::observables::{Boundary, boundaries};
+use crate::observables::{Boundary, Observables};
 use crate::texture::{Surface, Texture};
 
 /// One load step.
@@ -29,19 +29,20 @@ pub struct Snapshot<'a> {
     /// Penetration δ, a length.
     pub penetration: f64,
     /// Per site, the boundary of its contact where it has one; empty for a topography.
-    pub boundaries: Vec<Option<Boundary>>,
+    pub boundaries: &'a [Option<Boundary>],
     /// What lengths and pressures are measured in.
     pub units: Units,
 }
 
 impl<'a> Snapshot<'a> {
-    /// The load step that `hierarchy` solved last.
+    /// The load step that `hierarchy` solved last, and what was observed of it.
     pub fn new(
         title: &'a str,
         surface: &'a Surface,
         half_space: &'a HalfSpace,
         hierarchy: &'a Hierarchy,
         solution: &'a Solution,
+        observables: &'a Observables,
     ) -> Self {
         Self {
             title,
@@ -50,9 +51,9 @@ impl<'a> Snapshot<'a> {
             grid: hierarchy.grid(),
             texture: hierarchy.texture(),
             pressure: &solution.pressure,
-            mean_pressure: crate::field::mean(&solution.pressure),
+            mean_pressure: observables.mean_pressure,
             penetration: solution.penetration,
-            boundaries: boundaries(hierarchy, solution),
+            boundaries: &observables.boundaries,
             units: Units::of(surface, half_space),
         }
     }
@@ -74,31 +75,30 @@ impl<'a> Snapshot<'a> {
 
     /// Caption: the title, the case's parameters and the load.
     pub fn caption(&self) -> Vec<String> {
-        let mut lines = caption(self.title, self.surface, self.half_space);
         let [n1, n2] = self.grid.points();
-        lines.push(format!(
-            "{} = {}, {} = {}; {n1} × {n2} samples.",
-            self.units.pressure_symbol("p̄"),
-            short(self.mean_pressure),
-            self.units.length_symbol("δ"),
-            short(self.penetration)
-        ));
-        lines
+        let load = [
+            equals(&self.units.pressure_symbol("p̄"), &[self.mean_pressure]),
+            equals(&self.units.length_symbol("δ"), &[self.penetration]),
+        ];
+        let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");
+        caption(self.title, self.surface, self.half_space, &[load.join(", "), samples])
     }
 }
 
-/// Title and parameters of a case, line by line.
-pub fn caption(title: &str, surface: &Surface, half_space: &HalfSpace) -> Vec<String> {
+/// Title and parameters of a case, then what else is to be said about it.
+pub fn caption(title: &str, surface: &Surface, half_space: &HalfSpace, more: &[String]) -> Vec<String> {
     let units = Units::of(surface, half_space);
-    let mut lines = Vec::new();
-    if !title.is_empty() {
-        lines.push(format!("{}.", title.trim_end_matches('.')));
-    }
-    lines.push(format!("{}.", materials(half_space, &units)));
-    if let Some(geometry) = geometry(surface, &units) {
-        lines.push(format!("{geometry}."));
-    }
-    lines
+    let title = title.trim_end_matches('.');
+    let title = (!title.is_empty()).then(|| format!("{title}."));
+    let parts =
+        [materials(half_space, &units)].into_iter().chain(geometry(surface, &units)).chain(more.iter().cloned());
+    title.into_iter().chain([format!("{}.", parts.collect::<Vec<_>>().join("; "))]).collect()
+}
+
+/// A symbol and its values, which no line break parts from the first one.
+pub fn equals(symbol: &str, values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|&x| short(x)).collect();
+    format!("{}\u{a0}=\u{a0}{}", symbol.replace(' ', "\u{a0}"), values.join(", "))
 }
 
 fn materials(half_space: &HalfSpace, units: &Units) -> String {
@@ -107,15 +107,13 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
     let mut parts = Vec::new();
     for (number, layer) in (1..).zip(half_space.layers()) {
         let index = lowered(number);
-        let (chi, h) =
-            if single { ("χ".to_owned(), "h".to_owned()) } else { (format!("χ{index}"), format!("h{index}")) };
-        let mut part = format!(
-            "{chi} = {}, {} = {}, ν{index} = {}",
-            short(layer.material().shear() / substrate.shear()),
-            units.length_symbol(&h),
-            short(layer.thickness()),
-            short(layer.material().poisson())
-        );
+        let own = if single { "" } else { &index };
+        let mut part = [
+            equals(&format!("χ{own}"), &[layer.material().shear() / substrate.shear()]),
+            equals(&units.length_symbol(&format!("h{own}")), &[layer.thickness()]),
+            equals(&format!("ν{index}"), &[layer.material().poisson()]),
+        ]
+        .join(", ");
         match layer.interface() {
             Interface::Bonded => {}
             Interface::Frictionless => part += ", frictionless below",
@@ -124,9 +122,9 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
         parts.push(part);
     }
     let index = substrate_index(half_space);
-    let mut last = format!("ν{index} = {}", short(substrate.poisson()));
+    let mut last = equals(&format!("ν{index}"), &[substrate.poisson()]);
     if units.pressure_symbol("E") == "E" {
-        last += &format!(", E{index} = {}", short(substrate.young()));
+        last += &format!(", {}", equals(&format!("E{index}"), &[substrate.young()]));
     }
     parts.push(last);
     parts.join(if single { ", " } else { "; " })
@@ -134,31 +132,33 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
 
 fn geometry(surface: &Surface, units: &Units) -> Option<String> {
     let Surface::Indenters { levels, .. } = surface else { return None };
-    let list = |values: &[f64]| {
-        let same = values.iter().all(|x| *x == values[0]);
-        let shown = if same { &values[..1] } else { values };
-        shown.iter().map(|&x| short(x)).collect::<Vec<_>>().join(", ")
-    };
     let mut parts = Vec::new();
     let l = units.length_symbol("l");
     if l != "l/l" {
-        parts.extend(period(surface).map(|period| format!("{l} = {}", short(period))));
+        parts.extend(period(surface).map(|period| equals(&l, &[period])));
     }
-    let radii: Option<Vec<f64>> = levels
-        .iter()
-        .map(|level| match level.shape() {
-            Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
-            _ => None,
-        })
-        .collect();
-    parts.push(match radii {
-        Some(radii) => format!("{} = {}", units.length_symbol("rₘ"), list(&radii)),
-        None => levels.iter().map(|level| level.shape().to_string()).collect::<Vec<_>>().join(", "),
-    });
+    let radius = |level: &Level| match level.shape() {
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
+        _ => None,
+    };
+    let shape = |level: &Level| match level.shape() {
+        Shape::Cone { slope } => format!("cone of slope {}", short(slope)),
+        Shape::Power { coefficient, exponent } => format!("{}·rⁿ, n = {}", short(coefficient), short(exponent)),
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
+            format!("{} of {}", level.shape().name(), equals(&units.length_symbol("r"), &[radius]))
+        }
+    };
+    match levels.iter().map(radius).collect::<Option<Vec<f64>>>() {
+        Some(radii) => {
+            let same = radii.iter().all(|x| *x == radii[0]);
+            parts.push(equals(&units.length_symbol("rₘ"), if same { &radii[..1] } else { &radii }));
+        }
+        None => parts.extend(levels.iter().map(shape)),
+    }
     if levels.len() > 1 {
-        let drops: Vec<f64> = drops(levels)[1..].to_vec();
         let symbol = units.length_symbol("(h₁ − hₘ)");
-        parts.push(format!("{symbol} = {}", drops.iter().map(|&x| short(x)).collect::<Vec<_>>().join(", ")));
+        let bare = symbol.strip_suffix(')').and_then(|symbol| symbol.strip_prefix('(')).unwrap_or(&symbol);
+        parts.push(equals(bare, &drops(levels)[1..]));
     }
     Some(parts.join(", "))
 }

@@ -56,10 +56,10 @@ pub fn width(text: &str, size: f64) -> f64 {
     size * placed(text).1
 }
 
-/// The text in lines not wider than `width`, broken at spaces.
+/// The text in lines not wider than `most`, broken at spaces, but not at those that do not break.
 pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in text.split(' ').filter(|word| !word.is_empty()) {
         match lines.last_mut() {
             Some(line) if width(&format!("{line} {word}"), size) <= most => {
                 line.push(' ');

@@ -33,12 +33,12 @@ impl Units {
 
     /// The quantity and its symbol, a length, as an axis names it.
     pub fn length(&self, quantity: &str, symbol: &str) -> String {
-        named(quantity, symbol, self.length.as_deref(), "unit of length")
+        named(quantity, symbol, self.length.as_deref(), "unit\u{a0}of\u{a0}length")
     }
 
     /// The quantity and its symbol, a pressure, as an axis names it.
     pub fn pressure(&self, quantity: &str, symbol: &str) -> String {
-        named(quantity, symbol, self.pressure.as_deref(), "unit of E")
+        named(quantity, symbol, self.pressure.as_deref(), "unit\u{a0}of\u{a0}E")
     }
 
     /// The symbol of a length in a list of parameters: h/l or h.
@@ -57,7 +57,7 @@ fn over(symbol: &str, unit: Option<&str>) -> String {
 }
 
 fn named(quantity: &str, symbol: &str, unit: Option<&str>, otherwise: &str) -> String {
-    let symbol = unit.map_or(format!("{symbol} ({otherwise})"), |unit| format!("{symbol}/{unit}"));
+    let symbol = unit.map_or(format!("{symbol}\u{a0}({otherwise})"), |unit| format!("{symbol}/{unit}"));
     if quantity.is_empty() { symbol } else { format!("{quantity} {symbol}") }
 }
 
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!(Units::of(&surface(0.6, 1.0), &half_space(1.0)).length("", "x"), "x/r₁");
         assert_eq!(Units::of(&surface(0.6, 1.0), &half_space(1.0)).pressure("pressure", "p"), "pressure p/E");
         let metres = Units::of(&surface(2e-5, 8e-5), &half_space(2.1e11));
-        assert_eq!(metres.length("", "x"), "x (unit of length)");
-        assert_eq!(metres.pressure("pressure", "p"), "pressure p (unit of E)");
+        assert_eq!(metres.length("", "x"), "x\u{a0}(unit\u{a0}of\u{a0}length)");
+        assert_eq!(metres.pressure("pressure", "p"), "pressure p\u{a0}(unit\u{a0}of\u{a0}E)");
     }
 }
