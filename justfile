@@ -10,6 +10,10 @@ ci:
 solve *arguments:
     cargo run --release --locked -- solve {{arguments}}
 
+# Every study afresh: report and figures in validation/, to be committed with what changed them.
+validate:
+    cargo run --release --locked -- validate --output validation
+
 # The library's documentation.
 doc:
     cargo doc --no-deps --locked --open

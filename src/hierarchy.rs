@@ -165,7 +165,11 @@ impl Nest {
         let (points, samples) = (grid.points(), grid.len() as f64);
         if let Some((from, change)) = change {
             let rise = resample(&change, from, points, Interpolation::on(grid.cell()));
-            field::update(&mut self.state.pressure, |i, p| p + rise[i]);
+            // A change below the tolerance is none: it would leave traces of pressure around the contact, which no
+            // iteration takes away again where none is needed.
+            let highest = -field::least(rise.len(), |i| -self.state.pressure[i]);
+            let least = settings.tolerance * highest;
+            field::update(&mut self.state.pressure, |i, p| if rise[i].abs() > least { p + rise[i] } else { p });
         }
         let before = self.operator.convolutions();
         let Self { texture, operator, state } = self;

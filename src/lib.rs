@@ -23,12 +23,13 @@
 //! lattice → grid → fourier ─────────────────┤
 //! material → layered ─────────→ operator ───┴→ solver → hierarchy → observables → refinement, touch
 //! indenter, lattice, layered ────────────────→ localized
-//!                                                         case → output → picture → command line
+//!                                                         case → output → picture → validation → command line
 //! ```
 //!
 //! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`boundary`] (the outline of a
 //! contact between samples) and [`number`] serve all of them.
-//! Nothing left of [`case`] reads a file or prints.
+//! Nothing left of [`case`] reads a file or prints. [`exact`] holds the closed forms that [`validation`] compares with;
+//! the solver knows nothing of it.
 //!
 //! # Example
 //!
@@ -61,6 +62,7 @@
 
 pub mod boundary;
 pub mod case;
+pub mod exact;
 pub mod field;
 pub mod fourier;
 pub mod grid;
@@ -81,3 +83,4 @@ pub mod solver;
 pub mod stress;
 pub mod texture;
 pub mod touch;
+pub mod validation;

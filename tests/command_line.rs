@@ -24,3 +24,5 @@ mod solve;
 mod stress;
 #[path = "command_line/topography.rs"]
 mod topography;
+#[path = "command_line/validate.rs"]
+mod validate;

@@ -9,6 +9,8 @@
 mod common;
 
 use common::{coated, paraboloid, solve};
+use percoat::exact::hertz::{Stresses, edge_tension, largest_shear};
+use percoat::exact::lattice_sums::TRIANGULAR;
 use percoat::lattice::{Cell, Lattice};
 use percoat::material::{HalfSpace, Interface, Material};
 use percoat::solver::Control;
@@ -19,26 +21,10 @@ use std::f64::consts::PI;
 const NU: f64 = 0.3;
 const RADIUS: f64 = 0.1;
 /// Σ 1/|w|³ over the hexagonal lattice of period 1.
-const LATTICE_SUM: f64 = 11.034_175;
+const LATTICE_SUM: f64 = TRIANGULAR.0[1];
 /// Places of the site in steps of the grid.
 const SHIFTS: [[f64; 2]; 8] =
     [[0.0, 0.0], [0.5, 0.0], [1.0 / 3.0, 1.0 / 3.0], [0.25, 0.1], [0.37, 0.61], [0.9, 0.45], [0.15, 0.7], [0.62, 0.08]];
-
-/// σ_r/p₀ of Huber at (r, z), lengths over a.
-fn radial(r: f64, z: f64) -> f64 {
-    if z == 0.0 {
-        let root = (1.0 - r * r).max(0.0).sqrt();
-        let bulge = if r < 1e-3 { 1.5 } else { (1.0 - root.powi(3)) / (r * r) };
-        return (1.0 - 2.0 * NU) / 3.0 * bulge - root;
-    }
-    let s = r * r + z * z - 1.0;
-    let u = 0.5 * (s + (s * s + 4.0 * z * z).sqrt());
-    let (t, root) = (z / u.sqrt(), u.sqrt());
-    let bulge = if r < 1e-3 { 1.5 / (1.0 + z * z) } else { (1.0 - t.powi(3)) / (r * r) };
-    (1.0 - 2.0 * NU) / 3.0 * bulge
-        + t.powi(3) * u / (u * u + z * z)
-        + t * (u * (1.0 - NU) / (1.0 + u) + (1.0 + NU) * root * (1.0 / root).atan() - 2.0)
-}
 
 /// What is measured on one grid.
 #[derive(Debug, Clone, Copy)]
@@ -91,7 +77,7 @@ fn measure(points: usize, shift: [f64; 2]) -> Measured {
             let state = plane.state(index);
             let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
             let found = (state.xx * c * c + state.yy * s * s + 2.0 * state.xy * c * s) / p0;
-            let error = (found - radial(r / RADIUS, depth) - pressed(depth * RADIUS)).abs();
+            let error = (found - Stresses::at(r / RADIUS, depth, NU).radial - pressed(depth * RADIUS)).abs();
             let mut note = |k: usize| worst[k] = worst[k].max(error);
             match r / RADIUS {
                 r if r < 0.8 => note(0),
@@ -110,10 +96,11 @@ fn measure(points: usize, shift: [f64; 2]) -> Measured {
     let tension = maxima.faces[0].tension;
     let s = cell.fractions([tension.position[0], tension.position[1]]);
     let [x, y] = reduced.nearest([s[0] - site[0], s[1] - site[1]]);
-    let shear = 0.310_021 + 0.5 * pressed(0.480_864 * RADIUS);
+    let [tau1, deepest] = largest_shear(NU);
+    let shear = tau1 + 0.5 * pressed(deepest * RADIUS);
     Measured {
         resolution: RADIUS / grid.sample_area().sqrt(),
-        tension: tension.value / ((1.0 - 2.0 * NU) / 3.0 * p0) - 1.0,
+        tension: tension.value / (edge_tension(NU) * p0) - 1.0,
         place: x.hypot(y) / RADIUS,
         shear: maxima.materials[0].tau1.value / (shear * p0) - 1.0,
         radial: [0.0, 0.05, 0.2].map(errors),

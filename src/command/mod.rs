@@ -6,6 +6,7 @@ mod kernel;
 mod pictures;
 mod solve;
 mod stress;
+mod validate;
 
 use clap::{Args, Parser, Subcommand};
 use percoat::case::{Case, CaseError, Source, embedded};
@@ -56,6 +57,14 @@ enum Command {
         /// Name of the case to print
         name: Option<String>,
     },
+    /// Hold percoat against closed forms, references and peers; exit code 1 when a check fails
+    Validate {
+        /// Name of one study [default: all of them]
+        study: Option<String>,
+        /// An earlier REPORT.md: fail unless studies, quantities and verdicts are the same
+        #[arg(long, value_name = "REPORT")]
+        expect: Option<PathBuf>,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -101,11 +110,13 @@ enum Failure {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     Done,
+    /// A check of the validation fails.
+    Failed,
     /// Everything computed is written and marked.
     NotConverged,
 }
 
-/// Runs the command; the exit codes are 0 done, 2 refused, 3 not converged, 4 input or output failed.
+/// Runs the command; the exit codes are 0 done, 1 a validation failed, 2 refused, 3 not converged, 4 input or output failed.
 pub fn run(arguments: &Arguments) -> ExitCode {
     let common = &arguments.common;
     if let Some(threads) = common.threads
@@ -119,9 +130,11 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         Command::Kernel { case, wavenumber, depth } => kernel::run(case.as_deref(), wavenumber, depth, common),
         Command::Check { case } => check::run(case, common),
         Command::Cases { name } => cases::run(name.as_deref()),
+        Command::Validate { study, expect } => validate::run(study.as_deref(), expect.as_deref(), common),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
+        Ok(Outcome::Failed) => ExitCode::FAILURE,
         Ok(Outcome::NotConverged) => ExitCode::from(3),
         // Whoever reads standard output may stop reading; that is no fault.
         Err(Failure::Print(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,

@@ -73,12 +73,17 @@ fn compact(steps: &[Step], levels: usize) -> String {
 
 /// A table with right-aligned cells under a rule.
 pub fn render(header: &[String], rows: &[Vec<String>]) -> String {
+    render_with(header, rows, 0)
+}
+
+/// A table whose first `words` columns are aligned left, the others right.
+pub fn render_with(header: &[String], rows: &[Vec<String>], words: usize) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     table.set_header(header);
     table.add_rows(rows);
-    for column in table.column_iter_mut() {
-        column.set_cell_alignment(CellAlignment::Right);
+    for (index, column) in table.column_iter_mut().enumerate() {
+        column.set_cell_alignment(if index < words { CellAlignment::Left } else { CellAlignment::Right });
     }
     let text = table.trim_fmt();
     let width = text.lines().map(|line| line.chars().count()).max().unwrap_or(0);

@@ -1,0 +1,82 @@
+//! `percoat validate`: the studies, their verdicts, and a report of them.
+
+use super::{Common, Failure, Outcome};
+use percoat::output::{make_folder, write_text};
+use percoat::picture::{Format, write_picture};
+use percoat::validation::{self, Report, STUDIES, Study, differences};
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+pub fn run(name: Option<&str>, expected: Option<&Path>, common: &Common) -> Result<Outcome, Failure> {
+    if !common.set.is_empty() {
+        return Err(Failure::Refused("--set changes a case, and validate has none: its studies are fixed".to_owned()));
+    }
+    let studies: Vec<&'static Study> = match name {
+        Some(name) => vec![validation::find(name).ok_or_else(|| unknown(name))?],
+        None => STUDIES.iter().collect(),
+    };
+    let expected = expected
+        .map(|path| std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error }));
+    let expected = expected.transpose()?;
+    let folder = common.output.clone().unwrap_or_else(|| PathBuf::from("out/validate"));
+    let started = Instant::now();
+    let mut report = Report::default();
+    for (number, study) in (1..).zip(&studies) {
+        let started = Instant::now();
+        if !common.quiet && !common.verbose && std::io::stderr().is_terminal() {
+            eprint!("\r\x1b[Kstudy {number} of {}: {}", studies.len(), study.name);
+        }
+        let result = (study.run)();
+        if common.verbose {
+            eprintln!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
+        }
+        if let Ok(outcome) = &result {
+            write(&folder.join(study.name), outcome)?;
+        }
+        report.add(study, result);
+    }
+    if !common.quiet && !common.verbose && std::io::stderr().is_terminal() {
+        eprint!("\r\x1b[K");
+    }
+    // The report of one study stays in its folder, so that it does not pass for the whole.
+    let path = if name.is_some() { folder.join(studies[0].name) } else { folder.clone() }.join("REPORT.md");
+    let markdown = report.markdown();
+    make_folder(path.parent().unwrap_or(&folder))?;
+    write_text(&path, &markdown)?;
+    let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
+    let differences = expected.map(|expected| differences(&expected, &markdown, name.is_some().then_some(&names[..])));
+    for line in report.errors().iter().chain(differences.iter().flatten()) {
+        eprintln!("error: {line}");
+    }
+    if !common.quiet {
+        print(&report, &path, started)?;
+    }
+    let as_expected = differences.is_none_or(|differences| differences.is_empty());
+    Ok(if report.holds() && as_expected { Outcome::Done } else { Outcome::Failed })
+}
+
+fn unknown(name: &str) -> Failure {
+    let names: Vec<&str> = STUDIES.iter().map(|study| study.name).collect();
+    Failure::Refused(format!("there is no study {name}; there are {}", names.join(", ")))
+}
+
+/// The figures and data of a study.
+fn write(folder: &Path, outcome: &validation::Outcome) -> Result<(), Failure> {
+    make_folder(folder)?;
+    for (name, figure) in &outcome.figures {
+        write_picture(folder, name, Format::Png, &figure.draw(Format::Png))?;
+    }
+    for data in &outcome.data {
+        write_text(&folder.join(format!("{}.data.csv", data.name)), &data.csv())?;
+    }
+    Ok(())
+}
+
+fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    let [held, all] = report.count();
+    writeln!(out, "{}\n\n{held} of {all} checks hold", report.table())?;
+    writeln!(out, "{:.1} s; report in {}", started.elapsed().as_secs_f64(), path.display())?;
+    Ok(())
+}

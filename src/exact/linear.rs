@@ -1,0 +1,42 @@
+//! Small dense systems of linear equations by Gauss' elimination with row exchange.
+
+/// x with Σₖ aᵢₖ xₖ = bᵢ, aᵢₖ = `rows[i][k]`, bᵢ = `right[i]`; `None` when the matrix is singular to working precision.
+pub fn solve(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
+    let n = right.len();
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()))?;
+        rows.swap(k, pivot);
+        right.swap(k, pivot);
+        let scale = rows[k].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        if rows[k][k].abs() <= 1e-15 * scale || !scale.is_finite() {
+            return None;
+        }
+        let (head, tail) = rows.split_at_mut(k + 1);
+        let lead = &head[k];
+        for (row, i) in tail.iter_mut().zip(k + 1..) {
+            let factor = row[k] / lead[k];
+            row[k..].iter_mut().zip(&lead[k..]).for_each(|(x, y)| *x -= factor * y);
+            right[i] -= factor * right[k];
+        }
+    }
+    for k in (0..n).rev() {
+        let known: f64 = (k + 1..n).map(|m| rows[k][m] * right[m]).sum();
+        right[k] = (right[k] - known) / rows[k][k];
+    }
+    Some(right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::solve;
+
+    #[test]
+    fn rows_are_exchanged_and_singular_systems_refused() {
+        let x =
+            solve(vec![vec![0.0, 2.0, 1.0], vec![1.0, 1.0, 0.0], vec![3.0, 0.0, 1.0]], vec![7.0, 3.0, 6.0]).unwrap();
+        for (found, expected) in x.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((found - expected).abs() < 1e-14, "{x:?}");
+        }
+        assert!(solve(vec![vec![1.0, 2.0], vec![2.0, 4.0]], vec![1.0, 2.0]).is_none());
+    }
+}

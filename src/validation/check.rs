@@ -1,0 +1,170 @@
+//! One quantity against its reference, with its verdict.
+
+use std::fmt;
+
+/// How far a value may be from its reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tolerance {
+    /// |value − reference| ≤ tolerance · |reference|.
+    Relative(f64),
+    /// |value − reference| ≤ tolerance, in the unit of the value.
+    Absolute(f64),
+    /// An observed order of convergence: value ≥ reference − tolerance.
+    Order(f64),
+    /// value ≤ reference: the reference is itself the bound.
+    AtMost,
+    /// value ≥ reference.
+    AtLeast,
+}
+
+/// A quantity of a study, compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Check {
+    /// What is compared, in the words of the field; the same in every run.
+    pub quantity: String,
+    /// What percoat gives.
+    pub value: f64,
+    /// What it should be.
+    pub reference: f64,
+    /// How close it has to come.
+    pub tolerance: Tolerance,
+}
+
+impl Check {
+    /// Compares `value` with `reference`.
+    pub fn new(quantity: impl Into<String>, value: f64, reference: f64, tolerance: Tolerance) -> Self {
+        Self { quantity: quantity.into(), value, reference, tolerance }
+    }
+
+    /// Within `tolerance` · |reference|.
+    pub fn relative(quantity: impl Into<String>, value: f64, reference: f64, tolerance: f64) -> Self {
+        Self::new(quantity, value, reference, Tolerance::Relative(tolerance))
+    }
+
+    /// Within `tolerance`, in the unit of the value.
+    pub fn absolute(quantity: impl Into<String>, value: f64, reference: f64, tolerance: f64) -> Self {
+        Self::new(quantity, value, reference, Tolerance::Absolute(tolerance))
+    }
+
+    /// An observed order of convergence, at least `expected` − `slack`.
+    pub fn order(quantity: impl Into<String>, value: f64, expected: f64, slack: f64) -> Self {
+        Self::new(quantity, value, expected, Tolerance::Order(slack))
+    }
+
+    /// Not above `bound`.
+    pub fn at_most(quantity: impl Into<String>, value: f64, bound: f64) -> Self {
+        Self::new(quantity, value, bound, Tolerance::AtMost)
+    }
+
+    /// Not below `bound`.
+    pub fn at_least(quantity: impl Into<String>, value: f64, bound: f64) -> Self {
+        Self::new(quantity, value, bound, Tolerance::AtLeast)
+    }
+
+    /// Of many pairs (value, reference) under one tolerance, the one that is worst off stands for all; without any the
+    /// check fails.
+    pub fn worst(
+        quantity: impl Into<String>,
+        pairs: impl IntoIterator<Item = (f64, f64)>,
+        tolerance: Tolerance,
+    ) -> Self {
+        let mut worst = Self::new(quantity, f64::NAN, f64::NAN, tolerance);
+        let mut largest = f64::NEG_INFINITY;
+        for (value, reference) in pairs {
+            let error = Self::new("", value, reference, tolerance).badness();
+            // What is not a number is worse than any number, and stays.
+            if error > largest || error.is_nan() {
+                (worst.value, worst.reference, largest) = (value, reference, error);
+            }
+            if error.is_nan() {
+                break;
+            }
+        }
+        worst
+    }
+
+    /// value − reference, over |reference| where the tolerance is relative.
+    pub fn error(&self) -> f64 {
+        let difference = self.value - self.reference;
+        match self.tolerance {
+            Tolerance::Relative(_) => difference / self.reference.abs(),
+            _ => difference,
+        }
+    }
+
+    /// What must not exceed the tolerance (or zero, where the reference is the bound).
+    fn badness(&self) -> f64 {
+        match self.tolerance {
+            Tolerance::Relative(_) | Tolerance::Absolute(_) => self.error().abs(),
+            Tolerance::AtMost => self.error(),
+            Tolerance::AtLeast | Tolerance::Order(_) => -self.error(),
+        }
+    }
+
+    /// The verdict. What is not a number fails.
+    pub fn holds(&self) -> bool {
+        let allowed = match self.tolerance {
+            Tolerance::Relative(tolerance) | Tolerance::Absolute(tolerance) | Tolerance::Order(tolerance) => tolerance,
+            Tolerance::AtMost | Tolerance::AtLeast => 0.0,
+        };
+        self.badness() <= allowed
+    }
+
+    /// The verdict as a word.
+    pub fn verdict(&self) -> &'static str {
+        if self.holds() { "holds" } else { "fails" }
+    }
+}
+
+impl fmt::Display for Tolerance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Relative(tolerance) => write!(f, "{tolerance:.0e} relative"),
+            Self::Absolute(tolerance) => write!(f, "{tolerance:.0e}"),
+            Self::Order(slack) => write!(f, "order, −{slack}"),
+            Self::AtMost => write!(f, "at most"),
+            Self::AtLeast => write!(f, "at least"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn verdicts_follow_their_tolerance() {
+        assert!(Check::relative("x", 101.0, 100.0, 0.011).holds());
+        assert!(!Check::relative("x", 98.0, 100.0, 0.011).holds());
+        assert!(Check::relative("x", -1.005, -1.0, 0.01).holds());
+        assert!(!Check::absolute("x", 0.3, 0.0, 0.2).holds());
+        assert!(Check::order("x", 2.5, 2.0, 0.2).holds());
+        assert!(!Check::order("x", 1.7, 2.0, 0.2).holds());
+        assert!(Check::at_most("x", 20.0, 20.0).holds() && !Check::at_most("x", 21.0, 20.0).holds());
+        assert!(Check::at_least("x", 20.0, 20.0).holds() && !Check::at_least("x", 19.0, 20.0).holds());
+    }
+
+    #[test]
+    fn what_is_not_a_number_fails() {
+        for tolerance in [
+            Tolerance::Relative(1.0),
+            Tolerance::Absolute(1.0),
+            Tolerance::Order(1.0),
+            Tolerance::AtMost,
+            Tolerance::AtLeast,
+        ] {
+            assert!(!Check::new("x", f64::NAN, 1.0, tolerance).holds());
+            assert!(!Check::new("x", 1.0, f64::NAN, tolerance).holds());
+            assert!(!Check::worst("x", [(1.0, 1.0), (f64::NAN, 1.0), (2.0, 1.0)], tolerance).holds());
+            assert!(!Check::worst("x", [], tolerance).holds());
+        }
+    }
+
+    #[test]
+    fn the_worst_pair_stands_for_all() {
+        let check = Check::worst("x", [(1.0, 1.1), (5.0, 4.0), (9.0, 9.0)], Tolerance::Absolute(2.0));
+        assert_eq!((check.value, check.reference), (5.0, 4.0));
+        let iterations = Check::worst("x", [(9.0, 20.0), (18.0, 20.0), (1.0, 20.0)], Tolerance::AtMost);
+        assert_eq!(iterations.value, 18.0);
+    }
+}

@@ -1,0 +1,97 @@
+//! Iterations and convolutions of the default method and of the baseline against the number of points, on the cases of
+//! the paper's figures.
+
+use super::draw::{self, curve};
+use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use crate::case::{Case, embedded};
+use crate::hierarchy::Hierarchy;
+use crate::picture::{Axis, Chart, Figure, Style};
+use crate::solver::{Control, Method, Settings};
+
+pub const STUDY: Study = Study { name: "iterations", title: "Iterations against the number of points", run };
+
+/// Figures of Goryacheva & Torskaya (2019), each at one load p̄/E₂.
+const CASES: [(&str, f64); 5] = [("fig2", 0.06), ("fig3a", 0.008), ("fig3b", 0.008), ("fig4", 0.01), ("fig5", 0.08)];
+const SIZES: [usize; 4] = [128, 256, 512, 1024];
+/// The baseline takes too long on the finest grid.
+const BASELINE_SIZES: [usize; 3] = [128, 256, 512];
+
+fn run() -> Result<Outcome, StudyError> {
+    let [preconditioned, baseline] =
+        [(Method::Preconditioned, &SIZES[..]), (Method::PolonskyKeer, &BASELINE_SIZES[..])]
+            .map(|(method, sizes)| table(method, sizes));
+    let [mut preconditioned, mut baseline] = [preconditioned?, baseline?];
+    (preconditioned.name, baseline.name) = ("preconditioned", "polonsky-keer");
+    let (mut most, mut growth, mut saving) = (Vec::new(), Vec::new(), Vec::new());
+    for (name, _) in CASES {
+        let iterations = preconditioned.column(name);
+        most.extend(iterations.iter().map(|&iterations| (iterations, 20.0)));
+        growth.extend(
+            iterations[2..].iter().map(|iterations| (iterations / iterations_at_256(&preconditioned, name), 1.3)),
+        );
+        let work = |data: &Data| data.column(&format!("{name} convolutions"))[2];
+        saving.push((work(&baseline) / work(&preconditioned), 2.0));
+    }
+    let checks = vec![
+        Check::worst("preconditioned: iterations, 5 cases, N = 128 to 1024", most, Tolerance::AtMost),
+        Check::worst("preconditioned: iterations over those at N = 256, finer grids", growth, Tolerance::AtMost),
+        Check::worst("convolutions of Polonsky–Keer over preconditioned, N = 512", saving, Tolerance::AtLeast),
+    ];
+    let figures = vec![("figure", figure(&preconditioned, &baseline))];
+    Ok(Outcome { checks, figures, data: vec![preconditioned, baseline] })
+}
+
+fn iterations_at_256(data: &Data, name: &str) -> f64 {
+    data.column(name)[1]
+}
+
+/// Iterations on the finest grid and convolutions on all, a row a size.
+fn table(method: Method, sizes: &[usize]) -> Result<Data, StudyError> {
+    let names: Vec<String> = CASES.iter().map(|(name, _)| (*name).to_owned()).collect();
+    let work = names.iter().map(|name| format!("{name} convolutions"));
+    let columns = ["points".to_owned()].into_iter().chain(names.iter().cloned()).chain(work).collect();
+    let mut data = Data { name: "iterations", columns, rows: Vec::new() };
+    for &points in sizes {
+        let (mut iterations, mut convolutions) = (Vec::new(), Vec::new());
+        for (name, mean_pressure) in CASES {
+            let source = embedded::source(name).ok_or("no such case")?;
+            let case = Case::read(&source, &[]).map_err(|error| error.render(false))?;
+            let settings = Settings { method, ..Settings::default() };
+            let mut hierarchy = Hierarchy::new(case.surface(), case.half_space(), [points; 2], settings)?;
+            let solution = hierarchy.solve(Control::MeanPressure(mean_pressure), &mut |_| ());
+            if !solution.report.stop.solved() || solution.report.fell_back {
+                return Err(format!("{name} at N = {points}: {}", solution.report).into());
+            }
+            iterations.push(solution.report.iterations as f64);
+            convolutions.push(solution.convolutions);
+        }
+        data.rows.push([vec![points as f64], iterations, convolutions].concat());
+    }
+    Ok(data)
+}
+
+fn figure(preconditioned: &Data, baseline: &Data) -> Figure {
+    let mut curves = Vec::new();
+    for (data, style) in [(preconditioned, Style::LineMarkers), (baseline, Style::Markers)] {
+        for ((name, _), colour) in CASES.into_iter().zip(1..) {
+            let label = match style {
+                Style::LineMarkers => name,
+                _ if colour == 1 => "Polonsky–Keer (open)",
+                _ => "",
+            };
+            let points = data.column("points").into_iter().zip(data.column(name)).map(|(x, y)| [x, y]);
+            curves.push(curve(label, style, colour, points));
+        }
+    }
+    let chart = Chart {
+        title: String::new(),
+        caption: Vec::new(),
+        x: Axis::log("points along the cell N").from_to(100.0, 2000.0),
+        y: Axis::log("iterations on the finest grid").from_to(5.0, 300.0),
+        curves,
+    };
+    draw::figure(
+        vec![chart],
+        "Iterations to the tolerance 1e-8 on the cases of the paper: preconditioned (filled) and Polonsky–Keer (open).",
+    )
+}

@@ -1,0 +1,94 @@
+//! What a study gives: its checks, the figure that shows them, and the data they rest on.
+
+use super::check::Check;
+use crate::picture::Figure;
+
+/// What a study found.
+#[derive(Debug, Clone, Default)]
+pub struct Outcome {
+    /// The comparisons, in the order of the report.
+    pub checks: Vec<Check>,
+    /// Figures by the name of their file, without its ending; the first one shows the agreement at a glance.
+    pub figures: Vec<(&'static str, Figure)>,
+    /// Everything computed, for whoever wants to draw or look closer.
+    pub data: Vec<Data>,
+}
+
+impl Outcome {
+    /// Whether there is a check and all of them hold.
+    pub fn holds(&self) -> bool {
+        !self.checks.is_empty() && self.checks.iter().all(Check::holds)
+    }
+}
+
+/// A table of numbers, written as `<name>.data.csv`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Data {
+    /// Name of the file, without its ending.
+    pub name: &'static str,
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// One value a column.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Data {
+    /// A table without rows.
+    pub fn new(name: &'static str, columns: &[&str]) -> Self {
+        Self { name, columns: columns.iter().map(|&column| column.to_owned()).collect(), rows: Vec::new() }
+    }
+
+    /// As CSV, every number with all its digits.
+    pub fn csv(&self) -> String {
+        let mut text = self.columns.join(",") + "\n";
+        for row in &self.rows {
+            text += &(row.iter().map(f64::to_string).collect::<Vec<_>>().join(",") + "\n");
+        }
+        text
+    }
+
+    /// The values of a column; none where there is no such column.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let index = self.columns.iter().position(|column| column == name);
+        index.map_or(Vec::new(), |index| self.rows.iter().map(|row| row[index]).collect())
+    }
+
+    /// Reads a CSV table as [`Self::csv`] writes it; lines that begin with `#` say where it comes from.
+    ///
+    /// # Errors
+    /// The first cell that is no number, or row of another length, with its line.
+    pub fn parse(name: &'static str, text: &str) -> Result<Self, String> {
+        let mut lines = (1..).zip(text.lines()).filter(|(_, line): &(usize, &str)| !line.starts_with('#'));
+        let header = lines.next().map_or("", |(_, line)| line);
+        let mut data = Self::new(name, &header.split(',').collect::<Vec<_>>());
+        for (number, line) in lines {
+            let row: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
+            let row = row.map_err(|error| format!("{name}, line {number}: {error}"))?;
+            if row.len() != data.columns.len() {
+                return Err(format!("{name}, line {number}: {} values for {} columns", row.len(), data.columns.len()));
+            }
+            data.rows.push(row);
+        }
+        Ok(data)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_survives_csv_and_broken_ones_are_refused() {
+        let mut data = Data::new("x", &["a", "b"]);
+        data.rows = vec![vec![0.1, -2e-300], vec![1.0 / 3.0, 4.0]];
+        assert_eq!(Data::parse("x", &format!("# from nowhere\n{}", data.csv())).unwrap(), data);
+        assert_eq!(data.column("b"), [-2e-300, 4.0]);
+        assert!(Data::parse("x", "a,b\n1,2\n3\n").unwrap_err().contains("line 3"));
+        assert!(Data::parse("x", "a,b\n1,zwei\n").unwrap_err().contains("line 2"));
+    }
+
+    #[test]
+    fn a_study_without_checks_does_not_hold() {
+        assert!(!Outcome::default().holds());
+    }
+}

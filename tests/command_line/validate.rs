@@ -1,0 +1,51 @@
+//! `percoat validate`.
+
+use crate::program::{Desk, Folder};
+use std::collections::BTreeSet;
+
+#[test]
+fn one_study_prints_its_table_and_leaves_report_figure_and_data() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["validate", "kernel"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    for word in ["study", "quantity", "value", "reference", "error", "tolerance", "verdict", "kernel", "holds"] {
+        assert!(answer.out.contains(word), "no {word} in\n{}", answer.out);
+    }
+    let folder = Folder(desk.path("out/validate/kernel"));
+    let expected = ["REPORT.md", "figure.png", "compliance.data.csv", "interior.data.csv"];
+    assert_eq!(folder.names(), expected.map(str::to_owned).into());
+    assert!(folder.text("REPORT.md").contains("| holds |"));
+    assert!(folder.bytes("figure.png").starts_with(b"\x89PNG"));
+    assert_eq!(folder.text("compliance.data.csv").lines().count(), 701);
+}
+
+#[test]
+fn an_unknown_study_is_refused_with_the_names_of_all() {
+    let desk = Desk::new();
+    desk.percoat(&["validate", "kernal"]).complains(2, &["kernal", "kernel", "periodic-hertz", "peer"]);
+    desk.percoat(&["validate", "kernel", "--set", "grid.points=64"]).complains(2, &["--set"]);
+    desk.percoat(&["validate", "kernel", "--expect", "absent.md"]).complains(4, &["absent.md"]);
+    assert_eq!(desk.names(), BTreeSet::new(), "something is written");
+}
+
+#[test]
+fn another_verdict_or_row_than_expected_fails() {
+    let desk = Desk::new();
+    assert_eq!(desk.percoat(&["validate", "kernel", "--quiet", "--output", "first"]).code, 0);
+    let report = Folder(desk.path("first/kernel")).text("REPORT.md");
+    let expect = |report: String| {
+        desk.write("expected.md", report);
+        let answer = desk.percoat(&["validate", "kernel", "--quiet", "--expect", "expected.md"]);
+        (answer.code, answer.err)
+    };
+    assert_eq!(expect(report.clone()), (0, String::new()));
+    // Digits may differ between machines.
+    assert_eq!(expect(report.replace("2523.0", "2524.0")).0, 0);
+    let row = report.lines().find(|line| line.starts_with("| points inside")).unwrap();
+    let (code, complaint) = expect(report.replace(row, &row.replace("holds", "fails")));
+    assert!(code == 1 && complaint.contains("points inside: holds, expected fails"), "{complaint}");
+    let (code, complaint) = expect(report.replace(&format!("{row}\n"), ""));
+    assert!(code == 1 && complaint.contains("not expected"), "{complaint}");
+    let (code, complaint) = expect(report.replace(row, &format!("{row}\n{}", row.replace("inside", "outside"))));
+    assert!(code == 1 && complaint.contains("points outside: missing"), "{complaint}");
+}

@@ -1,0 +1,71 @@
+//! The studies of `percoat validate`, each as a test, and what stands beside them in `validation/`.
+
+use percoat::validation::{Check, STUDIES, differences, find};
+use std::fs;
+use std::path::PathBuf;
+
+/// Runs a study: every check holds.
+#[track_caller]
+fn holds(name: &str) {
+    let outcome = (find(name).expect("a study").run)().expect("the study runs");
+    let failing: Vec<&Check> = outcome.checks.iter().filter(|check| !check.holds()).collect();
+    assert!(outcome.holds(), "{failing:#?}");
+    assert!(!outcome.figures.is_empty() && !outcome.data.is_empty(), "{name} shows nothing");
+}
+
+macro_rules! studies {
+    ($($test:ident = $name:literal),* $(,)?) => {
+        $(#[test] fn $test() { holds($name); })*
+
+        #[test]
+        fn every_study_is_among_these() {
+            assert_eq!(STUDIES.map(|study| study.name), [$($name),*]);
+        }
+    };
+}
+
+studies! {
+    kernel = "kernel",
+    lattice_sums = "lattice-sums",
+    hertz = "hertz",
+    periodic_hertz = "periodic-hertz",
+    westergaard = "westergaard",
+    wavy = "wavy",
+    isolated = "isolated",
+    hertz_stresses = "hertz-stresses",
+    sinusoidal_stresses = "sinusoidal-stresses",
+    convergence = "convergence",
+    iterations = "iterations",
+    peer = "peer",
+}
+
+fn folder() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("validation")
+}
+
+#[test]
+fn every_study_has_its_folder_with_a_readme_that_says_how_to_run_it_and_a_figure() {
+    for study in &STUDIES {
+        let folder = folder().join(study.name);
+        let readme = fs::read_to_string(folder.join("README.md")).expect(study.name);
+        assert!(readme.contains(&format!("percoat validate {}", study.name)), "{}: no command", study.name);
+        assert!(readme.contains("**Verdict:**"), "{}: no verdict", study.name);
+        assert!(readme.contains("(figure.png)"), "{}: the figure is not shown", study.name);
+        assert!(folder.join("figure.png").is_file(), "{}: no figure", study.name);
+    }
+}
+
+#[test]
+fn the_committed_report_is_whole_and_nothing_in_it_fails() {
+    let report = fs::read_to_string(folder().join("REPORT.md")).unwrap();
+    for study in &STUDIES {
+        assert!(report.contains(&format!("\n## {}\n", study.name)), "{} is not in the report", study.name);
+    }
+    assert!(!report.contains("| fails |"));
+    // Every row counts: without the last one, or with another verdict, it is another report.
+    assert!(differences(&report, &report, None).is_empty());
+    let shorter = report.trim_end().rsplit_once('\n').unwrap().0;
+    assert_eq!(differences(&report, shorter, None).len(), 1);
+    let (before, after) = report.rsplit_once("| holds |").unwrap();
+    assert_eq!(differences(&report, &format!("{before}| fails |{after}"), None).len(), 1);
+}
