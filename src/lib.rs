@@ -22,7 +22,7 @@
 //! lattice, indenter ─────────────→ texture ─┐
 //! lattice → grid → fourier ─────────────────┤
 //! material → layered ─────────→ operator ───┴→ solver → hierarchy → observables → refinement, touch
-//! indenter, lattice, layered ────────────────→ localized
+//! indenter, lattice, layered ────────────────→ localized ────────────┴→ comparison
 //!                                                         case → output → picture → validation → command line
 //! ```
 //!
@@ -62,6 +62,7 @@
 
 pub mod boundary;
 pub mod case;
+pub mod comparison;
 pub mod exact;
 pub mod field;
 pub mod fourier;

@@ -1,8 +1,12 @@
 //! How much the answer changes from one grid to the next finer one.
 
 use crate::fourier::fast_points;
-use crate::lattice::Cell;
-use crate::observables::Observables;
+use crate::hierarchy::Hierarchy;
+use crate::lattice::{Cell, LatticeError};
+use crate::material::HalfSpace;
+use crate::observables::{Observables, observe};
+use crate::solver::{Control, Settings};
+use crate::texture::Surface;
 
 /// Points along the shorter cell vector at which a refinement starts.
 pub const FIRST_POINTS: usize = 96;
@@ -20,6 +24,33 @@ pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
 /// and penetration.
 pub fn change(coarse: &[Observables], fine: &[Observables]) -> f64 {
     coarse.iter().zip(fine).map(|(coarse, fine)| step_change(coarse, fine)).fold(0.0, f64::max)
+}
+
+/// Points of the first grid from which one load step changes by less than `accuracy` to the next; the finest grid
+/// allowed where none does.
+///
+/// # Errors
+/// [`LatticeError`] when the cell has no grid.
+pub fn sufficient_points(
+    surface: &Surface,
+    half_space: &HalfSpace,
+    settings: Settings,
+    control: Control,
+    accuracy: f64,
+) -> Result<[usize; 2], LatticeError> {
+    let (mut points, mut coarse): (usize, Option<[Observables; 1]>) = (FIRST_POINTS, None);
+    loop {
+        let grid = balanced_points(&surface.cell(), points);
+        let finer = balanced_points(&surface.cell(), 2 * points);
+        let mut hierarchy = Hierarchy::new(surface, half_space, grid, settings)?;
+        let solution = hierarchy.solve(control, &mut |_| ());
+        let fine = [observe(&hierarchy, &solution)];
+        let sufficient = coarse.as_ref().is_some_and(|coarse| change(coarse, &fine) < accuracy);
+        if sufficient || finer.iter().any(|&n| n > MOST_POINTS) {
+            return Ok(grid);
+        }
+        (points, coarse) = (2 * points, Some(fine));
+    }
 }
 
 fn step_change(coarse: &Observables, fine: &Observables) -> f64 {

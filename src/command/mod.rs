@@ -2,6 +2,7 @@
 
 mod cases;
 mod check;
+mod compare;
 mod kernel;
 mod pictures;
 mod solve;
@@ -31,6 +32,13 @@ pub struct Arguments {
 enum Command {
     /// Solve every load step of a case (without CASE: the embedded default, Fig. 2 of the paper)
     Solve {
+        /// Case file, or the name of an embedded case
+        case: Option<PathBuf>,
+        #[command(flatten)]
+        pictures: PictureOptions,
+    },
+    /// Solve a case by both methods, spectral and localized, and show their differences (the last load step)
+    Compare {
         /// Case file, or the name of an embedded case
         case: Option<PathBuf>,
         #[command(flatten)]
@@ -127,6 +135,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
     }
     let outcome = match &arguments.command {
         Command::Solve { case, pictures } => solve::run(case.as_deref(), pictures, common),
+        Command::Compare { case, pictures } => compare::run(case.as_deref(), pictures, common),
         Command::Kernel { case, wavenumber, depth } => kernel::run(case.as_deref(), wavenumber, depth, common),
         Command::Check { case } => check::run(case, common),
         Command::Cases { name } => cases::run(name.as_deref()),

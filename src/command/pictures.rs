@@ -47,22 +47,18 @@ impl PictureOptions {
             ("lines", &|| Some(picture::lines(last, touching_cut?))),
             ("curve", &|| picture::load_curves(last.title, last.surface, last.half_space, steps)),
         ];
-        let mut formats: Vec<Format> = Vec::new();
-        for format in &self.pictures {
-            let format = match format {
-                PictureFormat::Png => Format::Png,
-                PictureFormat::Svg => Format::Svg,
-            };
-            if !formats.contains(&format) {
-                formats.push(format);
+        pictures.par_iter().try_for_each(|(name, draw)| self.write(folder, name, draw))
+    }
+
+    /// Writes one picture in every format asked for, if there is one and pictures are wanted.
+    pub fn write(&self, folder: &Path, name: &str, draw: impl FnOnce() -> Option<Canvas>) -> Result<(), Failure> {
+        let Some(canvas) = self.wanted().then(draw).flatten() else { return Ok(()) };
+        let asked = |wanted: PictureFormat| self.pictures.contains(&wanted);
+        for (wanted, format) in [(PictureFormat::Png, Format::Png), (PictureFormat::Svg, Format::Svg)] {
+            if asked(wanted) {
+                write_picture(folder, name, format, &canvas.file(format))?;
             }
         }
-        pictures.par_iter().try_for_each(|(name, draw)| {
-            let Some(canvas) = draw() else { return Ok(()) };
-            formats.iter().try_for_each(|&format| {
-                write_picture(folder, name, format, &canvas.file(format))?;
-                Ok(())
-            })
-        })
+        Ok(())
     }
 }

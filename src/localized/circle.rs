@@ -19,6 +19,25 @@ pub enum CircleRadius {
     AreaBalanced,
 }
 
+impl CircleRadius {
+    /// The name in case files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::LoadBalanced => "load-balanced",
+            Self::AreaBalanced => "area-balanced",
+        }
+    }
+
+    /// The other rule.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::LoadBalanced => Self::AreaBalanced,
+            Self::AreaBalanced => Self::LoadBalanced,
+        }
+    }
+}
+
 /// Distances closer than this, relatively, belong to one shell.
 const TIE: f64 = 1e-9;
 

@@ -27,6 +27,12 @@ impl Mesh {
         self.width * self.width
     }
 
+    /// The mesh of elements twice as large on about the same square.
+    #[must_use]
+    pub fn halved(&self) -> Self {
+        Self { width: self.width.div_ceil(2) / 2 * 2 + 1, size: 2.0 * self.size }
+    }
+
     /// Half the side of the mesh, a length.
     pub fn half(&self) -> f64 {
         0.5 * self.width as f64 * self.size

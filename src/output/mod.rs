@@ -4,6 +4,7 @@
 //! renewed after each load step and the fields of a step stand as `.npy` files in `contact.partial/` until
 //! `contact.npz` is made of them, so that what a long run has finished survives its end.
 
+mod comparison;
 mod fields;
 mod npz;
 mod steps;
@@ -12,6 +13,7 @@ pub mod summary;
 pub mod table;
 mod volume;
 
+pub use comparison::CompareFile;
 pub use fields::Fields;
 pub use steps::StepArrays;
 pub use stress::{Section, Stresses, Volume, Wanted};

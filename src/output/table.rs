@@ -1,6 +1,8 @@
 //! The result table a person reads.
 
 use super::summary::{Peak, Step, Stress};
+use crate::comparison::{CircleComparison, Comparison, Deviation, Reading};
+use crate::localized::Setup;
 use crate::number::number;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
@@ -69,6 +71,71 @@ fn compact(steps: &[Step], levels: usize) -> String {
         })
         .collect();
     render(&header, &rows)
+}
+
+/// Both solutions level by level, one block for the spectral one and for each circle.
+pub fn readings(comparison: &Comparison, setup: &Setup) -> String {
+    let header = [
+        "solution",
+        "inside",
+        "penetration",
+        "level",
+        "load on one",
+        "share",
+        "peak pressure",
+        "contact radius",
+        "circle",
+    ];
+    let spectral = Reading::spectral(&comparison.spectral);
+    let inside = |circle: &CircleComparison| {
+        if setup.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() }
+    };
+    let blocks = std::iter::once(("spectral", String::new(), &spectral))
+        .chain(comparison.circles.iter().map(|circle| ("localized", inside(circle), &circle.reading)));
+    let mut rows = Vec::new();
+    for (name, inside, reading) in blocks {
+        let mut lead = [name.to_owned(), inside, number(reading.penetration)];
+        for level in &reading.levels {
+            let length = |x: f64| if x.is_finite() { number(x) } else { "–".to_owned() };
+            let cells = [
+                level.level.to_string(),
+                number(level.load),
+                percent(level.load_share),
+                number(level.max_pressure),
+                length(if level.load > 0.0 { level.contact_radius } else { f64::NAN }),
+                length(level.radius),
+            ];
+            rows.push([&lead[..], &cells[..]].concat());
+            lead = [const { String::new() }; 3];
+        }
+    }
+    render(&header.map(str::to_owned), &rows)
+}
+
+/// Differences from the spectral solution circle by circle, for both rules, and what the meshes contribute.
+pub fn differences(comparison: &Comparison, setup: &Setup) -> String {
+    let header =
+        ["largest difference", "inside", "penetration", "load on one", "share", "peak pressure", "contact radius"];
+    let row = |name: String, inside: String, deviation: &Deviation| {
+        let Deviation { penetration, load, load_share, max_pressure, contact_radius } = *deviation;
+        let cells = [penetration, load, load_share, max_pressure, contact_radius];
+        let percents = cells.map(|x| if x.is_finite() { format!("{:.3} %", 100.0 * x) } else { "–".to_owned() });
+        [&[name, inside][..], &percents[..]].concat()
+    };
+    let mut rows = Vec::new();
+    let rules = [(setup.radius, &comparison.circles), (setup.radius.other(), &comparison.other_rule)];
+    for (rule, circles) in rules {
+        let mut name = if setup.mutual_effect { rule.name() } else { "no mutual effect" }.to_owned();
+        for circle in circles {
+            let inside = if setup.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() };
+            rows.push(row(std::mem::take(&mut name), inside, &circle.difference));
+        }
+    }
+    if let Some(last) = comparison.circles.last() {
+        rows.push(row("half the elements".to_owned(), last.indenters.to_string(), &last.mesh_error));
+    }
+    rows.push(row("half the grid".to_owned(), String::new(), &comparison.grid_error));
+    render(&header.map(str::to_owned), &rows)
 }
 
 /// A table with right-aligned cells under a rule.

@@ -7,11 +7,13 @@
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
 //! - Its stresses under a line ([`Cut`]): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()).
+//! - Localized against spectral: [`comparison`](comparison()).
 
 mod axis;
 mod canvas;
 mod chart;
 mod colour;
+mod comparison;
 mod contact;
 mod contour;
 mod curve;
@@ -35,6 +37,7 @@ mod vector;
 pub use axis::{Axis, Scale};
 pub use canvas::Canvas;
 pub use chart::{Chart, Figure};
+pub use comparison::comparison;
 pub use contact::contact;
 pub use curve::{Curve, Style};
 pub use cut::Cut;

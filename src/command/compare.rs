@@ -1,0 +1,112 @@
+//! `percoat compare`: spectral and localized solution of a case side by side.
+
+use super::pictures::PictureOptions;
+use super::{Common, Failure, Outcome, read_case};
+use indicatif::ProgressBar;
+use percoat::case::GridSection;
+use percoat::comparison::{Comparison, Task};
+use percoat::localized::{Setup, Stop};
+use percoat::number::number;
+use percoat::output::{CompareFile, make_folder, table, write_text};
+use percoat::picture;
+use percoat::refinement::sufficient_points;
+use percoat::stress::MeanStress;
+use percoat::texture::Surface;
+use std::io::Write;
+use std::path::Path;
+use std::time::Instant;
+
+pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Outcome, Failure> {
+    let (case, name) = read_case(case, common)?;
+    let Surface::Indenters { lattice, levels } = case.surface() else {
+        return Err(Failure::Refused(
+            "compare needs [[levels]]: the localized method knows indenters, not a [surface]; use percoat solve"
+                .to_owned(),
+        ));
+    };
+    let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let started = Instant::now();
+    let controls = case.load.controls();
+    let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    let localized = &case.localized;
+    let setup = Setup {
+        indenters: localized.indenters.iter().copied().max().unwrap_or(1),
+        elements: localized.elements,
+        radius: localized.radius,
+        mutual_effect: localized.mutual_effect,
+    };
+    let task = Task {
+        lattice,
+        levels,
+        half_space: case.half_space(),
+        control,
+        settings: case.solver,
+        setup,
+        indenters: &localized.indenters,
+        mean: case.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean),
+    };
+    let refused = |error: percoat::lattice::LatticeError| Failure::Refused(error.to_string());
+    let points = match case.grid {
+        GridSection::Points(points) => points,
+        GridSection::Accuracy(accuracy) => {
+            sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy).map_err(refused)?
+        }
+    };
+    let progress = if common.quiet || common.verbose { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+    let comparison = task.compare(points, &mut |what| {
+        progress.set_message(what.to_owned());
+        progress.tick();
+        if common.verbose {
+            eprintln!("{what}");
+        }
+    });
+    progress.finish_and_clear();
+    let comparison = comparison.map_err(refused)?;
+
+    make_folder(&folder)?;
+    let file =
+        CompareFile::new(&comparison, &case.title, &case, controls.len(), setup.radius, setup.mutual_effect).to_json();
+    write_text(&folder.join("compare.json"), &file)?;
+    pictures.write(&folder, "comparison", || {
+        picture::comparison(&case.title, case.surface(), case.half_space(), &comparison, setup.radius)
+    })?;
+    if !common.quiet {
+        let mut out = std::io::stdout().lock();
+        if !case.title.is_empty() {
+            writeln!(out, "{}", case.title)?;
+        }
+        if controls.len() > 1 {
+            writeln!(out, "the last of {} load steps", controls.len())?;
+        }
+        writeln!(out, "\n{}\n\n{}\n", table::readings(&comparison, &setup), table::differences(&comparison, &setup))?;
+        if let Some(text) = stresses(&comparison) {
+            writeln!(out, "{text}")?;
+        }
+        writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
+    }
+    let unsolved: Vec<String> = comparison
+        .circles
+        .iter()
+        .filter(|circle| circle.stop != Stop::Converged)
+        .map(|circle| format!("{} indenters in the circle: {}", circle.indenters, circle.stop))
+        .collect();
+    for line in &unsolved {
+        eprintln!("warning: {line}");
+    }
+    let solved = comparison.solution.report.stop.solved() && unsolved.is_empty();
+    Ok(if solved { Outcome::Done } else { Outcome::NotConverged })
+}
+
+/// How far the stresses agree, in a line.
+fn stresses(comparison: &Comparison) -> Option<String> {
+    let worst = comparison.stresses.iter().max_by(|a, b| a.difference().total_cmp(&b.difference()))?;
+    let largest = comparison.stresses.iter().flat_map(|pair| pair.spectral.components()[..6].to_vec());
+    let largest = largest.fold(0.0, |most: f64, stress| most.max(stress.abs()));
+    Some(format!(
+        "stresses at {} points under the highest level agree within {:.2} % of the largest, worst at z = {} in material {}",
+        comparison.stresses.len(),
+        100.0 * worst.difference() / largest,
+        number(worst.depth.z),
+        worst.depth.side
+    ))
+}

@@ -1,0 +1,83 @@
+//! Difference between localized and spectral solution against the number of indenters in the circle.
+
+use super::axis::Axis;
+use super::canvas::Canvas;
+use super::chart::{Chart, plots};
+use super::curve::{Curve, Style};
+use super::snapshot::caption;
+use crate::comparison::{CircleComparison, Comparison, Deviation};
+use crate::localized::CircleRadius;
+use crate::material::HalfSpace;
+use crate::number::number;
+use crate::texture::Surface;
+
+/// What is read off a deviation.
+type Value = fn(&Deviation) -> f64;
+
+/// Quantities that are drawn.
+const QUANTITIES: [(&str, Value); 4] = [
+    ("penetration", |deviation| deviation.penetration),
+    ("load on one", |deviation| deviation.load),
+    ("peak pressure", |deviation| deviation.max_pressure),
+    ("contact radius", |deviation| deviation.contact_radius),
+];
+
+/// The picture: one panel for each rule; `None` for less than two circles.
+pub fn comparison(
+    title: &str,
+    surface: &Surface,
+    half_space: &HalfSpace,
+    comparison: &Comparison,
+    rule: CircleRadius,
+) -> Option<Canvas> {
+    if comparison.circles.len() < 2 || comparison.other_rule.is_empty() {
+        return None;
+    }
+    let mut panels = [(rule, &comparison.circles), (rule.other(), &comparison.other_rule)];
+    panels.sort_by_key(|(rule, _)| *rule != CircleRadius::LoadBalanced);
+    let differences = panels.iter().flat_map(|(_, circles)| circles.iter()).flat_map(|circle| {
+        let of = |deviation: &Deviation| QUANTITIES.map(|(_, value)| value(deviation));
+        [of(&circle.difference), of(&circle.mesh_error)].concat()
+    });
+    let (least, most) = differences
+        .filter(|x| x.is_finite() && *x > 0.0)
+        .fold((f64::INFINITY, 0.0f64), |(a, b), x| (a.min(x), b.max(x)));
+    let range = [10f64.powf(least.max(1e-6).log10().floor()), 10f64.powf(most.log10().ceil())];
+    let chart = |(letter, (rule, circles)): (char, &(CircleRadius, &Vec<CircleComparison>))| Chart {
+        title: format!("({letter}) {} radius", rule.name()),
+        caption: Vec::new(),
+        x: Axis::log("indenters inside the circle"),
+        y: Axis::log("largest relative difference").from_to(range[0], range[1]),
+        curves: curves(circles),
+    };
+    let charts: Vec<Chart> = ('a'..).zip(&panels).map(chart).collect();
+    let [n1, n2] = comparison.points;
+    let more = [
+        format!("p̄\u{a0}=\u{a0}{}", number(comparison.spectral.mean_pressure)),
+        format!("localized with {} elements across the largest contact", comparison.elements),
+        format!("spectral on {n1}\u{a0}×\u{a0}{n2} samples"),
+    ];
+    let what = "Lines with markers: largest difference of any level from the spectral solution. Dashed: what half the \
+                elements change, a bound of the mesh's own error.";
+    let text = caption(title, surface, half_space, &more);
+    Some(plots("", &[text.join(" "), what.to_owned()], &charts, 2))
+}
+
+fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    for (colour, (name, value)) in (1..).zip(QUANTITIES) {
+        let points = |of: &dyn Fn(&CircleComparison) -> f64| {
+            circles.iter().map(|circle| [circle.indenters as f64, of(circle)]).collect()
+        };
+        let label = name.to_owned();
+        curves.push(Curve {
+            label,
+            points: points(&|circle| value(&circle.difference)),
+            style: Style::LineMarkers,
+            colour,
+        });
+        let points = points(&|circle| value(&circle.mesh_error));
+        curves.push(Curve { label: String::new(), points, style: Style::Dashed, colour });
+    }
+    curves
+}
