@@ -2,8 +2,12 @@
 
 use super::Failure;
 use clap::Args;
+use percoat::indenter::Level;
+use percoat::localized::isolated;
 use percoat::output::summary::Step;
 use percoat::picture::{self, Canvas, Cut, Format, Snapshot, write_picture};
+use percoat::solver::Control;
+use percoat::texture::Surface;
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -41,8 +45,8 @@ impl PictureOptions {
         let touching_cut = cut.filter(|_| touching);
         let pictures: [(&str, Draw); 6] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),
-            ("contact", &|| picture::contact(last, None).filter(|_| touching)),
-            ("profiles", &|| picture::profiles(last, None)),
+            ("contact", &|| picture::contact(last, isolated_radii(last).as_deref()).filter(|_| touching)),
+            ("profiles", &|| picture::profiles(last, isolated_profiles(last, steps).as_deref())),
             ("section", &|| Some(picture::section(last, touching_cut?))),
             ("lines", &|| Some(picture::lines(last, touching_cut?))),
             ("curve", &|| picture::load_curves(last.title, last.surface, last.half_space, steps)),
@@ -61,4 +65,21 @@ impl PictureOptions {
         }
         Ok(())
     }
+}
+
+/// Contact radius of each level without the mutual effect of the indenters.
+fn isolated_radii(last: &Snapshot) -> Option<Vec<f64>> {
+    let Surface::Indenters { lattice, levels } = last.surface else { return None };
+    isolated::radii(lattice, levels, last.half_space, Control::MeanPressure(last.mean_pressure))
+}
+
+/// Pressure of each level's indenter alone under the load it carries.
+fn isolated_profiles(last: &Snapshot, steps: &[Step]) -> Option<Vec<Vec<[f64; 2]>>> {
+    let Surface::Indenters { lattice, levels } = last.surface else { return None };
+    let size = lattice.cell().reduced().longer_side();
+    let loads = steps.last()?.levels.iter().map(|level| level.load);
+    let profile = |(level, load): (&Level, f64)| {
+        isolated::profile(*level, last.half_space, load, size).ok().flatten().unwrap_or_default()
+    };
+    Some(levels.iter().zip(loads).map(profile).collect())
 }

@@ -17,11 +17,13 @@
 //! - [`circle`]: who stands inside, and the radius, Eq. (4);
 //! - [`mesh`], [`press`]: elements and the contact of one spot; [`spot`]: what is read off it;
 //! - [`solver`]: level by level to one penetration and one load;
+//! - [`isolated`]: indenters without mutual effect;
 //! - [`system`]: the whole, and the additional displacement w_a of Eq. (8); [`stress`]: the stresses below.
 
 pub mod circle;
 pub mod disc;
 mod exchange;
+pub mod isolated;
 pub mod mesh;
 pub mod point;
 pub mod press;

@@ -38,7 +38,8 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
                 if let Some(boundary) = boundary {
                     over.push(ring(&|theta| boundary.radius(theta), Dash::Solid, 0.9, Colour::line(site.level)));
                 }
-                if let Some(&radius) = without_mutual_effect.and_then(|radii| radii.get(site.level - 1)) {
+                let alone = without_mutual_effect.and_then(|radii| radii.get(site.level - 1));
+                if let Some(&radius) = alone.filter(|radius| **radius > 0.0) {
                     over.push(ring(&|_| radius, Dash::Dashed, 0.7, Colour::BLACK));
                 }
             }
