@@ -13,7 +13,7 @@ mod canvas;
 mod chart;
 mod colour;
 mod contact;
-mod contour;
+pub(crate) mod contour;
 mod curve;
 mod cut;
 mod frame;
