@@ -95,3 +95,53 @@ pub fn solve(model: &Model, mean_pressure: f64) -> Result<Answer, StudyError> {
     let levels = levels.iter().zip(loads(penetration)).map(|(level, load)| law.loaded(level.curvature, load)).collect();
     Ok(Answer { penetration, levels })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coating_of_the_substrates_material_obeys_hertz_at_any_load() {
+        let coating = Coating::new(1.0, [0.3, 0.3], 0.4).unwrap();
+        let law = Law::new(&coating, 1.5).unwrap();
+        for radius in [1e-4, 0.0123, 0.2345, 0.6] {
+            // P = 4E*a³/(3R), δ = a²/R, p(0) = 2E*a/(πR), also beyond both ends of the table.
+            let (curvature, modulus) = (0.8, coating.modulus());
+            let load = 4.0 / 3.0 * modulus * f64::powi(radius, 3) / curvature;
+            let found = law.loaded(curvature, load);
+            assert!((found.radius.unwrap() / radius - 1.0).abs() < 1e-9);
+            assert!((found.peak * std::f64::consts::PI * curvature / (2.0 * modulus * radius) - 1.0).abs() < 1e-9);
+            assert!((law.load(curvature, radius * radius / curvature) / load - 1.0).abs() < 1e-9);
+        }
+        assert_eq!(law.load(0.8, -0.1), 0.0);
+        assert_eq!(law.loaded(0.8, 0.0), LevelAnswer::default());
+    }
+
+    #[test]
+    fn all_levels_have_one_penetration_and_carry_the_load_together() {
+        let model = Model::new("fig3a", &[]).unwrap();
+        let found = solve(&model, 0.008).unwrap();
+        let coating = model.coating().unwrap();
+        let mut total = 0.0;
+        for (level, indenter) in found.levels.iter().zip(model.indenters().unwrap()) {
+            let exact = CoatedContact::new(&coating, level.radius.unwrap()).unwrap();
+            let penetration = exact.penetration / indenter.curvature + indenter.drop;
+            assert!((penetration / found.penetration - 1.0).abs() < 1e-6);
+            assert!((exact.load / indenter.curvature / level.load - 1.0).abs() < 1e-6);
+            total += exact.load / indenter.curvature;
+        }
+        assert!((total / (0.008 * 1.5 * 3f64.sqrt()) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_law_between_the_radii_of_its_table_is_the_equation_itself() {
+        let coating = Coating::new(5.0, [0.22, 0.3], 0.12).unwrap();
+        let law = Law::new(&coating, 1.6).unwrap();
+        for radius in [0.0171, 0.0777, 0.2113] {
+            let exact = CoatedContact::new(&coating, radius).unwrap();
+            let found = law.loaded(1.0, exact.load);
+            assert!((found.peak / exact.peak - 1.0).abs() < 1e-5, "{radius}: {found:?} against {exact:?}");
+            assert!((law.load(1.0, exact.penetration) / exact.load - 1.0).abs() < 1e-5);
+        }
+    }
+}

@@ -3,8 +3,9 @@
 
 use super::model::Model;
 use super::spot::{self, Raster, asymmetries};
-use crate::observables::Observables;
+use crate::least_squares;
 use crate::solver::Control;
+use crate::touch::first_touches;
 use crate::validation::{Data, StudyError};
 
 /// Overrides that put the levels in rows, n₁ mod 3, instead of (n₁ − n₂) mod 3: of the four sublattices that hold every third
@@ -19,10 +20,14 @@ pub const ROWS: [&str; 4] = [
 /// Samples along the cell of the three-fold arrangement.
 const POINTS: usize = 192;
 /// Ratio of load steps from the first touch of level 3 on, and the one within which the load of merging is enclosed.
-const RATIO: f64 = 1.6;
-const MERGING: f64 = 1.01;
+const RATIO: f64 = 1.8;
+const MERGING: f64 = 1.02;
 /// Samples per contact radius from which an asymmetry of a thousandth is more than noise.
 const RESOLVED: f64 = 12.0;
+
+/// Part of the load of first touch at which the gap is measured, and how far around the apex, over l.
+const BEFORE_TOUCH: f64 = 0.98;
+const AROUND: f64 = 0.06;
 
 /// One arrangement and parameter set over all loads at which the third level's contact is resolved.
 pub struct Course {
@@ -64,6 +69,24 @@ impl Course {
     }
 }
 
+/// Asymmetry of the third level's contact in the limit of its first touch: that of the small ellipse between the
+/// curvatures κ₁ ≤ κ₂ of the gap around its apex, 1 − (κ₁/κ₂)^{2/3} where they differ little.
+pub fn at_touch(model: &Model) -> Result<f64, StudyError> {
+    let mut steps = model.steps_as_dense(POINTS)?;
+    let touch = first_touches(&mut steps.hierarchy)[2].ok_or("level 3 is hidden")?;
+    let (solution, _) = steps.solve(Control::MeanPressure(BEFORE_TOUCH * touch))?;
+    let (grid, texture) = (steps.hierarchy.grid(), steps.hierarchy.texture());
+    let reduced = grid.cell().reduced();
+    let site = texture.sites.iter().position(|site| site.level == 3).ok_or("no level 3")? as u32;
+    let rows = (0..grid.len()).filter_map(|index| {
+        let [x, y] = texture.offset(grid, &reduced, site, index).map(|x| x / AROUND);
+        (x.hypot(y) < 1.0).then(|| (vec![1.0, x, y, x * x, x * y, y * y], solution.gap[index]))
+    });
+    let c = least_squares::fit(6, rows).ok_or("too few samples around the apex")?;
+    let (mean, deviation) = (0.5 * (c[3] + c[5]), 0.5 * (c[3] - c[5]).hypot(c[4]));
+    Ok(1.0 - ((mean - deviation) / (mean + deviation)).powf(2.0 / 3.0))
+}
+
 /// Asymmetry of level 3 at one load, read in different ways.
 pub struct Readings {
     /// From the axis, over the largest distance: the paper's words.
@@ -77,14 +100,14 @@ pub struct Readings {
 }
 
 impl Readings {
-    pub fn new(model: &Model, mean_pressure: f64, points: usize) -> Result<(Self, Observables), StudyError> {
+    pub fn new(model: &Model, mean_pressure: f64, points: usize) -> Result<Self, StudyError> {
         let mut steps = model.steps(points)?;
-        let (solution, found) = steps.solve(Control::MeanPressure(mean_pressure))?;
+        let (solution, _) = steps.solve(Control::MeanPressure(mean_pressure))?;
         let boundary = spot::boundary(&steps.hierarchy, &solution, 3)?;
         let [plain, over_mean] = spot::asymmetry(&boundary.radii);
         let [from_centroid, _] = spot::asymmetry(&spot::from_centroid(&boundary));
         let [contour, _] = spot::asymmetry(&spot::contour(&steps.hierarchy, &solution, 3, 0.5));
-        Ok((Self { plain, over_mean, from_centroid, contour }, found))
+        Ok(Self { plain, over_mean, from_centroid, contour })
     }
 }
 

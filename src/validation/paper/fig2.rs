@@ -22,6 +22,9 @@ const PEAKS: [f64; 3] = [0.42169, 0.39448, 0.36528];
 const SHARES: [f64; 3] = [0.41085, 0.33067, 0.25848];
 const PENETRATION: f64 = 0.055395;
 const TOUCHES: [f64; 2] = [0.00094, 0.00365];
+/// Without mutual effect, by an independent integral equation: peaks, w_a.
+const APART: [f64; 3] = [0.3964, 0.3791, 0.3607];
+const APART_PENETRATION: f64 = 0.10462;
 /// Points of an outline.
 const OUTLINE: usize = 361;
 
@@ -46,6 +49,7 @@ fn run() -> Result<Outcome, StudyError> {
     let mut outcome = Outcome::default();
     super::against_independent_solver(&mut outcome, &found.late, PEAKS, SHARES, PENETRATION);
     super::against_first_touches(&mut outcome, &model, TOUCHES)?;
+    super::against_isolated_law(&mut outcome, &found.apart, APART, APART_PENETRATION);
     let coarser = model.steps(2 * POINTS / 3)?.loaded(LOAD)?;
     let peaks = coarser.levels.iter().zip(&found.late.levels).map(|(a, b)| (a.max_pressure, b.max_pressure));
     outcome.checks.push(Check::worst("peaks, N = 256 against 384", peaks, Tolerance::Relative(1e-3)));

@@ -1,6 +1,6 @@
 //! Fig. 3: pressures under the three levels on relatively soft coatings, and the asymmetry of the third level's contact.
 
-use super::asymmetry::{Course, ROWS, Readings, elements};
+use super::asymmetry::{Course, ROWS, Readings, at_touch, elements};
 use super::model::Model;
 use super::spot::{self, asymmetries};
 use super::{Claim, Test};
@@ -135,7 +135,7 @@ fn claims(found: &[Observables], courses: &[[Course; 2]]) -> Result<[Claim; 2], 
 
 /// The 12 % and everything that was tried for it.
 fn twelve_percent(courses: &[[Course; 2]], elements: &Data) -> Result<Claim, StudyError> {
-    let [a, b] = ["fig3a", "fig3b"].map(|name| Readings::new(&Model::new(name, &[])?, LOAD, POINTS).map(|(r, _)| r));
+    let [a, b] = ["fig3a", "fig3b"].map(|name| Readings::new(&Model::new(name, &[])?, LOAD, POINTS));
     let (a, b) = (a?, b?);
     let twelve = |what: &str, value: f64, found: bool| Test::printed(what, value, 0.12, 0.01, found);
     let fitting = elements.rows.iter().find(|row| (row[3] - 0.12).abs() <= 0.005).ok_or("no raster gives 12 %")?;
@@ -154,7 +154,14 @@ fn twelve_percent(courses: &[[Course; 2]], elements: &Data) -> Result<Claim, Stu
         "largest at any load before contacts merge",
         vec![twelve("ν₁ = 0.45", threefold_a, false), twelve("ν₁ = 0.2", threefold_b, false)],
     )
-    .or("rows of one level each, largest at any load", vec![twelve("ν₁ = 0.45", rows_a, false)])
+    .or(
+        "rows of one level each, largest at any load",
+        vec![
+            twelve("ν₁ = 0.45", rows_a, false),
+            twelve("ν₁ = 0.45, limit of the first touch", at_touch(&Model::new("fig3a", &ROWS)?)?, false),
+            twelve("hard coating of Fig. 2, limit of the first touch", at_touch(&Model::new("fig2", &ROWS)?)?, false),
+        ],
+    )
     .explained_by(
         "counting square elements of one size, 23 across the first level's contact: so rough is a perfect circle then",
         vec![

@@ -214,7 +214,7 @@ fn picture(curves: &Curves, what: &str) -> Figure {
         title: title.to_owned(),
         caption: Vec::new(),
         x: Axis::linear("p̄/E₂"),
-        y: Axis::linear("w_a/l"),
+        y: Axis::linear("wₐ/l"),
         curves,
     };
     let [thin, thick] = &curves.three;

@@ -108,7 +108,7 @@ fn picture(a: &Under, b: &Under) -> Figure {
     let mut panels = Vec::new();
     for (title, under) in [("(a) l/r₁ = 0.067", a), ("(b) l/r₁ = 0.6", b)] {
         let parts = under.section(WIDE, DEEP);
-        panels.push(lines(format!("{title}: σ_r/E₂"), &parts, 0));
+        panels.push(lines(format!("{title}: σᵣ/E₂"), &parts, 0));
         panels.push(lines(format!("{title}: τ₁/E₂"), &parts, 1));
     }
     figure(panels, "Fig. 6 with the parameters as printed, lines of equal stress; contact |x| < a, interface z = h.")

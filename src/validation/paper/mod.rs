@@ -26,7 +26,7 @@ pub use claim::{Claim, Rule, Test, Verdict};
 use super::{Check, Outcome, Study, StudyError, Tolerance};
 use crate::observables::{LevelObservables, Observables};
 use crate::touch::first_touches;
-use model::Model;
+use model::{Answer, Model};
 
 /// The studies, in the order of the paper.
 pub const STUDIES: [Study; 7] =
@@ -63,4 +63,13 @@ fn against_first_touches(outcome: &mut Outcome, model: &Model, expected: [f64; 2
         outcome.checks.push(Check::relative(format!("first touch of level {level}, p̄′"), touch, expected, 0.02));
     }
     Ok(())
+}
+
+/// Checks of the model without mutual effect against another solution of the integral equation, known to three digits;
+/// `apart` tests its own to six.
+fn against_isolated_law(outcome: &mut Outcome, found: &Answer, peaks: [f64; 3], penetration: f64) {
+    let peaks = found.levels.iter().map(|level| level.peak).zip(peaks);
+    let pairs = peaks.chain([(found.penetration, penetration)]);
+    let tolerance = Tolerance::Relative(1e-3);
+    outcome.checks.push(Check::worst("without mutual effect: peaks and w_a, independent solution", pairs, tolerance));
 }

@@ -61,6 +61,24 @@ mod tests {
             format!("Title\n\n{HEAD}{}\n{}\n{}\n\nEnd\n", row("c", "one"), row("d", "one"), row("b", "two"))
         );
         assert_eq!(renew(&page, &[], &["one", "two"]), page);
-        assert!(PAGE.contains(HEAD));
+    }
+
+    #[test]
+    fn the_committed_page_has_statements_of_every_study_and_of_no_other() {
+        let known: usize = STUDIES.iter().map(|study| rows_of(PAGE, study.name).len()).sum();
+        assert!(STUDIES.iter().all(|study| !rows_of(PAGE, study.name).is_empty()));
+        let table = PAGE.split_once(HEAD).unwrap().1.lines().take_while(|line| line.starts_with('|')).count();
+        assert_eq!(table, known);
+        assert_eq!(renewed(&[]), PAGE);
+    }
+
+    #[test]
+    fn a_row_that_changed_is_a_difference() {
+        let rows: Vec<String> = rows_of(PAGE, "paper/fig2").into_iter().map(str::to_owned).collect();
+        assert!(differences(&[("paper/fig2", rows.clone())]).is_empty());
+        assert_eq!(differences(&[("paper/fig2", rows[1..].to_vec())]).len(), 1);
+        let mut changed = rows;
+        changed[0] = changed[0].replace("holds", "fails");
+        assert_eq!(differences(&[("paper/fig2", changed)]).len(), 2);
     }
 }

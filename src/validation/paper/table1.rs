@@ -1,7 +1,7 @@
 //! Table 1: largest pressures with mutual effect and under isolated indenters, and how strong the mutual effect is.
 
 use super::fig3::{LOAD, POINTS};
-use super::model::Model;
+use super::model::{Answer, Model};
 use super::{Claim, Test};
 use crate::observables::Observables;
 use crate::validation::{Check, Data, Outcome, Study, StudyError};
@@ -19,6 +19,9 @@ const SHARES: [[f64; 3]; 2] = [[0.49490, 0.32258, 0.18252], [0.46069, 0.32652, 0
 const PENETRATIONS: [f64; 2] = [0.037197, 0.043233];
 const TOUCHES: [[f64; 2]; 2] = [[0.00037, 0.00147], [0.00025, 0.00099]];
 const ISOLATED: [[f64; 3]; 2] = [[0.11630, 0.10047, 0.08284], [0.08844, 0.07862, 0.06798]];
+/// Without mutual effect, by the same equation: peaks, w_a.
+const APART: [[f64; 3]; 2] = [[0.1149, 0.1008, 0.0849], [0.0875, 0.0788, 0.0692]];
+const APART_PENETRATIONS: [f64; 2] = [0.04641, 0.05673];
 
 /// An effect is stronger than another when it is larger by this factor.
 const STRONGER: f64 = 1.05;
@@ -30,7 +33,8 @@ struct Peaks {
     mutual: [f64; 3],
     /// Isolated under the same forces.
     same_forces: [f64; 3],
-    /// Isolated at the same penetration, under the same nominal pressure.
+    /// Without mutual effect: isolated at one penetration, under the same nominal pressure.
+    apart: Answer,
     same_nominal: [f64; 3],
 }
 
@@ -42,7 +46,7 @@ impl Peaks {
         let same_forces = [0, 1, 2].map(|m| law.loaded(indenters[m].curvature, found.levels[m].load).peak);
         let mutual = [0, 1, 2].map(|m| found.levels[m].max_pressure);
         let same_nominal = [0, 1, 2].map(|m| apart.levels[m].peak);
-        Ok(Self { model, found, mutual, same_forces, same_nominal })
+        Ok(Self { model, found, mutual, same_forces, same_nominal, apart })
     }
 
     /// Relative change of the peaks by the mutual effect, under the same forces and the same nominal pressure.
@@ -58,6 +62,7 @@ fn run() -> Result<Outcome, StudyError> {
         let mut own = Outcome::default();
         super::against_independent_solver(&mut own, &peaks.found, PEAKS[k], SHARES[k], PENETRATIONS[k]);
         super::against_first_touches(&mut own, &peaks.model, TOUCHES[k])?;
+        super::against_isolated_law(&mut own, &peaks.apart, APART[k], APART_PENETRATIONS[k]);
         let isolated = peaks.same_forces.into_iter().zip(ISOLATED[k]);
         let tolerance = crate::validation::Tolerance::Relative(2e-4);
         own.checks.push(Check::worst("isolated peaks, independent integral equation", isolated, tolerance));
