@@ -69,9 +69,17 @@ impl Course {
     }
 }
 
-/// Asymmetry of the third level's contact in the limit of its first touch: that of the small ellipse between the
-/// curvatures κ₁ ≤ κ₂ of the gap around its apex, 1 − (κ₁/κ₂)^{2/3} where they differ little.
-pub fn at_touch(model: &Model) -> Result<f64, StudyError> {
+/// The third level's contact at its first touch: a small ellipse between the curvatures κ₁ ≤ κ₂ of the gap, whose centre
+/// lies off the axis by its slope over its curvature where the neighbours are unequal.
+pub struct Touch {
+    /// Asymmetry from the centre of the contact: 1 − (κ₁/κ₂)^{2/3}, for κ₁ near κ₂.
+    pub ellipse: f64,
+    /// Distance of the centre from the axis, a length.
+    pub shift: f64,
+}
+
+/// From the gap shortly before the touch.
+pub fn at_touch(model: &Model) -> Result<Touch, StudyError> {
     let mut steps = model.steps_as_dense(POINTS)?;
     let touch = first_touches(&mut steps.hierarchy)[2].ok_or("level 3 is hidden")?;
     let (solution, _) = steps.solve(Control::MeanPressure(BEFORE_TOUCH * touch))?;
@@ -84,7 +92,17 @@ pub fn at_touch(model: &Model) -> Result<f64, StudyError> {
     });
     let c = least_squares::fit(6, rows).ok_or("too few samples around the apex")?;
     let (mean, deviation) = (0.5 * (c[3] + c[5]), 0.5 * (c[3] - c[5]).hypot(c[4]));
-    Ok(1.0 - ((mean - deviation) / (mean + deviation)).powf(2.0 / 3.0))
+    Ok(Touch {
+        ellipse: 1.0 - ((mean - deviation) / (mean + deviation)).powf(2.0 / 3.0),
+        shift: c[1].hypot(c[2]) / (2.0 * mean) * AROUND,
+    })
+}
+
+impl Touch {
+    /// Radius of the contact whose asymmetry, seen from the axis, is `asymmetry`: 2s/(a + s).
+    pub fn radius(&self, asymmetry: f64) -> f64 {
+        self.shift * (2.0 - asymmetry) / asymmetry
+    }
 }
 
 /// Asymmetry of level 3 at one load, read in different ways.

@@ -4,6 +4,8 @@ use super::fig3::{LOAD, POINTS};
 use super::model::{Answer, Model};
 use super::{Claim, Test};
 use crate::observables::Observables;
+use crate::picture::{Axis, Chart, Figure, Style};
+use crate::validation::draw::{curve, figure};
 use crate::validation::{Check, Data, Outcome, Study, StudyError};
 
 pub const STUDY: Study =
@@ -76,6 +78,7 @@ fn run() -> Result<Outcome, StudyError> {
     outcome.judge(patterns(&peaks, &thin));
     outcome.judge([harder(&hard, &peaks[1])]);
     outcome.published.push(table(&peaks, &thin));
+    outcome.figures.push(("figure", picture(&peaks, &thin)));
     Ok(outcome)
 }
 
@@ -247,4 +250,28 @@ fn table(peaks: &[Peaks; 2], thin: &[Peaks; 2]) -> Data {
         }
     }
     data
+}
+
+/// The table as a picture: a panel for each ν₁, the levels across.
+fn picture(peaks: &[Peaks; 2], thin: &[Peaks; 2]) -> Figure {
+    let line = |label: &str, style: Style, colour: usize, values: [f64; 3]| {
+        curve(label, style, colour, (1..).zip(values).map(|(m, p): (i32, f64)| [f64::from(m), p]))
+    };
+    let panel = |k: usize, title: &str| {
+        let over_e1 = thin[k].mutual.map(|p| p / thin[k].model.coating_young());
+        Chart {
+            title: title.to_owned(),
+            caption: Vec::new(),
+            x: Axis::linear("level").from_to(0.8, 3.2),
+            y: Axis::linear("largest pressure over E₂").from_to(0.0, 0.4),
+            curves: vec![
+                line("printed, with mutual effect", Style::LineMarkers, 1, PRINTED[k][0]),
+                line("printed, isolated", Style::Markers, 1, PRINTED[k][1]),
+                line("with mutual effect", Style::LineMarkers, 2, peaks[k].mutual),
+                line("isolated, same forces", Style::Markers, 2, peaks[k].same_forces),
+                line("h/l = 0.05, over E₁", Style::Dashed, 3, over_e1),
+            ],
+        }
+    };
+    figure(vec![panel(0, "ν₁ = 0.45"), panel(1, "ν₁ = 0.2")], "Table 1, printed and converged.")
 }
