@@ -1,8 +1,8 @@
 //! "Without mutual effect": every indenter alone on the coating, all levels at one penetration, the nominal load in
 //! equilibrium.
 //!
-//! Σ_m N_m P(δ − d_m) = p̄ A over the cell of area A with N_m indenters of level m, drop d_m, radius R_m; P(δ) of a single
-//! paraboloid by the integral equation of [`crate::exact::coated_contact`].
+//! Σ_m N_m P(δ − d_m) = p̄ A over the cell of area A with N_m indenters of level m, drop d_m, radius R_m; P(δ) of a
+//! single paraboloid by the integral equation of [`crate::exact::coated_contact`].
 
 use super::model::{Answer, LevelAnswer, Model};
 use crate::exact::{CoatedContact, Coating};

@@ -4,12 +4,14 @@
 use super::model::Model;
 use super::spot::{self, Raster, asymmetries};
 use crate::least_squares;
+use crate::observables::Observables;
 use crate::solver::Control;
 use crate::touch::first_touches;
 use crate::validation::{Data, StudyError};
+use std::f64::consts::PI;
 
-/// Overrides that put the levels in rows, n₁ mod 3, instead of (n₁ − n₂) mod 3: of the four sublattices that hold every third
-/// site of a hexagonal lattice three are rows, equal but for a rotation.
+/// Overrides that put the levels in rows, n₁ mod 3, instead of (n₁ − n₂) mod 3: of the four sublattices that hold
+/// every third site of a hexagonal lattice three are rows, equal but for a rotation.
 pub const ROWS: [&str; 4] = [
     "lattice={ kind = \"oblique\", a1 = [1.0, 0.0], a2 = [1.5, 2.598076211353316] }",
     "levels.0.sites=[[0.0, 0.0]]",
@@ -69,8 +71,8 @@ impl Course {
     }
 }
 
-/// The third level's contact at its first touch: a small ellipse between the curvatures κ₁ ≤ κ₂ of the gap, whose centre
-/// lies off the axis by its slope over its curvature where the neighbours are unequal.
+/// The third level's contact at its first touch: a small ellipse between the curvatures κ₁ ≤ κ₂ of the gap, whose
+/// centre lies off the axis by its slope over its curvature where the neighbours are unequal.
 pub struct Touch {
     /// Asymmetry from the centre of the contact: 1 − (κ₁/κ₂)^{2/3}, for κ₁ near κ₂.
     pub ellipse: f64,
@@ -127,6 +129,17 @@ impl Readings {
         let [contour, _] = spot::asymmetry(&spot::contour(&steps.hierarchy, &solution, 3, 0.5));
         Ok(Self { plain, over_mean, from_centroid, contour })
     }
+}
+
+/// Asymmetry of level 3, seen from its axis, if of all its neighbours one of level 1 alone is near, as in a circle with
+/// too few indenters: the point load P at the distance l tilts the surface by P/(πE₁*l²), and the contact moves off by
+/// R times that.
+pub fn one_neighbour(model: &Model, found: &Observables) -> Result<f64, StudyError> {
+    let radius = found.levels[2].contact_radius.ok_or("merged contacts")?;
+    let curvature = model.indenters()?[2].curvature;
+    let modulus = model.case().half_space().surface_material().contact_modulus();
+    let shift = curvature * found.levels[0].load / (PI * modulus * model.distance().powi(2));
+    Ok(2.0 * shift / (radius + shift))
 }
 
 /// Asymmetry that counting square elements gives circles of the radii of the three levels, against the number of

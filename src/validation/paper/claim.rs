@@ -1,9 +1,9 @@
 //! A statement of the paper, the numbers it is judged by, and the verdict they give.
 //!
 //! A statement is judged by [`Test`]s: of the model as printed first, then of other readings (a misprint, another
-//! meaning of a word). It holds as printed if all printed tests hold; else under the first reading whose tests hold; else
-//! it does not hold. Whether each test holds is also **found** once and for all: a run that finds otherwise fails its
-//! check, so that no verdict changes in silence.
+//! meaning of a word). It holds as printed if all printed tests hold; else under the first reading whose tests hold;
+//! else it does not hold. Whether each test holds is also **found** once and for all: a run that finds otherwise fails
+//! its check, so that no verdict changes in silence.
 
 use crate::validation::Check;
 
@@ -179,8 +179,8 @@ impl Claim {
     }
 }
 
-/// A number with three significant digits, a true minus sign, an exponent only where a reader needs one; what is left of
-/// zero after rounding is zero.
+/// A number with three significant digits, a true minus sign, an exponent only where a reader needs one; what is left
+/// of zero after rounding is zero.
 fn digits(x: f64) -> String {
     let magnitude = if x.abs() < 1e-9 { return "0".to_owned() } else { x.abs().log10().floor() as i32 };
     let text = match magnitude {

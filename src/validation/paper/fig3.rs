@@ -1,6 +1,6 @@
-//! Fig. 3: pressures under the three levels on relatively soft coatings, and the asymmetry of the third level's contact.
+//! Fig. 3: pressures under three levels on relatively soft coatings, and the asymmetry of the third level's contact.
 
-use super::asymmetry::{Course, ROWS, Readings, at_touch, elements};
+use super::asymmetry::{Course, ROWS, Readings, at_touch, elements, one_neighbour};
 use super::model::Model;
 use super::spot::{self, asymmetries};
 use super::{Claim, Test};
@@ -43,7 +43,7 @@ fn run() -> Result<Outcome, StudyError> {
     outcome.judge(claims(&found, &courses)?);
     let elements = elements([0, 1, 2].map(|m| found[0].levels[m].contact_radius.unwrap_or(f64::NAN)));
     outcome.judge([twelve_percent(&found[0], &courses, &elements)?]);
-    let caption = "Fig. 3 with the parameters as printed: χ = 0.5, h/l = 0.5, p̄/E₂ = 0.008; (a) ν₁ = 0.45, (b) ν₁ = 0.2. \
+    let caption = "Fig. 3 with the parameters as printed: χ = 0.5, h/l = 0.5, p̄/E₂ = 0.008; (a) ν₁ = 0.45, (b) 0.2. \
                    Dashed: isolated indenters under the same forces.";
     outcome.figures = vec![("figure", figure(panels, caption)), ("asymmetry", picture(&courses, &elements))];
     outcome.published.extend(pressures);
@@ -167,6 +167,14 @@ fn twelve_percent(found: &Observables, courses: &[[Course; 2]], elements: &Data)
                 false,
             ),
         ],
+    )
+    .or(
+        "a circle that holds one neighbour of level 1 only",
+        vec![twelve(
+            "point load on the coating's half-space",
+            one_neighbour(&Model::new("fig3a", &[])?, found)?,
+            false,
+        )],
     )
     .explained_by(
         "counting square elements of one size, 23 across the first level's contact: so rough is a perfect circle then",

@@ -152,7 +152,7 @@ fn claims(printed: &Curves, five: &Curves, two: &Curves, above_sparse: [f64; 2])
     [
         Claim::new(
             "§3, Fig. 4a",
-            "the additional displacement for three level asperities distribution is higher than for the one level model",
+            "additional displacement for three level asperities distribution is higher than for the one level model",
             "three levels higher",
             higher(printed.differences(), true),
         )

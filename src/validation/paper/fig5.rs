@@ -118,7 +118,7 @@ fn claims(loads: &[f64], three: &Course, one: &Course) -> [Claim; 4] {
         ),
         Claim::new(
             "§4",
-            "real contact pressure distribution and the real contact area strongly depend on the contact density and height distribution",
+            "pressure distribution and the real contact area strongly depend on the contact density and height",
             "strong dependence",
             vec![
                 Test::above("change of p₁ from one to three levels at p̄′ = 0.1", late[1], 0.05, true),

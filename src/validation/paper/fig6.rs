@@ -65,7 +65,7 @@ fn claims(a: &Under, b: &Under, three: [&Under; 2], thick: &Under) -> Vec<Claim>
             "(h₁ − h₂)/r₁ = 0.0036, a tenth, and l/r₁ = 0.67 in (a)",
             vec![levels("levels in contact, (a)", three[1], true), levels("(b)", three[0], true)],
         )
-        .remark("In (b) levels 2 and 3 touch at p̄′ = 0.0174 and 0.0745, in (a) not even at a penetration of 0.0003 r₁"),
+        .remark("In (b) levels 2 and 3 touch at p̄′ = 0.0174 and 0.0745; in (a) the penetration is 0.0003 r₁"),
         Claim::new(
             "§3, Fig. 6",
             "tension occurs at the surface near the boundary of contact",

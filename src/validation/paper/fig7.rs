@@ -56,14 +56,14 @@ fn high_density(a: &Under, b: &Under) -> Vec<Claim> {
         .remark("l/r₁ = 0.67 or 6.7 in (a) would repair it as well"),
         Claim::new(
             "§3, Fig. 7b",
-            "high contact density: tensile stresses occur at the surface under the boundary of the contact zone (curve 1)",
+            "high contact density: tensile … at the surface under the boundary of the contact zone (curve 1)",
             "high density, surface",
             edge(b),
         )
         .or(SWAPPED, edge(a)),
         Claim::new(
             "§3, Fig. 7b; §4",
-            "high contact density: tensile in coating material at the interface under the center of the contact (curve 2)",
+            "high contact density: … in coating material at the interface under the center (curve 2)",
             "high density, coating",
             centre(b, false),
         )
@@ -132,7 +132,7 @@ fn both(a: &Under, b: &Under) -> Vec<Claim> {
     vec![
         Claim::new(
             "§3, Fig. 7",
-            "tensile-compressive stresses are very different for high and low contact densities as at the surface and as at the interface",
+            "tensile-compressive stresses … are very different … as at the surface and as at the interface",
             "very different",
             vec![
                 Test::above("σ_r under the centre, (b) over (a): surface", b.centre(0) / a.centre(0), 1.5, true),

@@ -101,6 +101,11 @@ impl Model {
         self.area().sqrt()
     }
 
+    /// Distance l of neighbouring indenters in the three-fold arrangement of three levels.
+    pub fn distance(&self) -> f64 {
+        (self.area() / (1.5 * 3f64.sqrt())).sqrt()
+    }
+
     /// Thickness h of the coating, a length.
     pub fn thickness(&self) -> f64 {
         self.case.half_space().interface_depths()[0]

@@ -77,7 +77,8 @@ pub fn from_centroid(boundary: &Boundary) -> Vec<f64> {
         .collect()
 }
 
-/// The contour p = `part` of the peak around a level's axis: its radii in the directions of the samples that straddle it.
+/// The contour p = `part` of the peak around a level's axis: its radii in the directions of the samples that straddle
+/// it.
 pub fn contour(hierarchy: &Hierarchy, solution: &Solution, level: usize, part: f64) -> Vec<f64> {
     let around = samples(hierarchy, solution, level, 1.2);
     let peak = around.iter().map(|sample| sample.p).fold(0.0, f64::max);

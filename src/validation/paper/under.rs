@@ -47,7 +47,7 @@ impl Under {
         let (solution, found) = steps.solve(Control::MeanPressure(LOAD))?;
         let radius = found.levels[0].contact_radius.ok_or("merged contacts")?;
         let field = Field::new(steps.hierarchy.grid(), &solution.pressure, model.case().half_space(), mean);
-        let (thickness, period) = (model.thickness(), model.period() / (1.5 * 3f64.sqrt()).sqrt());
+        let (thickness, period) = (model.thickness(), model.distance());
         let depths = [(0.0, 1), (thickness, 1), (thickness, 2)].map(|(z, side)| Depth { z, side });
         let line = Line { origin: [0.0; 2], direction: TOWARD, span: [0.0, period], points: LINE };
         let states = field.section(&line, &depths);
