@@ -2,7 +2,7 @@
 //! statement of its §§ 3 and 4 held against what comes out.
 //!
 //! A figure is a study of its own: it draws the picture as the paper does, from the converged spectral solution and,
-//! where the paper has it, without mutual effect ([`apart`]). Its [`Claim`]s are judged by numbers; that a claim of the
+//! where the paper has it, without mutual effect. Its [`Claim`]s are judged by numbers; that a claim of the
 //! paper does not hold is no failure, that it fares otherwise than found is one. [`table`] writes all of them into
 //! `validation/paper/README.md`.
 
