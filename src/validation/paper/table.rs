@@ -35,7 +35,8 @@ fn rows_of<'a>(page: &'a str, study: &str) -> Vec<&'a str> {
 
 fn renew(page: &str, fresh: &[(&str, Vec<String>)], order: &[&str]) -> String {
     let Some((before, rest)) = page.split_once(HEAD) else { return page.to_owned() };
-    let after = rest.find("\n\n").map_or("", |end| &rest[end + 1..]);
+    let table: usize = rest.split_inclusive('\n').take_while(|line| line.starts_with('|')).map(str::len).sum();
+    let after = &rest[table..];
     let mut text = before.to_owned() + HEAD;
     for study in order {
         let rows = match fresh.iter().find(|(name, _)| name == study) {
@@ -61,6 +62,8 @@ mod tests {
             format!("Title\n\n{HEAD}{}\n{}\n{}\n\nEnd\n", row("c", "one"), row("d", "one"), row("b", "two"))
         );
         assert_eq!(renew(&page, &[], &["one", "two"]), page);
+        let empty = format!("{HEAD}\n## End\n\nof it\n");
+        assert_eq!(renew(&empty, &[], &["one"]), empty);
     }
 
     #[test]
