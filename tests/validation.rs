@@ -1,5 +1,6 @@
 //! The studies of `percoat validate`, each as a test, and what stands beside them in `validation/`.
 
+use percoat::validation::paper::table;
 use percoat::validation::{Check, STUDIES, differences, find};
 use std::fs;
 use std::path::PathBuf;
@@ -10,7 +11,15 @@ fn holds(name: &str) {
     let outcome = (find(name).expect("a study").run)().expect("the study runs");
     let failing: Vec<&Check> = outcome.checks.iter().filter(|check| !check.holds()).collect();
     assert!(outcome.holds(), "{failing:#?}");
-    assert!(!outcome.figures.is_empty() && !outcome.data.is_empty(), "{name} shows nothing");
+    let numbers = outcome.data.len() + outcome.published.len();
+    assert!(!outcome.figures.is_empty() && numbers > 0, "{name} shows nothing");
+    let rows: Vec<String> = outcome.claims.iter().map(|claim| claim.row(name)).collect();
+    let page: Vec<(&str, Vec<String>)> = if rows.is_empty() { Vec::new() } else { vec![(name, rows)] };
+    assert_eq!(
+        table::differences(&page),
+        Vec::<String>::new(),
+        "validation/paper/README.md is not what this run finds"
+    );
 }
 
 macro_rules! studies {
@@ -37,6 +46,13 @@ studies! {
     convergence = "convergence",
     iterations = "iterations",
     peer = "peer",
+    paper_fig2 = "paper/fig2",
+    paper_fig3 = "paper/fig3",
+    paper_table1 = "paper/table1",
+    paper_fig4 = "paper/fig4",
+    paper_fig5 = "paper/fig5",
+    paper_fig6 = "paper/fig6",
+    paper_fig7 = "paper/fig7",
 }
 
 fn folder() -> PathBuf {

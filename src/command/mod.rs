@@ -67,7 +67,7 @@ enum Command {
     },
     /// Hold percoat against closed forms, references and peers; exit code 1 when a check fails
     Validate {
-        /// Name of one study [default: all of them]
+        /// Name of one study, or of a folder of them (`paper`) [default: all of them]
         study: Option<String>,
         /// An earlier REPORT.md: fail unless studies, quantities and verdicts are the same
         #[arg(long, value_name = "REPORT")]

@@ -3,6 +3,7 @@
 use super::{Common, Failure, Outcome};
 use percoat::output::{make_folder, write_text};
 use percoat::picture::{Format, write_picture};
+use percoat::validation::paper::table;
 use percoat::validation::{self, Report, STUDIES, Study, differences};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -13,9 +14,12 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, common: &Common) -> Resu
         return Err(Failure::Refused("--set changes a case, and validate has none: its studies are fixed".to_owned()));
     }
     let studies: Vec<&'static Study> = match name {
-        Some(name) => vec![validation::find(name).ok_or_else(|| unknown(name))?],
+        Some(name) => validation::named(name),
         None => STUDIES.iter().collect(),
     };
+    if let (Some(name), true) = (name, studies.is_empty()) {
+        return Err(unknown(name));
+    }
     let expected = expected
         .map(|path| std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error }));
     let expected = expected.transpose()?;
@@ -40,12 +44,17 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, common: &Common) -> Resu
         eprint!("\r\x1b[K");
     }
     // The report of one study stays in its folder, so that it does not pass for the whole.
-    let path = if name.is_some() { folder.join(studies[0].name) } else { folder.clone() }.join("REPORT.md");
+    let path = name.map_or_else(|| folder.clone(), |name| folder.join(name)).join("REPORT.md");
     let markdown = report.markdown();
     make_folder(path.parent().unwrap_or(&folder))?;
     write_text(&path, &markdown)?;
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
-    let differences = expected.map(|expected| differences(&expected, &markdown, name.is_some().then_some(&names[..])));
+    let statements = report.statements();
+    write_page(&folder, &statements)?;
+    let differences = expected.map(|expected| {
+        let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));
+        rows.into_iter().chain(table::differences(&statements)).collect::<Vec<_>>()
+    });
     for line in report.errors().iter().chain(differences.iter().flatten()) {
         eprintln!("error: {line}");
     }
@@ -70,7 +79,19 @@ fn write(folder: &Path, outcome: &validation::Outcome) -> Result<(), Failure> {
     for data in &outcome.data {
         write_text(&folder.join(format!("{}.data.csv", data.name)), &data.csv())?;
     }
+    for data in &outcome.published {
+        write_text(&folder.join(format!("{}.csv", data.name)), &data.rounded().csv())?;
+    }
     Ok(())
+}
+
+/// The paper's page with the statements of this run.
+fn write_page(folder: &Path, statements: &[(&str, Vec<String>)]) -> Result<(), Failure> {
+    if statements.is_empty() {
+        return Ok(());
+    }
+    make_folder(&folder.join("paper"))?;
+    Ok(write_text(&folder.join("paper/README.md"), &table::renewed(statements))?)
 }
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {

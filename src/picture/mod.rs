@@ -15,7 +15,7 @@ mod chart;
 mod colour;
 mod comparison;
 mod contact;
-mod contour;
+pub(crate) mod contour;
 mod curve;
 mod cut;
 mod frame;

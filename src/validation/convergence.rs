@@ -68,7 +68,7 @@ fn run() -> Result<Outcome, StudyError> {
         let last = errors.last().copied().unwrap_or(f64::NAN);
         checks.push(Check::at_most(format!("{name}: relative error at N = 512"), last, finest));
     }
-    Ok(Outcome { checks, figures: vec![("figure", figure(&data))], data: vec![data] })
+    Ok(Outcome { checks, figures: vec![("figure", figure(&data))], data: vec![data], ..Outcome::default() })
 }
 
 /// Relative errors of the quantities on one grid with the site `shift` steps from a sample.

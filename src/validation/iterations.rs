@@ -38,7 +38,7 @@ fn run() -> Result<Outcome, StudyError> {
         Check::worst("convolutions of Polonsky–Keer over preconditioned, N = 512", saving, Tolerance::AtLeast),
     ];
     let figures = vec![("figure", figure(&preconditioned, &baseline))];
-    Ok(Outcome { checks, figures, data: vec![preconditioned, baseline] })
+    Ok(Outcome { checks, figures, data: vec![preconditioned, baseline], ..Outcome::default() })
 }
 
 fn iterations_at_256(data: &Data, name: &str) -> f64 {

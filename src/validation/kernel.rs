@@ -125,7 +125,7 @@ fn run() -> Result<Outcome, StudyError> {
         ),
     ];
     let figures = vec![("figure", figure(&surface, &interior))];
-    Ok(Outcome { checks, figures, data: vec![surface, interior] })
+    Ok(Outcome { checks, figures, data: vec![surface, interior], ..Outcome::default() })
 }
 
 /// Errors of compliance and interior, the worst first: a distribution with all its tail.

@@ -147,7 +147,7 @@ fn run() -> Result<Outcome, StudyError> {
     checks.push(Check::absolute("S₁, square", s1, SQUARE.0[0], 1e-9));
     checks.push(Check::relative("S₃, square", s3, SQUARE.0[1], 1e-9));
     checks.push(Check::relative("S₅, square", s5, SQUARE.0[2], 1e-4));
-    Ok(Outcome { checks, figures: vec![("figure", figure(&square, &bare)?)], data: vec![data] })
+    Ok(Outcome { checks, figures: vec![("figure", figure(&square, &bare)?)], data: vec![data], ..Outcome::default() })
 }
 
 /// The response less S₁, whose slope and curvature at s = 0 are the other sums.

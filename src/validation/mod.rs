@@ -21,6 +21,7 @@ mod iterations;
 mod kernel;
 mod lattice_sums;
 mod outcome;
+pub mod paper;
 mod peer;
 mod periodic_hertz;
 mod report;
@@ -48,7 +49,7 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 12] = [
+pub const STUDIES: [Study; 19] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -61,9 +62,23 @@ pub const STUDIES: [Study; 12] = [
     convergence::STUDY,
     iterations::STUDY,
     peer::STUDY,
+    paper::STUDIES[0],
+    paper::STUDIES[1],
+    paper::STUDIES[2],
+    paper::STUDIES[3],
+    paper::STUDIES[4],
+    paper::STUDIES[5],
+    paper::STUDIES[6],
 ];
 
 /// The study of a name.
 pub fn find(name: &str) -> Option<&'static Study> {
     STUDIES.iter().find(|study| study.name == name)
+}
+
+/// The study of a name, or all whose folders lie in a folder of that name.
+pub fn named(name: &str) -> Vec<&'static Study> {
+    let inside =
+        |study: &&Study| study.name.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+    STUDIES.iter().filter(inside).collect()
 }

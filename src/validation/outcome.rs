@@ -1,6 +1,7 @@
 //! What a study gives: its checks, the figure that shows them, and the data they rest on.
 
 use super::check::Check;
+use super::paper::Claim;
 use crate::picture::Figure;
 
 /// What a study found.
@@ -12,9 +13,21 @@ pub struct Outcome {
     pub figures: Vec<(&'static str, Figure)>,
     /// Everything computed, for whoever wants to draw or look closer.
     pub data: Vec<Data>,
+    /// The curves of a published figure, written as `<name>.csv` to lie beside it.
+    pub published: Vec<Data>,
+    /// Statements of the paper and how they fare; see [`Self::judge`].
+    pub claims: Vec<Claim>,
 }
 
 impl Outcome {
+    /// Adds statements of the paper, and the checks of each.
+    pub fn judge(&mut self, claims: impl IntoIterator<Item = Claim>) {
+        for claim in claims {
+            self.checks.extend(claim.checks());
+            self.claims.push(claim);
+        }
+    }
+
     /// Whether there is a check and all of them hold.
     pub fn holds(&self) -> bool {
         !self.checks.is_empty() && self.checks.iter().all(Check::holds)
@@ -45,6 +58,13 @@ impl Data {
             text += &(row.iter().map(f64::to_string).collect::<Vec<_>>().join(",") + "\n");
         }
         text
+    }
+
+    /// The same table with six significant digits.
+    #[must_use]
+    pub fn rounded(&self) -> Self {
+        let round = |x: &f64| format!("{x:.5e}").parse().unwrap_or(*x);
+        Self { rows: self.rows.iter().map(|row| row.iter().map(round).collect()).collect(), ..self.clone() }
     }
 
     /// The values of a column; none where there is no such column.

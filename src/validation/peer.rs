@@ -63,7 +63,7 @@ fn run() -> Result<Outcome, StudyError> {
             checks.push(Check::worst(format!("{name}: {quantity}, {} loads", rows.len()), pairs, tolerance));
         }
     }
-    Ok(Outcome { checks, figures: vec![("figure", figure(&data, &reference))], data: vec![data] })
+    Ok(Outcome { checks, figures: vec![("figure", figure(&data, &reference))], data: vec![data], ..Outcome::default() })
 }
 
 fn figure(found: &Data, reference: &Data) -> Figure {

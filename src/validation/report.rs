@@ -40,6 +40,15 @@ impl Report {
         table::render_with(&COLUMNS.map(str::to_owned), &rows, 2)
     }
 
+    /// Rows of the paper's table of statements, study by study.
+    pub fn statements(&self) -> Vec<(&'static str, Vec<String>)> {
+        let judged = |(study, result): &(&'static Study, Result<Outcome, StudyError>)| {
+            let claims = result.as_ref().ok().filter(|outcome| !outcome.claims.is_empty())?;
+            Some((study.name, claims.claims.iter().map(|claim| claim.row(study.name)).collect()))
+        };
+        self.results.iter().filter_map(judged).collect()
+    }
+
     /// Why studies could not be run, one line each.
     pub fn errors(&self) -> Vec<String> {
         let failed = |(study, result): &(&Study, Result<Outcome, StudyError>)| {

@@ -69,7 +69,7 @@ fn run() -> Result<Outcome, StudyError> {
     checks.push(Check::relative("largest τ₁ over p̂", tau1.value, 1.0 / E, 1e-4));
     checks.push(Check::relative("its depth qz", tau1.position[2] * TAU, 1.0, 1e-2));
     let figure = figure(&field);
-    Ok(Outcome { checks, figures: vec![("figure", figure)], data: vec![data] })
+    Ok(Outcome { checks, figures: vec![("figure", figure)], data: vec![data], ..Outcome::default() })
 }
 
 /// Amplitudes against depth under cos(2πx), in the plane of the crest and a quarter wave beside it.

@@ -35,6 +35,15 @@ impl Steps {
         Ok((solution, observables))
     }
 
+    /// Penetration of the next step alone.
+    pub fn penetration(&mut self, mean_pressure: f64) -> Result<f64, StudyError> {
+        let solution = self.hierarchy.solve(Control::MeanPressure(mean_pressure), &mut |_| ());
+        if !solution.report.stop.solved() {
+            return Err(format!("p̄ = {mean_pressure}: {}", solution.report).into());
+        }
+        Ok(solution.penetration)
+    }
+
     pub fn loaded(&mut self, mean_pressure: f64) -> Result<Observables, StudyError> {
         Ok(self.solve(Control::MeanPressure(mean_pressure))?.1)
     }

@@ -79,5 +79,5 @@ fn run() -> Result<Outcome, StudyError> {
         curves,
     };
     let figure = draw::figure(vec![chart], "Pressure across a wave; 2048 samples a wavelength, one in 48 drawn.");
-    Ok(Outcome { checks, figures: vec![("figure", figure)], data: vec![data] })
+    Ok(Outcome { checks, figures: vec![("figure", figure)], data: vec![data], ..Outcome::default() })
 }

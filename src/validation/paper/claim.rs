@@ -1,0 +1,230 @@
+//! A statement of the paper, the numbers it is judged by, and the verdict they give.
+//!
+//! A statement is judged by [`Test`]s: of the model as printed first, then of other readings (a misprint, another
+//! meaning of a word). It holds as printed if all printed tests hold; else under the first reading whose tests hold;
+//! else it does not hold. Whether each test holds is also **found** once and for all: a run that finds otherwise fails
+//! its check, so that no verdict changes in silence.
+
+use crate::validation::Check;
+
+/// What a number must be for a statement to hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rule {
+    /// Greater than this.
+    Above(f64),
+    /// Less than this.
+    Below(f64),
+    /// Equal to the printed number to within half a unit of its last digit.
+    Printed {
+        /// The number.
+        value: f64,
+        /// One unit of its last digit.
+        unit: f64,
+    },
+}
+
+/// One number against what the statement makes of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Test {
+    /// What was measured.
+    pub what: String,
+    /// The number.
+    pub value: f64,
+    /// What it must be.
+    pub rule: Rule,
+    /// Whether it was found to be so.
+    pub found: bool,
+}
+
+impl Test {
+    /// `what` must be greater than `bound`; `found`: whether it is.
+    pub fn above(what: impl Into<String>, value: f64, bound: f64, found: bool) -> Self {
+        Self { what: what.into(), value, rule: Rule::Above(bound), found }
+    }
+
+    /// `what` must be less than `bound`; `found`: whether it is.
+    pub fn below(what: impl Into<String>, value: f64, bound: f64, found: bool) -> Self {
+        Self { what: what.into(), value, rule: Rule::Below(bound), found }
+    }
+
+    /// `what` must be the printed number, one unit of whose last digit is `unit`; `found`: whether it is.
+    pub fn printed(what: impl Into<String>, value: f64, printed: f64, unit: f64, found: bool) -> Self {
+        Self { what: what.into(), value, rule: Rule::Printed { value: printed, unit }, found }
+    }
+
+    /// Whether the number is what the statement makes of it.
+    pub fn holds(&self) -> bool {
+        match self.rule {
+            Rule::Above(bound) => self.value > bound,
+            Rule::Below(bound) => self.value < bound,
+            Rule::Printed { value, unit } => (self.value - value).abs() <= 0.5 * unit,
+        }
+    }
+
+    /// The check that the number is on the side where it was found.
+    fn check(&self, label: &str) -> Check {
+        let quantity = |what: &str| format!("{label}: {}{what}", self.what);
+        match (self.rule, self.found) {
+            (Rule::Above(bound), true) | (Rule::Below(bound), false) => {
+                Check::at_least(quantity(""), self.value, bound)
+            }
+            (Rule::Above(bound), false) | (Rule::Below(bound), true) => Check::at_most(quantity(""), self.value, bound),
+            (Rule::Printed { value, unit }, true) => Check::absolute(quantity(""), self.value, value, 0.5 * unit),
+            (Rule::Printed { value, unit }, false) => {
+                let off = (self.value - value).abs();
+                Check::at_least(quantity(&format!(", distance from the printed {value}")), off, 0.5 * unit)
+            }
+        }
+    }
+}
+
+/// How a statement fares.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
+    /// With the parameters and words as they stand.
+    AsPrinted,
+    /// With another reading.
+    Otherwise(&'static str),
+    /// With none that was tried.
+    Fails,
+    /// Not in any sense of its words, but this would have given what is printed.
+    Explained(&'static str),
+}
+
+/// One statement of the paper.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Claim {
+    /// Where it stands.
+    pub place: &'static str,
+    /// A few of its words.
+    pub quote: &'static str,
+    /// Name for its checks.
+    label: &'static str,
+    printed: Vec<Test>,
+    readings: Vec<(&'static str, Vec<Test>)>,
+    explanation: Option<(&'static str, Vec<Test>)>,
+    remark: &'static str,
+}
+
+impl Claim {
+    /// A statement judged by the model as printed. `label`: a name of its own for its checks.
+    pub fn new(place: &'static str, quote: &'static str, label: &'static str, printed: Vec<Test>) -> Self {
+        Self { place, quote, label, printed, readings: Vec::new(), explanation: None, remark: "" }
+    }
+
+    /// Another reading and its tests.
+    #[must_use]
+    pub fn or(mut self, reading: &'static str, tests: Vec<Test>) -> Self {
+        self.readings.push((reading, tests));
+        self
+    }
+
+    /// Something else that would have given what is printed, and its tests.
+    #[must_use]
+    pub fn explained_by(self, what: &'static str, tests: Vec<Test>) -> Self {
+        Self { explanation: Some((what, tests)), ..self }
+    }
+
+    /// What else there is to say.
+    #[must_use]
+    pub fn remark(self, remark: &'static str) -> Self {
+        Self { remark, ..self }
+    }
+
+    /// The verdict of this run.
+    pub fn verdict(&self) -> Verdict {
+        let all = |tests: &[Test]| !tests.is_empty() && tests.iter().all(Test::holds);
+        if all(&self.printed) {
+            return Verdict::AsPrinted;
+        }
+        if let Some((name, _)) = self.readings.iter().find(|(_, tests)| all(tests)) {
+            return Verdict::Otherwise(name);
+        }
+        match &self.explanation {
+            Some((name, tests)) if all(tests) => Verdict::Explained(name),
+            _ => Verdict::Fails,
+        }
+    }
+
+    /// One check a test.
+    pub fn checks(&self) -> Vec<Check> {
+        let printed = self.printed.iter().map(|test| test.check(self.label));
+        let readings = self.readings.iter().chain(&self.explanation).flat_map(|(name, tests)| {
+            let label = format!("{} ({name})", self.label);
+            tests.iter().map(move |test| test.check(&label))
+        });
+        printed.chain(readings).collect()
+    }
+
+    /// Its row of the table: place, quote, measured numbers, verdict, command.
+    pub fn row(&self, study: &str) -> String {
+        let list = |tests: &[Test]| {
+            let one = |test: &Test| format!("{}: {}", test.what, digits(test.value));
+            tests.iter().map(one).collect::<Vec<_>>().join("; ")
+        };
+        let mut measured = list(&self.printed);
+        for (name, tests) in self.readings.iter().chain(&self.explanation) {
+            measured += &format!("<br>*{name}* – {}", list(tests));
+        }
+        if !self.remark.is_empty() {
+            measured += &format!("<br>({})", self.remark);
+        }
+        let verdict = match self.verdict() {
+            Verdict::AsPrinted => "**holds as printed**".to_owned(),
+            Verdict::Otherwise(reading) => format!("**holds under another reading:** {reading}"),
+            Verdict::Fails => "**does not hold**".to_owned(),
+            Verdict::Explained(cause) => format!("**does not hold;** explained by {cause}"),
+        };
+        format!("| {} | “{}” | {measured} | {verdict} | `percoat validate {study}` |", self.place, self.quote)
+    }
+}
+
+/// A number with three significant digits, a true minus sign, an exponent only where a reader needs one; what is left
+/// of zero after rounding is zero.
+fn digits(x: f64) -> String {
+    let magnitude = if x.abs() < 1e-9 { return "0".to_owned() } else { x.abs().log10().floor() as i32 };
+    let text = match magnitude {
+        -5..=2 => format!("{x:.*}", usize::try_from(2 - magnitude).unwrap_or(0)),
+        _ => format!("{x:.2e}"),
+    };
+    text.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(value: f64) -> Claim {
+        Claim::new("§3", "it rises", "rise", vec![Test::above("rise", value, 0.0, true)])
+            .or("it falls", vec![Test::below("rise", value, 0.0, false)])
+    }
+
+    #[test]
+    fn the_verdict_follows_the_numbers_and_the_checks_what_was_found() {
+        assert_eq!(claim(1.0).verdict(), Verdict::AsPrinted);
+        assert!(claim(1.0).checks().iter().all(Check::holds));
+        assert_eq!(claim(-1.0).verdict(), Verdict::Otherwise("it falls"));
+        assert!(claim(-1.0).checks().iter().all(|check| !check.holds()));
+        assert_eq!(claim(f64::NAN).verdict(), Verdict::Fails);
+        let explained = claim(0.0).explained_by("nothing", vec![Test::below("rise", 0.0, 1.0, true)]);
+        assert_eq!(explained.verdict(), Verdict::Explained("nothing"));
+        assert_eq!(explained.checks().len(), 3);
+        assert!(claim(f64::NAN).checks().iter().all(|check| !check.holds()));
+    }
+
+    #[test]
+    fn a_printed_number_counts_to_half_its_last_digit() {
+        let test = |value, found| Test::printed("p", value, 0.07, 0.01, found);
+        assert!(test(0.0651, true).holds() && !test(0.0649, true).holds());
+        assert!(test(0.0651, true).check("x").holds() && !test(0.0651, false).check("x").holds());
+        assert!(test(0.09, false).check("x").holds() && !test(0.09, true).check("x").holds());
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        assert_eq!(
+            [0.365281, -12.3456, 0.00012345, 1.5e-7, 3e-14, 2.0].map(digits),
+            ["0.365", "−12.3", "0.000123", "1.50e−7", "0", "2.00"]
+        );
+    }
+}

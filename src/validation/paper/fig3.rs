@@ -1,0 +1,217 @@
+//! Fig. 3: pressures under three levels on relatively soft coatings, and the asymmetry of the third level's contact.
+
+use super::asymmetry::{Course, ROWS, Readings, at_touch, elements, one_neighbour};
+use super::model::Model;
+use super::spot::{self, asymmetries};
+use super::{Claim, Test};
+use crate::exact::CoatedContact;
+use crate::observables::Observables;
+use crate::picture::{Axis, Chart, Curve, Figure, Style};
+use crate::solver::Control;
+use crate::validation::draw::{curve, figure};
+use crate::validation::{Data, Outcome, Study, StudyError};
+use rayon::prelude::*;
+
+pub const STUDY: Study = Study {
+    name: "paper/fig3",
+    title: "Fig. 3: pressures under three levels, soft coatings; the asymmetry of 12 %",
+    run,
+};
+
+pub const LOAD: f64 = 0.008;
+pub const POINTS: usize = 384;
+/// Soon after the third level touches: ν₁ = 0.45, ν₁ = 0.2, and the hard coating of Fig. 2.
+const COURSES: [(&str, &str, f64); 3] =
+    [("asymmetry-a", "fig3a", 0.0017), ("asymmetry-b", "fig3b", 0.00115), ("asymmetry-fig2", "fig2", 0.0042)];
+
+fn run() -> Result<Outcome, StudyError> {
+    let mut outcome = Outcome::default();
+    let (mut panels, mut pressures, mut found) = (Vec::new(), Vec::new(), Vec::new());
+    for (title, name, file) in [("(a)", "fig3a", "pressure-a"), ("(b)", "fig3b", "pressure-b")] {
+        let model = Model::new(name, &[])?;
+        let (curves, table, observables) = profiles(&model, file)?;
+        panels.push(chart(title, curves));
+        pressures.push(table);
+        found.push(observables);
+        outcome.published.push(model.methods(
+            if file.ends_with('a') { "methods-a" } else { "methods-b" },
+            LOAD,
+            POINTS,
+        )?);
+    }
+    let courses = courses()?;
+    outcome.judge(claims(&found, &courses)?);
+    let elements = elements([0, 1, 2].map(|m| found[0].levels[m].contact_radius.unwrap_or(f64::NAN)));
+    outcome.judge([twelve_percent(&found[0], &courses, &elements)?]);
+    let caption = "Fig. 3 with the parameters as printed: χ = 0.5, h/l = 0.5, p̄/E₂ = 0.008; (a) ν₁ = 0.45, (b) 0.2. \
+                   Dashed: isolated indenters under the same forces.";
+    outcome.figures = vec![("figure", figure(panels, caption)), ("asymmetry", picture(&courses, &elements))];
+    outcome.published.extend(pressures);
+    for ((name, _, _), [threefold, rows]) in COURSES.iter().zip(&courses) {
+        let mut data = Data::new(name, &["mean_pressure", "level_1", "level_2", "level_3", "rows"]);
+        let with = |course: &Course, rows: f64| {
+            course.rows.iter().map(move |r| vec![r[0], r[1], r[2], r[3], rows]).collect::<Vec<_>>()
+        };
+        data.rows = [with(threefold, 0.0), with(rows, 1.0)].concat();
+        outcome.published.push(data);
+    }
+    outcome.published.push(elements);
+    Ok(outcome)
+}
+
+/// Curves of one panel: levels 1 to 3, each with its isolated indenter under the same force.
+fn profiles(model: &Model, file: &'static str) -> Result<(Vec<Curve>, Data, Observables), StudyError> {
+    let mut steps = model.steps(POINTS)?;
+    let (solution, found) = steps.solve(Control::MeanPressure(LOAD))?;
+    let (coating, law, indenters) = (model.coating()?, model.law()?, model.indenters()?);
+    let mut curves = Vec::new();
+    let mut data = Data::new(file, &["level", "x", "p", "p_isolated"]);
+    for (m, level) in found.levels.iter().enumerate() {
+        let profile = spot::pressure_profile(&steps.hierarchy, &solution, m + 1, spot::TOWARD_NEIGHBOUR);
+        let radius = law.loaded(indenters[m].curvature, level.load).radius.ok_or("no contact")?;
+        let places: Vec<f64> = profile.iter().map(|point| point[0]).collect();
+        let isolated = CoatedContact::pressures(&coating, radius, &places).ok_or("singular")?;
+        let isolated = isolated.iter().map(|p| p / indenters[m].curvature);
+        let isolated: Vec<[f64; 2]> = places.iter().copied().zip(isolated).map(<[f64; 2]>::from).collect();
+        data.rows.extend(profile.iter().zip(&isolated).map(|(p, q)| vec![(m + 1) as f64, p[0], p[1], q[1]]));
+        curves.push(curve(format!("{}", m + 1), Style::Line, m + 1, profile));
+        curves.push(curve("", Style::Dashed, m + 1, isolated));
+    }
+    Ok((curves, data, found))
+}
+
+/// The three-fold arrangement and rows, over all loads, for each parameter set.
+fn courses() -> Result<Vec<[Course; 2]>, StudyError> {
+    COURSES
+        .par_iter()
+        .map(|&(_, name, first)| {
+            let rows = Course::new(&Model::new(name, &ROWS)?, first)?;
+            Ok([Course::new(&Model::new(name, &[])?, first)?, rows])
+        })
+        .collect()
+}
+
+fn claims(found: &[Observables], courses: &[[Course; 2]]) -> Result<[Claim; 2], StudyError> {
+    let [a, b] = [asymmetries(&found[0]), asymmetries(&found[1])];
+    let rows = asymmetries(&Model::new("fig3a", &ROWS)?.steps_as_dense(POINTS)?.loaded(LOAD)?);
+    Ok([
+        Claim::new(
+            "§3, Fig. 3",
+            "the difference is smaller for the first and the second levels",
+            "smaller for levels 1 and 2",
+            vec![
+                Test::above("asymmetry of level 3 over that of level 1, ν₁ = 0.45", a[2] / a[0], 1.0, false),
+                Test::above("over that of level 2", a[2] / a[1], 1.0, false),
+                Test::above("ν₁ = 0.2: over that of level 1", b[2] / b[0], 1.0, false),
+                Test::above("ν₁ = 0.2: over that of level 2", b[2] / b[1], 1.0, false),
+            ],
+        )
+        .or(
+            "any load until contacts merge",
+            vec![
+                Test::above("largest ratio to level 2, ν₁ = 0.45", courses[0][0].largest_ratio(), 1.0, false),
+                Test::above("largest ratio to level 2, ν₁ = 0.2", courses[1][0].largest_ratio(), 1.0, false),
+            ],
+        )
+        .or(
+            "rows of one level each",
+            vec![
+                Test::above("over that of level 1", rows[2] / rows[0], 1.0, true),
+                Test::above("over that of level 2", rows[2] / rows[1], 1.0, false),
+            ],
+        )
+        .remark("Level 2 stands between the most unequal neighbours, levels 1 and 3, and is the least circular"),
+        Claim::new(
+            "§3, Fig. 3",
+            "Contact spots for the first level hereinafter are almost axisymmetric",
+            "first level",
+            vec![
+                Test::below("asymmetry of level 1, ν₁ = 0.45", a[0], 0.01, true),
+                Test::below("ν₁ = 0.2", b[0], 0.01, true),
+            ],
+        ),
+    ])
+}
+
+/// The 12 % and everything that was tried for it.
+fn twelve_percent(found: &Observables, courses: &[[Course; 2]], elements: &Data) -> Result<Claim, StudyError> {
+    let [a, b] = ["fig3a", "fig3b"].map(|name| Readings::new(&Model::new(name, &[])?, LOAD, POINTS));
+    let (a, b) = (a?, b?);
+    let twelve = |what: &str, value: f64, found: bool| Test::printed(what, value, 0.12, 0.01, found);
+    let fitting = elements.rows.iter().find(|row| (row[3] - 0.12).abs() <= 0.005).ok_or("no raster gives 12 %")?;
+    let (touch, radius) = (at_touch(&Model::new("fig3a", &ROWS)?)?, found.levels[2].contact_radius.ok_or("merged")?);
+    let [threefold_a, rows_a] = [&courses[0][0], &courses[0][1]].map(Course::largest);
+    let threefold_b = courses[1][0].largest();
+    Ok(Claim::new(
+        "§3, Fig. 3",
+        "difference of maximal and minimal distance … is 12 percent for the third level",
+        "12 percent",
+        vec![twelve("asymmetry of level 3, ν₁ = 0.45", a.plain, false), twelve("ν₁ = 0.2", b.plain, false)],
+    )
+    .or("over the mean distance", vec![twelve("ν₁ = 0.45", a.over_mean, false)])
+    .or("from the centre of the area", vec![twelve("ν₁ = 0.45", a.from_centroid, false)])
+    .or("line of half the peak pressure", vec![twelve("ν₁ = 0.45", a.contour, false)])
+    .or(
+        "largest at any load before contacts merge",
+        vec![twelve("ν₁ = 0.45", threefold_a, false), twelve("ν₁ = 0.2", threefold_b, false)],
+    )
+    .or("rows of one level each, largest at any load", vec![twelve("ν₁ = 0.45", rows_a, false)])
+    .or(
+        "rows, first touch of level 3",
+        vec![
+            twelve("ν₁ = 0.45, from the centre of the contact", touch.ellipse, false),
+            Test::above(
+                "radius that gives 12 % from the axis, over that at p̄′ = 0.008",
+                touch.radius(0.12) / radius,
+                1.0,
+                false,
+            ),
+        ],
+    )
+    .or(
+        "a circle that holds one neighbour of level 1 only",
+        vec![twelve(
+            "point load on the coating's half-space",
+            one_neighbour(&Model::new("fig3a", &[])?, found)?,
+            false,
+        )],
+    )
+    .explained_by(
+        "counting square elements of one size, 23 across the first level's contact: so rough is a perfect circle then",
+        vec![
+            Test::printed("elements", fitting[0], 23.0, 1.0, true),
+            twelve("level 3", fitting[3], true),
+            Test::below("level 2", fitting[2], fitting[3], true),
+            Test::below("level 1", fitting[1], fitting[2], true),
+        ],
+    ))
+}
+
+fn chart(title: &str, curves: Vec<Curve>) -> Chart {
+    Chart { title: title.to_owned(), caption: Vec::new(), x: Axis::linear("x/l"), y: Axis::linear("p/E₂"), curves }
+}
+
+fn picture(courses: &[[Course; 2]], elements: &Data) -> Figure {
+    let mut curves = Vec::new();
+    for (colour, (label, pair)) in (1..).zip(["ν₁ = 0.45", "ν₁ = 0.2", "Fig. 2"].iter().zip(courses)) {
+        let line = |course: &Course| course.rows.iter().map(|row| [row[0], row[3]]).collect::<Vec<_>>();
+        curves.push(curve(*label, Style::Line, colour, line(&pair[0])));
+        curves.push(curve(format!("{label}, rows"), Style::Dashed, colour, line(&pair[1])));
+    }
+    let loads = Chart {
+        title: "(a) level 3, converged".to_owned(),
+        caption: Vec::new(),
+        x: Axis::log("p̄/E₂"),
+        y: Axis::log("(max − min)/max"),
+        curves,
+    };
+    let line = |m: usize| elements.rows.iter().map(move |row| [row[0], row[m]]);
+    let counted = Chart {
+        title: "(b) circles counted in square elements".to_owned(),
+        caption: Vec::new(),
+        x: Axis::linear("elements across the contact of level 1"),
+        y: Axis::linear("(max − min)/max").from_to(0.0, 0.3),
+        curves: (1..=3).map(|m| curve(format!("level {m}"), Style::Line, m, line(m))).collect(),
+    };
+    figure(vec![loads, counted], "Asymmetry of contact spots: what the model gives, and what counting elements gives.")
+}
