@@ -1,8 +1,8 @@
 //! The contact spot of one level: its boundary, its pressure along a line through the axis, and what a coarse raster of
 //! square elements would make of its asymmetry.
 
+use crate::boundary::{Boundary, Polar};
 use crate::hierarchy::{Hierarchy, Solution};
-use crate::observables::boundary::{Boundary, Polar};
 use crate::observables::{LevelObservables, Observables};
 use crate::validation::StudyError;
 use std::f64::consts::PI;
