@@ -4,10 +4,13 @@
 use super::model::Model;
 use super::spot::{self, Raster, asymmetries};
 use crate::least_squares;
+use crate::localized::mesh::Mesh;
+use crate::localized::{CircleRadius, Coupled};
 use crate::observables::Observables;
 use crate::solver::Control;
 use crate::touch::first_touches;
 use crate::validation::{Data, StudyError};
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Overrides that put the levels in rows, n₁ mod 3, instead of (n₁ − n₂) mod 3: of the four sublattices that hold
@@ -140,6 +143,45 @@ pub fn one_neighbour(model: &Model, found: &Observables) -> Result<f64, StudyErr
     let modulus = model.case().half_space().surface_material().contact_modulus();
     let shift = curvature * found.levels[0].load / (PI * modulus * model.distance().powi(2));
     Ok(2.0 * shift / (radius + shift))
+}
+
+/// Asymmetries of levels 1, 2, 3 of localized solutions with circles of 7 to 37 indenters, from the
+/// fitted boundary.
+pub fn localized(model: &Model, mean_pressure: f64) -> Result<Data, StudyError> {
+    let mut data = Data::new("localized", &["indenters", "level_1", "level_2", "level_3"]);
+    for indenters in [7, 13, 37] {
+        let (system, solution) = model.localized_solution(mean_pressure, indenters, 48)?;
+        let mut row = vec![indenters as f64];
+        for spot in &solution.spots {
+            let boundary = spot.boundary(system.contact_modulus()).ok_or("a spot of too few elements")?;
+            row.push(spot::asymmetry(&boundary.radii)[0]);
+        }
+        data.rows.push(row);
+    }
+    Ok(data)
+}
+
+/// Asymmetries of levels 1, 2, 3 counted in the elements of localized solutions with 7 indenters in the circle, each
+/// the mean over a window of one element, against the number of elements across the first level's contact.
+pub fn localized_elements(model: &Model, mean_pressure: f64) -> Result<Data, StudyError> {
+    let mut data = Data::new("localized-elements", &["elements_across_level_1", "level_1", "level_2", "level_3"]);
+    let (system, start) = model.localized_solution(mean_pressure, 7, 24)?;
+    let diameter = 2.0 * start.spots[0].contact_radius(system.contact_modulus());
+    for across in [11.0, 15.0, 19.0, 23.0, 25.0, 27.0, 31.0, 39.0] {
+        const WINDOW: usize = 6;
+        let counted = (0..WINDOW).into_par_iter().map(|k| {
+            let size = diameter / (across - 0.5 + (k as f64 + 0.5) / WINDOW as f64);
+            let mesh = Mesh { width: (1.4 * across / 2.0) as usize * 2 + 1, size };
+            let control = Control::MeanPressure(mean_pressure);
+            let solution =
+                Coupled::new(&system, mesh, 7, true).solve(control, CircleRadius::LoadBalanced, Some(&start));
+            [0, 1, 2].map(|m| spot::counted(&solution.spots[m]))
+        });
+        let counted: Vec<[f64; 3]> = counted.collect();
+        let mean = |m: usize| counted.iter().map(|row| row[m]).sum::<f64>() / WINDOW as f64;
+        data.rows.push(vec![across, mean(0), mean(1), mean(2)]);
+    }
+    Ok(data)
 }
 
 /// Asymmetry that counting square elements gives circles of the radii of the three levels, against the number of

@@ -1,6 +1,6 @@
 //! Fig. 3: pressures under three levels on relatively soft coatings, and the asymmetry of the third level's contact.
 
-use super::asymmetry::{Course, ROWS, Readings, at_touch, elements, one_neighbour};
+use super::asymmetry::{Course, ROWS, Readings, at_touch, elements, localized, localized_elements, one_neighbour};
 use super::model::Model;
 use super::spot::{self, asymmetries};
 use super::{Claim, Test};
@@ -42,10 +42,12 @@ fn run() -> Result<Outcome, StudyError> {
     let courses = courses()?;
     outcome.judge(claims(&found, &courses)?);
     let elements = elements([0, 1, 2].map(|m| found[0].levels[m].contact_radius.unwrap_or(f64::NAN)));
-    outcome.judge([twelve_percent(&found[0], &courses, &elements)?]);
+    let soft = Model::new("fig3a", &[])?;
+    let (circles, counted) = (localized(&soft, LOAD)?, localized_elements(&soft, LOAD)?);
+    outcome.judge([twelve_percent(&found[0], &courses, [&elements, &circles, &counted])?]);
     let caption = "Fig. 3 with the parameters as printed: χ = 0.5, h/l = 0.5, p̄/E₂ = 0.008; (a) ν₁ = 0.45, (b) 0.2. \
                    Dashed: isolated indenters under the same forces.";
-    outcome.figures = vec![("figure", figure(panels, caption)), ("asymmetry", picture(&courses, &elements))];
+    outcome.figures = vec![("figure", figure(panels, caption)), ("asymmetry", picture(&courses, &elements, &counted))];
     outcome.published.extend(pressures);
     for ((name, _, _), [threefold, rows]) in COURSES.iter().zip(&courses) {
         let mut data = Data::new(name, &["mean_pressure", "level_1", "level_2", "level_3", "rows"]);
@@ -55,7 +57,7 @@ fn run() -> Result<Outcome, StudyError> {
         data.rows = [with(threefold, 0.0), with(rows, 1.0)].concat();
         outcome.published.push(data);
     }
-    outcome.published.push(elements);
+    outcome.published.extend([elements, circles, counted]);
     Ok(outcome)
 }
 
@@ -134,11 +136,16 @@ fn claims(found: &[Observables], courses: &[[Course; 2]]) -> Result<[Claim; 2], 
 }
 
 /// The 12 % and everything that was tried for it.
-fn twelve_percent(found: &Observables, courses: &[[Course; 2]], elements: &Data) -> Result<Claim, StudyError> {
+fn twelve_percent(
+    found: &Observables,
+    courses: &[[Course; 2]],
+    [elements, circles, counted]: [&Data; 3],
+) -> Result<Claim, StudyError> {
     let [a, b] = ["fig3a", "fig3b"].map(|name| Readings::new(&Model::new(name, &[])?, LOAD, POINTS));
     let (a, b) = (a?, b?);
     let twelve = |what: &str, value: f64, found: bool| Test::printed(what, value, 0.12, 0.01, found);
     let fitting = elements.rows.iter().find(|row| (row[3] - 0.12).abs() <= 0.005).ok_or("no raster gives 12 %")?;
+    let own = counted.rows.iter().find(|row| row[0] == 23.0).ok_or("no localized solution of 23 elements")?;
     let (touch, radius) = (at_touch(&Model::new("fig3a", &ROWS)?)?, found.levels[2].contact_radius.ok_or("merged")?);
     let [threefold_a, rows_a] = [&courses[0][0], &courses[0][1]].map(Course::largest);
     let threefold_b = courses[1][0].largest();
@@ -176,6 +183,10 @@ fn twelve_percent(found: &Observables, courses: &[[Course; 2]], elements: &Data)
             false,
         )],
     )
+    .or(
+        "the paper's own method with 7, 13 and 37 indenters in the circle",
+        circles.rows.iter().map(|row| twelve(&format!("{} inside", row[0]), row[3], false)).collect(),
+    )
     .explained_by(
         "counting square elements of one size, 23 across the first level's contact: so rough is a perfect circle then",
         vec![
@@ -183,6 +194,10 @@ fn twelve_percent(found: &Observables, courses: &[[Course; 2]], elements: &Data)
             twelve("level 3", fitting[3], true),
             Test::below("level 2", fitting[2], fitting[3], true),
             Test::below("level 1", fitting[1], fitting[2], true),
+            Test::above("level 3 of the localized solution itself, its elements counted", own[3], 0.11, true),
+            Test::below("the same", own[3], 0.14, true),
+            Test::below("its level 2", own[2], own[3], true),
+            Test::below("its level 1", own[1], own[2], true),
         ],
     ))
 }
@@ -191,7 +206,7 @@ fn chart(title: &str, curves: Vec<Curve>) -> Chart {
     Chart { title: title.to_owned(), caption: Vec::new(), x: Axis::linear("x/l"), y: Axis::linear("p/E₂"), curves }
 }
 
-fn picture(courses: &[[Course; 2]], elements: &Data) -> Figure {
+fn picture(courses: &[[Course; 2]], elements: &Data, counted: &Data) -> Figure {
     let mut curves = Vec::new();
     for (colour, (label, pair)) in (1..).zip(["ν₁ = 0.45", "ν₁ = 0.2", "Fig. 2"].iter().zip(courses)) {
         let line = |course: &Course| course.rows.iter().map(|row| [row[0], row[3]]).collect::<Vec<_>>();
@@ -205,13 +220,17 @@ fn picture(courses: &[[Course; 2]], elements: &Data) -> Figure {
         y: Axis::log("(max − min)/max"),
         curves,
     };
-    let line = |m: usize| elements.rows.iter().map(move |row| [row[0], row[m]]);
+    fn line(data: &Data, m: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
+        data.rows.iter().map(move |row| [row[0], row[m]])
+    }
+    let circles = (1..=3).map(|m| curve(format!("level {m}, a circle"), Style::Line, m, line(elements, m)));
+    let solutions = (1..=3).map(|m| curve(format!("level {m}, localized"), Style::Markers, m, line(counted, m)));
     let counted = Chart {
-        title: "(b) circles counted in square elements".to_owned(),
+        title: "(b) counted in square elements".to_owned(),
         caption: Vec::new(),
         x: Axis::linear("elements across the contact of level 1"),
         y: Axis::linear("(max − min)/max").from_to(0.0, 0.3),
-        curves: (1..=3).map(|m| curve(format!("level {m}"), Style::Line, m, line(m))).collect(),
+        curves: circles.chain(solutions).collect(),
     };
     figure(vec![loads, counted], "Asymmetry of contact spots: what the model gives, and what counting elements gives.")
 }

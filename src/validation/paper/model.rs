@@ -4,8 +4,10 @@ use super::apart::{self, Law};
 use crate::case::{Case, embedded};
 use crate::exact::Coating;
 use crate::indenter::{Level, Shape, drops};
+use crate::localized::{self, CircleRadius, LevelReading, Localized, Setup, Stop};
 use crate::observables::{LevelObservables, Observables};
 use crate::refinement::balanced_points;
+use crate::solver::Control;
 use crate::texture::Surface;
 use crate::validation::steps::Steps;
 use crate::validation::{Data, StudyError};
@@ -54,12 +56,17 @@ struct Method {
     solve: fn(&Model, f64, usize) -> Result<Answer, StudyError>,
 }
 
+/// Indenters in the circles and elements across the largest contact of the localized column.
+const INDENTERS: usize = 37;
+const ELEMENTS: usize = 48;
+
 /// Every method that the tables of the figures compare.
-const METHODS: [Method; 2] = [
+const METHODS: [Method; 3] = [
     Method {
         name: "spectral",
         solve: |model, mean_pressure, points| Ok(model.steps(points)?.loaded(mean_pressure)?.into()),
     },
+    Method { name: "localized", solve: |model, mean_pressure, _| model.localized(mean_pressure, INDENTERS, ELEMENTS) },
     Method { name: "apart", solve: |model, mean_pressure, _| apart::solve(model, mean_pressure) },
 ];
 
@@ -141,6 +148,35 @@ impl Model {
             other => Err(format!("{other} is no paraboloid").into()),
         };
         levels.iter().zip(drops(levels)).map(indenter).collect()
+    }
+
+    /// The paper's method with load-balanced circles: the system and its solution.
+    pub fn localized_solution(
+        &self,
+        mean_pressure: f64,
+        indenters: usize,
+        elements: usize,
+    ) -> Result<(Localized, localized::Solution), StudyError> {
+        let Surface::Indenters { lattice, levels } = self.case.surface() else { return Err("no indenters".into()) };
+        let system = Localized::new(lattice, levels, self.case.half_space(), indenters);
+        let setup = Setup { indenters, elements, radius: CircleRadius::LoadBalanced, mutual_effect: true };
+        let solution = system.solve(Control::MeanPressure(mean_pressure), &setup);
+        if solution.stop != Stop::Converged {
+            return Err(format!("localized solution at {mean_pressure}: {}", solution.stop).into());
+        }
+        Ok((system, solution))
+    }
+
+    /// The same as an answer.
+    pub fn localized(&self, mean_pressure: f64, indenters: usize, elements: usize) -> Result<Answer, StudyError> {
+        let (system, solution) = self.localized_solution(mean_pressure, indenters, elements)?;
+        let level = |level: LevelReading| LevelAnswer {
+            load: level.load,
+            peak: level.max_pressure,
+            radius: Some(level.contact_radius).filter(|_| level.load > 0.0),
+        };
+        let levels = system.observe(&solution).into_iter().map(level).collect();
+        Ok(Answer { penetration: solution.penetration, levels })
     }
 
     /// Without mutual effect under the nominal pressure.

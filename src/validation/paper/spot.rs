@@ -3,6 +3,7 @@
 
 use crate::boundary::{Boundary, Polar};
 use crate::hierarchy::{Hierarchy, Solution};
+use crate::localized::spot::Spot;
 use crate::observables::{LevelObservables, Observables};
 use crate::validation::StudyError;
 use std::f64::consts::PI;
@@ -117,8 +118,23 @@ pub enum Raster {
 /// lie within a circle of `radius`: what counting elements makes of a perfect circle.
 pub fn staircase(radius: f64, raster: Raster) -> f64 {
     let shift = if raster == Raster::Centred { 0.0 } else { 0.5 };
-    let reach = radius.ceil() as i32 + 2;
     let inside = |i: i32, j: i32| (f64::from(i) + shift).hypot(f64::from(j) + shift) <= radius;
+    outline(radius.ceil() as i32 + 2, shift, inside)
+}
+
+/// The same of the elements in contact of a localized solution.
+pub fn counted(spot: &Spot) -> f64 {
+    let middle = (spot.mesh.width / 2) as i32;
+    let inside = |i: i32, j: i32| {
+        let [row, column] = [i + middle, j + middle].map(|k| usize::try_from(k).ok());
+        let place = row.zip(column).filter(|(row, column)| row.max(column) < &spot.mesh.width);
+        place.is_some_and(|(row, column)| spot.pressure[row * spot.mesh.width + column] > 0.0)
+    };
+    outline(middle, 0.0, inside)
+}
+
+/// Of the elements `inside` among those up to `reach` from the middle, whose centres are shifted by `shift`.
+fn outline(reach: i32, shift: f64, inside: impl Fn(i32, i32) -> bool) -> f64 {
     let (mut least, mut most) = (f64::INFINITY, 0.0f64);
     for (i, j) in (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |j| (i, j))) {
         let (x, y) = (f64::from(i) + shift, f64::from(j) + shift);
