@@ -37,6 +37,8 @@ studies! {
     convergence = "convergence",
     iterations = "iterations",
     peer = "peer",
+    disc = "disc",
+    localized = "localized",
 }
 
 fn folder() -> PathBuf {

@@ -13,6 +13,7 @@
 
 mod check;
 mod convergence;
+mod disc;
 mod draw;
 mod hertz;
 mod hertz_stresses;
@@ -20,6 +21,9 @@ mod isolated;
 mod iterations;
 mod kernel;
 mod lattice_sums;
+mod leftover;
+mod localized;
+mod one_level;
 mod outcome;
 mod peer;
 mod periodic_hertz;
@@ -48,7 +52,7 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 12] = [
+pub const STUDIES: [Study; 14] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -61,6 +65,8 @@ pub const STUDIES: [Study; 12] = [
     convergence::STUDY,
     iterations::STUDY,
     peer::STUDY,
+    disc::STUDY,
+    localized::STUDY,
 ];
 
 /// The study of a name.

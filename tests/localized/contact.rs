@@ -35,6 +35,23 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
     }
 }
 
+/// Hertz with E₁* of the coating, whatever the load: the lattice and the layer are far away.
+#[test]
+fn tiny_loads_have_hertzian_contacts() {
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &PAPER[0].half_space(), 7);
+    for pressure in [1e-7, 1e-9, 1e-12] {
+        let (mesh, start) = system.mesh(Control::MeanPressure(pressure), &setup(7, 24));
+        println!("{pressure}: {mesh:?} {:?} {} δ {}", start.stop, start.sweeps, start.penetration);
+        let solution = system.solve(Control::MeanPressure(pressure), &setup(7, 24));
+        assert_eq!(solution.stop, Stop::Converged);
+        let found = system.observe(&solution)[0];
+        let a = (0.6 * pressure * system.cell_area() / system.contact_modulus()).cbrt();
+        let p0 = 2.0 * system.contact_modulus() * a / (PI * 0.8);
+        println!("{} {}", found.contact_radius / a, found.max_pressure / p0);
+        assert!((found.contact_radius / a - 1.0).abs() < 2e-3 && (found.max_pressure / p0 - 1.0).abs() < 2e-3);
+    }
+}
+
 /// The Fredholm equation of the coated contact after Abel's transformation, 60 to 140 Gauss points: E₂ = 1, h = 1,
 /// R = 1; a/h, P, δ, p(0).
 #[test]
