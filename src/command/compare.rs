@@ -1,6 +1,7 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
 use super::pictures::PictureOptions;
+use super::solve::refuse_beyond_full_contact;
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
@@ -28,6 +29,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let started = Instant::now();
     let controls = case.load.controls();
     let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    refuse_beyond_full_contact(&case, &[control])?;
     let localized = &case.localized;
     let setup = Setup {
         indenters: localized.indenters.iter().copied().max().unwrap_or(1),

@@ -158,7 +158,7 @@ fn checks(name: &str, compared: &Comparison, pairs: Pairs) -> Result<Vec<Check>,
         Check::worst(
             format!("{name}: load shares less the spectral ones, point forces"),
             pairs,
-            Tolerance::Absolute(3e-4),
+            Tolerance::Absolute(1e-4),
         ),
         below("load shares, 301 indenters", near.load_share, 1e-3),
         below("load shares, 439 indenters", far.load_share, 3e-4),

@@ -40,14 +40,12 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
 fn tiny_loads_have_hertzian_contacts() {
     let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &PAPER[0].half_space(), 7);
     for pressure in [1e-7, 1e-9, 1e-12] {
-        let (mesh, start) = system.mesh(Control::MeanPressure(pressure), &setup(7, 24));
-        println!("{pressure}: {mesh:?} {:?} {} δ {}", start.stop, start.sweeps, start.penetration);
         let solution = system.solve(Control::MeanPressure(pressure), &setup(7, 24));
         assert_eq!(solution.stop, Stop::Converged);
         let found = system.observe(&solution)[0];
         let a = (0.6 * pressure * system.cell_area() / system.contact_modulus()).cbrt();
         let p0 = 2.0 * system.contact_modulus() * a / (PI * 0.8);
-        println!("{} {}", found.contact_radius / a, found.max_pressure / p0);
+        println!("{pressure}: a {}, p₀ {}", found.contact_radius / a, found.max_pressure / p0);
         assert!((found.contact_radius / a - 1.0).abs() < 2e-3 && (found.max_pressure / p0 - 1.0).abs() < 2e-3);
     }
 }
@@ -145,6 +143,15 @@ fn the_additional_displacement_of_eq_8_is_the_penetration() {
         let additional = system.additional_displacement(&solution);
         assert!((additional / solution.penetration - 1.0).abs() < 1e-6, "{additional} {}", solution.penetration);
     }
+}
+
+/// Far beyond complete contact: elements grow with the contact, their number does not.
+#[test]
+fn a_penetration_out_of_reach_comes_to_an_end() {
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &PAPER[0].half_space(), 7);
+    let solution = system.solve(Control::Penetration(0.1), &setup(7, 8));
+    assert!(solution.stop != Stop::Converged && solution.stop != Stop::Rim);
+    assert!(solution.spots[0].mesh.width < 30);
 }
 
 #[test]
