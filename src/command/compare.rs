@@ -8,7 +8,7 @@ use percoat::case::GridSection;
 use percoat::comparison::{Comparison, Task};
 use percoat::localized::{Setup, Stop};
 use percoat::number::number;
-use percoat::output::{CompareFile, make_folder, table, write_text};
+use percoat::output::{CompareFile, clear_picture, make_folder, table, write_text};
 use percoat::picture;
 use percoat::refinement::sufficient_points;
 use percoat::stress::MeanStress;
@@ -69,6 +69,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let file =
         CompareFile::new(&comparison, &case.title, &case, controls.len(), setup.radius, setup.mutual_effect).to_json();
     write_text(&folder.join("compare.json"), &file)?;
+    clear_picture(&folder, "comparison")?;
     pictures.write(&folder, "comparison", || {
         picture::comparison(&case.title, case.surface(), case.half_space(), &comparison, setup.radius)
     })?;

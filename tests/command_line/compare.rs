@@ -31,7 +31,8 @@ fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
     assert_eq!(file["percoat"], env!("CARGO_PKG_VERSION"));
     assert_eq!((&file["rule"], &file["other_rule"]["rule"]), (&"load-balanced".into(), &"area-balanced".into()));
     let spectral = &file["spectral"];
-    assert_eq!((number(spectral, "/mean_pressure"), &spectral["converged"]), (0.06, &true.into()));
+    assert_close(number(spectral, "/mean_pressure"), 0.06, 1e-12);
+    assert_eq!(spectral["converged"], true);
     for (circles, tolerance) in [("/localized", 0.02), ("/other_rule/localized", 0.5)] {
         for (circle, inside) in list(&file, circles).iter().zip([7, 13]) {
             assert_eq!((&circle["indenters"], &circle["converged"]), (&inside.into(), &true.into()));
@@ -63,7 +64,7 @@ fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
 }
 
 #[test]
-fn no_picture_is_drawn_when_none_is_wanted() {
+fn no_picture_is_drawn_when_none_is_wanted_and_an_earlier_one_goes() {
     let desk = Desk::new();
     compare(&desk, "run", &["--pictures", "svg"]);
     let folder = compare(&desk, "run", &["--no-pictures"]);
