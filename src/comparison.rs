@@ -201,7 +201,14 @@ impl Task<'_> {
                     system.solve(self.control, &Setup { indenters, radius: rule, ..self.setup })
                 };
                 let found = widened(&fine, &last);
-                let rough = Reading::localized(&system, &coarse.solve(self.control, rule, Some(&found)));
+                let own = found.spots[0].mesh;
+                let rough = if own == mesh {
+                    coarse.solve(self.control, rule, Some(&found))
+                } else {
+                    let coupled = Coupled::new(&system, own.halved(), indenters, self.setup.mutual_effect);
+                    coupled.solve(self.control, rule, Some(&found))
+                };
+                let rough = Reading::localized(&system, &rough);
                 let reading = Reading::localized(&system, &found);
                 let comparison = CircleComparison {
                     indenters: fine.indenters(),

@@ -4,6 +4,8 @@
 mod archive;
 #[path = "command_line/cases.rs"]
 mod cases;
+#[path = "command_line/compare.rs"]
+mod compare;
 #[path = "command_line/exit_codes.rs"]
 mod exit_codes;
 #[path = "command_line/folder.rs"]

@@ -46,6 +46,8 @@ studies! {
     convergence = "convergence",
     iterations = "iterations",
     peer = "peer",
+    disc = "disc",
+    localized = "localized",
     paper_fig2 = "paper/fig2",
     paper_fig3 = "paper/fig3",
     paper_table1 = "paper/table1",

@@ -1,13 +1,14 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
 use super::pictures::PictureOptions;
+use super::solve::refuse_beyond_full_contact;
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
 use percoat::comparison::{Comparison, Task};
 use percoat::localized::{Setup, Stop};
 use percoat::number::number;
-use percoat::output::{CompareFile, make_folder, table, write_text};
+use percoat::output::{CompareFile, clear_picture, make_folder, table, write_text};
 use percoat::picture;
 use percoat::refinement::sufficient_points;
 use percoat::stress::MeanStress;
@@ -28,6 +29,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let started = Instant::now();
     let controls = case.load.controls();
     let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    refuse_beyond_full_contact(&case, &[control])?;
     let localized = &case.localized;
     let setup = Setup {
         indenters: localized.indenters.iter().copied().max().unwrap_or(1),
@@ -67,6 +69,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let file =
         CompareFile::new(&comparison, &case.title, &case, controls.len(), setup.radius, setup.mutual_effect).to_json();
     write_text(&folder.join("compare.json"), &file)?;
+    clear_picture(&folder, "comparison")?;
     pictures.write(&folder, "comparison", || {
         picture::comparison(&case.title, case.surface(), case.half_space(), &comparison, setup.radius)
     })?;

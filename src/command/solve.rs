@@ -29,7 +29,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
     let run = Run { case: &case, controls: case.load.controls(), folder, pictures, common };
-    run.refuse_beyond_full_contact()?;
+    refuse_beyond_full_contact(run.case, &run.controls)?;
     let result = match case.grid {
         GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
@@ -172,32 +172,6 @@ impl Run<'_> {
         Ok(Gridded { hierarchy, last, fields, stresses, solved })
     }
 
-    /// No load reaches a penetration at which contact is complete: refused before anything is written.
-    fn refuse_beyond_full_contact(&self) -> Result<(), Failure> {
-        if matches!(self.case.load, LoadSection::MeanPressure(_)) {
-            return Ok(());
-        }
-        let surface = self.case.surface();
-        let points = match self.case.grid {
-            GridSection::Points(points) => points,
-            GridSection::Accuracy(_) => balanced_points(&surface.cell(), 8 * FIRST_POINTS),
-        };
-        let grid = Grid::new(surface.cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
-        let full = surface.sample(&grid).mean();
-        for control in &self.controls {
-            if let Control::Penetration(penetration) = *control
-                && penetration >= full
-            {
-                return Err(Failure::Refused(format!(
-                    "load.penetration = {penetration} is out of reach: contact becomes complete at {}, \
-                     and no further however large the load; prescribe less, or mean_pressure instead",
-                    number(full)
-                )));
-            }
-        }
-        Ok(())
-    }
-
     fn progress(&self) -> ProgressBar {
         if self.common.quiet || self.common.verbose {
             return ProgressBar::hidden();
@@ -293,4 +267,30 @@ impl Run<'_> {
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), self.folder.display())?;
         Ok(())
     }
+}
+
+/// No load reaches a penetration at which contact is complete: refused before anything is written.
+pub fn refuse_beyond_full_contact(case: &Case, controls: &[Control]) -> Result<(), Failure> {
+    if matches!(case.load, LoadSection::MeanPressure(_)) {
+        return Ok(());
+    }
+    let surface = case.surface();
+    let points = match case.grid {
+        GridSection::Points(points) => points,
+        GridSection::Accuracy(_) => balanced_points(&surface.cell(), 8 * FIRST_POINTS),
+    };
+    let grid = Grid::new(surface.cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
+    let full = surface.sample(&grid).mean();
+    for control in controls {
+        if let Control::Penetration(penetration) = *control
+            && penetration >= full
+        {
+            return Err(Failure::Refused(format!(
+                "load.penetration = {penetration} is out of reach: contact becomes complete at {}, \
+                 and no further however large the load; prescribe less, or mean_pressure instead",
+                number(full)
+            )));
+        }
+    }
+    Ok(())
 }

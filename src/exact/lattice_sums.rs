@@ -42,15 +42,21 @@ impl Sums {
 
 /// Effective sums of a triangular lattice of the given period (a length) on a coating.
 pub fn coated_triangular(coating: &Coating, period: f64) -> Sums {
+    layered_triangular(|q| coating.correction(q * coating.thickness()), coating.thickness(), period)
+}
+
+/// Effective sums of a triangular lattice of the given period on layers with the correction T(q), the upper one of the
+/// given thickness: lengths.
+pub fn layered_triangular(correction: impl Fn(f64) -> f64, thickness: f64, period: f64) -> Sums {
     let area = 0.75f64.sqrt() * period * period;
     let least = 4.0 * PI / (3f64.sqrt() * period);
     // T − 1 falls as e^{−2Gh}.
-    let reach = (22.0 / (coating.thickness() * least)).ceil() as i32 + 1;
+    let reach = (22.0 / (thickness * least)).ceil() as i32 + 1;
     let [mut s1, mut s3, mut s5] = TRIANGULAR.scaled(period).0;
     for (i, j) in (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |j| (i, j))) {
         if (i, j) != (0, 0) {
             let g = least * f64::from(i * i + i * j + j * j).sqrt();
-            let excess = 2.0 * PI / area * (coating.correction(g * coating.thickness()) - 1.0);
+            let excess = 2.0 * PI / area * (correction(g) - 1.0);
             s1 += excess / g;
             s3 -= excess * g;
             s5 += excess * g.powi(3) / 9.0;

@@ -28,6 +28,10 @@ pub fn displacement(kernel: &PointKernel, radius: f64, s: f64) -> Estimate {
 pub fn homogeneous(kernel: &PointKernel, radius: f64, s: f64) -> f64 {
     // c/(2π) times 4 is 2c/π.
     let factor = 4.0 * kernel.factor();
+    if radius == 0.0 {
+        // A circle without load yet; s/R has no value in its centre.
+        return 0.0;
+    }
     if s <= radius {
         return factor * radius * elliptic(s / radius).1;
     }
@@ -97,13 +101,10 @@ fn elliptic(k: f64) -> (f64, f64) {
     }
     let (mut a, mut b, mut c) = (1.0, ((1.0 - k) * (1.0 + k)).sqrt(), k);
     let (mut sum, mut power) = (0.5 * c * c, 0.5);
-    while c.abs() > 1e-17 {
+    while c.abs() > 1e-9 {
         (a, b, c) = (0.5 * (a + b), (a * b).sqrt(), 0.5 * (a - b));
         power *= 2.0;
         sum += power * c * c;
-        if c.abs() < 1e-9 {
-            break;
-        }
     }
     let first = FRAC_PI_2 / a;
     (first, first * (1.0 - sum))

@@ -25,6 +25,9 @@ const TOLERANCE: f64 = 1e-8;
 const SURFACE_TOLERANCE: f64 = 1e-9;
 const STIFFNESS_TOLERANCE: f64 = 1e-4;
 
+/// Indenters that a contact is watched against.
+const NEIGHBOURS: usize = 13;
+
 /// How a localized solution ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
@@ -34,7 +37,7 @@ pub enum Stop {
     Stalled,
     /// A contact reaches the rim of its mesh.
     Rim,
-    /// A contact reaches half the way to its neighbour: the method needs spots that stand apart.
+    /// A contact reaches where a neighbour's surface is nearer: the method needs spots that stand apart.
     Merged,
 }
 
@@ -44,7 +47,7 @@ impl fmt::Display for Stop {
             Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
             Self::Stalled => "stalled: loads still moved after 60 sweeps",
             Self::Rim => "a contact reaches the rim of its mesh",
-            Self::Merged => "merged: a contact reaches half the way to its neighbour",
+            Self::Merged => "merged: a contact reaches under its neighbour",
         })
     }
 }
@@ -70,6 +73,8 @@ pub struct Coupled<'a> {
     system: &'a Localized,
     mesh: Mesh,
     circles: Vec<Circle>,
+    /// The next shells of indenters, whatever the circle.
+    neighbours: Vec<Circle>,
     /// `tables[m][c]`; `None` where no indenter of c stands in the circle around m.
     tables: Vec<Vec<Option<Influence>>>,
     /// Profile plus drop at each element, per site.
@@ -122,7 +127,8 @@ impl<'a> Coupled<'a> {
             (0..mesh.elements()).map(at).collect()
         };
         let shapes = (0..system.sites().len()).map(shape).collect();
-        Self { system, mesh, circles, tables, shapes, mutual_effect }
+        let neighbours = system.circles(NEIGHBOURS);
+        Self { system, mesh, circles, neighbours, tables, shapes, mutual_effect }
     }
 
     /// Indenters inside the circles: the largest number of any of them.
@@ -288,19 +294,22 @@ impl<'a> Coupled<'a> {
 
     /// How converged patterns stand to their meshes and neighbours.
     fn reached(&self, patterns: &Patterns) -> Stop {
-        let half_way = 0.5 * self.system.nearest();
-        let loaded = |index: usize| patterns.pressures.iter().any(|pressure| pressure[index] > 0.0);
-        let beyond = |index: usize| {
-            let [x, y] = self.mesh.place(index);
-            x.hypot(y) + 0.5 * self.mesh.size > half_way
-        };
-        let elements = || (0..self.mesh.elements()).filter(|&index| loaded(index));
-        if elements().any(beyond) {
+        let loaded = |m: usize| (0..self.mesh.elements()).filter(move |&index| patterns.pressures[m][index] > 0.0);
+        let sites = || 0..self.circles.len();
+        if self.mutual_effect && sites().any(|m| loaded(m).any(|index| self.belongs_to_another(m, index))) {
             Stop::Merged
-        } else if elements().any(|index| self.mesh.on_rim(index)) {
+        } else if sites().any(|m| loaded(m).any(|index| self.mesh.on_rim(index))) {
             Stop::Rim
         } else {
             Stop::Converged
         }
+    }
+
+    /// Whether the surface of a neighbour lies nearer to an element of spot m than that of its own indenter.
+    fn belongs_to_another(&self, m: usize, index: usize) -> bool {
+        let [x, y] = self.mesh.place(index);
+        self.neighbours[m].images.iter().enumerate().any(|(c, images)| {
+            images.iter().any(|[u, v]| self.system.profile(c, (x - u).hypot(y - v)) < self.shapes[m][index])
+        })
     }
 }

@@ -142,6 +142,8 @@ impl Localized {
                 start = Some(solution);
                 continue;
             }
+            // Loads that did not come to rest tell nothing of the contact's size.
+            let radius = if solution.stop == Stop::Stalled { FILLING * mesh.half() } else { radius };
             let fine = Mesh {
                 width: (setup.elements as f64 / FILLING).ceil() as usize / 2 * 2 + 1,
                 size: 2.0 * radius.max(0.5 * mesh.size) / setup.elements as f64,
@@ -153,6 +155,7 @@ impl Localized {
     /// Solves one load step.
     pub fn solve(&self, control: Control, setup: &Setup) -> Solution {
         let (mut mesh, start) = self.mesh(control, setup);
+        let most = 2 * mesh.width;
         loop {
             let coupled = Coupled::new(self, mesh, setup.indenters, setup.mutual_effect);
             let solution = coupled.solve(control, setup.radius, Some(&start));
@@ -160,6 +163,10 @@ impl Localized {
                 return solution;
             }
             mesh.width = mesh.width * 5 / 4 / 2 * 2 + 1;
+            if mesh.width > most {
+                // Far larger than thought: as many elements across the contact are twice as large.
+                mesh = mesh.halved();
+            }
         }
     }
 

@@ -51,6 +51,20 @@ const FILES: [&str; 5] = ["summary.json", "curve.csv", "case.toml", "contact.npz
 /// What a run draws, as PNG or SVG files.
 const PICTURES: [&str; 6] = ["pressure", "contact", "profiles", "section", "lines", "curve"];
 
+/// Removes the picture `name` that an earlier run left in `folder`, in every format.
+///
+/// # Errors
+/// [`OutputError`] with the path that cannot be removed.
+pub fn clear_picture(folder: &Path, name: &str) -> Result<(), OutputError> {
+    for format in ["png", "svg"] {
+        let path = folder.join(format!("{name}.{format}"));
+        if path.is_file() {
+            fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;
+        }
+    }
+    Ok(())
+}
+
 /// Removes what an earlier run left in `folder` and this one has not made yet: its files, and what waits or is
 /// temporary if it was killed.
 ///

@@ -13,6 +13,7 @@
 
 mod check;
 mod convergence;
+mod disc;
 mod draw;
 mod hertz;
 mod hertz_stresses;
@@ -20,6 +21,9 @@ mod isolated;
 mod iterations;
 mod kernel;
 mod lattice_sums;
+mod leftover;
+mod localized;
+mod one_level;
 mod outcome;
 pub mod paper;
 mod peer;
@@ -49,7 +53,7 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 19] = [
+pub const STUDIES: [Study; 21] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -62,6 +66,8 @@ pub const STUDIES: [Study; 19] = [
     convergence::STUDY,
     iterations::STUDY,
     peer::STUDY,
+    disc::STUDY,
+    localized::STUDY,
     paper::STUDIES[0],
     paper::STUDIES[1],
     paper::STUDIES[2],

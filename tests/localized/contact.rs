@@ -35,6 +35,21 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
     }
 }
 
+/// Hertz with E₁* of the coating, whatever the load: the lattice and the layer are far away.
+#[test]
+fn tiny_loads_have_hertzian_contacts() {
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &PAPER[0].half_space(), 7);
+    for pressure in [1e-7, 1e-9, 1e-12] {
+        let solution = system.solve(Control::MeanPressure(pressure), &setup(7, 24));
+        assert_eq!(solution.stop, Stop::Converged);
+        let found = system.observe(&solution)[0];
+        let a = (0.6 * pressure * system.cell_area() / system.contact_modulus()).cbrt();
+        let p0 = 2.0 * system.contact_modulus() * a / (PI * 0.8);
+        println!("{pressure}: a {}, p₀ {}", found.contact_radius / a, found.max_pressure / p0);
+        assert!((found.contact_radius / a - 1.0).abs() < 2e-3 && (found.max_pressure / p0 - 1.0).abs() < 2e-3);
+    }
+}
+
 /// The Fredholm equation of the coated contact after Abel's transformation, 60 to 140 Gauss points: E₂ = 1, h = 1,
 /// R = 1; a/h, P, δ, p(0).
 #[test]
@@ -130,10 +145,21 @@ fn the_additional_displacement_of_eq_8_is_the_penetration() {
     }
 }
 
+/// Far beyond complete contact: elements grow with the contact, their number does not.
+#[test]
+fn a_penetration_out_of_reach_comes_to_an_end() {
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &PAPER[0].half_space(), 7);
+    let solution = system.solve(Control::Penetration(0.1), &setup(7, 8));
+    assert!(solution.stop != Stop::Converged && solution.stop != Stop::Rim);
+    assert!(solution.spots[0].mesh.width < 30);
+}
+
 #[test]
 fn contacts_that_meet_are_reported() {
     let system = Localized::new(&Lattice::hexagonal(1.0, 1).unwrap(), &[paraboloid(0.8, 0.0)], &homogeneous(), 7);
-    assert_eq!(system.solve(Control::MeanPressure(0.4), &setup(7, 24)).stop, Stop::Merged);
+    // At p̄ = 0.4 E* spots are hexagons that fill nine tenths of the cell and still stand apart.
+    assert_eq!(system.solve(Control::MeanPressure(0.4), &setup(7, 24)).stop, Stop::Converged);
+    assert_eq!(system.solve(Control::MeanPressure(1.2), &setup(7, 24)).stop, Stop::Merged);
 }
 
 /// χ = 2, h/l = 0.5, ν 0.2/0.3, R = 0.8 l, steps 0.01 l, p̄ = 0.03.

@@ -1,0 +1,111 @@
+//! What the circles of three levels leave out, predicted from point forces.
+//!
+//! Around level m a circle of radius R displaces the surface by more than the lattice does by
+//!
+//! ε_m = Σ_c P_c Σ_i K(r_i) − p̄ D_R(0) − Σ_c P_c S₁/(πE*) − (π/2A) K(R) Σ_c M_c,
+//!
+//! r_i to the images of level c inside, S₁ from level c to level m without the indenter itself. The last term is what
+//! the second moments M = 2Pa²/5 of the indenters outside would add, A the area of the cell: the pressure p̄ has none.
+//! Divided by the stiffness of the contacts ε moves loads and penetration ([`crate::exact::localization::shifts`]).
+
+use super::StudyError;
+use crate::comparison::Reading;
+use crate::exact::lattice_sums::layered_triangular;
+use crate::exact::localization::shifts;
+use crate::lattice::Lattice;
+use crate::layered::TransferFunction;
+use crate::localized::circle::Circle;
+use crate::localized::disc;
+use crate::localized::point::PointKernel;
+use crate::material::HalfSpace;
+use std::f64::consts::PI;
+
+/// Three levels on a hexagonal lattice of unit period, as the spectral solution finds them.
+pub struct Leftover<'a> {
+    lattice: &'a Lattice,
+    kernel: PointKernel,
+    /// E* of the surface material.
+    modulus: f64,
+    /// S₁ of the images from level c to level m.
+    sums: Vec<Vec<f64>>,
+    reading: Reading,
+    mean_pressure: f64,
+}
+
+/// What a circle changes.
+pub struct Shift {
+    /// Load shares, absolute, level by level.
+    pub shares: Vec<f64>,
+    /// Penetration, relative.
+    pub penetration: f64,
+}
+
+impl<'a> Leftover<'a> {
+    /// For circles of up to `most` indenters; the spectral solution's `reading` under the mean pressure.
+    pub fn new(
+        lattice: &'a Lattice,
+        half_space: &HalfSpace,
+        most: usize,
+        reading: Reading,
+        mean_pressure: f64,
+    ) -> Result<Self, StudyError> {
+        let transfer = TransferFunction::new(half_space);
+        let layer = half_space.layers().first().ok_or("a coating is needed")?;
+        let triangular = |period| layered_triangular(|q| transfer.correction(q), layer.thickness(), period);
+        let own = triangular(3f64.sqrt());
+        let other = triangular(1.0).other_sublattice(own);
+        let kernel = PointKernel::new(half_space, 2.0 * ((most as f64).sqrt() + 2.0));
+        // The indenter's own layer is no image.
+        let images = own.0[0] - kernel.correction(0.0);
+        let sum = |m: usize, c: usize| if m == c { images } else { other.0[0] };
+        Ok(Self {
+            lattice,
+            kernel,
+            modulus: half_space.surface_material().contact_modulus(),
+            sums: (0..3).map(|m| (0..3).map(|c| sum(m, c)).collect()).collect(),
+            reading,
+            mean_pressure,
+        })
+    }
+
+    /// What load-balanced circles of at least so many indenters change.
+    pub fn of(&self, indenters: usize) -> Result<Shift, StudyError> {
+        let loads: Vec<f64> = self.reading.levels.iter().map(|level| level.load).collect();
+        let radii: Vec<f64> = self.reading.levels.iter().map(|level| level.contact_radius).collect();
+        let errors: Vec<f64> = (0..3).map(|m| self.error(m, indenters, &loads)).collect();
+        // The layer under a contact: C at the mean distance of two points of a stamp's pressure, r² = 4a²/3.
+        let mut sums = self.sums.clone();
+        for (m, radius) in radii.iter().enumerate() {
+            sums[m][m] += self.kernel.correction((4f64 / 3.0).sqrt() * radius);
+        }
+        let (moved, penetration) =
+            shifts(&radii, &sums, self.modulus, &errors).ok_or("the levels' stiffness is singular")?;
+        let whole: f64 = loads.iter().sum();
+        Ok(Shift {
+            shares: moved.into_iter().map(|load| load / whole).collect(),
+            penetration: penetration / self.reading.penetration,
+        })
+    }
+
+    /// Indenters in whole shells, at least so many.
+    pub fn indenters(&self, asked: usize) -> usize {
+        Circle::new(self.lattice, &self.lattice.sites().concat(), 0, asked).indenters()
+    }
+
+    /// ε_m, a length.
+    fn error(&self, m: usize, indenters: usize, loads: &[f64]) -> f64 {
+        let places = self.lattice.sites().concat();
+        let circle = Circle::new(self.lattice, &places, m, indenters);
+        let radius = circle.load_balanced(loads, self.mean_pressure);
+        let moments: f64 =
+            self.reading.levels.iter().map(|level| 0.4 * level.load * level.contact_radius.powi(2)).sum();
+        let mut error = -self.mean_pressure * disc::displacement(&self.kernel, radius, 0.0).value;
+        error -= 0.5 * PI / self.lattice.cell().area() * self.kernel.at(radius) * moments;
+        for (c, images) in circle.images.iter().enumerate() {
+            let distances = images.iter().map(|[x, y]| x.hypot(*y)).filter(|r| *r > 0.0);
+            let inside: f64 = distances.map(|r| self.kernel.at(r)).sum();
+            error += loads[c] * (inside - self.sums[m][c] / (PI * self.modulus));
+        }
+        error
+    }
+}

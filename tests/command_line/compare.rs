@@ -1,0 +1,142 @@
+//! `percoat compare`: what it leaves behind, whom it refuses, and what it says of what cannot be compared.
+
+use crate::program::{Desk, Folder, assert_close, number};
+use serde_json::Value;
+use std::collections::BTreeSet;
+
+/// Small grids, few elements.
+const SMALL: [&str; 6] =
+    ["--set", "grid.points=64", "--set", "localized.elements=12", "--set", "localized.indenters=[7, 13]"];
+
+fn compare(desk: &Desk, name: &str, arguments: &[&str]) -> Folder {
+    let answer = desk.percoat(&[&["compare", "--output", name], &SMALL[..], arguments].concat());
+    assert_eq!(answer.code, 0, "{arguments:?}: {}", answer.err);
+    Folder(desk.path(name))
+}
+
+fn read(folder: &Folder) -> Value {
+    serde_json::from_str(&folder.text("compare.json")).unwrap()
+}
+
+fn list<'a>(value: &'a Value, pointer: &str) -> &'a Vec<Value> {
+    value.pointer(pointer).and_then(Value::as_array).unwrap_or_else(|| panic!("no list at {pointer} in {value}"))
+}
+
+#[test]
+fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
+    let desk = Desk::new();
+    let folder = compare(&desk, "both", &[]);
+    assert_eq!(folder.names(), BTreeSet::from(["compare.json".to_owned(), "comparison.png".to_owned()]));
+    let file = read(&folder);
+    assert_eq!(file["percoat"], env!("CARGO_PKG_VERSION"));
+    assert_eq!((&file["rule"], &file["other_rule"]["rule"]), (&"load-balanced".into(), &"area-balanced".into()));
+    let spectral = &file["spectral"];
+    assert_close(number(spectral, "/mean_pressure"), 0.06, 1e-12);
+    assert_eq!(spectral["converged"], true);
+    for (circles, tolerance) in [("/localized", 0.02), ("/other_rule/localized", 0.5)] {
+        for (circle, inside) in list(&file, circles).iter().zip([7, 13]) {
+            assert_eq!((&circle["indenters"], &circle["converged"]), (&inside.into(), &true.into()));
+            assert_eq!(list(circle, "/radius").len(), 3);
+            let whole: f64 = (0..3).map(|m| number(circle, &format!("/levels/{m}/load_share"))).sum();
+            assert_close(whole, 1.0, 1e-6);
+            for (level, m) in list(circle, "/levels").iter().zip(0..) {
+                assert_eq!(level["level"], m + 1);
+                for key in ["load", "max_pressure", "contact_radius"] {
+                    let expected = number(spectral, &format!("/levels/{m}/{key}"));
+                    assert_close(number(level, &format!("/{key}")), expected, tolerance);
+                }
+            }
+            for key in ["penetration", "load", "load_share", "max_pressure", "contact_radius"] {
+                assert!(number(circle, &format!("/difference/{key}")) < tolerance);
+                assert!(number(circle, &format!("/mesh_error/{key}")) < 0.05);
+            }
+            // Eq. (8) is the penetration.
+            assert_close(number(circle, "/additional_displacement"), number(circle, "/penetration"), 1e-5);
+        }
+    }
+    let largest = list(&file, "/stresses").iter().map(|pair| number(pair, "/spectral/zz").abs()).fold(0.0, f64::max);
+    for pair in list(&file, "/stresses") {
+        for component in ["xx", "yy", "zz", "xy", "xz", "yz"] {
+            let [a, b] = ["spectral", "localized"].map(|method| number(pair, &format!("/{method}/{component}")));
+            assert!((a - b).abs() < 0.02 * largest, "{component}: {pair}");
+        }
+    }
+}
+
+#[test]
+fn no_picture_is_drawn_when_none_is_wanted_and_an_earlier_one_goes() {
+    let desk = Desk::new();
+    compare(&desk, "run", &["--pictures", "svg"]);
+    let folder = compare(&desk, "run", &["--no-pictures"]);
+    assert_eq!(folder.names(), BTreeSet::from(["compare.json".to_owned()]));
+}
+
+#[test]
+fn without_mutual_effect_every_indenter_is_alone() {
+    let desk = Desk::new();
+    let file = read(&compare(&desk, "alone", &["--set", "localized.mutual_effect=false"]));
+    let [circle] = &list(&file, "/localized")[..] else { panic!("one solution") };
+    assert_eq!((&circle["indenters"], &file["other_rule"]), (&1.into(), &Value::Null));
+    assert!(list(circle, "/radius").iter().all(Value::is_null));
+    // Isolated exact laws under one plate with the whole load.
+    assert_close(number(circle, "/penetration"), 0.10462, 3e-3);
+}
+
+#[test]
+fn a_topography_is_refused() {
+    let desk = Desk::new();
+    desk.write(
+        "waves.toml",
+        "[lattice]\nkind = \"square\"\nperiod = 1.0\n[surface]\nheights = \"waves.npy\"\n[substrate]\nyoung = 1.0\n\
+         poisson = 0.3\n[load]\nmean_pressure = 0.003\n",
+    );
+    let mut file = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    file.extend(format!("{:<117}\n", "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }").bytes());
+    file.extend([0.0f64, 0.01, 0.0, 0.01].iter().flat_map(|height| height.to_le_bytes()));
+    desk.write("waves.npy", file);
+    desk.percoat(&["compare", "waves.toml"]).complains(2, &["[[levels]]", "[surface]", "percoat solve"]);
+    assert_eq!(desk.names(), BTreeSet::from(["waves.npy".to_owned(), "waves.toml".to_owned()]), "something is written");
+}
+
+#[test]
+fn merged_contacts_are_told_and_what_is_there_is_written() {
+    let desk = Desk::new();
+    let arguments = ["compare", "-o", "merged", "--no-pictures", "--set", "load.mean_pressure=0.62"];
+    desk.percoat(&[&arguments[..], &SMALL[..]].concat()).complains(3, &["7 indenters", "merged"]);
+    let file = read(&Folder(desk.path("merged")));
+    let circle = &file["localized"][0];
+    assert_eq!(circle["converged"], false);
+    assert!(circle["stop_reason"].as_str().unwrap().starts_with("merged"), "{circle}");
+    assert!(list(&file, "/stresses").is_empty());
+}
+
+#[test]
+fn penetrations_near_complete_contact_come_to_an_end_and_those_beyond_are_refused() {
+    let desk = Desk::new();
+    let compare = |penetration: f64| {
+        let load = format!("load={{ penetration = [{penetration}] }}");
+        let arguments = ["compare", "-o", "deep", "--no-pictures", "--set", &load];
+        desk.percoat(&[&arguments[..], &SMALL[..]].concat())
+    };
+    compare(0.1).complains(2, &["load.penetration", "0.1", "complete"]);
+    assert!(desk.names().is_empty(), "{:?} is written", desk.names());
+    compare(0.0966).complains(3, &["7 indenters"]);
+}
+
+#[test]
+fn loads_too_small_for_the_grid_are_solved_by_the_localized_method() {
+    let desk = Desk::new();
+    let file = read(&compare(&desk, "tiny", &["--no-pictures", "--set", "load.mean_pressure=1e-9"]));
+    let circle = &file["localized"][0];
+    // Hertz on the coating: a³ = 3PR/(4E₁*), E₁* = 2G₁/(1 − ν₁).
+    let radius = (0.6 * 1e-9 * 1.5 * 3f64.sqrt() / (4.0 / 2.6 / 0.8)).cbrt();
+    assert_close(number(circle, "/levels/0/contact_radius"), radius, 5e-3);
+    assert!(number(circle, "/mesh_error/max_pressure") < 0.02);
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_bit() {
+    let desk = Desk::new();
+    let [one, two] = ["1", "2"].map(|threads| compare(&desk, threads, &["--no-pictures", "--threads", threads]));
+    assert!(one.bytes("compare.json") == two.bytes("compare.json"));
+}
