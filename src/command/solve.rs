@@ -29,7 +29,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
     let run = Run { case: &case, controls: case.load.controls(), folder, pictures, common };
-    refuse_beyond_full_contact(&run.case, &run.controls)?;
+    refuse_beyond_full_contact(run.case, &run.controls)?;
     let result = match case.grid {
         GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
