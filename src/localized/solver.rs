@@ -2,7 +2,7 @@
 //!
 //! Each sweep presses every spot to the present penetration δ against the displacement by the other levels inside its
 //! circle, each with the pattern of its last sweep, and by p̄ outside it. Then the levels exchange loads
-//! ([`super::exchange`]) so that all have one penetration and carry p̄ together, Eq. (5). Only shapes lag behind, so
+//! (`exchange`) so that all have one penetration and carry p̄ together, Eq. (5). Only shapes lag behind, so
 //! that some eight sweeps are enough however many indenters stand in the circle. A level comes into contact when a
 //! sweep finds it penetrated, and leaves it when it would be pulled.
 
