@@ -52,8 +52,11 @@ fn run() -> Result<Outcome, StudyError> {
 const CAPTION: &str = "(a) Lattice sums and computed circles, p̄ = 0.01 E*. (b) Load-balanced circles: computed (markers) and \
                        from point forces (line, the first coating). Dashed: area-balanced circles.";
 
-/// Names of data and checks, body and mean pressure; E₂ = 1, ν₂ = 0.3.
-fn coatings() -> Result<[([&'static str; 2], HalfSpace, f64); 4], StudyError> {
+/// Names of data and checks, body and mean pressure.
+type Coated = ([&'static str; 2], HalfSpace, f64);
+
+/// The coatings; E₂ = 1, ν₂ = 0.3.
+fn coatings() -> Result<[Coated; 4], StudyError> {
     let substrate = Material::from_young(1.0, 0.3)?;
     let layer = |chi: f64, nu, thickness, interface| -> Result<Layer, StudyError> {
         Ok(Layer::new(Material::from_shear(chi * substrate.shear(), nu)?, thickness, interface)?)
