@@ -60,13 +60,19 @@ impl Reading {
         Self { penetration: solution.penetration, levels: system.observe(solution) }
     }
 
-    /// Deviation of this reading from `reference`. A level that touches in one of them only deviates by all of it.
+    /// Deviation of this reading from `reference`. A level that touches in one of them only deviates by all of it; the
+    /// radius of merged contacts is not a number.
     pub fn deviation(&self, reference: &Self) -> Deviation {
-        let relative =
-            |a: f64, b: f64| if a == b { 0.0 } else { (a / b - 1.0).abs().min((b / a - 1.0).abs().max(1.0)) };
+        let relative = |a: f64, b: f64| match (a, b) {
+            _ if a == b => 0.0,
+            _ if a == 0.0 || b == 0.0 => 1.0,
+            _ => (a / b - 1.0).abs(),
+        };
+        // Unlike f64::max this keeps what is not a number.
+        let larger = |most: f64, x: f64| if most.is_nan() || x <= most { most } else { x };
         let largest = |of: &dyn Fn(&LevelReading, &LevelReading) -> f64| {
             let pairs = self.levels.iter().zip(&reference.levels);
-            pairs.filter(|(a, b)| a.load > 0.0 || b.load > 0.0).map(|(a, b)| of(a, b)).fold(0.0, f64::max)
+            pairs.filter(|(a, b)| a.load > 0.0 || b.load > 0.0).map(|(a, b)| of(a, b)).fold(0.0, larger)
         };
         Deviation {
             penetration: relative(self.penetration, reference.penetration),
@@ -133,7 +139,7 @@ pub struct Comparison {
     pub circles: Vec<CircleComparison>,
     /// The same circles under the other rule.
     pub other_rule: Vec<CircleComparison>,
-    /// Stresses with the largest circle, the rule asked for.
+    /// Stresses with the last circle, the rule asked for.
     pub stresses: Vec<StressPair>,
 }
 

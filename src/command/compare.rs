@@ -87,16 +87,14 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         }
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
     }
-    let unsolved: Vec<String> = comparison
-        .circles
-        .iter()
-        .filter(|circle| circle.stop != Stop::Converged)
-        .map(|circle| format!("{} indenters in the circle: {}", circle.indenters, circle.stop))
-        .collect();
-    for line in &unsolved {
-        eprintln!("warning: {line}");
+    let rules = [(setup.radius, &comparison.circles), (setup.radius.other(), &comparison.other_rule)];
+    for (rule, circle) in rules.iter().flat_map(|(rule, circles)| circles.iter().map(move |circle| (rule, circle))) {
+        if circle.stop != Stop::Converged {
+            eprintln!("warning: {} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop);
+        }
     }
-    let solved = comparison.solution.report.stop.solved() && unsolved.is_empty();
+    let all_solved = comparison.circles.iter().all(|circle| circle.stop == Stop::Converged);
+    let solved = comparison.solution.report.stop.solved() && all_solved;
     Ok(if solved { Outcome::Done } else { Outcome::NotConverged })
 }
 

@@ -102,7 +102,7 @@ fn a_topography_is_refused() {
 #[test]
 fn merged_contacts_are_told_and_what_is_there_is_written() {
     let desk = Desk::new();
-    let arguments = ["compare", "-o", "merged", "--no-pictures", "--set", "load.mean_pressure=0.62"];
+    let arguments = ["compare", "-o", "merged", "--no-pictures", "--set", "load.mean_pressure=1.5"];
     desk.percoat(&[&arguments[..], &SMALL[..]].concat()).complains(3, &["7 indenters", "merged"]);
     let file = read(&Folder(desk.path("merged")));
     let circle = &file["localized"][0];
