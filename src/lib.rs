@@ -26,8 +26,8 @@
 //!                                                         case → output → picture → validation → command line
 //! ```
 //!
-//! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`boundary`] (the outline of a
-//! contact between samples) and [`number`] serve all of them.
+//! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`linear`] (small systems),
+//! [`boundary`] (the outline of a contact between samples) and [`number`] serve all of them.
 //! Nothing left of [`case`] reads a file or prints. [`exact`] holds the closed forms that [`validation`] compares with;
 //! the solver knows nothing of it.
 //!
@@ -72,6 +72,7 @@ pub mod indenter;
 pub mod lattice;
 pub mod layered;
 pub mod least_squares;
+pub mod linear;
 pub mod localized;
 pub mod material;
 pub mod number;

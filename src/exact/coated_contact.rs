@@ -9,8 +9,8 @@
 //! quadrature makes it a small linear system; K is smooth, so a few tens of points give ten digits.
 
 use super::coating::Coating;
-use super::linear;
 use super::quadrature::rule;
+use crate::linear;
 use std::f64::consts::PI;
 
 /// Points of the quadrature over the contact.

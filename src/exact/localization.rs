@@ -16,7 +16,7 @@
 
 use super::galin::{Contact, Term, paraboloid};
 use super::lattice_sums::Sums;
-use super::linear;
+use crate::linear;
 use std::f64::consts::PI;
 
 /// What an indenter of one level feels of its images.

@@ -8,7 +8,6 @@ pub mod coating;
 pub mod galin;
 pub mod hertz;
 pub mod lattice_sums;
-mod linear;
 pub mod localization;
 pub mod periodic_hertz;
 mod quadrature;

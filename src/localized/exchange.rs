@@ -7,6 +7,8 @@
 //!
 //! P* the loads the sweep had for the others. The last equation falls away under displacement control, with Δδ = 0.
 
+use crate::linear;
+
 /// What a sweep has found of the levels, one entry per site.
 #[derive(Debug, Clone)]
 pub(super) struct Sweep {
@@ -33,11 +35,11 @@ impl Sweep {
     }
 
     /// New loads and the change of the penetration; `wanted` is the whole load, `None` under displacement control.
-    /// Levels that would be pulled are left out.
+    /// Levels that would be pulled are left out; loads that are not determined stay as found.
     pub fn exchanged(&self, wanted: Option<f64>) -> (Vec<f64>, f64) {
         let mut active: Vec<usize> = (0..self.found.len()).filter(|&m| self.found[m] > 0.0).collect();
         loop {
-            let (loads, rise) = self.solved(&active, wanted);
+            let Some((loads, rise)) = self.solved(&active, wanted) else { return (self.found.clone(), 0.0) };
             let pushed: Vec<usize> = active.iter().copied().filter(|&m| loads[m] > 0.0).collect();
             if pushed.len() == active.len() || pushed.is_empty() {
                 return (loads.into_iter().map(|load| load.max(0.0)).collect(), rise);
@@ -46,44 +48,29 @@ impl Sweep {
         }
     }
 
-    fn solved(&self, active: &[usize], wanted: Option<f64>) -> (Vec<f64>, f64) {
+    /// `None` when the equations do not determine the loads.
+    fn solved(&self, active: &[usize], wanted: Option<f64>) -> Option<(Vec<f64>, f64)> {
         let n = active.len();
         let unknowns = n + usize::from(wanted.is_some());
-        let mut rows = vec![vec![0.0; unknowns + 1]; unknowns];
+        let (mut rows, mut right) = (vec![vec![0.0; unknowns]; unknowns], vec![0.0; unknowns]);
         for (i, &m) in active.iter().enumerate() {
             let (stiffness, coupling) = (self.stiffness[m], &self.coupling[m]);
             for (j, &c) in active.iter().enumerate() {
                 rows[i][j] = stiffness * coupling[c] + if i == j { 1.0 } else { 0.0 };
             }
             let used: f64 = coupling.iter().zip(&self.used).map(|(coupling, load)| coupling * load).sum();
-            rows[i][unknowns] = self.found[m] + stiffness * used;
+            right[i] = self.found[m] + stiffness * used;
             if let Some(wanted) = wanted {
                 rows[i][n] = -stiffness;
                 rows[n][i] = 1.0;
-                rows[n][unknowns] = wanted;
+                right[n] = wanted;
             }
         }
-        let solution = eliminated(rows);
+        let solution = linear::solve(rows, right)?;
         let mut loads = vec![0.0; self.found.len()];
         active.iter().zip(&solution).for_each(|(&m, &load)| loads[m] = load);
-        (loads, if wanted.is_some() { solution[n] } else { 0.0 })
+        Some((loads, if wanted.is_some() { solution[n] } else { 0.0 }))
     }
-}
-
-/// Solution of a few linear equations, right sides in the last column, by elimination with pivots.
-fn eliminated(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
-    let n = rows.len();
-    for k in 0..n {
-        let pivot = (k..n).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs())).unwrap_or(k);
-        rows.swap(k, pivot);
-        for i in (0..n).filter(|&i| i != k) {
-            let factor = rows[i][k] / rows[k][k];
-            for j in k..=n {
-                rows[i][j] -= factor * rows[k][j];
-            }
-        }
-    }
-    (0..n).map(|k| rows[k][n] / rows[k][k]).collect()
 }
 
 #[cfg(test)]
