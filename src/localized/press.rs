@@ -10,14 +10,14 @@ use super::mesh::Influence;
 const ITERATIONS: usize = 400;
 
 /// Brings `pressure` to the solution for the wanted displacements b = `wanted`; `tolerance` is relative to the largest
-/// of them. Gives back A p − b, the gap.
-pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> Vec<f64> {
+/// of them. Gives back A p − b, the gap, and whether it is reached.
+pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> (Vec<f64>, bool) {
     let len = wanted.len();
     let scale = wanted.iter().copied().fold(0.0, f64::max);
     if scale == 0.0 {
         // Nothing is displaced far enough to touch.
         pressure.fill(0.0);
-        return wanted.iter().map(|b| -b).collect();
+        return (wanted.iter().map(|b| -b).collect(), true);
     }
     let residual = |pressure: &[f64]| {
         let mut gap: Vec<f64> = wanted.iter().map(|b| -b).collect();
@@ -32,7 +32,7 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
         let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale;
         let worst = active.iter().filter(counts).map(|&i| gap[i].abs()).fold(0.0, f64::max);
         if worst <= tolerance * scale {
-            return gap;
+            return (gap, true);
         }
         // An element that is penetrated but carries nothing yet joins the contact: a new start.
         let grown = active.iter().any(|&i| pressure[i] == 0.0);
@@ -66,7 +66,7 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
             gap.iter_mut().zip(&image).for_each(|(g, u)| *g -= step * u);
         }
     }
-    gap
+    (gap, false)
 }
 
 /// Pressures on the elements in contact that displace all of them by one unit: their sum times the area of an element

@@ -31,9 +31,9 @@ const NEIGHBOURS: usize = 13;
 /// How a localized solution ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
-    /// Loads stand still to 1e-8 of the whole one.
+    /// Loads stand still to 1e-8 of the whole one, surfaces are met to 1e-9 of the deepest displacement.
     Converged,
-    /// They still moved after 60 sweeps.
+    /// Loads still moved, or a surface was not met, after 60 sweeps.
     Stalled,
     /// A contact reaches the rim of its mesh.
     Rim,
@@ -45,7 +45,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
-            Self::Stalled => "stalled: loads still moved after 60 sweeps",
+            Self::Stalled => "stalled: loads still moved, or a surface was not met, after 60 sweeps",
             Self::Rim => "a contact reaches the rim of its mesh",
             Self::Merged => "merged: a contact reaches under its neighbour",
         })
@@ -157,6 +157,7 @@ impl<'a> Coupled<'a> {
                 Control::Penetration(_) => patterns.loads.iter().sum::<f64>() / cell,
             };
             let mut sweep = Sweep::new(patterns.loads.clone());
+            let mut pressed = true;
             for m in 0..count {
                 let others = self.others(m, &patterns);
                 let far = self.far(m, rule, mean_pressure, &sweep.used);
@@ -169,7 +170,9 @@ impl<'a> Coupled<'a> {
                     })
                     .collect();
                 let own = self.own(m);
-                gaps[m] = press(own, &wanted, SURFACE_TOLERANCE, &mut patterns.pressures[m]);
+                let (gap, reached) = press(own, &wanted, SURFACE_TOLERANCE, &mut patterns.pressures[m]);
+                gaps[m] = gap;
+                pressed &= reached;
                 sweep.found[m] = patterns.pressures[m].iter().sum::<f64>() * element;
                 if sweep.found[m] == 0.0 {
                     continue;
@@ -195,7 +198,7 @@ impl<'a> Coupled<'a> {
                 Control::MeanPressure(pressure) => Some(pressure * cell),
                 Control::Penetration(_) => None,
             };
-            if sweep.unrest(prescribed.unwrap_or(whole)) <= TOLERANCE * prescribed.unwrap_or(whole) {
+            if pressed && sweep.unrest(prescribed.unwrap_or(whole)) <= TOLERANCE * prescribed.unwrap_or(whole) {
                 stop = self.reached(&patterns);
                 break;
             }
