@@ -24,8 +24,30 @@ pub struct Hierarchy {
     /// From the finest to the coarsest.
     nests: Vec<Nest>,
     settings: Settings,
+    transfer: TransferFunction,
     contact_modulus: f64,
     levels: usize,
+}
+
+/// A solved grid as readings see it; fields hold one value per sample, a₂ fastest.
+#[derive(Debug, Clone, Copy)]
+pub struct Contact<'a> {
+    /// The grid.
+    pub grid: &'a Grid,
+    /// The counterbody's surface on it.
+    pub texture: &'a Texture,
+    /// Number of levels: 0 for a topography.
+    pub levels: usize,
+    /// Compliance of the layered half-space.
+    pub transfer: &'a TransferFunction,
+    /// Contact modulus E* of the material at the surface, a pressure.
+    pub contact_modulus: f64,
+    /// Pressure p ≥ 0.
+    pub pressure: &'a [f64],
+    /// Gap g, a length.
+    pub gap: &'a [f64],
+    /// Penetration δ, a length.
+    pub penetration: f64,
 }
 
 #[derive(Debug)]
@@ -76,7 +98,7 @@ impl Hierarchy {
         };
         let nests = nested_points(points, settings.method).into_iter().map(nest).collect::<Result<_, _>>()?;
         let contact_modulus = half_space.surface_material().contact_modulus();
-        Ok(Self { nests, settings, contact_modulus, levels: surface.levels() })
+        Ok(Self { nests, settings, transfer, contact_modulus, levels: surface.levels() })
     }
 
     /// The finest grid.
@@ -97,6 +119,20 @@ impl Hierarchy {
     /// Number of levels: 0 for a topography.
     pub fn levels(&self) -> usize {
         self.levels
+    }
+
+    /// `solution` on the finest grid as readings see it.
+    pub fn contact<'a>(&'a self, solution: &'a Solution) -> Contact<'a> {
+        self.nests[0].contact(self, &solution.pressure, &solution.gap, solution.penetration)
+    }
+
+    /// The last step as the coarser grids have solved it on the way, from the next coarser one on; none for the
+    /// baseline method.
+    pub fn coarser(&self) -> impl Iterator<Item = Contact<'_>> {
+        self.nests[1..].iter().map(|nest| {
+            let State { pressure, gap, penetration, .. } = &nest.state;
+            nest.contact(self, pressure, gap, *penetration)
+        })
     }
 
     /// Penetration at which contact becomes complete: the mean of f on the finest grid, a length.
@@ -153,6 +189,27 @@ impl Hierarchy {
 }
 
 impl Nest {
+    fn contact<'a>(
+        &'a self,
+        hierarchy: &'a Hierarchy,
+        pressure: &'a [f64],
+        gap: &'a [f64],
+        penetration: f64,
+    ) -> Contact<'a> {
+        let Hierarchy { transfer, contact_modulus, levels, .. } = hierarchy;
+        let (grid, texture) = (self.operator.grid(), &self.texture);
+        Contact {
+            grid,
+            texture,
+            levels: *levels,
+            transfer,
+            contact_modulus: *contact_modulus,
+            pressure,
+            gap,
+            penetration,
+        }
+    }
+
     /// Solves on this grid after adding the `change` of the next coarser one; also gives convolutions times samples.
     fn solve(
         &mut self,

@@ -11,7 +11,7 @@ pub use crate::boundary::Boundary;
 
 use crate::boundary::Polar;
 use crate::field;
-use crate::hierarchy::{Hierarchy, Solution};
+use crate::hierarchy::{Contact, Hierarchy, Solution};
 use crate::number::number;
 use std::f64::consts::PI;
 use std::fmt;
@@ -79,23 +79,28 @@ struct Spot {
 
 /// Observables of a solved step; `solution` is the last one of `hierarchy`, or one of the same grid.
 pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
-    let (grid, texture, pressure) = (hierarchy.grid(), hierarchy.texture(), &solution.pressure);
+    read(&hierarchy.contact(solution))
+}
+
+/// Observables of a solved grid.
+pub fn read(contact: &Contact<'_>) -> Observables {
+    let Contact { grid, texture, pressure, gap, penetration, .. } = *contact;
     let mean_pressure = field::mean(pressure);
     let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
     let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
 
-    let spots = spots(hierarchy, solution);
+    let spots = spots(contact);
     let cell = grid.cell().area();
     // Located spots have their own area. The others share what the lines of samples find beside them, as they were
     // counted.
     let located: f64 = spots.iter().filter_map(|spot| spot.boundary.as_ref()).map(Boundary::area).sum();
     let counted: f64 = spots.iter().filter(|spot| spot.boundary.is_none()).map(|spot| spot.counted).sum();
     let all_located = !spots.is_empty() && counted == 0.0;
-    let contact_area = if all_located { located } else { cell * area::contact_fraction(grid, pressure, &solution.gap) };
+    let contact_area = if all_located { located } else { cell * area::contact_fraction(grid, pressure, gap) };
     let correction = if counted > 0.0 { ((contact_area - located) / counted).max(0.0) } else { 1.0 };
     let spot_area = |spot: &Spot| spot.boundary.as_ref().map_or(correction * spot.counted, Boundary::area);
 
-    let levels = (1..=hierarchy.levels())
+    let levels = (1..=contact.levels)
         .map(|level| {
             let own: Vec<&Spot> =
                 texture.sites.iter().zip(&spots).filter(|(site, _)| site.level == level).map(|(_, s)| s).collect();
@@ -120,11 +125,11 @@ pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
         .collect();
     let contact_fraction = contact_area / cell;
     let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
-    Observables { mean_pressure, penetration: solution.penetration, contact_fraction, max_pressure, levels, boundaries }
+    Observables { mean_pressure, penetration, contact_fraction, max_pressure, levels, boundaries }
 }
 
-fn spots(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Spot> {
-    let (grid, texture, pressure) = (hierarchy.grid(), hierarchy.texture(), &solution.pressure);
+fn spots(contact: &Contact<'_>) -> Vec<Spot> {
+    let Contact { grid, texture, pressure, .. } = *contact;
     let (reduced, [n1, n2]) = (grid.cell().reduced(), grid.points());
     let mut spots = vec![Spot::default(); texture.sites.len()];
     if texture.owner.is_empty() {
@@ -165,13 +170,13 @@ fn spots(hierarchy: &Hierarchy, solution: &Solution) -> Vec<Spot> {
             }
         }
     }
-    locate(hierarchy, solution, &mut spots);
+    locate(contact, &mut spots);
     spots
 }
 
 /// Finds the boundaries of the spots that stand alone.
-fn locate(hierarchy: &Hierarchy, solution: &Solution, spots: &mut [Spot]) {
-    let (grid, texture) = (hierarchy.grid(), hierarchy.texture());
+fn locate(contact: &Contact<'_>, spots: &mut [Spot]) {
+    let Contact { grid, texture, pressure, gap, .. } = *contact;
     let reduced = grid.cell().reduced();
     // Samples that a fit can reach: out to twice the counted radius.
     let reach: Vec<f64> = spots
@@ -186,9 +191,9 @@ fn locate(hierarchy: &Hierarchy, solution: &Solution, spots: &mut [Spot]) {
         }
         let [x, y] = texture.offset(grid, &reduced, owner, index);
         let r = x.hypot(y);
-        if r < reach || solution.pressure[index] > 0.0 {
-            let opening = 0.75 * hierarchy.contact_modulus() * solution.gap[index];
-            samples[owner as usize].push(Polar { r, theta: y.atan2(x), p: solution.pressure[index], opening });
+        if r < reach || pressure[index] > 0.0 {
+            let opening = 0.75 * contact.contact_modulus * gap[index];
+            samples[owner as usize].push(Polar { r, theta: y.atan2(x), p: pressure[index], opening });
         }
     }
     for (spot, samples) in spots.iter_mut().zip(&samples) {
