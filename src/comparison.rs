@@ -11,7 +11,7 @@ use crate::lattice::{Lattice, LatticeError};
 use crate::localized::stress::LocalizedField;
 use crate::localized::{self, CircleRadius, Coupled, LevelReading, Localized, Setup, Stop};
 use crate::material::HalfSpace;
-use crate::observables::{Observables, observe};
+use crate::observables::{Errors, Observables, errors, observe};
 use crate::solver::{Control, Settings};
 use crate::stress::{Depth, Field, MeanStress, State};
 use crate::texture::Surface;
@@ -127,6 +127,8 @@ impl StressPair {
 pub struct Comparison {
     /// Spectral solution on its finest grid.
     pub spectral: Observables,
+    /// Its estimated discretisation errors.
+    pub spectral_errors: Errors,
     /// The same as a solver sees it.
     pub solution: Solution,
     /// Points of the finest grid.
@@ -184,6 +186,7 @@ impl Task<'_> {
         };
         let (_, _, coarse) = solve(points.map(|n| n.div_ceil(2)))?;
         let (hierarchy, solution, spectral) = solve(points)?;
+        let spectral_errors = errors(&hierarchy, &spectral, self.control);
         let reference = Reading::spectral(&spectral);
         let grid_error = reference.deviation(&Reading::spectral(&coarse));
 
@@ -236,7 +239,17 @@ impl Task<'_> {
         progress("stresses");
         let stresses = self.stresses(&system, &last, &hierarchy, &solution);
         let elements = self.setup.elements;
-        Ok(Comparison { points, spectral, solution, grid_error, elements, circles, other_rule, stresses })
+        Ok(Comparison {
+            points,
+            spectral,
+            spectral_errors,
+            solution,
+            grid_error,
+            elements,
+            circles,
+            other_rule,
+            stresses,
+        })
     }
 
     /// Stresses on the axis of the first indenter of the highest level and along a line from it.

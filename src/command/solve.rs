@@ -8,7 +8,7 @@ use percoat::case::{Case, GridSection, LoadSection};
 use percoat::grid::Grid;
 use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
-use percoat::observables::{Observables, observe};
+use percoat::observables::{Observables, errors, observe};
 use percoat::output::summary::{Step, Summary, curve};
 use percoat::output::{Fields, Section, Stresses, clear, make_folder, table, write_text};
 use percoat::picture::{Cut, Snapshot};
@@ -149,7 +149,8 @@ impl Run<'_> {
                 eprintln!("{observables}\n{}\n{}", solution.report, solution.certificate);
             }
             fields.add(hierarchy.grid(), observables.mean_pressure, &solution)?;
-            let mut step = Step::new(&observables, &solution, points);
+            let errors = errors(&hierarchy, &observables, control);
+            let mut step = Step::new(&observables, &errors, &solution, points);
             if let Some(section) = &self.case.stress {
                 progress.set_message("stresses");
                 let field = Field::new(hierarchy.grid(), &solution.pressure, self.case.half_space(), section.mean);
@@ -260,6 +261,9 @@ impl Run<'_> {
             if steps.len() <= table::DETAILED {
                 writeln!(out, "step {number}: {}", table::stress(stress))?;
             }
+        }
+        if let Some(errors) = table::largest_errors(steps) {
+            writeln!(out, "{errors}")?;
         }
         if let Some(accuracy) = solved.accuracy {
             writeln!(out, "change from the next coarser grid: {accuracy:.1e}")?;

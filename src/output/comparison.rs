@@ -41,7 +41,12 @@ impl<'a, C: Serialize> CompareFile<'a, C> {
             title,
             case,
             step,
-            spectral: Step::new(&comparison.spectral, &comparison.solution, comparison.points),
+            spectral: Step::new(
+                &comparison.spectral,
+                &comparison.spectral_errors,
+                &comparison.solution,
+                comparison.points,
+            ),
             spectral_error: comparison.grid_error,
             rule,
             mutual_effect,

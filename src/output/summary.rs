@@ -1,7 +1,7 @@
 //! `summary.json` and `curve.csv`: every scalar of a run.
 
 use crate::hierarchy::Solution;
-use crate::observables::Observables;
+use crate::observables::{Errors, LevelErrors, Observables};
 use crate::stress::maxima::{self, Maxima};
 use serde::Serialize;
 use serde_json::Value;
@@ -19,6 +19,8 @@ pub struct Step {
     pub contact_fraction: f64,
     /// Largest pressure.
     pub max_pressure: f64,
+    /// Estimated discretisation errors of these.
+    pub errors: Errors,
     /// Whether the solution meets the tolerance.
     pub converged: bool,
     /// Why the iteration ended.
@@ -140,11 +142,13 @@ pub struct Level {
     pub merged: bool,
     /// Samples along the contact radius.
     pub resolution: f64,
+    /// Estimated discretisation errors of these.
+    pub errors: LevelErrors,
 }
 
 impl Step {
-    /// The step's scalars; `points` of the grid it was solved on.
-    pub fn new(observables: &Observables, solution: &Solution, points: [usize; 2]) -> Self {
+    /// The step's scalars with their errors; `points` of the grid it was solved on.
+    pub fn new(observables: &Observables, errors: &Errors, solution: &Solution, points: [usize; 2]) -> Self {
         let (report, certificate) = (&solution.report, &solution.certificate);
         Self {
             mean_pressure: observables.mean_pressure,
@@ -152,6 +156,7 @@ impl Step {
             additional_displacement: observables.penetration,
             contact_fraction: observables.contact_fraction,
             max_pressure: observables.max_pressure,
+            errors: errors.clone(),
             converged: report.stop.solved(),
             stop_reason: report.stop.to_string(),
             fell_back: report.fell_back,
@@ -168,7 +173,8 @@ impl Step {
             levels: observables
                 .levels
                 .iter()
-                .map(|level| Level {
+                .zip(&errors.levels)
+                .map(|(level, &errors)| Level {
                     level: level.level,
                     load: level.load,
                     load_share: level.load_share,
@@ -180,6 +186,7 @@ impl Step {
                     asymmetry: level.asymmetry(),
                     merged: level.merged,
                     resolution: level.resolution,
+                    errors,
                 })
                 .collect(),
         }

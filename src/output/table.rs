@@ -3,7 +3,7 @@
 use super::summary::{Peak, Step, Stress};
 use crate::comparison::{CircleComparison, Comparison, Deviation, Reading};
 use crate::localized::Setup;
-use crate::number::number;
+use crate::number::{number, with_error};
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Up to this many steps every level gets a row of its own.
@@ -29,18 +29,22 @@ fn detailed(steps: &[Step]) -> String {
     ];
     let mut rows = Vec::new();
     for step in steps {
-        let mut lead = [number(step.mean_pressure), number(step.penetration), percent(step.contact_fraction)];
+        let mut lead = [
+            with_error(step.mean_pressure, step.errors.mean_pressure),
+            with_error(step.penetration, step.errors.penetration),
+            percent_with_error(step.contact_fraction, step.errors.contact_fraction),
+        ];
         for level in &step.levels {
             let radius = match level.contact_radius {
                 _ if level.load == 0.0 => "–".to_owned(),
-                Some(radius) => number(radius),
+                Some(radius) => with_error(radius, level.errors.contact_radius),
                 None => "merged".to_owned(),
             };
             let cells = [
                 level.level.to_string(),
-                number(level.load),
-                percent(level.load_share),
-                number(level.max_pressure),
+                with_error(level.load, level.errors.load),
+                percent_with_error(level.load_share, level.errors.load_share),
+                with_error(level.max_pressure, level.errors.max_pressure),
                 radius,
                 level.asymmetry.map_or("–".to_owned(), percent),
             ];
@@ -162,6 +166,35 @@ pub fn render_with(header: &[String], rows: &[Vec<String>], words: usize) -> Str
 
 fn percent(x: f64) -> String {
     format!("{:.2} %", 100.0 * x)
+}
+
+/// A part with its error in per cent: two digits behind the point, fewer where the error counts before them.
+fn percent_with_error(x: f64, error: Option<f64>) -> String {
+    match error.map(|error| 100.0 * error) {
+        Some(error) if error > 0.0 => format!("{} %", with_error(100.0 * x, Some(error.max(0.01)))),
+        _ => percent(x),
+    }
+}
+
+/// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.
+pub fn largest_errors(steps: &[Step]) -> Option<String> {
+    let relative = |value: f64, error: Option<f64>| error.filter(|_| value != 0.0).map(|error| error / value.abs());
+    let levels = || steps.iter().flat_map(|step| &step.levels);
+    let named = [
+        ("penetration", steps.iter().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
+        (
+            "peak pressure",
+            steps.iter().filter_map(|s| relative(s.max_pressure, s.errors.max_pressure)).reduce(f64::max),
+        ),
+        ("load on one", levels().filter_map(|l| relative(l.load, l.errors.load)).reduce(f64::max)),
+        (
+            "contact radius",
+            levels().filter_map(|l| relative(l.contact_radius?, l.errors.contact_radius)).reduce(f64::max),
+        ),
+    ];
+    let texts: Vec<String> =
+        named.into_iter().filter_map(|(name, error)| Some(format!("{name} {:.1e}", error?))).collect();
+    (!texts.is_empty()).then(|| format!("estimated relative discretisation errors, at most: {}", texts.join(", ")))
 }
 
 /// The largest stresses of a step in one line.

@@ -14,6 +14,7 @@
 mod check;
 mod convergence;
 mod disc;
+mod discretisation;
 mod draw;
 mod hertz;
 mod hertz_stresses;
@@ -28,6 +29,7 @@ mod outcome;
 pub mod paper;
 mod peer;
 mod periodic_hertz;
+mod random;
 mod report;
 mod sinusoidal_stresses;
 mod steps;
@@ -53,7 +55,7 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 21] = [
+pub const STUDIES: [Study; 22] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -64,6 +66,7 @@ pub const STUDIES: [Study; 21] = [
     hertz_stresses::STUDY,
     sinusoidal_stresses::STUDY,
     convergence::STUDY,
+    discretisation::STUDY,
     iterations::STUDY,
     peer::STUDY,
     disc::STUDY,
