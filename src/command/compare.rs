@@ -51,7 +51,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let points = match case.grid {
         GridSection::Points(points) => points,
         GridSection::Accuracy(accuracy) => {
-            sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy).map_err(refused)?
+            sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy)
+                .map_err(|error| Failure::Refused(error.to_string()))?
         }
     };
     let progress = if common.quiet || common.verbose { ProgressBar::hidden() } else { ProgressBar::new_spinner() };

@@ -1,7 +1,7 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
 use super::pictures::PictureOptions;
-use super::stress::{largest, wanted};
+use super::stress::{largest, stress_change, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
 use percoat::case::{Case, GridSection, LoadSection};
@@ -12,7 +12,7 @@ use percoat::observables::{Observables, errors, observe};
 use percoat::output::summary::{Step, Summary, curve};
 use percoat::output::{Fields, Section, Stresses, clear, make_folder, table, write_text};
 use percoat::picture::{Cut, Snapshot};
-use percoat::refinement::{FIRST_POINTS, MOST_POINTS, balanced_points, change};
+use percoat::refinement::{self, FIRST_POINTS, Refinement, balanced_points, change};
 use percoat::solver::Control;
 use percoat::stress::Field;
 use std::io::Write;
@@ -100,26 +100,24 @@ impl Run<'_> {
 
     /// All load steps on finer and finer grids until they change by less than `accuracy`.
     fn refined(&self, accuracy: f64) -> Result<Solved, Failure> {
-        let cell = self.case.surface().cell();
-        let mut points = FIRST_POINTS;
-        let mut gridded = self.on_grid(balanced_points(&cell, points))?;
+        let refused = |error: refinement::TooOblong| Failure::Refused(error.to_string());
+        let mut refinement = Refinement::new(self.case.surface().cell(), accuracy).map_err(refused)?;
+        let mut before: Option<Solved> = None;
         loop {
-            points *= 2;
-            let finer = balanced_points(&cell, points);
-            if finer.iter().any(|&n| n > MOST_POINTS) {
+            let points = refinement.points();
+            let mut gridded = self.on_grid(points)?;
+            let change = before.as_ref().map(|before| {
+                change(&before.observables, &gridded.solved.observables)
+                    .max(stress_change(&before.steps, &gridded.solved.steps))
+            });
+            gridded.solved.accuracy = change;
+            if let (Some(change), true) = (change, self.common.verbose) {
+                eprintln!("{points:?} points: change {change:.2e}");
+            }
+            if !refinement.refine(change) {
                 return self.finished(gridded);
             }
-            let before = std::mem::take(&mut gridded.solved.observables);
-            drop(gridded);
-            gridded = self.on_grid(finer)?;
-            let change = change(&before, &gridded.solved.observables);
-            gridded.solved.accuracy = Some(change);
-            if self.common.verbose {
-                eprintln!("{finer:?} points: change {change:.2e}");
-            }
-            if change < accuracy {
-                return self.finished(gridded);
-            }
+            before = Some(gridded.solved);
         }
     }
 

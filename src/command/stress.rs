@@ -3,7 +3,7 @@
 use percoat::case::{Case, Cut, StressSection, Toward};
 use percoat::hierarchy::Hierarchy;
 use percoat::observables::Observables;
-use percoat::output::summary::Stress;
+use percoat::output::summary::{Step, Stress};
 use percoat::output::{Section, Volume, Wanted};
 use percoat::stress::{Field, Line, surface_error};
 use percoat::texture::Surface;
@@ -59,4 +59,15 @@ fn contact_radii(hierarchy: &Hierarchy, observables: &Observables) -> [f64; 2] {
     let least = radii.iter().copied().fold(whole, f64::min).max(4.0 * grid.spacing());
     let most = if radii.is_empty() { whole } else { radii.iter().copied().fold(0.0, f64::max) };
     [least, most.max(least)]
+}
+
+/// Largest change of the largest stresses between the load steps on two grids, over the largest τ₁; 0 without stresses.
+pub fn stress_change(coarse: &[Step], fine: &[Step]) -> f64 {
+    let change = |(coarse, fine): (&Step, &Step)| {
+        let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
+        let scale = fine.max_tau1.value;
+        let pairs = [(&coarse.max_tau1, &fine.max_tau1), (&coarse.max_tension, &fine.max_tension)];
+        pairs.into_iter().map(|(coarse, fine)| (fine.value - coarse.value).abs() / scale).fold(0.0, f64::max)
+    };
+    coarse.iter().zip(fine).map(change).fold(0.0, f64::max)
 }
