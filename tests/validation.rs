@@ -44,6 +44,7 @@ studies! {
     hertz_stresses = "hertz-stresses",
     sinusoidal_stresses = "sinusoidal-stresses",
     convergence = "convergence",
+    discretisation = "discretisation",
     iterations = "iterations",
     peer = "peer",
     disc = "disc",

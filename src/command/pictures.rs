@@ -43,10 +43,15 @@ impl PictureOptions {
         type Draw<'a> = &'a (dyn Fn() -> Option<Canvas> + Sync);
         let touching = last.mean_pressure > 0.0;
         let touching_cut = cut.filter(|_| touching);
+        let apart = steps.last().is_some_and(stand_apart);
         let pictures: [(&str, Draw); 6] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),
-            ("contact", &|| picture::contact(last, isolated_radii(last).as_deref()).filter(|_| touching)),
-            ("profiles", &|| picture::profiles(last, isolated_profiles(last, steps).as_deref())),
+            ("contact", &|| {
+                touching.then(|| picture::contact(last, apart.then(|| isolated_radii(last)).flatten().as_deref()))?
+            }),
+            ("profiles", &|| {
+                picture::profiles(last, apart.then(|| isolated_profiles(last, steps)).flatten().as_deref())
+            }),
             ("section", &|| Some(picture::section(last, touching_cut?))),
             ("lines", &|| Some(picture::lines(last, touching_cut?))),
             ("curve", &|| picture::load_curves(last.title, last.surface, last.half_space, steps)),
@@ -65,6 +70,15 @@ impl PictureOptions {
         }
         Ok(())
     }
+}
+
+/// Largest fraction in contact at which indenters are still drawn as if each were alone: beyond it their contacts would
+/// reach far into each other's cells, which says nothing and takes minutes to find.
+const MOST_CONTACT: f64 = 0.5;
+
+/// Whether the contacts of a step stand apart, so that each can be compared with one alone.
+fn stand_apart(step: &Step) -> bool {
+    step.contact_fraction < MOST_CONTACT && !step.levels.iter().any(|level| level.merged)
 }
 
 /// Contact radius of each level without the mutual effect of the indenters.

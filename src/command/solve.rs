@@ -93,7 +93,9 @@ impl Run<'_> {
             let (surface, half_space) = (self.case.surface(), self.case.half_space());
             let snapshot = Snapshot::new(&self.case.title, surface, half_space, &hierarchy, &solution, observables);
             let cut = cut.map(|(Section { line, depths }, states)| Cut { line, depths, states });
+            let spinner = self.spinner("drawing pictures");
             self.pictures.draw(&self.folder, &snapshot, cut.as_ref(), &solved.steps)?;
+            spinner.finish_and_clear();
         }
         Ok(solved)
     }
@@ -169,6 +171,16 @@ impl Run<'_> {
         }
         progress.finish_and_clear();
         Ok(Gridded { hierarchy, last, fields, stresses, solved })
+    }
+
+    /// A sign of life while something without steps goes on.
+    fn spinner(&self, what: &str) -> ProgressBar {
+        if self.common.quiet || self.common.verbose {
+            return ProgressBar::hidden();
+        }
+        let spinner = ProgressBar::new_spinner().with_message(what.to_owned());
+        spinner.enable_steady_tick(std::time::Duration::from_millis(200));
+        spinner
     }
 
     fn progress(&self) -> ProgressBar {

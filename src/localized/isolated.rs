@@ -37,10 +37,10 @@ pub fn profile(
     size: f64,
 ) -> Result<Option<Vec<[f64; 2]>>, LatticeError> {
     let lattice = Lattice::square(APART * size, 1)?;
-    let system = Localized::new(&lattice, &[level], half_space, 1);
     if load <= 0.0 {
         return Ok(None);
     }
+    let system = Localized::new(&lattice, &[level], half_space, 1);
     let Solution { spots, stop, .. } = system.solve(Control::MeanPressure(load / system.cell_area()), &ALONE);
     let spot = &spots[0];
     let middle = spot.mesh.width / 2;
