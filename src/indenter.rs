@@ -75,6 +75,17 @@ impl Shape {
         }
     }
 
+    /// Whether the pressure is infinite on the axis once the apex is in contact.
+    ///
+    /// Under f = c rⁿ it goes as r^{n−1}: infinite for n < 1, as ln 1/r for n = 1, a finite cusp for 1 < n < 2.
+    pub fn singular_peak(&self) -> bool {
+        match *self {
+            Self::Paraboloid { .. } | Self::Sphere { .. } => false,
+            Self::Cone { .. } => true,
+            Self::Power { exponent, .. } => exponent <= 1.0,
+        }
+    }
+
     fn sizes(&self) -> Vec<(&'static str, f64)> {
         match *self {
             Self::Paraboloid { radius } | Self::Sphere { radius } => vec![("radius", radius)],
@@ -154,6 +165,13 @@ mod tests {
         assert!(close(square.profile(r), Shape::Paraboloid { radius }.profile(r)));
         let linear = Shape::Power { coefficient: slope, exponent: 1.0 };
         assert!(close(linear.profile(r), Shape::Cone { slope }.profile(r)));
+    }
+
+    #[test]
+    fn pressure_is_infinite_under_a_tip_and_finite_under_a_cusp() {
+        let power = |exponent| Shape::Power { coefficient: 1.0, exponent }.singular_peak();
+        assert!(Shape::Cone { slope: 0.1 }.singular_peak() && power(1.0) && power(0.5));
+        assert!(!Shape::Paraboloid { radius: 1.0 }.singular_peak() && !power(1.01) && !power(2.0));
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use crate::field;
 use crate::grid::Grid;
-use crate::indenter::{Level, drops};
+use crate::indenter::{Level, Shape, drops};
 use crate::lattice::{Cell, Lattice, Reduced};
 use crate::number::number;
 use rayon::prelude::*;
@@ -40,6 +40,8 @@ pub struct Site {
     pub level: usize,
     /// Place in fractions of a₁, a₂.
     pub place: [f64; 2],
+    /// Shape of the indenter.
+    pub shape: Shape,
 }
 
 /// The counterbody's surface on a grid.
@@ -131,12 +133,13 @@ fn sample_indenters(lattice: &Lattice, levels: &[Level], grid: &Grid) -> Faces {
     let drops = drops(levels);
     let sites: Vec<Site> = (1..)
         .zip(lattice.sites())
-        .flat_map(|(level, places)| places.iter().map(move |&place| Site { level, place }))
+        .zip(levels)
+        .flat_map(|((level, places), own)| places.iter().map(move |&place| Site { level, place, shape: own.shape() }))
         .collect();
     let distance = |index: usize, site: &Site| {
         let here = grid.fractions(index);
         let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
-        levels[site.level - 1].shape().profile(x.hypot(y)) + drops[site.level - 1]
+        site.shape.profile(x.hypot(y)) + drops[site.level - 1]
     };
     let face = |index: usize| {
         let (mut nearest, mut owner, mut tied) = (f64::INFINITY, 0, false);

@@ -46,6 +46,9 @@ pub struct LevelObservables {
     pub load_share: f64,
     /// Peak pressure, between the samples.
     pub max_pressure: f64,
+    /// Whether the peak pressure is infinite, see [`crate::indenter::Shape::singular_peak`]: `max_pressure` is then
+    /// only what the grid resolves of it. Never for a level without load.
+    pub singular_peak: bool,
     /// Contact area of one indenter.
     pub contact_area: f64,
     /// √(area/π), a length; `None` for merged contacts.
@@ -57,6 +60,13 @@ pub struct LevelObservables {
     pub merged: bool,
     /// Samples along the contact radius: below some ten the radii are rough.
     pub resolution: f64,
+}
+
+impl Observables {
+    /// Whether the largest pressure is infinite: that of a level is.
+    pub fn singular_peak(&self) -> bool {
+        self.levels.iter().any(|level| level.singular_peak)
+    }
 }
 
 impl LevelObservables {
@@ -115,6 +125,8 @@ pub fn read(contact: &Contact<'_>) -> Observables {
                 load: load / indenters,
                 load_share: if mean_pressure > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
                 max_pressure: peaks.map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max),
+                singular_peak: load > 0.0
+                    && texture.sites.iter().any(|site| site.level == level && site.shape.singular_peak()),
                 contact_area: area,
                 contact_radius: (!merged).then(|| (area / PI).sqrt()),
                 radius_extremes: extremes.reduce(|a, b| a.zip(b).map(|(a, b)| (a.0.min(b.0), a.1.max(b.1)))).flatten(),
