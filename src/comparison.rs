@@ -3,7 +3,8 @@
 //! Three things differ between them: the grid of the one, the elements of the other, and what the circle leaves out.
 //! Each method is therefore solved at two resolutions, half and full; what a quantity changes between them bounds its
 //! discretisation error, since both converge at first order or faster. What remains of the difference is the error of
-//! localization. The circles have both radius rules, on the same elements.
+//! localization. The circles have both radius rules, on the same elements, and the smallest also the lattice sum of what
+//! is outside it.
 
 use crate::hierarchy::{Hierarchy, Solution};
 use crate::indenter::Level;
@@ -141,6 +142,8 @@ pub struct Comparison {
     pub circles: Vec<CircleComparison>,
     /// The same circles under the other rule.
     pub other_rule: Vec<CircleComparison>,
+    /// The first circle with the lattice sum outside; `None` without mutual effect or where all have it.
+    pub lattice_sum: Option<CircleComparison>,
     /// Stresses with the last circle, the rule asked for.
     pub stresses: Vec<StressPair>,
 }
@@ -194,7 +197,7 @@ impl Task<'_> {
         let system = Localized::new(self.lattice, self.levels, self.half_space, most);
         let (mesh, start) = system.mesh(self.control, &self.setup);
         let half = mesh.halved();
-        let (mut circles, mut other_rule) = (Vec::new(), Vec::new());
+        let (mut circles, mut other_rule, mut lattice_sum) = (Vec::new(), Vec::new(), None);
         let mut last = start;
         let counts: &[usize] = if self.setup.mutual_effect { self.indenters } else { &[1] };
         for &indenters in counts {
@@ -234,6 +237,9 @@ impl Task<'_> {
             if self.setup.mutual_effect {
                 other_rule.push(compared(self.setup.radius.other()).0);
             }
+            if self.setup.mutual_effect && self.setup.radius != CircleRadius::LatticeSum && lattice_sum.is_none() {
+                lattice_sum = Some(compared(CircleRadius::LatticeSum).0);
+            }
             last = found;
         }
         progress("stresses");
@@ -248,6 +254,7 @@ impl Task<'_> {
             elements,
             circles,
             other_rule,
+            lattice_sum,
             stresses,
         })
     }

@@ -3,6 +3,8 @@
 mod common;
 #[path = "localized/contact.rs"]
 mod contact;
+#[path = "localized/exterior.rs"]
+mod exterior;
 #[path = "localized/kernel.rs"]
 mod kernel;
 #[path = "localized/principle.rs"]

@@ -13,7 +13,7 @@ pub struct LocalizedSection {
     pub indenters: Vec<usize>,
     /// Elements across the largest contact.
     pub elements: usize,
-    /// How large the circle is.
+    /// How large the circle is, or what stands outside it.
     pub radius: CircleRadius,
     /// Whether the indenters around the one looked at act on it.
     pub mutual_effect: bool,
@@ -42,9 +42,8 @@ impl LocalizedSection {
             localized.elements = elements.integer(4..=1000)?;
         }
         if let Some(radius) = section.optional("radius") {
-            let choices =
-                [("load-balanced", CircleRadius::LoadBalanced), ("area-balanced", CircleRadius::AreaBalanced)];
-            localized.radius = radius.choice(&choices)?;
+            let rules = [CircleRadius::LoadBalanced, CircleRadius::AreaBalanced, CircleRadius::LatticeSum];
+            localized.radius = radius.choice(&rules.map(|rule| (rule.name(), rule)))?;
         }
         if let Some(effect) = section.optional("mutual_effect") {
             localized.mutual_effect = effect.boolean()?;

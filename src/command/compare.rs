@@ -6,7 +6,7 @@ use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
 use percoat::comparison::{Comparison, Task};
-use percoat::localized::{Setup, Stop};
+use percoat::localized::{CircleRadius, Setup, Stop};
 use percoat::number::number;
 use percoat::output::{CompareFile, clear_picture, make_folder, table, write_text};
 use percoat::picture;
@@ -88,7 +88,9 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         }
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
     }
-    let rules = [(setup.radius, &comparison.circles), (setup.radius.other(), &comparison.other_rule)];
+    let (circles, other) = (&comparison.circles[..], &comparison.other_rule[..]);
+    let lattice_sum = comparison.lattice_sum.as_slice();
+    let rules = [(setup.radius, circles), (setup.radius.other(), other), (CircleRadius::LatticeSum, lattice_sum)];
     for (rule, circle) in rules.iter().flat_map(|(rule, circles)| circles.iter().map(move |circle| (rule, circle))) {
         if circle.stop != Stop::Converged {
             eprintln!("warning: {} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop);

@@ -52,6 +52,13 @@ impl Cell {
         [[scale * self.a2[1], -scale * self.a2[0]], [-scale * self.a1[1], scale * self.a1[0]]]
     }
 
+    /// The cell of the reciprocal lattice, spanned by b₁ and b₂ (1/length).
+    #[must_use]
+    pub fn dual(&self) -> Self {
+        let [a1, a2] = self.reciprocal();
+        Self { a1, a2 }
+    }
+
     /// Area |a₁ × a₂|.
     pub fn area(&self) -> f64 {
         cross(self.a1, self.a2).abs()

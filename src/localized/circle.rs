@@ -5,11 +5,14 @@
 //!
 //! - **area-balanced**: π R² = N A₁, N indenters inside with the cell area A₁ of one;
 //! - **load-balanced**: π R² p̄ = Σ_c N_c P_c, equilibrium inside the circle. It reduces to Eq. (4) for one level.
+//!
+//! A third rule has no radius: outside the circle stand the indenters themselves, all of them
+//! ([`exterior`](super::exterior)).
 
 use crate::lattice::Lattice;
 use std::f64::consts::PI;
 
-/// Rule for the radius R of the circle outside of which the nominal pressure acts.
+/// Rule for the radius R of the circle outside of which the nominal pressure acts, or what acts there instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CircleRadius {
@@ -17,6 +20,8 @@ pub enum CircleRadius {
     LoadBalanced,
     /// The cells of the indenters inside have the area π R².
     AreaBalanced,
+    /// No uniform pressure: the lattice sum of all indenters outside.
+    LatticeSum,
 }
 
 impl CircleRadius {
@@ -25,15 +30,16 @@ impl CircleRadius {
         match self {
             Self::LoadBalanced => "load-balanced",
             Self::AreaBalanced => "area-balanced",
+            Self::LatticeSum => "lattice-sum",
         }
     }
 
-    /// The other rule.
+    /// The rule to hold it against.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
             Self::LoadBalanced => Self::AreaBalanced,
-            Self::AreaBalanced => Self::LoadBalanced,
+            Self::AreaBalanced | Self::LatticeSum => Self::LoadBalanced,
         }
     }
 }
@@ -53,24 +59,30 @@ impl Circle {
     /// Circle around the site `centre` of `sites` (places in fractions of the cell vectors) with at least `indenters`
     /// inside, in whole shells.
     pub fn new(lattice: &Lattice, sites: &[[f64; 2]], centre: usize, indenters: usize) -> Self {
-        let cell = lattice.cell();
-        let area = cell.area() / sites.len() as f64;
-        let reduced = cell.reduced();
+        let area = lattice.cell().area() / sites.len() as f64;
         // A circle of this radius surely holds enough.
-        let reach = (indenters as f64 * area / PI).sqrt() + 2.0 * reduced.longer_side();
+        let reach = (indenters as f64 * area / PI).sqrt() + 2.0 * lattice.cell().reduced().longer_side();
+        let circle = Self::within(lattice, sites, centre, reach);
+        let mut distances: Vec<f64> = circle.images.iter().flatten().map(|[x, y]| x.hypot(*y)).collect();
+        distances.sort_by(f64::total_cmp);
+        Self::within(lattice, sites, centre, distances[indenters.clamp(1, distances.len()) - 1])
+    }
+
+    /// Circle around the site `centre` of `sites` that holds all indenters up to the `distance`, a length.
+    pub fn within(lattice: &Lattice, sites: &[[f64; 2]], centre: usize, distance: f64) -> Self {
+        let reduced = lattice.cell().reduced();
         let mut all: Vec<(f64, usize, [f64; 2])> = Vec::new();
         for (site, place) in sites.iter().enumerate() {
             let from = reduced.nearest([place[0] - sites[centre][0], place[1] - sites[centre][1]]);
-            for vector in reduced.vectors_within(reach + reduced.longer_side()) {
+            for vector in reduced.vectors_within(distance + reduced.longer_side()) {
                 let offset = [from[0] + vector[0], from[1] + vector[1]];
                 all.push((offset[0].hypot(offset[1]), site, offset));
             }
         }
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let last = all[indenters.clamp(1, all.len()) - 1].0;
         let mut images = vec![Vec::new(); sites.len()];
-        for (distance, site, offset) in all {
-            if distance <= last * (1.0 + TIE) {
+        for (r, site, offset) in all {
+            if r <= distance * (1.0 + TIE) {
                 images[site].push(offset);
             }
         }

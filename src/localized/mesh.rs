@@ -38,6 +38,11 @@ impl Mesh {
         0.5 * self.width as f64 * self.size
     }
 
+    /// Largest difference of two elements' places along a side, a length.
+    pub fn span(&self) -> f64 {
+        (self.width as f64 - 1.0).max(1.0) * self.size
+    }
+
     /// Centre (x, y) of an element, measured from the axis: lengths.
     pub fn place(&self, index: usize) -> [f64; 2] {
         let middle = (self.width / 2) as f64;
@@ -66,7 +71,10 @@ impl Mesh {
 /// Terms of the Chebyshev series in each direction.
 const TERMS: usize = 14;
 /// Distance, in half-sides of the table, from which images are summed in the series: it then errs by 1e-11.
-const FAR: f64 = 3.5;
+pub(super) const FAR: f64 = 3.5;
+
+/// A smooth displacement at (x, y).
+pub(super) type Smooth<'a> = dyn Fn(f64, f64) -> f64 + Sync + 'a;
 
 /// A_mc of two spots.
 #[derive(Debug, Clone)]
@@ -77,15 +85,17 @@ pub struct Influence {
 }
 
 impl Influence {
-    /// Influence on a spot of the indenters at the places `images` relative to it.
-    pub fn new(squares: &Squares<'_>, mesh: Mesh, images: &[[f64; 2]]) -> Self {
+    /// Influence on a spot of the indenters at the places `images` relative to it, and of others `outside`: the
+    /// displacement at (x, y) from an element by unit pressure on all its images that stand as far as [`FAR`] says.
+    pub fn new(squares: &Squares<'_>, mesh: Mesh, images: &[[f64; 2]], outside: Option<&Smooth<'_>>) -> Self {
         let (side, last) = (2 * mesh.width - 1, mesh.width as f64 - 1.0);
-        let half = last.max(1.0) * mesh.size;
+        let half = mesh.span();
         let (far, near): (Vec<[f64; 2]>, Vec<[f64; 2]>) = images.iter().partition(|[x, y]| x.hypot(*y) > FAR * half);
         let under = |images: &[[f64; 2]], x: f64, y: f64| -> f64 {
             images.iter().map(|[u, v]| squares.coefficient(x - u, y - v)).sum()
         };
-        let series = if far.is_empty() { Vec::new() } else { chebyshev(half, |x, y| under(&far, x, y)) };
+        let distant = |x, y| under(&far, x, y) + outside.map_or(0.0, |outside| outside(x, y));
+        let series = if far.is_empty() && outside.is_none() { Vec::new() } else { chebyshev(half, distant) };
         let offset = |k: usize| (k as f64 - last) * mesh.size;
         let mut table = vec![0.0; side * side];
         table.par_chunks_mut(side).enumerate().for_each(|(i, row)| {
@@ -170,7 +180,7 @@ mod tests {
         let squares = Squares::new(&kernel, 0.02);
         let mesh = Mesh { width: 9, size: 0.04 };
         let images = [[0.0, 0.0], [1.0, 0.2], [-1.2, 0.1], [3.0, 4.0], [-5.0, 2.0]];
-        let influence = Influence::new(&squares, mesh, &images);
+        let influence = Influence::new(&squares, mesh, &images, None);
         let mut pressure = vec![0.0; mesh.elements()];
         (pressure[3], pressure[40], pressure[57]) = (1.0, 0.5, 2.0);
         let mut displacement = vec![0.0; mesh.elements()];

@@ -14,7 +14,7 @@
 //!
 //! - [`quadrature`], [`point`]: K by adaptive quadrature of the layer correction, tabulated;
 //! - [`square`], [`disc`]: influence coefficients, Eq. (7), and the far field;
-//! - [`circle`]: who stands inside, and the radius, Eq. (4);
+//! - [`circle`]: who stands inside, and the radius, Eq. (4); [`exterior`]: the lattice sum outside, in the place of p̄;
 //! - [`mesh`], [`press`]: elements and the contact of one spot; [`spot`]: what is read off it;
 //! - [`solver`]: level by level to one penetration and one load;
 //! - [`isolated`]: indenters without mutual effect;
@@ -23,6 +23,7 @@
 pub mod circle;
 pub mod disc;
 mod exchange;
+pub mod exterior;
 pub mod isolated;
 pub mod mesh;
 pub mod point;
@@ -33,6 +34,7 @@ pub mod spot;
 pub mod square;
 pub mod stress;
 pub mod system;
+mod tables;
 
 pub use circle::CircleRadius;
 pub use solver::{Coupled, Solution, Stop};

@@ -1,7 +1,7 @@
 //! Level by level: the contact of every spot with its circle, one penetration, one load (paper, §2.3).
 //!
 //! Each sweep presses every spot to the present penetration δ against the displacement by the other levels inside its
-//! circle, each with the pattern of its last sweep, and by p̄ outside it. Then the levels exchange loads
+//! circle, each with the pattern of its last sweep, and by p̄, or by the lattice, outside it. Then the levels exchange loads
 //! (`exchange.rs`) so that all have one penetration and carry p̄ together, Eq. (5). Only shapes lag behind, so
 //! that some eight sweeps are enough however many indenters stand in the circle. A level comes into contact when a
 //! sweep finds it penetrated, and leaves it when it would be pulled.
@@ -9,14 +9,15 @@
 use super::circle::{Circle, CircleRadius};
 use super::disc::FarField;
 use super::exchange::Sweep;
-use super::mesh::{Influence, Mesh};
+use super::mesh::Mesh;
 use super::press::{press, punch};
 use super::spot::Spot;
-use super::square::Squares;
 use super::system::Localized;
+use super::tables::Tables;
 use crate::solver::Control;
 use std::f64::consts::PI;
 use std::fmt;
+use std::sync::OnceLock;
 
 /// Sweeps at most.
 const SWEEPS: usize = 60;
@@ -59,6 +60,8 @@ pub struct Solution {
     pub mean_pressure: f64,
     /// Penetration δ, common to all levels, a length.
     pub penetration: f64,
+    /// What acted outside the circles.
+    pub rule: CircleRadius,
     /// The spots, one per site of the cell.
     pub spots: Vec<Spot>,
     /// How the iteration ended.
@@ -75,8 +78,10 @@ pub struct Coupled<'a> {
     circles: Vec<Circle>,
     /// The next shells of indenters, whatever the circle.
     neighbours: Vec<Circle>,
-    /// `tables[m][c]`; `None` where no indenter of c stands in the circle around m.
-    tables: Vec<Vec<Option<Influence>>>,
+    /// Of the indenters inside the circles, made when a rule first asks for them.
+    inside: OnceLock<Tables>,
+    /// Of all indenters of the lattice.
+    whole: OnceLock<Tables>,
     /// Profile plus drop at each element, per site.
     shapes: Vec<Vec<f64>>,
     mutual_effect: bool,
@@ -115,10 +120,7 @@ impl Patterns {
 impl<'a> Coupled<'a> {
     /// Circles of at least `indenters` (in whole shells) on `mesh`; without mutual effect every indenter is alone.
     pub fn new(system: &'a Localized, mesh: Mesh, indenters: usize, mutual_effect: bool) -> Self {
-        let squares = Squares::new(system.kernel(), 0.5 * mesh.size);
         let circles = system.circles(if mutual_effect { indenters } else { 1 });
-        let table = |images: &Vec<[f64; 2]>| (!images.is_empty()).then(|| Influence::new(&squares, mesh, images));
-        let tables = circles.iter().map(|circle| circle.images.iter().map(table).collect()).collect();
         let shape = |site| {
             let at = |index| {
                 let [x, y] = mesh.place(index);
@@ -128,7 +130,8 @@ impl<'a> Coupled<'a> {
         };
         let shapes = (0..system.sites().len()).map(shape).collect();
         let neighbours = system.circles(NEIGHBOURS);
-        Self { system, mesh, circles, neighbours, tables, shapes, mutual_effect }
+        let (inside, whole) = (OnceLock::new(), OnceLock::new());
+        Self { system, mesh, circles, neighbours, inside, whole, shapes, mutual_effect }
     }
 
     /// Indenters inside the circles: the largest number of any of them.
@@ -138,6 +141,7 @@ impl<'a> Coupled<'a> {
 
     /// Solves one load step, from an earlier solution where there is one.
     pub fn solve(&self, control: Control, rule: CircleRadius, start: Option<&Solution>) -> Solution {
+        let tables = self.tables(rule);
         let count = self.circles.len();
         let cell = self.system.cell_area();
         let element = self.mesh.size * self.mesh.size;
@@ -159,9 +163,9 @@ impl<'a> Coupled<'a> {
             let mut sweep = Sweep::new(patterns.loads.clone());
             let mut pressed = true;
             for m in 0..count {
-                let others = self.others(m, &patterns);
-                let far = self.far(m, rule, mean_pressure, &sweep.used);
-                radii[m] = far.as_ref().map_or(f64::INFINITY, |(far, _)| far.radius);
+                let others = self.others(tables, m, &patterns);
+                radii[m] = self.radius(m, rule, mean_pressure, &sweep.used);
+                let far = self.far(rule, radii[m]);
                 let wanted: Vec<f64> = (0..self.mesh.elements())
                     .map(|i| {
                         let moved: f64 = others.iter().flatten().map(|other| other[i]).sum();
@@ -169,7 +173,7 @@ impl<'a> Coupled<'a> {
                         patterns.penetration - self.shapes[m][i] - moved + outside
                     })
                     .collect();
-                let own = self.own(m);
+                let own = tables.own(m);
                 let (gap, reached) = press(own, &wanted, SURFACE_TOLERANCE, &mut patterns.pressures[m]);
                 gaps[m] = gap;
                 pressed &= reached;
@@ -186,7 +190,7 @@ impl<'a> Coupled<'a> {
                     let direct = match &others[c] {
                         Some(displacement) => under(displacement) / sweep.used[c],
                         None if c == m => 0.0,
-                        None => self.by_axes(m, c),
+                        None => tables.between_axes(m, c),
                     };
                     let outside =
                         far.as_ref().map_or(0.0, |(far, d)| self.far_coupling(control, rule, m, c, far, under(d)));
@@ -204,7 +208,7 @@ impl<'a> Coupled<'a> {
             }
             if let (Some(load), true) = (prescribed, whole == 0.0) {
                 // Nobody touches yet: deep enough for one element to carry the load, the most compliant contact.
-                let own = self.own(0).diagonal();
+                let own = tables.own(0).diagonal();
                 patterns.penetration += load / element * own;
                 continue;
             }
@@ -226,17 +230,22 @@ impl<'a> Coupled<'a> {
                 radius: radii[m],
             })
             .collect();
-        Solution { mean_pressure, penetration: patterns.penetration, spots, stop, sweeps }
+        Solution { mean_pressure, penetration: patterns.penetration, rule, spots, stop, sweeps }
     }
 
-    fn own(&self, m: usize) -> &Influence {
-        self.tables[m][m].as_ref().expect("the centre stands in its own circle")
+    /// Who acts on whom under a rule.
+    fn tables(&self, rule: CircleRadius) -> &Tables {
+        if self.mutual_effect && rule == CircleRadius::LatticeSum {
+            self.whole.get_or_init(|| Tables::whole(self.system, self.mesh, self.circles[0].indenters()))
+        } else {
+            self.inside.get_or_init(|| Tables::inside(self.system, self.mesh, &self.circles))
+        }
     }
 
-    /// Displacement of the spot m by each other site's indenters inside its circle; `None` for those without load.
-    fn others(&self, m: usize, patterns: &Patterns) -> Vec<Option<Vec<f64>>> {
+    /// Displacement of the spot m by each other site's indenters; `None` for those without load.
+    fn others(&self, tables: &Tables, m: usize, patterns: &Patterns) -> Vec<Option<Vec<f64>>> {
         let by = |c: usize| {
-            let table = self.tables[m][c].as_ref().filter(|_| c != m && patterns.loads[c] > 0.0)?;
+            let table = tables.of(m, c).filter(|_| c != m && patterns.loads[c] > 0.0)?;
             let mut displacement = vec![0.0; self.mesh.elements()];
             table.add(&patterns.pressures[c], &mut displacement);
             Some(displacement)
@@ -244,16 +253,22 @@ impl<'a> Coupled<'a> {
         (0..self.circles.len()).map(by).collect()
     }
 
-    /// The disc that is cut out around m, and the displacement under unit pressure on it.
-    fn far(&self, m: usize, rule: CircleRadius, mean_pressure: f64, loads: &[f64]) -> Option<(FarField<'_>, Vec<f64>)> {
-        if !self.mutual_effect {
+    /// Radius of the circle around m; with the lattice sum outside, that of the same indenters in equilibrium.
+    fn radius(&self, m: usize, rule: CircleRadius, mean_pressure: f64, loads: &[f64]) -> f64 {
+        let circle = &self.circles[m];
+        match rule {
+            _ if !self.mutual_effect => f64::INFINITY,
+            CircleRadius::AreaBalanced => circle.area_balanced(self.system.cell_area() / self.circles.len() as f64),
+            CircleRadius::LoadBalanced | CircleRadius::LatticeSum => circle.load_balanced(loads, mean_pressure),
+        }
+    }
+
+    /// The disc that is cut out around a spot, and the displacement under unit pressure on it; `None` where there is
+    /// nothing outside, or the lattice.
+    fn far(&self, rule: CircleRadius, radius: f64) -> Option<(FarField<'_>, Vec<f64>)> {
+        if !self.mutual_effect || rule == CircleRadius::LatticeSum {
             return None;
         }
-        let circle = &self.circles[m];
-        let radius = match rule {
-            CircleRadius::AreaBalanced => circle.area_balanced(self.system.cell_area() / self.circles.len() as f64),
-            CircleRadius::LoadBalanced => circle.load_balanced(loads, mean_pressure),
-        };
         let far = FarField::new(self.system.kernel(), radius, 2f64.sqrt() * self.mesh.half());
         let at = |index| {
             let [x, y] = self.mesh.place(index);
@@ -261,12 +276,6 @@ impl<'a> Coupled<'a> {
         };
         let under = (0..self.mesh.elements()).map(at).collect();
         Some((far, under))
-    }
-
-    /// Displacement at the centre of m's circle under unit forces on the axes of c's indenters inside it.
-    fn by_axes(&self, m: usize, c: usize) -> f64 {
-        let kernel = self.system.kernel();
-        self.circles[m].images[c].iter().map(|[x, y]| kernel.at(x.hypot(*y))).sum()
     }
 
     /// d(p̄D)/dP_c under the spot m, D = `under` there: the disc's rim moves with the load inside (∂D/∂R = 2πR K(R)), p̄
@@ -285,6 +294,7 @@ impl<'a> Coupled<'a> {
             Control::Penetration(_) => 1.0 / self.system.cell_area(),
         };
         match rule {
+            CircleRadius::LatticeSum => 0.0,
             CircleRadius::AreaBalanced => under * share,
             CircleRadius::LoadBalanced if far.radius == 0.0 => 0.0,
             CircleRadius::LoadBalanced => {

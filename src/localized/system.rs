@@ -2,13 +2,14 @@
 
 use super::circle::{Circle, CircleRadius};
 use super::disc;
+use super::exterior::Exterior;
 use super::mesh::Mesh;
 use super::point::PointKernel;
 use super::solver::{Coupled, Solution, Stop};
 use super::spot::Spot;
 use super::square::Squares;
 use crate::indenter::{Level, drops};
-use crate::lattice::Lattice;
+use crate::lattice::{Cell, Lattice};
 use crate::material::HalfSpace;
 use crate::solver::Control;
 use std::f64::consts::PI;
@@ -78,7 +79,7 @@ impl Localized {
             drops: drops(levels),
             sites,
             // From the far corner of one mesh to that of another, and room for circles whose radius moves.
-            kernel: PointKernel::new(half_space, 2.0 * (farthest + 3.0 * nearest)),
+            kernel: PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest)),
             nearest,
             contact_modulus: half_space.surface_material().contact_modulus(),
         }
@@ -104,6 +105,11 @@ impl Localized {
         self.contact_modulus
     }
 
+    /// The unit cell.
+    pub fn cell(&self) -> Cell {
+        self.lattice.cell()
+    }
+
     /// Area of the cell.
     pub fn cell_area(&self) -> f64 {
         self.lattice.cell().area()
@@ -122,8 +128,25 @@ impl Localized {
 
     /// Circles of at least `indenters` around every site.
     pub fn circles(&self, indenters: usize) -> Vec<Circle> {
-        let places: Vec<[f64; 2]> = self.sites.iter().map(|site| site.place).collect();
+        let places = self.places();
         (0..places.len()).map(|centre| Circle::new(&self.lattice, &places, centre, indenters)).collect()
+    }
+
+    /// Circles around every site that hold all indenters up to the `distance`, a length.
+    pub fn circles_within(&self, distance: f64) -> Vec<Circle> {
+        let places = self.places();
+        (0..places.len()).map(|centre| Circle::within(&self.lattice, &places, centre, distance)).collect()
+    }
+
+    /// From each site to each other one of the cell, lengths.
+    pub fn offsets(&self) -> Vec<Vec<[f64; 2]>> {
+        let places = self.places();
+        let offset = |from: [f64; 2], to: [f64; 2]| self.cell().point([to[0] - from[0], to[1] - from[1]]);
+        places.iter().map(|&from| places.iter().map(|&to| offset(from, to)).collect()).collect()
+    }
+
+    fn places(&self) -> Vec<[f64; 2]> {
+        self.sites.iter().map(|site| site.place).collect()
     }
 
     /// The mesh with `setup.elements` across the largest contact, and a coarse solution on the way to it: coarse meshes
@@ -171,21 +194,28 @@ impl Localized {
     }
 
     /// Additional displacement w_a by Eq. (8): displacement at the highest apex by the pressures inside its circle,
-    /// minus that by p̄ on the circle: a length. Summed anew, element by element.
+    /// minus that by p̄ on the circle, or with the lattice sum of what is outside: a length. Summed anew, element by
+    /// element.
     ///
     /// It equals the penetration where the highest level touches.
     pub fn additional_displacement(&self, solution: &Solution) -> f64 {
         let highest = (0..self.sites.len()).min_by(|&a, &b| self.profile(a, 0.0).total_cmp(&self.profile(b, 0.0)));
-        let Some(spot) = highest.map(|site| &solution.spots[site]) else { return 0.0 };
+        let Some(highest) = highest else { return 0.0 };
+        let spot = &solution.spots[highest];
         let squares = Squares::new(&self.kernel, 0.5 * spot.mesh.size);
+        let element = spot.mesh.size * spot.mesh.size;
+        let lattice_sum = spot.radius.is_finite() && solution.rule == CircleRadius::LatticeSum;
+        let exterior = lattice_sum.then(|| Exterior::new(self, spot.mesh, spot.circle.indenters()));
+        let circle = exterior.as_ref().map_or(&spot.circle, |exterior| &exterior.circles()[highest]);
         let mut sum = 0.0;
-        for (source, images) in solution.spots.iter().zip(&spot.circle.images) {
+        for (c, (source, images)) in solution.spots.iter().zip(&circle.images).enumerate() {
             for (index, &p) in source.pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
                 let [x, y] = source.mesh.place(index);
                 sum += p * images.iter().map(|[u, v]| squares.coefficient(x + u, y + v)).sum::<f64>();
+                sum += exterior.as_ref().map_or(0.0, |exterior| p * element * exterior.at(highest, c, [-x, -y]));
             }
         }
-        if spot.radius.is_finite() {
+        if spot.radius.is_finite() && !lattice_sum {
             sum -= solution.mean_pressure * disc::displacement(&self.kernel, spot.radius, 0.0).value;
         }
         sum

@@ -21,6 +21,7 @@ pub struct CompareFile<'a, C: Serialize> {
     elements: usize,
     localized: Vec<Value>,
     other_rule: Value,
+    lattice_sum: Option<Value>,
     stresses: Vec<Value>,
 }
 
@@ -57,6 +58,7 @@ impl<'a, C: Serialize> CompareFile<'a, C> {
             } else {
                 json!({ "rule": rule.other(), "localized": other })
             },
+            lattice_sum: comparison.lattice_sum.as_ref().map(circle),
             stresses: comparison.stresses.iter().map(stress).collect(),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::summary::{Peak, Step, Stress};
 use crate::comparison::{CircleComparison, Comparison, Deviation, Reading};
-use crate::localized::Setup;
+use crate::localized::{CircleRadius, Setup};
 use crate::number::{number, with_error};
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
@@ -116,7 +116,7 @@ pub fn readings(comparison: &Comparison, setup: &Setup) -> String {
     render(&header.map(str::to_owned), &rows)
 }
 
-/// Differences from the spectral solution circle by circle, for both rules, and what the meshes contribute.
+/// Differences from the spectral solution circle by circle, for the rules, and what the meshes contribute.
 pub fn differences(comparison: &Comparison, setup: &Setup) -> String {
     let header =
         ["largest difference", "inside", "penetration", "load on one", "share", "peak pressure", "contact radius"];
@@ -127,7 +127,9 @@ pub fn differences(comparison: &Comparison, setup: &Setup) -> String {
         [&[name, inside][..], &percents[..]].concat()
     };
     let mut rows = Vec::new();
-    let rules = [(setup.radius, &comparison.circles), (setup.radius.other(), &comparison.other_rule)];
+    let lattice_sum = comparison.lattice_sum.as_slice();
+    let (circles, other) = (&comparison.circles[..], &comparison.other_rule[..]);
+    let rules = [(setup.radius, circles), (setup.radius.other(), other), (CircleRadius::LatticeSum, lattice_sum)];
     for (rule, circles) in rules {
         let mut name = if setup.mutual_effect { rule.name() } else { "no mutual effect" }.to_owned();
         for circle in circles {
