@@ -96,8 +96,7 @@ fn write_page(folder: &Path, statements: &[(&str, Vec<String>)]) -> Result<(), F
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
-    let [held, all] = report.count();
-    writeln!(out, "{}\n\n{held} of {all} checks hold", report.table())?;
+    writeln!(out, "{}\n\n{}", report.table(), report.summary())?;
     writeln!(out, "{:.1} s; report in {}", started.elapsed().as_secs_f64(), path.display())?;
     Ok(())
 }

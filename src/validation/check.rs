@@ -9,12 +9,28 @@ pub enum Tolerance {
     Relative(f64),
     /// |value − reference| ≤ tolerance, in the unit of the value.
     Absolute(f64),
-    /// An observed order of convergence: value ≥ reference − tolerance.
+    /// An observed order of convergence: |value − reference| ≤ tolerance.
     Order(f64),
     /// value ≤ reference: the reference is itself the bound.
     AtMost,
     /// value ≥ reference.
     AtLeast,
+}
+
+/// What a quantity is held against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evidence {
+    /// What is independent of the program: a closed form, a multiprecision table, another program.
+    Reference,
+    /// The program itself: another mesh, another of its methods, its orders and iterations.
+    Refinement,
+    /// What it was once found to say about the paper, pinned to the error of the mesh.
+    Finding,
+}
+
+impl Evidence {
+    /// All of them, as a report counts them.
+    pub const ALL: [Self; 3] = [Self::Reference, Self::Refinement, Self::Finding];
 }
 
 /// A quantity of a study, compared.
@@ -28,12 +44,30 @@ pub struct Check {
     pub reference: f64,
     /// How close it has to come.
     pub tolerance: Tolerance,
+    /// What the reference is.
+    pub evidence: Evidence,
 }
 
 impl Check {
-    /// Compares `value` with `reference`.
+    /// Compares `value` with `reference`, an independent one; bounds and orders are the program's own.
     pub fn new(quantity: impl Into<String>, value: f64, reference: f64, tolerance: Tolerance) -> Self {
-        Self { quantity: quantity.into(), value, reference, tolerance }
+        let evidence = match tolerance {
+            Tolerance::Relative(_) | Tolerance::Absolute(_) => Evidence::Reference,
+            Tolerance::Order(_) | Tolerance::AtMost | Tolerance::AtLeast => Evidence::Refinement,
+        };
+        Self { quantity: quantity.into(), value, reference, tolerance, evidence }
+    }
+
+    /// The same against the program itself.
+    #[must_use]
+    pub fn of_refinement(self) -> Self {
+        Self { evidence: Evidence::Refinement, ..self }
+    }
+
+    /// The same against what was found before.
+    #[must_use]
+    pub fn as_finding(self) -> Self {
+        Self { evidence: Evidence::Finding, ..self }
     }
 
     /// Within `tolerance` · |reference|.
@@ -46,7 +80,7 @@ impl Check {
         Self::new(quantity, value, reference, Tolerance::Absolute(tolerance))
     }
 
-    /// An observed order of convergence, at least `expected` − `slack`.
+    /// An observed order of convergence, `expected` to within `slack`.
     pub fn order(quantity: impl Into<String>, value: f64, expected: f64, slack: f64) -> Self {
         Self::new(quantity, value, expected, Tolerance::Order(slack))
     }
@@ -95,9 +129,9 @@ impl Check {
     /// What must not exceed the tolerance (or zero, where the reference is the bound).
     fn badness(&self) -> f64 {
         match self.tolerance {
-            Tolerance::Relative(_) | Tolerance::Absolute(_) => self.error().abs(),
+            Tolerance::Relative(_) | Tolerance::Absolute(_) | Tolerance::Order(_) => self.error().abs(),
             Tolerance::AtMost => self.error(),
-            Tolerance::AtLeast | Tolerance::Order(_) => -self.error(),
+            Tolerance::AtLeast => -self.error(),
         }
     }
 
@@ -116,12 +150,22 @@ impl Check {
     }
 }
 
+impl fmt::Display for Evidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Reference => "independent",
+            Self::Refinement => "refinement",
+            Self::Finding => "finding",
+        })
+    }
+}
+
 impl fmt::Display for Tolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Relative(tolerance) => write!(f, "{tolerance:.0e} relative"),
-            Self::Absolute(tolerance) => write!(f, "{tolerance:.0e}"),
-            Self::Order(slack) => write!(f, "order, −{slack}"),
+            Self::Relative(tolerance) => write!(f, "{tolerance:e} relative"),
+            Self::Absolute(tolerance) => write!(f, "{tolerance:e}"),
+            Self::Order(slack) => write!(f, "order, ±{slack}"),
             Self::AtMost => write!(f, "at most"),
             Self::AtLeast => write!(f, "at least"),
         }
@@ -138,10 +182,27 @@ mod tests {
         assert!(!Check::relative("x", 98.0, 100.0, 0.011).holds());
         assert!(Check::relative("x", -1.005, -1.0, 0.01).holds());
         assert!(!Check::absolute("x", 0.3, 0.0, 0.2).holds());
-        assert!(Check::order("x", 2.5, 2.0, 0.2).holds());
-        assert!(!Check::order("x", 1.7, 2.0, 0.2).holds());
+        assert!(Check::order("x", 2.1, 2.0, 0.2).holds());
+        assert!(!Check::order("x", 1.7, 2.0, 0.2).holds() && !Check::order("x", 2.5, 2.0, 0.2).holds());
         assert!(Check::at_most("x", 20.0, 20.0).holds() && !Check::at_most("x", 21.0, 20.0).holds());
         assert!(Check::at_least("x", 20.0, 20.0).holds() && !Check::at_least("x", 19.0, 20.0).holds());
+    }
+
+    #[test]
+    fn tolerances_are_printed_as_they_are() {
+        let printed = [Tolerance::Relative(1.5e-2), Tolerance::Absolute(2.5e-7), Tolerance::Order(0.25)];
+        assert_eq!(printed.map(|tolerance| tolerance.to_string()), ["1.5e-2 relative", "2.5e-7", "order, ±0.25"]);
+    }
+
+    #[test]
+    fn bounds_and_orders_are_the_programs_own_and_other_references_independent() {
+        assert_eq!(Check::relative("x", 1.0, 1.0, 0.1).evidence, Evidence::Reference);
+        assert_eq!(Check::worst("x", [(1.0, 1.0)], Tolerance::Absolute(0.1)).evidence, Evidence::Reference);
+        for own in [Check::order("x", 2.0, 2.0, 0.1), Check::at_most("x", 1.0, 2.0), Check::at_least("x", 2.0, 1.0)] {
+            assert_eq!(own.evidence, Evidence::Refinement);
+        }
+        assert_eq!(Check::relative("x", 1.0, 1.0, 0.1).of_refinement().evidence, Evidence::Refinement);
+        assert_eq!(Check::absolute("x", 1.0, 1.0, 0.1).as_finding().evidence, Evidence::Finding);
     }
 
     #[test]

@@ -36,7 +36,7 @@ mod steps;
 mod wavy;
 mod westergaard;
 
-pub use check::{Check, Tolerance};
+pub use check::{Check, Evidence, Tolerance};
 pub use outcome::{Data, Outcome};
 pub use report::{Report, differences};
 

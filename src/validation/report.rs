@@ -1,15 +1,17 @@
 //! The verdicts of a run, as a table for the terminal and as Markdown for the repository.
 //!
-//! [`differences`] holds one report against another: same studies, same quantities, same verdicts. Values may differ in
+//! References, own refinement and findings are counted apart ([`Evidence`]). [`differences`] holds one report against
+//! another: same studies, same quantities, same evidence, same verdicts. Values may differ in
 //! their digits; they are judged by their tolerances, not by the report.
 
-use super::{Check, Outcome, Study, StudyError};
+use super::{Check, Evidence, Outcome, Study, StudyError};
 use crate::number::number;
 use crate::output::table;
 use std::collections::BTreeMap;
 
 /// Columns of a row; Markdown leaves out the first one.
-const COLUMNS: [&str; 7] = ["study", "quantity", "value", "reference", "error", "tolerance", "verdict"];
+const COLUMNS: [&str; 8] =
+    ["study", "quantity", "value", "reference", "error", "tolerance", "evidence", "verdict"];
 
 /// The studies that were run, with what they found.
 #[derive(Debug, Default)]
@@ -28,10 +30,25 @@ impl Report {
         self.results.iter().all(|(_, result)| result.as_ref().is_ok_and(Outcome::holds))
     }
 
-    /// Checks that hold, and all of them; a study that could not be run counts as one that fails.
-    pub fn count(&self) -> [usize; 2] {
-        let rows = || self.results.iter().flat_map(|(study, result)| rows(study, result));
-        [rows().filter(|row| row[6] == HOLDS).count(), rows().count()]
+    /// Checks of one kind of evidence, over all studies.
+    pub fn count(&self, evidence: Evidence) -> usize {
+        self.results.iter().map(|(_, result)| count(result, evidence)).sum()
+    }
+
+    /// Checks that fail; a study that could not be run, or has none, counts as one.
+    pub fn failures(&self) -> usize {
+        self.results.iter().flat_map(|(study, result)| rows(study, result)).filter(|row| row[7] == FAILS).count()
+    }
+
+    /// How many checks there are of each kind, and whether all hold.
+    pub fn summary(&self) -> String {
+        let [references, own, findings] = Evidence::ALL.map(|evidence| self.count(evidence));
+        let verdict = match self.failures() {
+            0 => "all hold".to_owned(),
+            1 => "1 fails".to_owned(),
+            failures => format!("{failures} fail"),
+        };
+        format!("{references} independent references, {own} of own refinement, {findings} findings pinned: {verdict}")
     }
 
     /// All checks as one table.
@@ -59,23 +76,26 @@ impl Report {
 
     /// The report as Markdown: an overview, then each study with its figures and checks.
     pub fn markdown(&self) -> String {
-        let [held, all] = self.count();
         let mut text = format!(
-            "# Validation report\n\npercoat {}: {held} of {all} checks hold. `percoat validate -o validation` makes this \
-             report again.\n\n| study | shows | checks | verdict |\n|---|---|---|---|\n",
-            env!("CARGO_PKG_VERSION")
+            "# Validation report\n\npercoat {}: {}. `percoat validate -o validation` makes this report again.\n\n\
+             | study | shows | references | refinement | findings | verdict |\n|---|---|---|---|---|---|\n",
+            env!("CARGO_PKG_VERSION"),
+            self.summary()
         );
         for (study, result) in &self.results {
-            let checks = result.as_ref().map_or(0, |outcome| outcome.checks.len());
+            let [references, own, findings] = Evidence::ALL.map(|evidence| count(result, evidence));
             let verdict = if result.as_ref().is_ok_and(Outcome::holds) { HOLDS } else { FAILS };
-            text += &format!("| [{0}]({0}/README.md) | {1} | {checks} | {verdict} |\n", study.name, study.title);
+            text += &format!(
+                "| [{0}]({0}/README.md) | {1} | {references} | {own} | {findings} | {verdict} |\n",
+                study.name, study.title
+            );
         }
         for (study, result) in &self.results {
             text += &format!("\n## {}\n\n{}.\n\n", study.name, study.title);
             for (name, _) in result.iter().flat_map(|outcome| &outcome.figures) {
                 text += &format!("![{0}, {name}]({0}/{name}.png)\n\n", study.name);
             }
-            text += &format!("| {} |\n|{}\n", COLUMNS[1..].join(" | "), "---|".repeat(6));
+            text += &format!("| {} |\n|{}\n", COLUMNS[1..].join(" | "), "---|".repeat(7));
             for row in rows(study, result) {
                 text += &format!("| {} |\n", row[1..].join(" | "));
             }
@@ -86,6 +106,11 @@ impl Report {
 
 const HOLDS: &str = "holds";
 const FAILS: &str = "fails";
+
+/// Checks of one kind of evidence.
+fn count(result: &Result<Outcome, StudyError>, evidence: Evidence) -> usize {
+    result.iter().flat_map(|outcome| &outcome.checks).filter(|check| check.evidence == evidence).count()
+}
 
 /// The rows of a study.
 fn rows(study: &Study, result: &Result<Outcome, StudyError>) -> Vec<Vec<String>> {
@@ -99,12 +124,13 @@ fn rows(study: &Study, result: &Result<Outcome, StudyError>) -> Vec<Vec<String>>
             &number(check.reference),
             &error,
             &check.tolerance.to_string(),
+            &check.evidence.to_string(),
             check.verdict(),
         ]
         .map(str::to_owned)
         .to_vec()
     };
-    let broken = |what: &str| vec![[study.name, what, "–", "–", "–", "–", FAILS].map(str::to_owned).to_vec()];
+    let broken = |what: &str| vec![[study.name, what, "–", "–", "–", "–", "–", FAILS].map(str::to_owned).to_vec()];
     match result {
         Ok(outcome) if outcome.checks.is_empty() => broken("has checks"),
         Ok(outcome) => outcome.checks.iter().map(row).collect(),
@@ -112,7 +138,7 @@ fn rows(study: &Study, result: &Result<Outcome, StudyError>) -> Vec<Vec<String>>
     }
 }
 
-/// What differs between the verdicts of two Markdown reports: rows that changed, are missing or are new. With `studies`
+/// What differs between two Markdown reports in evidence or verdict: rows that changed, are missing or are new. With `studies`
 /// only theirs are compared.
 pub fn differences(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec<String> {
     let wanted = |study: &str| studies.is_none_or(|studies| studies.contains(&study));
@@ -135,7 +161,8 @@ pub fn differences(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec
     differences
 }
 
-/// Verdict by study and quantity, from the sections of a Markdown report. Rows of the same name count one by one.
+/// Verdict, with its evidence unless that is independent, by study and quantity, from the sections of a Markdown report.
+/// Rows of the same name count one by one.
 fn verdicts(markdown: &str) -> BTreeMap<(String, String), String> {
     let mut verdicts = BTreeMap::new();
     let mut study = None;
@@ -145,7 +172,7 @@ fn verdicts(markdown: &str) -> BTreeMap<(String, String), String> {
         }
         let Some(study) = &study else { continue };
         let cells: Vec<&str> = line.trim().trim_matches('|').split('|').map(str::trim).collect();
-        let &[quantity, _, _, _, _, verdict] = &cells[..] else { continue };
+        let &[quantity, _, _, _, _, evidence, verdict] = &cells[..] else { continue };
         if quantity == COLUMNS[1] || quantity.starts_with("--") {
             continue;
         }
@@ -153,7 +180,8 @@ fn verdicts(markdown: &str) -> BTreeMap<(String, String), String> {
         while verdicts.contains_key(&key) {
             key.1 += " (again)";
         }
-        verdicts.insert(key, verdict.to_owned());
+        let independent = evidence == Evidence::Reference.to_string();
+        verdicts.insert(key, if independent { verdict.to_owned() } else { format!("{verdict} as {evidence}") });
     }
     verdicts
 }
@@ -177,11 +205,25 @@ mod tests {
     fn digits_may_change_and_verdicts_may_not() {
         let [a, digits, failed] = [&[1.0, 2.0], &[1.001, 2.003], &[1.0, 2.2]].map(|values| report(values));
         assert!(a.holds() && digits.holds() && !failed.holds());
-        assert_eq!(failed.count(), [2, 3]);
+        assert_eq!(a.summary(), "2 independent references, 1 of own refinement, 0 findings pinned: all hold");
+        assert_eq!(failed.summary(), "2 independent references, 1 of own refinement, 0 findings pinned: 1 fails");
+        assert!(a.markdown().contains("| One thing | 2 | 0 | 0 | holds |"));
         assert_eq!(differences(&a.markdown(), &digits.markdown(), None), Vec::<String>::new());
         let changed = differences(&a.markdown(), &failed.markdown(), None);
         assert_eq!(changed, ["one: quantity 2: fails, expected holds"]);
         assert!(differences(&a.markdown(), &failed.markdown(), Some(&["two"])).is_empty());
+    }
+
+    #[test]
+    fn another_kind_of_evidence_is_a_difference() {
+        let of = |check: Check| {
+            let mut report = Report::default();
+            report.add(&ONE, Ok(Outcome { checks: vec![check], ..Outcome::default() }));
+            report.markdown()
+        };
+        let check = Check::relative("peak", 1.0, 1.0, 1e-2);
+        let [reference, finding] = [check.clone(), check.as_finding()].map(of);
+        assert_eq!(differences(&reference, &finding, None), ["one: peak: holds as finding, expected holds"]);
     }
 
     #[test]
@@ -200,7 +242,7 @@ mod tests {
         report.add(&ONE, Err("no memory".into()));
         report.add(&TWO, Ok(Outcome::default()));
         assert!(!report.holds());
-        assert_eq!(report.count(), [2, 4]);
+        assert_eq!(report.failures(), 2);
         assert_eq!(report.errors(), ["one: no memory"]);
         assert!(report.table().contains("runs to its end") && report.table().contains("has checks"));
     }
