@@ -5,7 +5,7 @@ use percoat::hierarchy::Hierarchy;
 use percoat::observables::Observables;
 use percoat::output::summary::{Step, Stress};
 use percoat::output::{Section, Volume, Wanted};
-use percoat::stress::{Field, Line, surface_error};
+use percoat::stress::{Field, Line};
 use percoat::texture::Surface;
 use std::f64::consts::PI;
 
@@ -44,9 +44,21 @@ fn line(case: &Case, cut: &Cut) -> Option<Line> {
 
 /// The largest stresses of a step that has contact.
 pub fn largest(field: &Field, hierarchy: &Hierarchy, observables: &Observables) -> Stress {
-    let radii = contact_radii(hierarchy, observables);
-    let samples = radii[0] / hierarchy.grid().sample_area().sqrt();
-    Stress::new(&field.maxima(radii), surface_error(samples))
+    let maxima = field.maxima(contact_radii(hierarchy, observables));
+    let error = maxima.crest.map_or(0.0, |crest| {
+        let coarser = hierarchy.coarser().next();
+        let coarser = coarser.and_then(|contact| field.under(contact.grid, contact.pressure).crest());
+        crest.error(coarser.as_ref())
+    });
+    Stress::new(&maxima, error, tip(hierarchy, observables, field))
+}
+
+/// Where τ₁ is infinite: at a tip in contact, unless the surface material is incompressible, as σ_z and σ_r are then
+/// infinite alike.
+fn tip(hierarchy: &Hierarchy, observables: &Observables, field: &Field) -> Option<[f64; 2]> {
+    let level = observables.levels.iter().find(|level| level.singular_peak)?.level;
+    let site = hierarchy.texture().sites.iter().find(|site| site.level == level && field.surface_poisson() < 0.5)?;
+    Some(hierarchy.grid().cell().point(site.place))
 }
 
 /// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's
@@ -61,13 +73,16 @@ fn contact_radii(hierarchy: &Hierarchy, observables: &Observables) -> [f64; 2] {
     [least, most.max(least)]
 }
 
-/// Largest change of the largest stresses between the load steps on two grids, over the largest τ₁; 0 without stresses.
+/// Largest change of the largest τ₁ and tension between the load steps on two grids, over the larger of both; 0 without
+/// stresses. What is infinite under a tip is left out.
 pub fn stress_change(coarse: &[Step], fine: &[Step]) -> f64 {
     let change = |(coarse, fine): (&Step, &Step)| {
         let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
-        let scale = fine.max_tau1.value;
         let pairs = [(&coarse.max_tau1, &fine.max_tau1), (&coarse.max_tension, &fine.max_tension)];
-        pairs.into_iter().map(|(coarse, fine)| (fine.value - coarse.value).abs() / scale).fold(0.0, f64::max)
+        let finite: Vec<(f64, f64)> = pairs.into_iter().filter_map(|(a, b)| a.value.zip(b.value)).collect();
+        let scale = finite.iter().map(|(_, fine)| fine.abs()).fold(0.0, f64::max);
+        let largest = finite.iter().map(|(coarse, fine)| (fine - coarse).abs()).fold(0.0, f64::max);
+        if scale > 0.0 { largest / scale } else { 0.0 }
     };
     coarse.iter().zip(fine).map(change).fold(0.0, f64::max)
 }

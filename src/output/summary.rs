@@ -17,8 +17,10 @@ pub struct Step {
     pub additional_displacement: f64,
     /// Fraction of the cell in contact.
     pub contact_fraction: f64,
-    /// Largest pressure.
-    pub max_pressure: f64,
+    /// Largest pressure; null where it is infinite.
+    pub max_pressure: Option<f64>,
+    /// Whether the largest pressure is infinite: under a tip in contact.
+    pub singular: bool,
     /// Estimated discretisation errors of these.
     pub errors: Errors,
     /// Whether the solution meets the tolerance.
@@ -71,8 +73,10 @@ pub struct Extremes {
 /// A largest value and where it stands.
 #[derive(Debug, Clone, Serialize)]
 pub struct Peak {
-    /// The value.
-    pub value: f64,
+    /// The value; null where it is infinite.
+    pub value: Option<f64>,
+    /// Whether the value is infinite: τ₁ under a tip in contact.
+    pub singular: bool,
     /// Where, lengths.
     pub x: f64,
     /// See `x`.
@@ -86,23 +90,33 @@ pub struct Peak {
 }
 
 impl Stress {
-    /// From the maxima of a field and the estimated error of its surface stresses.
-    pub fn new(maxima: &Maxima, surface_error: f64) -> Self {
+    /// From the maxima of a field and the estimated error of the largest tension on the surface. `tip`: a place where
+    /// τ₁ is infinite.
+    pub fn new(maxima: &Maxima, surface_error: f64, tip: Option<[f64; 2]>) -> Self {
         let peak = |peak: &maxima::Peak| {
             let [x, y, z] = peak.position;
-            Peak { value: peak.value, x, y, z, material: peak.side, direction: peak.direction }
+            Peak { value: Some(peak.value), singular: false, x, y, z, material: peak.side, direction: peak.direction }
         };
         let extremes = |extremes: &maxima::Extremes| Extremes {
             max_tau1: peak(&extremes.tau1),
             max_tension: peak(&extremes.tension),
         };
-        Self {
+        let mut stress = Self {
             max_tau1: peak(&maxima.tau1()),
             max_tension: peak(&maxima.tension()),
             materials: maxima.materials.iter().map(extremes).collect(),
             faces: maxima.faces.iter().map(extremes).collect(),
             surface_error,
+        };
+        if let Some([x, y]) = tip {
+            // A tip is infinitely stressed, whatever a grid shows of it.
+            let first = [&mut stress.materials, &mut stress.faces].map(|all| all.first_mut());
+            let first = first.into_iter().flatten().map(|extremes| &mut extremes.max_tau1);
+            for tau1 in first.chain([&mut stress.max_tau1]) {
+                *tau1 = Peak { value: None, singular: true, x, y, z: 0.0, material: 1, direction: tau1.direction };
+            }
         }
+        stress
     }
 }
 
@@ -126,8 +140,10 @@ pub struct Level {
     pub load: f64,
     /// Share of the whole load.
     pub load_share: f64,
-    /// Peak pressure.
-    pub max_pressure: f64,
+    /// Peak pressure; null where it is infinite.
+    pub max_pressure: Option<f64>,
+    /// Whether the peak pressure is infinite, see [`crate::indenter::Shape::singular_peak`].
+    pub singular: bool,
     /// Contact area of one indenter.
     pub contact_area: f64,
     /// √(area/π); null for merged contacts.
@@ -155,7 +171,8 @@ impl Step {
             penetration: observables.penetration,
             additional_displacement: observables.penetration,
             contact_fraction: observables.contact_fraction,
-            max_pressure: observables.max_pressure,
+            max_pressure: (!observables.singular_peak()).then_some(observables.max_pressure),
+            singular: observables.singular_peak(),
             errors: errors.clone(),
             converged: report.stop.solved(),
             stop_reason: report.stop.to_string(),
@@ -178,7 +195,8 @@ impl Step {
                     level: level.level,
                     load: level.load,
                     load_share: level.load_share,
-                    max_pressure: level.max_pressure,
+                    max_pressure: (!level.singular_peak).then_some(level.max_pressure),
+                    singular: level.singular_peak,
                     contact_area: level.contact_area,
                     contact_radius: level.contact_radius,
                     radius_min: level.radius_extremes.map(|(least, _)| least),

@@ -44,7 +44,7 @@ fn detailed(steps: &[Step]) -> String {
                 level.level.to_string(),
                 with_error(level.load, level.errors.load),
                 percent_with_error(level.load_share, level.errors.load_share),
-                with_error(level.max_pressure, level.errors.max_pressure),
+                finite(level.max_pressure, level.errors.max_pressure),
                 radius,
                 level.asymmetry.map_or("–".to_owned(), percent),
             ];
@@ -66,10 +66,10 @@ fn compact(steps: &[Step], levels: usize) -> String {
         .iter()
         .map(|step| {
             let mut row = vec![number(step.mean_pressure), number(step.penetration), percent(step.contact_fraction)];
-            row.extend(step.levels.iter().map(|level| number(level.max_pressure)));
+            row.extend(step.levels.iter().map(|level| finite(level.max_pressure, None)));
             row.extend(step.levels.iter().map(|level| percent(level.load_share)));
             if levels == 0 {
-                row.push(number(step.max_pressure));
+                row.push(finite(step.max_pressure, None));
             }
             row
         })
@@ -166,8 +166,15 @@ pub fn render_with(header: &[String], rows: &[Vec<String>], words: usize) -> Str
     lines.join("\n")
 }
 
+/// Two decimals; what rounds to zero has no sign.
 fn percent(x: f64) -> String {
-    format!("{:.2} %", 100.0 * x)
+    let text = format!("{:.2} %", 100.0 * x);
+    text.strip_prefix('-').filter(|text| *text == "0.00 %").map_or(text.clone(), str::to_owned)
+}
+
+/// A number with its error, or that there is none because it is infinite.
+fn finite(x: Option<f64>, error: Option<f64>) -> String {
+    x.map_or("singular".to_owned(), |x| with_error(x, error))
 }
 
 /// A part with its error in per cent: two digits behind the point, fewer where the error counts before them.
@@ -186,7 +193,7 @@ pub fn largest_errors(steps: &[Step]) -> Option<String> {
         ("penetration", steps.iter().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
         (
             "peak pressure",
-            steps.iter().filter_map(|s| relative(s.max_pressure, s.errors.max_pressure)).reduce(f64::max),
+            steps.iter().filter_map(|s| relative(s.max_pressure?, s.errors.max_pressure)).reduce(f64::max),
         ),
         ("load on one", levels().filter_map(|l| relative(l.load, l.errors.load)).reduce(f64::max)),
         (
@@ -203,8 +210,20 @@ pub fn largest_errors(steps: &[Step]) -> Option<String> {
 pub fn stress(stress: &Stress) -> String {
     let peak = |name: &str, peak: &Peak| {
         let Peak { value, x, y, z, material, .. } = *peak;
-        let [value, x, y, z] = [value, x, y, z].map(number);
+        let value = finite(value, None);
+        let [x, y, z] = [x, y, z].map(number);
         format!("{name} {value} in material {material} at ({x}, {y}, {z})")
     };
     format!("{}; {}", peak("largest τ₁", &stress.max_tau1), peak("largest tension", &stress.max_tension))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_rounds_to_zero_has_no_sign_and_what_is_infinite_no_number() {
+        assert_eq!([-1e-9, 0.0, -0.00006, 0.5].map(percent), ["0.00 %", "0.00 %", "-0.01 %", "50.00 %"]);
+        assert_eq!([None, Some(0.5)].map(|x| finite(x, None)), ["singular", "0.50000"]);
+    }
 }

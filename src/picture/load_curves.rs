@@ -81,8 +81,8 @@ impl Run<'_> {
     fn peak_pressure(&self) -> Chart {
         let label = self.units.pressure("peak pressure", "p");
         let curves = match self.levels {
-            0 => vec![self.curve("", 1, |step| step.max_pressure)],
-            _ => self.by_level(|level| Some(level.max_pressure)),
+            0 => vec![self.curve("", 1, |step| step.max_pressure.unwrap_or(f64::NAN))],
+            _ => self.by_level(|level| level.max_pressure),
         };
         self.chart("peak pressure", self.axis(label), curves)
     }
@@ -133,8 +133,16 @@ impl Run<'_> {
         let tau1 = self.units.pressure("largest principal shear stress", "τ₁");
         let tension = self.units.pressure("largest tension", "σ₁");
         vec![
-            self.chart("principal shear stress", self.axis(tau1), curves(&|extremes| extremes.max_tau1.value)),
-            self.chart("tension", Axis::linear(tension), curves(&|extremes| extremes.max_tension.value)),
+            self.chart(
+                "principal shear stress",
+                self.axis(tau1),
+                curves(&|extremes| extremes.max_tau1.value.unwrap_or(f64::NAN)),
+            ),
+            self.chart(
+                "tension",
+                Axis::linear(tension),
+                curves(&|extremes| extremes.max_tension.value.unwrap_or(f64::NAN)),
+            ),
         ]
     }
 }

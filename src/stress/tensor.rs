@@ -33,6 +33,11 @@ impl State {
         [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz, ux, uy, uz]
     }
 
+    /// Normal stress along a direction on the surface, of any length.
+    pub fn along(&self, [dx, dy]: [f64; 2]) -> f64 {
+        (dx * dx * self.xx + 2.0 * dx * dy * self.xy + dy * dy * self.yy) / (dx * dx + dy * dy)
+    }
+
     /// Principal stresses σ₁ ≥ σ₂ ≥ σ₃.
     ///
     /// Eigenvalues of the deviator by the trigonometric solution of its characteristic equation

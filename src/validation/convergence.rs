@@ -2,8 +2,8 @@
 //!
 //! The pressure ends like a square root at the edge of a disc; its transform falls as q⁻² there, and so do the errors of
 //! sums over a grid: second order is what loads, pressures, penetrations and stresses inside can have. The radius has it
-//! by the interpolation on both sides of the edge. At the edge itself the surface stresses converge as N^−1.2
-//! ([`crate::stress::surface_error`]).
+//! by the interpolation on both sides of the edge. The largest tension on the surface stands at the edge itself; it
+//! is read without the square root ([`crate::stress::Crest`]) and converges like N^−1.2.
 //!
 //! A paraboloid with a/l = 0.1 on the hexagonal lattice: what the series of its images leaves out is of the order
 //! (a/l)⁷, below every error measured here. Each error is the worst of several places of the site on the grid, so that
