@@ -1,5 +1,6 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
+use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
 use super::solve::refuse_beyond_full_contact;
 use super::{Common, Failure, Outcome, read_case};
@@ -8,7 +9,7 @@ use percoat::case::GridSection;
 use percoat::comparison::{Comparison, Task};
 use percoat::localized::{CircleRadius, Setup, Stop};
 use percoat::number::number;
-use percoat::output::{CompareFile, clear_picture, make_folder, table, write_text};
+use percoat::output::{CompareFile, Plan, RunFolder, Writer, table, write_text};
 use percoat::picture;
 use percoat::refinement::sufficient_points;
 use percoat::stress::MeanStress;
@@ -30,6 +31,9 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let controls = case.load.controls();
     let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
     refuse_beyond_full_contact(&case, &[control])?;
+    interruption::watch();
+    let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
+    let claim = RunFolder::claim(&folder, &Plan { writer: Writer::Compare, names, case: None })?;
     let localized = &case.localized;
     let setup = Setup {
         indenters: localized.indenters.iter().copied().max().unwrap_or(1),
@@ -66,14 +70,16 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     progress.finish_and_clear();
     let comparison = comparison.map_err(refused)?;
 
-    make_folder(&folder)?;
     let file =
         CompareFile::new(&comparison, &case.title, &case, controls.len(), setup.radius, setup.mutual_effect).to_json();
-    write_text(&folder.join("compare.json"), &file)?;
-    clear_picture(&folder, "comparison")?;
-    pictures.write(&folder, "comparison", || {
+    write_text(&claim.staging().join("compare.json"), &file)?;
+    pictures.write(&claim.staging(), "comparison", || {
         picture::comparison(&case.title, case.surface(), case.half_space(), &comparison, setup.radius)
     })?;
+    let mut saved = interruption::hold();
+    claim.publish()?;
+    *saved = Saved::Result(folder.clone());
+    drop(saved);
     if !common.quiet {
         let mut out = std::io::stdout().lock();
         if !case.title.is_empty() {

@@ -3,6 +3,7 @@
 mod cases;
 mod check;
 mod compare;
+mod interruption;
 mod kernel;
 mod pictures;
 mod solve;
@@ -11,7 +12,7 @@ mod validate;
 
 use clap::{Args, Parser, Subcommand};
 use percoat::case::{Case, CaseError, Source, embedded};
-use percoat::output::OutputError;
+use percoat::output::{FolderError, OutputError};
 use pictures::PictureOptions;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -114,6 +115,15 @@ enum Failure {
     Print(#[from] std::io::Error),
 }
 
+impl From<FolderError> for Failure {
+    fn from(error: FolderError) -> Self {
+        match error {
+            FolderError::Output(error) => Self::Output(error),
+            refused => Self::Refused(refused.to_string()),
+        }
+    }
+}
+
 /// How a command that did its work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
@@ -124,7 +134,8 @@ enum Outcome {
     NotConverged,
 }
 
-/// Runs the command; the exit codes are 0 done, 1 a validation failed, 2 refused, 3 not converged, 4 input or output failed.
+/// Runs the command; the exit codes are 0 done, 1 a validation failed, 2 refused, 3 not converged, 4 input or output
+/// failed, 130 interrupted.
 pub fn run(arguments: &Arguments) -> ExitCode {
     let common = &arguments.common;
     if let Some(threads) = common.threads
@@ -152,6 +163,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
                 Failure::Case(_) => eprintln!("{failure}"),
                 _ => eprintln!("error: {failure}"),
             }
+            interruption::tell_saved();
             ExitCode::from(match failure {
                 Failure::Case(_) | Failure::Refused(_) => 2,
                 Failure::Input { .. } | Failure::Output(_) | Failure::Print(_) => 4,

@@ -35,6 +35,19 @@ impl PictureOptions {
         !self.no_pictures
     }
 
+    /// Names of the files of pictures.
+    pub fn files(&self, names: &[&str]) -> Vec<String> {
+        let file = |format: Format| move |name: &&str| format!("{name}.{}", format.extension());
+        self.formats().into_iter().flat_map(|format| names.iter().map(file(format))).collect()
+    }
+
+    /// The formats asked for; none without pictures.
+    fn formats(&self) -> Vec<Format> {
+        let formats = [(PictureFormat::Png, Format::Png), (PictureFormat::Svg, Format::Svg)];
+        let asked = formats.into_iter().filter(|(typed, _)| self.wanted() && self.pictures.contains(typed));
+        asked.map(|(_, format)| format).collect()
+    }
+
     /// Draws what a solved step shows, a cut through its stresses if there is one, and the steps before it.
     pub fn draw(&self, folder: &Path, last: &Snapshot, cut: Option<&Cut>, steps: &[Step]) -> Result<(), Failure> {
         if !self.wanted() {
@@ -62,11 +75,8 @@ impl PictureOptions {
     /// Writes one picture in every format asked for, if there is one and pictures are wanted.
     pub fn write(&self, folder: &Path, name: &str, draw: impl FnOnce() -> Option<Canvas>) -> Result<(), Failure> {
         let Some(canvas) = self.wanted().then(draw).flatten() else { return Ok(()) };
-        let asked = |wanted: PictureFormat| self.pictures.contains(&wanted);
-        for (wanted, format) in [(PictureFormat::Png, Format::Png), (PictureFormat::Svg, Format::Svg)] {
-            if asked(wanted) {
-                write_picture(folder, name, format, &canvas.file(format))?;
-            }
+        for format in self.formats() {
+            write_picture(folder, name, format, &canvas.file(format))?;
         }
         Ok(())
     }

@@ -1,5 +1,6 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
+use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
 use super::stress::{largest, stress_change, wanted};
 use super::{Common, Failure, Outcome, read_case};
@@ -10,7 +11,7 @@ use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
 use percoat::observables::{Observables, errors, observe};
 use percoat::output::summary::{Step, Summary, curve};
-use percoat::output::{Fields, Section, Stresses, clear, make_folder, table, write_text};
+use percoat::output::{Fields, Plan, RunFolder, Section, Stresses, Writer, table, write_text};
 use percoat::picture::{Cut, Snapshot};
 use percoat::refinement::{self, FIRST_POINTS, Refinement, balanced_points, change};
 use percoat::solver::Control;
@@ -28,16 +29,23 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let (case, name) = read_case(case, common)?;
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
-    let run = Run { case: &case, controls: case.load.controls(), folder, pictures, common };
-    refuse_beyond_full_contact(run.case, &run.controls)?;
+    let controls = case.load.controls();
+    refuse_beyond_full_contact(&case, &controls)?;
+    interruption::watch();
+    let claim = RunFolder::claim(&folder, &plan(&case, controls.len(), pictures))?;
+    if let (Some(aside), false) = (claim.set_aside(), common.quiet) {
+        eprintln!("note: an earlier run was interrupted; the steps it had finished are now in {}", aside.display());
+    }
+    let run = Run { case: &case, controls, staging: claim.staging(), claim, pictures, common };
     let result = match case.grid {
         GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
     };
     let warnings = run.warnings(&result);
     run.record(&result.steps, true, &warnings, result.accuracy)?;
+    run.publish(&folder)?;
     if !common.quiet {
-        run.print(&result, started)?;
+        print(&case, &result, &folder, started)?;
         for warning in &warnings {
             eprintln!("warning: {warning}");
         }
@@ -46,10 +54,33 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     Ok(if converged { Outcome::Done } else { Outcome::NotConverged })
 }
 
+/// What a run of the case may write.
+fn plan(case: &Case, steps: usize, pictures: &PictureOptions) -> Plan {
+    let mut names = ["case.toml", "contact.npz", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
+    let mut drawn = vec!["pressure", "contact", "profiles"];
+    if let Some(stress) = &case.stress {
+        names.push("stress.npz".to_owned());
+        if stress.volume.is_some() {
+            names.extend((1..=steps).map(|step| format!("stress.{step:04}.vts")));
+        }
+        if stress.section.is_some() {
+            drawn.extend(["section", "lines"]);
+        }
+    }
+    if steps > 1 {
+        drawn.push("curve");
+    }
+    names.extend(pictures.files(&drawn));
+    Plan { writer: Writer::Solve, names, case: Some(case.to_toml()) }
+}
+
 struct Run<'a> {
     case: &'a Case,
     controls: Vec<Control>,
-    folder: PathBuf,
+    /// The output folder, this run's until it is published.
+    claim: RunFolder,
+    /// Where the result is gathered.
+    staging: PathBuf,
     pictures: &'a PictureOptions,
     common: &'a Common,
 }
@@ -94,7 +125,7 @@ impl Run<'_> {
             let snapshot = Snapshot::new(&self.case.title, surface, half_space, &hierarchy, &solution, observables);
             let cut = cut.map(|(Section { line, depths }, states, highest)| Cut { line, depths, states, highest });
             let spinner = self.spinner("drawing pictures");
-            self.pictures.draw(&self.folder, &snapshot, cut.as_ref(), &solved.steps)?;
+            self.pictures.draw(&self.staging, &snapshot, cut.as_ref(), &solved.steps)?;
             spinner.finish_and_clear();
         }
         Ok(solved)
@@ -130,10 +161,10 @@ impl Run<'_> {
         if self.common.verbose {
             eprintln!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
         }
-        make_folder(&self.folder)?;
-        clear(&self.folder)?;
-        write_text(&self.folder.join("case.toml"), &self.case.to_toml())?;
-        let mut fields = Fields::new(&self.folder)?;
+        self.claim.begin_finer()?;
+        write_text(&self.staging.join("case.toml"), &self.case.to_toml())?;
+        let mut fields = Fields::new(&self.staging)?;
+        interruption::steps(0, self.controls.len(), &self.staging);
         let mut stresses = None;
         let mut last = None;
         let progress = self.progress();
@@ -159,13 +190,14 @@ impl Run<'_> {
                 }
                 let stresses = match &mut stresses {
                     Some(stresses) => stresses,
-                    None => stresses.insert(Stresses::new(&self.folder, wanted(self.case, section, &field))?),
+                    None => stresses.insert(Stresses::new(&self.staging, wanted(self.case, section, &field))?),
                 };
                 stresses.add(&field)?;
             }
             solved.steps.push(step);
             solved.observables.push(observables);
             self.record(&solved.steps, false, &[], None)?;
+            interruption::steps(solved.steps.len(), self.controls.len(), &self.staging);
             last = Some(solution);
             progress.inc(1);
         }
@@ -208,8 +240,16 @@ impl Run<'_> {
             accuracy,
             steps,
         };
-        write_text(&self.folder.join("summary.json"), &summary.to_json())?;
-        write_text(&self.folder.join("curve.csv"), &curve(steps))?;
+        write_text(&self.staging.join("summary.json"), &summary.to_json())?;
+        write_text(&self.staging.join("curve.csv"), &curve(steps))?;
+        Ok(())
+    }
+
+    /// The result takes the place of the one before.
+    fn publish(self, folder: &Path) -> Result<(), Failure> {
+        let mut saved = interruption::hold();
+        self.claim.publish()?;
+        *saved = Saved::Result(folder.to_owned());
         Ok(())
     }
 
@@ -249,38 +289,38 @@ impl Run<'_> {
         }
         warnings
     }
+}
 
-    fn print(&self, solved: &Solved, started: Instant) -> Result<(), Failure> {
-        let mut out = std::io::stdout().lock();
-        if !self.case.title.is_empty() {
-            writeln!(out, "{}", self.case.title)?;
-        }
-        writeln!(out, "\n{}\n", table::steps(&solved.steps))?;
-        let steps = &solved.steps;
-        let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
-        let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
-        // Unlike f64::max this keeps what is not a number.
-        let gap = steps.iter().map(|step| step.certificate.energy_gap).fold(0.0, |a, b| if b <= a { a } else { b });
-        let done = steps.iter().filter(|step| step.converged).count();
-        writeln!(
-            out,
-            "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy within {gap:.0e} of its minimum",
-            steps.len()
-        )?;
-        for (number, stress) in (1..).zip(steps).filter_map(|(n, step): (usize, _)| Some((n, step.stress.as_ref()?))) {
-            if steps.len() <= table::DETAILED {
-                writeln!(out, "step {number}: {}", table::stress(stress))?;
-            }
-        }
-        if let Some(errors) = table::largest_errors(steps) {
-            writeln!(out, "{errors}")?;
-        }
-        if let Some(accuracy) = solved.accuracy {
-            writeln!(out, "change from the next coarser grid: {accuracy:.1e}")?;
-        }
-        writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), self.folder.display())?;
-        Ok(())
+fn print(case: &Case, solved: &Solved, folder: &Path, started: Instant) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    if !case.title.is_empty() {
+        writeln!(out, "{}", case.title)?;
     }
+    writeln!(out, "\n{}\n", table::steps(&solved.steps))?;
+    let steps = &solved.steps;
+    let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
+    let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
+    // Unlike f64::max this keeps what is not a number.
+    let gap = steps.iter().map(|step| step.certificate.energy_gap).fold(0.0, |a, b| if b <= a { a } else { b });
+    let done = steps.iter().filter(|step| step.converged).count();
+    writeln!(
+        out,
+        "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy within {gap:.0e} of its minimum",
+        steps.len()
+    )?;
+    for (number, stress) in (1..).zip(steps).filter_map(|(n, step): (usize, _)| Some((n, step.stress.as_ref()?))) {
+        if steps.len() <= table::DETAILED {
+            writeln!(out, "step {number}: {}", table::stress(stress))?;
+        }
+    }
+    if let Some(errors) = table::largest_errors(steps) {
+        writeln!(out, "{errors}")?;
+    }
+    if let Some(accuracy) = solved.accuracy {
+        writeln!(out, "change from the next coarser grid: {accuracy:.1e}")?;
+    }
+    writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
+    Ok(())
 }
 
 /// No load reaches a penetration at which contact is complete: refused before anything is written.

@@ -11,10 +11,10 @@ use std::path::Path;
 pub struct Fields(StepArrays);
 
 impl Fields {
-    /// No steps yet; `folder` is the output folder.
+    /// No steps yet; `folder` is where the result is gathered.
     ///
     /// # Errors
-    /// [`OutputError`] when the folder cannot be made or cleared.
+    /// [`OutputError`] when there are fields already, or no room for them.
     pub fn new(folder: &Path) -> Result<Self, OutputError> {
         Ok(Self(StepArrays::new(folder, "contact")?))
     }

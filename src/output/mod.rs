@@ -1,12 +1,32 @@
-//! The output folder: what a run leaves behind.
+//! The output folder: what a run leaves behind, and how it comes to be there.
 //!
-//! Every file is written under a temporary name and renamed when it is complete. `summary.json` and `curve.csv` are
-//! renewed after each load step and the fields of a step stand as `.npy` files in `contact.partial/` until
-//! `contact.npz` is made of them, so that what a long run has finished survives its end.
+//! # The life of a folder
+//!
+//! Nothing a user owns is destroyed. A run replaces only files that percoat itself wrote there as a finished result and
+//! that nobody has changed since, and only when the new result is complete.
+//!
+//! 1. **Claim** ([`RunFolder::claim`]), before anything is solved. A name of the [`Plan`] that belongs to somebody else
+//!    is refused; so is a folder in which another run is writing, which a lock on `.percoat/lock` tells: the system
+//!    takes it away however a process ends.
+//! 2. **Gather** ([`RunFolder::staging`]). `solve` writes into `unfinished/`, every file under a temporary name that is
+//!    changed when it is complete. `summary.json` and `curve.csv` are renewed after each load step; the fields of a step
+//!    stand as `.npy` files in `contact.partial/` and `stress.partial/` until `contact.npz` and `stress.npz` are made of
+//!    them. Where a finer grid follows, the steps of the coarser one stand in `coarser/`. The result of an earlier run
+//!    stays as it is all the while.
+//! 3. **Publish** ([`RunFolder::publish`]). A list of the files with their checksums beside them decides; then each takes
+//!    its place, those of the result before that have no successor go, the list becomes `.percoat/written.json`, and
+//!    `unfinished/` goes in one move. At every moment the old result or the whole new one stands in one place.
+//!
+//! A run that is killed leaves `unfinished/` with all steps it has finished. The next run into the folder completes a
+//! publication that was decided; otherwise it moves the folder to `interrupted-1/` or the next free number. `compare`
+//! gathers in `.percoat/compare/` and replaces its own two files alone: both commands may share a folder.
 
 mod comparison;
 mod fields;
+mod folder;
+mod manifest;
 mod npz;
+mod publication;
 mod steps;
 mod stress;
 pub mod summary;
@@ -15,6 +35,8 @@ mod volume;
 
 pub use comparison::CompareFile;
 pub use fields::Fields;
+pub use folder::{FolderError, Plan, RunFolder};
+pub use manifest::Writer;
 pub use steps::StepArrays;
 pub use stress::{Section, Stresses, Volume, Wanted};
 pub use volume::write_volume;
@@ -43,55 +65,6 @@ impl OutputError {
 /// [`OutputError`] with the path that cannot be made.
 pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(folder).map_err(|error| OutputError::new(folder, error))
-}
-
-/// What a run writes into its folder.
-const FILES: [&str; 5] = ["summary.json", "curve.csv", "case.toml", "contact.npz", "stress.npz"];
-
-/// What a run draws, as PNG or SVG files.
-const PICTURES: [&str; 6] = ["pressure", "contact", "profiles", "section", "lines", "curve"];
-
-/// Removes the picture `name` that an earlier run left in `folder`, in every format.
-///
-/// # Errors
-/// [`OutputError`] with the path that cannot be removed.
-pub fn clear_picture(folder: &Path, name: &str) -> Result<(), OutputError> {
-    for format in ["png", "svg"] {
-        let path = folder.join(format!("{name}.{format}"));
-        if path.is_file() {
-            fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;
-        }
-    }
-    Ok(())
-}
-
-/// Removes what an earlier run left in `folder` and this one has not made yet: its files, and what waits or is
-/// temporary if it was killed.
-///
-/// # Errors
-/// [`OutputError`] with the path that cannot be read or removed.
-pub fn clear(folder: &Path) -> Result<(), OutputError> {
-    let entries = fs::read_dir(folder).map_err(|error| OutputError::new(folder, error))?;
-    for entry in entries {
-        let path = entry.map_err(|error| OutputError::new(folder, error))?.path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let volume = name.starts_with("stress.") && name.ends_with(".vts");
-        let pictures =
-            || PICTURES.iter().flat_map(|picture| ["png", "svg"].map(|format| format!("{picture}.{format}")));
-        let picture = pictures().any(|file| name == file);
-        let files = FILES.iter().map(|&file| file.to_owned()).chain(pictures());
-        let temporary = name.ends_with(".tmp")
-            && (name.starts_with(".stress.") || files.into_iter().any(|file| name.starts_with(&format!(".{file}."))));
-        if name == "contact.partial" || name == "stress.partial" {
-            fs::remove_dir_all(&path).map_err(|error| OutputError::new(&path, error))?;
-            continue;
-        }
-        // The case may be the one that is running.
-        if temporary || volume || picture || (name != "case.toml" && FILES.contains(&&*name)) {
-            fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;
-        }
-    }
-    Ok(())
 }
 
 /// Writes a file under a temporary name in its folder, then renames it: it is there whole or not at all.

@@ -1,11 +1,29 @@
 //! NumPy archives: uncompressed zip files of `.npy` arrays.
 
 use npyz::{AutoSerialize, WriterBuilder};
-use std::io::{self, Seek, Write};
+use std::cell::RefCell;
+use std::io::{self, Seek, SeekFrom, Write};
+use std::rc::Rc;
 use zip::write::SimpleFileOptions;
 
 /// An `.npz` archive that is being written.
-pub struct Archive<W: Write + Seek>(zip::ZipWriter<W>);
+pub struct Archive<W: Write + Seek> {
+    zip: zip::ZipWriter<Calm<W>>,
+    failure: Failure,
+}
+
+/// What the system said when a write failed.
+type Failure = Rc<RefCell<Option<io::Error>>>;
+
+/// A file that takes everything in silence once it has failed: zip ends an archive even when it is given up, and would
+/// print what it thinks of it.
+struct Calm<W> {
+    file: W,
+    position: u64,
+    end: u64,
+    failed: bool,
+    failure: Failure,
+}
 
 impl<W: Write + Seek> std::fmt::Debug for Archive<W> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -16,7 +34,9 @@ impl<W: Write + Seek> std::fmt::Debug for Archive<W> {
 impl<W: Write + Seek> Archive<W> {
     /// An empty archive.
     pub fn new(writer: W) -> Self {
-        Self(zip::ZipWriter::new(writer))
+        let failure = Failure::default();
+        let file = Calm { file: writer, position: 0, end: 0, failed: false, failure: Rc::clone(&failure) };
+        Self { zip: zip::ZipWriter::new(file), failure }
     }
 
     /// Adds an array of the given shape, its values in C order.
@@ -28,13 +48,55 @@ impl<W: Write + Seek> Archive<W> {
     ) -> io::Result<()> {
         // Arrays may pass 4 GiB.
         let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored).large_file(true);
-        self.0.start_file(format!("{name}.npy"), options)?;
-        npy(&mut self.0, shape, values)
+        self.zip.start_file(format!("{name}.npy"), options)?;
+        npy(&mut self.zip, shape, values)?;
+        self.failure.take().map_or(Ok(()), Err)
     }
 
     /// Ends the archive.
     pub fn finish(self) -> io::Result<()> {
-        self.0.finish()?.flush()
+        self.zip.finish()?.flush()?;
+        self.failure.take().map_or(Ok(()), Err)
+    }
+}
+
+impl<W> Calm<W> {
+    /// What the file gives, or what it would if it had not failed.
+    fn ask<T>(&mut self, file: impl FnOnce(&mut W) -> io::Result<T>, otherwise: T) -> T {
+        if self.failed {
+            return otherwise;
+        }
+        file(&mut self.file).unwrap_or_else(|error| {
+            self.failed = true;
+            self.failure.replace(Some(error));
+            otherwise
+        })
+    }
+}
+
+impl<W: Write> Write for Calm<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.ask(|file| file.write_all(bytes), ());
+        self.position += bytes.len() as u64;
+        self.end = self.end.max(self.position);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.ask(W::flush, ());
+        Ok(())
+    }
+}
+
+impl<W: Seek> Seek for Calm<W> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let otherwise = match to {
+            SeekFrom::Start(position) => Some(position),
+            SeekFrom::Current(by) => self.position.checked_add_signed(by),
+            SeekFrom::End(by) => self.end.checked_add_signed(by),
+        };
+        self.position = self.ask(|file| file.seek(to), otherwise.ok_or(io::ErrorKind::InvalidInput)?);
+        Ok(self.position)
     }
 }
 
@@ -48,4 +110,52 @@ pub fn npy<T: AutoSerialize>(
     let mut array = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(writer).begin_nd()?;
     array.extend(values)?;
     array.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A disk with room for so many bytes.
+    struct Disk(io::Cursor<Vec<u8>>, u64);
+
+    impl Write for Disk {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let room = self.1.saturating_sub(self.0.position()) as usize;
+            if room == 0 {
+                Err(io::ErrorKind::StorageFull.into())
+            } else {
+                self.0.write(&bytes[..room.min(bytes.len())])
+            }
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Seek for Disk {
+        fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+            self.0.seek(to)
+        }
+    }
+
+    fn archive(disk: &mut Disk) -> io::Result<()> {
+        let mut archive = Archive::new(disk);
+        archive.array("a", &[3], [1.0, 2.0, 3.0])?;
+        archive.array("b", &[2], [1.0, 2.0])?;
+        archive.finish()
+    }
+
+    #[test]
+    fn a_disk_that_is_full_at_any_byte_is_told_as_the_system_tells_it() {
+        let mut whole = Disk(io::Cursor::default(), u64::MAX);
+        archive(&mut whole).unwrap();
+        let bytes = whole.0.get_ref().len() as u64;
+        for room in 0..bytes {
+            let error = archive(&mut Disk(io::Cursor::default(), room)).unwrap_err();
+            assert_eq!(error.kind(), io::ErrorKind::StorageFull, "room for {room} of {bytes} bytes: {error}");
+        }
+        archive(&mut Disk(io::Cursor::default(), bytes)).unwrap();
+    }
 }

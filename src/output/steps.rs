@@ -28,17 +28,15 @@ struct Entry {
 }
 
 impl StepArrays {
-    /// Nothing yet of the archive `<name>.npz` in the output `folder`. What an earlier run left unfinished is removed.
+    /// Nothing yet of the archive `<name>.npz` in `folder`, where the result is gathered.
     ///
     /// # Errors
-    /// [`OutputError`] when the folder cannot be made or cleared.
+    /// [`OutputError`] when `<name>.partial/` is there already, whoever made it, or cannot be made.
     pub fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
         let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps: 0 };
         let partial = arrays.partial();
-        if partial.exists() {
-            fs::remove_dir_all(&partial).map_err(|error| OutputError::new(&partial, error))?;
-        }
-        make_folder(&partial)?;
+        make_folder(folder)?;
+        fs::create_dir(&partial).map_err(|error| OutputError::new(&partial, error))?;
         Ok(arrays)
     }
 

@@ -52,10 +52,10 @@ pub struct Stresses {
 }
 
 impl Stresses {
-    /// No steps yet; `folder` is the output folder.
+    /// No steps yet; `folder` is where the result is gathered.
     ///
     /// # Errors
-    /// [`OutputError`] when the folder cannot be made or cleared.
+    /// [`OutputError`] when there are stresses already, or no room for them.
     pub fn new(folder: &Path, wanted: Wanted) -> Result<Self, OutputError> {
         let arrays = StepArrays::new(folder, "stress")?;
         Ok(Self { folder: folder.to_owned(), arrays, wanted, section: Vec::new(), highest: None })

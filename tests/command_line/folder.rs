@@ -240,3 +240,122 @@ fn the_case_as_run_runs_again_to_the_same_numbers() {
         assert!(first.bytes(name) == again.bytes(name), "{name} differs");
     }
 }
+
+/// A case of the user's own with a comment, in the folder `name`.
+fn own_case(desk: &Desk, name: &str) -> String {
+    let text = format!("# Measured on Monday.\n{}", desk.percoat(&["cases", "fig2"]).out);
+    std::fs::create_dir(desk.path(name)).unwrap();
+    desk.write(&format!("{name}/case.toml"), &text);
+    text
+}
+
+const SMALL: [&str; 3] = ["--no-pictures", "--set", "grid.points=48"];
+
+fn solve_into(desk: &Desk, name: &str, arguments: &[&str]) -> crate::program::Answer {
+    desk.percoat(&[&["solve", "-o", name], arguments, &SMALL[..]].concat())
+}
+
+#[test]
+fn a_users_own_case_is_not_rewritten_and_nothing_is_written_beside_it() {
+    let desk = Desk::new();
+    let text = own_case(&desk, "mine");
+    solve_into(&desk, "mine", &["mine/case.toml"]).complains(2, &["mine/case.toml", "not listed", "-o", "move it"]);
+    let mine = Folder(desk.path("mine"));
+    assert_eq!((mine.text("case.toml"), mine.all_names()), (text, ["case.toml".to_owned()].into()));
+}
+
+#[test]
+fn a_users_case_that_is_the_one_to_be_written_stays_theirs() {
+    let desk = Desk::new();
+    let text = desk.solve("run", &SMALL).text("case.toml");
+    std::fs::create_dir(desk.path("mine")).unwrap();
+    desk.write("mine/case.toml", &text);
+    assert_eq!(solve_into(&desk, "mine", &["mine/case.toml"]).code, 0);
+    assert_finished(&Folder(desk.path("mine")));
+    solve_into(&desk, "mine", &["--set", "load.mean_pressure=0.01"]).complains(2, &["mine/case.toml"]);
+    assert_eq!(Folder(desk.path("mine")).text("case.toml"), text);
+}
+
+#[test]
+fn a_users_picture_is_in_the_way_only_of_a_run_that_draws_one_of_that_name() {
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("mine")).unwrap();
+    desk.write("mine/section.png", "an electron micrograph");
+    let mine = Folder(desk.path("mine"));
+    let with_section = ["solve", "-o", "mine", "fig6b", "--set", "grid.points=48"];
+    desk.percoat(&with_section).complains(2, &["mine/section.png"]);
+    assert_eq!(mine.all_names(), ["section.png".to_owned()].into());
+    assert_eq!(solve_into(&desk, "mine", &["fig6b"]).code, 0);
+    assert_eq!(mine.text("section.png"), "an electron micrograph");
+    assert!(mine.names().contains("stress.npz"));
+}
+
+#[test]
+fn files_and_folders_of_a_user_that_a_run_does_not_write_stay_whatever_they_are_called() {
+    let desk = Desk::new();
+    std::fs::create_dir_all(desk.path("mine/contact.partial")).unwrap();
+    let names =
+        ["mine/stress.0007.vts", "mine/contact.partial/notes.txt", "mine/.summary.json.4711.tmp", "mine/curve.svg"];
+    names.iter().for_each(|name| desk.write(name, "mine"));
+    for _ in 0..2 {
+        assert_eq!(solve_into(&desk, "mine", &[]).code, 0);
+        let texts = names.map(|name| std::fs::read_to_string(desk.path(name)).unwrap());
+        assert_eq!(texts, names.map(|_| "mine".to_owned()));
+    }
+}
+
+#[test]
+fn files_of_the_run_before_that_the_next_one_does_not_have_go() {
+    let desk = Desk::new();
+    let stress = ["fig6b", "--set", "load.mean_pressure=[0.001, 0.002]", "--set"];
+    let volume = "stress.volume={ depth = 1.0, points = 8, rows = 8 }";
+    assert_eq!(solve_into(&desk, "run", &[&stress[..], &[volume]].concat()).code, 0);
+    let run = Folder(desk.path("run"));
+    assert!(["stress.npz", "stress.0001.vts", "stress.0002.vts"].iter().all(|&name| run.names().contains(name)));
+    desk.write("run/stress.0003.vts", "mine");
+    assert_eq!(solve_into(&desk, "run", &[]).code, 0);
+    let left: BTreeSet<String> = FILES.iter().copied().chain(["stress.0003.vts"]).map(str::to_owned).collect();
+    assert_eq!(run.names(), left);
+    let kept = Folder(desk.path("run/.percoat")).all_names();
+    assert_eq!(kept, ["lock", "written.json"].map(str::to_owned).into());
+}
+
+#[test]
+fn a_result_that_was_edited_or_is_not_listed_is_not_replaced() {
+    let desk = Desk::new();
+    let run = desk.solve("run", &SMALL);
+    let curve = run.text("curve.csv");
+    desk.write("run/curve.csv", format!("{curve}# compare with Monday\n"));
+    let before = run.files();
+    solve_into(&desk, "run", &[]).complains(2, &["run/curve.csv", "changed since"]);
+    assert!(run.files() == before && !run.names().contains("unfinished"));
+    desk.write("run/curve.csv", &curve);
+    assert_eq!(solve_into(&desk, "run", &[]).code, 0);
+    // As versions that kept no list left it.
+    std::fs::remove_dir_all(desk.path("run/.percoat")).unwrap();
+    solve_into(&desk, "run", &[]).complains(2, &["run/case.toml", "not listed"]);
+    assert!(run.files() == before.into_iter().chain([("curve.csv".to_owned(), curve.into_bytes())]).collect());
+}
+
+#[test]
+fn solve_and_compare_share_a_folder_and_replace_their_own_files_alone() {
+    let desk = Desk::new();
+    let compare = || {
+        let small = ["--set", "localized.elements=8", "--set", "localized.indenters=[7]"];
+        let answer = desk.percoat(&[&["compare", "-o", "run"], &SMALL[..], &small].concat());
+        assert_eq!(answer.code, 0, "{}", answer.err);
+    };
+    let run = desk.solve("run", &SMALL);
+    let solved = run.files();
+    compare();
+    let mut both = run.files();
+    assert!(solved.iter().all(|(name, content)| both[name] == *content));
+    assert_eq!(solve_into(&desk, "run", &["--set", "load.mean_pressure=0.01"]).code, 0);
+    assert!(run.bytes("compare.json") == both["compare.json"] && run.bytes("curve.csv") != both["curve.csv"]);
+    both = run.files();
+    compare();
+    assert!(run.files() == both);
+    desk.write("run/compare.json", "mine");
+    desk.percoat(&[&["compare", "-o", "run"], &SMALL[..]].concat()).complains(2, &["compare.json"]);
+    assert_eq!(run.text("compare.json"), "mine");
+}

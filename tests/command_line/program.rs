@@ -2,7 +2,7 @@
 
 use crate::archive::Archive;
 use serde_json::Value;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -68,8 +68,20 @@ impl Answer {
 }
 
 impl Folder {
+    /// Names of what stands in it, but for what percoat keeps for itself.
     pub fn names(&self) -> BTreeSet<String> {
+        names(&self.0).into_iter().filter(|name| name != ".percoat").collect()
+    }
+
+    /// Names of all that stands in it.
+    pub fn all_names(&self) -> BTreeSet<String> {
         names(&self.0)
+    }
+
+    /// The files in it, but not below it, with their content.
+    pub fn files(&self) -> BTreeMap<String, Vec<u8>> {
+        let files = self.names().into_iter().filter(|name| self.0.join(name).is_file());
+        files.map(|name| (name.clone(), self.bytes(&name))).collect()
     }
 
     pub fn text(&self, name: &str) -> String {

@@ -49,3 +49,18 @@ fn another_verdict_or_row_than_expected_fails() {
     let (code, complaint) = expect(report.replace(row, &format!("{row}\n{}", row.replace("inside", "outside"))));
     assert!(code == 1 && complaint.contains("points outside: missing"), "{complaint}");
 }
+
+#[test]
+fn reports_and_studies_of_somebody_else_are_not_written_over() {
+    let desk = Desk::new();
+    for name in ["report/kernel/REPORT.md", "study/kernel/figure.png", "page/paper/README.md"] {
+        let path = desk.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, "# My own\n").unwrap();
+        let folder = name.split('/').next().unwrap();
+        let study = if folder == "page" { "paper/table1" } else { "kernel" };
+        desk.percoat(&["validate", study, "-o", folder]).complains(2, &[name.rsplit_once('/').unwrap().0, "-o"]);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "# My own\n");
+        assert_eq!(Folder(path.parent().unwrap().to_owned()).all_names().len(), 1);
+    }
+}

@@ -1,0 +1,248 @@
+//! An output folder that a run has for itself, see the [module's head](super) for its life.
+
+use super::manifest::{Manifest, Standing, Writer};
+use super::publication::Publication;
+use super::{OutputError, make_folder, write_text};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// What percoat keeps for itself in an output folder.
+const OWN: &str = ".percoat";
+/// Marks a folder as one in which a run of percoat gathers its result.
+const MARK: &str = ".percoat";
+/// Where the coarser grid's steps stand while a finer one is solved.
+const COARSER: &str = "coarser";
+
+/// Why a folder cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// What the run would replace is not percoat's.
+    #[error("{} {reason}, and this run would replace it: choose another folder with -o, or move it away", path.display())]
+    Foreign {
+        /// The file or folder.
+        path: PathBuf,
+        /// Whose it is.
+        reason: &'static str,
+    },
+    /// Another run has the folder.
+    #[error("another run ({owner}) is writing into {}: wait for it, or choose another folder with -o", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// Which run.
+        owner: String,
+    },
+    /// It cannot be read or written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// What a run is going to write.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// Who writes.
+    pub writer: Writer,
+    /// Every name that may come, in the folder itself.
+    pub names: Vec<String>,
+    /// Content of `case.toml`, if it is among them: the same file there already is no obstacle, and stays its owner's.
+    pub case: Option<String>,
+}
+
+/// An output folder of this run alone, until it is dropped or the process ends in whatever way.
+#[derive(Debug)]
+pub struct RunFolder {
+    folder: PathBuf,
+    writer: Writer,
+    set_aside: Option<PathBuf>,
+    _lock: File,
+}
+
+/// Where percoat keeps something for itself in an output folder.
+pub(super) fn own(folder: &Path, name: &str) -> PathBuf {
+    folder.join(OWN).join(name)
+}
+
+/// Where a writer gathers its result.
+pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
+    match writer {
+        Writer::Solve => folder.join("unfinished"),
+        // Here nothing stands that is worth a look before all of it is there.
+        Writer::Compare => own(folder, "compare"),
+    }
+}
+
+impl RunFolder {
+    /// Makes the folder if need be, has it for this run and begins an empty result beside what stands there. What an
+    /// earlier run was killed over is put in order first: a result that was being published is, finished steps of an
+    /// unfinished one are [set aside](Self::set_aside).
+    ///
+    /// # Errors
+    /// [`FolderError`]; nothing in the folder has been replaced or removed.
+    pub fn claim(folder: &Path, plan: &Plan) -> Result<Self, FolderError> {
+        if !folder.join(OWN).is_dir() {
+            refuse_foreign(folder, &Manifest::empty(), plan)?;
+        }
+        make_folder(&folder.join(OWN))?;
+        let lock = lock(folder)?;
+        for writer in [Writer::Solve, Writer::Compare] {
+            Publication::new(folder, writer).complete()?;
+        }
+        let mut claimed = Self { folder: folder.to_owned(), writer: plan.writer, set_aside: None, _lock: lock };
+        refuse_foreign(folder, &Manifest::read(&own(folder, "written.json")), plan)?;
+        claimed.set_aside = claimed.clear_staging()?;
+        claimed.make_staging()?;
+        Ok(claimed)
+    }
+
+    /// Where the result is gathered: every file of it is written here.
+    pub fn staging(&self) -> PathBuf {
+        staging(&self.folder, self.writer)
+    }
+
+    /// Where the finished steps of an earlier run that was killed are now.
+    pub fn set_aside(&self) -> Option<&Path> {
+        self.set_aside.as_deref()
+    }
+
+    /// Where the steps of a coarser grid stand, if there are any, in the place where a result is gathered.
+    pub fn coarser(staging: &Path) -> Option<PathBuf> {
+        Some(staging.join(COARSER)).filter(|path| path.is_dir())
+    }
+
+    /// Begins again on a finer grid. The steps of the coarser one stand in `coarser/` until the result is published.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path that cannot be moved.
+    pub fn begin_finer(&self) -> Result<(), OutputError> {
+        let staging = self.staging();
+        if !staging.join("summary.json").is_file() {
+            return Ok(());
+        }
+        let coarser = staging.join(COARSER);
+        remove_folder(&coarser)?;
+        make_folder(&coarser)?;
+        for name in names(&staging)?.iter().filter(|name| !name.starts_with('.') && *name != COARSER) {
+            let path = staging.join(name);
+            fs::rename(&path, coarser.join(name)).map_err(|error| OutputError::new(&path, error))?;
+        }
+        Ok(())
+    }
+
+    /// Puts the result in the place of the one before, and ends the run's hold of the folder.
+    ///
+    /// # Errors
+    /// [`OutputError`], also when something that is not percoat's has come into the way since the folder was claimed;
+    /// the result then stays where it was gathered.
+    pub fn publish(self) -> Result<(), OutputError> {
+        let publication = Publication::new(&self.folder, self.writer);
+        publication.decide().and_then(|()| publication.complete()).map_err(|error| match error {
+            FolderError::Output(error) => error,
+            FolderError::Foreign { path, reason } => OutputError::new(&path, io::Error::other(reason)),
+            FolderError::Busy { folder, owner } => OutputError::new(&folder, io::Error::other(owner)),
+        })
+    }
+
+    /// Moves what an earlier run of this writer left unfinished to `interrupted-1/` or the next free number; removes it
+    /// where no step was finished.
+    fn clear_staging(&self) -> Result<Option<PathBuf>, OutputError> {
+        let staging = self.staging();
+        if !staging.exists() {
+            return Ok(None);
+        }
+        let worthless = |name: &String| {
+            name.starts_with('.') || ["case.toml", "contact.partial", "stress.partial"].contains(&name.as_str())
+        };
+        if self.writer == Writer::Compare || names(&staging)?.iter().all(worthless) {
+            return remove_folder(&staging).map(|()| None);
+        }
+        let free = |number: usize| {
+            let path = self.folder.join(format!("interrupted-{number}"));
+            fs::symlink_metadata(&path).is_err().then_some(path)
+        };
+        let aside = (1..).find_map(free);
+        if let Some(aside) = &aside {
+            fs::rename(&staging, aside).map_err(|error| OutputError::new(aside, error))?;
+        }
+        Ok(aside)
+    }
+
+    /// An empty place for the result, marked as percoat's from the moment it is there.
+    fn make_staging(&self) -> Result<(), OutputError> {
+        let new = own(&self.folder, "new");
+        remove_folder(&new)?;
+        make_folder(&new)?;
+        let version = env!("CARGO_PKG_VERSION");
+        write_text(&new.join(MARK), &format!("A run of percoat {version} that is not finished.\n"))?;
+        let staging = self.staging();
+        fs::rename(&new, &staging).map_err(|error| OutputError::new(&staging, error))
+    }
+}
+
+/// Refuses what the plan, or the removal of the writer's earlier files, would take from its owner.
+fn refuse_foreign(folder: &Path, manifest: &Manifest, plan: &Plan) -> Result<(), FolderError> {
+    let earlier = manifest.names(plan.writer).filter(|name| !plan.names.iter().any(|planned| planned == name));
+    for name in plan.names.iter().map(String::as_str).chain(earlier) {
+        let path = folder.join(name);
+        let standing = manifest.standing(folder, name).map_err(|error| OutputError::new(&path, error))?;
+        let same = || name == "case.toml" && plan.case.is_some() && fs::read_to_string(&path).ok() == plan.case;
+        if let Some(reason) = foreign(standing).filter(|_| !same()) {
+            return Err(FolderError::Foreign { path, reason });
+        }
+    }
+    let staging = staging(folder, plan.writer);
+    if staging.exists() && !staging.join(MARK).is_file() {
+        return Err(FolderError::Foreign { path: staging, reason: "is not of percoat" });
+    }
+    Ok(())
+}
+
+/// Why a name is not percoat's, if it is somebody else's.
+pub(super) fn foreign(standing: Standing) -> Option<&'static str> {
+    match standing {
+        Standing::Absent | Standing::Written => None,
+        Standing::Changed => Some("was changed since percoat wrote it"),
+        Standing::Foreign => Some("is not listed there as a result of percoat"),
+    }
+}
+
+/// Has the folder for this process as long as the file is open; the system ends that however the process ends.
+fn lock(folder: &Path) -> Result<File, FolderError> {
+    let path = own(folder, "lock");
+    let failed = |error| OutputError::new(&path, error);
+    let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => {
+            let owner = fs::read_to_string(&path).unwrap_or_default().trim().to_owned();
+            return Err(FolderError::Busy { folder: folder.to_owned(), owner });
+        }
+        // Some network file systems have no locks; their users are on their own.
+        Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {}
+        Err(TryLockError::Error(error)) => return Err(failed(error).into()),
+    }
+    let written = file.set_len(0).and_then(|()| writeln!(file, "process {}", std::process::id()));
+    written.map_err(failed)?;
+    Ok(file)
+}
+
+/// Removes a folder of percoat's own if it is there.
+pub(super) fn remove_folder(path: &Path) -> Result<(), OutputError> {
+    match fs::remove_dir_all(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::new(path, error)),
+        _ => Ok(()),
+    }
+}
+
+/// Names of what is in a folder, sorted.
+pub(super) fn names(folder: &Path) -> Result<Vec<String>, OutputError> {
+    let names = || -> io::Result<Vec<String>> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            names.push(entry?.file_name().to_string_lossy().into_owned());
+        }
+        names.sort();
+        Ok(names)
+    };
+    names().map_err(|error| OutputError::new(folder, error))
+}

@@ -1,0 +1,195 @@
+//! What percoat wrote into an output folder as finished results: `.percoat/written.json`.
+//!
+//! A file is percoat's as long as its length and checksum are those listed. Everything else is its owner's: a file that
+//! is not listed, one that was changed since, and a folder or a link in its place.
+
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// A command that leaves a result in an output folder. Each replaces its own files alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Writer {
+    /// `percoat solve`.
+    Solve,
+    /// `percoat compare`.
+    Compare,
+}
+
+/// The list of files, by name.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Manifest {
+    percoat: String,
+    files: BTreeMap<String, Written>,
+}
+
+/// A file as it was written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Written {
+    by: Writer,
+    bytes: u64,
+    checksum: String,
+}
+
+/// Whose a name in the folder is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Standing {
+    /// Nobody's: there is nothing of that name.
+    Absent,
+    /// As percoat wrote it.
+    Written,
+    /// Written by percoat and changed since.
+    Changed,
+    /// Not written by percoat as a finished result.
+    Foreign,
+}
+
+impl Manifest {
+    /// A list without files.
+    pub fn empty() -> Self {
+        Self { percoat: env!("CARGO_PKG_VERSION").to_owned(), files: BTreeMap::new() }
+    }
+
+    /// The list at `path`; an empty one where there is none that can be read, so that in doubt no file is percoat's.
+    pub fn read(path: &Path) -> Self {
+        let list = fs::read_to_string(path).ok().and_then(|text| serde_json::from_str::<Self>(&text).ok());
+        let mut list = list.unwrap_or_else(Self::empty);
+        // Nothing outside the folder, whoever wrote the list.
+        list.files.retain(|name, _| Path::new(name).file_name().is_some_and(|plain| plain == name.as_str()));
+        list
+    }
+
+    /// As indented JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// The files of all other writers.
+    pub fn without(&self, writer: Writer) -> Self {
+        let mut others = Self::empty();
+        others
+            .files
+            .extend(self.files.iter().filter(|(_, file)| file.by != writer).map(|(n, f)| (n.clone(), f.clone())));
+        others
+    }
+
+    /// Adds a file.
+    pub fn add(&mut self, name: &str, file: Written) {
+        self.files.insert(name.to_owned(), file);
+    }
+
+    /// Names of a writer's files, sorted.
+    pub fn names(&self, writer: Writer) -> impl Iterator<Item = &str> {
+        self.files.iter().filter(move |(_, file)| file.by == writer).map(|(name, _)| name.as_str())
+    }
+
+    /// Whose the name is in `folder`.
+    pub fn standing(&self, folder: &Path, name: &str) -> io::Result<Standing> {
+        let path = folder.join(name);
+        let found = match fs::symlink_metadata(&path) {
+            Ok(found) => found,
+            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
+                return Ok(Standing::Absent);
+            }
+            Err(error) => return Err(error),
+        };
+        let Some(listed) = self.files.get(name) else { return Ok(Standing::Foreign) };
+        let same = found.is_file() && found.len() == listed.bytes && Written::of(&path, listed.by)? == *listed;
+        Ok(if same { Standing::Written } else { Standing::Changed })
+    }
+}
+
+impl Written {
+    /// The file at `path` as it is now.
+    pub fn of(path: &Path, by: Writer) -> io::Result<Self> {
+        let (bytes, checksum) = checksum(&mut File::open(path)?)?;
+        Ok(Self { by, bytes, checksum: format!("{checksum:016x}") })
+    }
+}
+
+/// Length and checksum: FNV-1a over words of eight bytes, the upper half of each product folded down. Enough to notice
+/// a change, and as fast as the disk.
+fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
+    let (mut length, mut hash) = (0, 0xcbf2_9ce4_8422_2325_u64);
+    let mut buffer = [0; 1 << 16];
+    loop {
+        let mut filled = 0;
+        while filled < buffer.len() {
+            match file.read(&mut buffer[filled..])? {
+                0 => break,
+                more => filled += more,
+            }
+        }
+        for chunk in buffer[..filled].chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            hash = (hash ^ u64::from_le_bytes(word)).wrapping_mul(0x100_0000_01b3);
+            hash ^= hash >> 32;
+        }
+        length += filled as u64;
+        if filled < buffer.len() {
+            return Ok((length, hash));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_bit_of_a_file_and_its_length_count() {
+        let content: Vec<u8> = (0..100_000u32).flat_map(|n| n.wrapping_mul(2_654_435_761).to_le_bytes()).collect();
+        let of = |content: &[u8]| checksum(&mut &content[..]).unwrap();
+        let whole = of(&content);
+        assert_eq!(whole.0, content.len() as u64);
+        for bit in [0, 63, 64 * 7 + 63, 8 * content.len() - 1] {
+            let mut other = content.clone();
+            other[bit / 8] ^= 1 << (bit % 8);
+            assert_ne!(of(&other), whole, "bit {bit}");
+            // The sign of a second number does not undo the first.
+            other[bit / 8 ^ 8] ^= 1 << (bit % 8);
+            assert_ne!(of(&other), whole, "bits {bit}");
+        }
+        assert_ne!(of(b"a"), of(b"a\0"));
+    }
+
+    #[test]
+    fn only_what_is_listed_and_unchanged_is_percoats() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let mut manifest = Manifest::empty();
+        for name in ["kept", "changed", "replaced", "gone"] {
+            fs::write(path(name), "content").unwrap();
+            manifest.add(name, Written::of(&path(name), Writer::Solve).unwrap());
+        }
+        fs::write(path("changed"), "CONTENT").unwrap();
+        fs::remove_file(path("replaced")).unwrap();
+        fs::create_dir(path("replaced")).unwrap();
+        fs::remove_file(path("gone")).unwrap();
+        fs::write(path("mine"), "content").unwrap();
+        let standing = |name: &str| manifest.standing(folder.path(), name).unwrap();
+        let found = ["kept", "changed", "replaced", "gone", "mine"].map(standing);
+        use Standing::{Absent, Changed, Foreign, Written as AsWritten};
+        assert_eq!(found, [AsWritten, Changed, Changed, Absent, Foreign]);
+    }
+
+    #[test]
+    fn a_list_survives_json_and_a_broken_or_reaching_one_owns_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("written.json");
+        fs::write(&file, "content").unwrap();
+        let mut manifest = Manifest::empty();
+        for name in ["a", "../b", "/c", "d/e", ".."] {
+            manifest.add(name, Written::of(&file, Writer::Compare).unwrap());
+        }
+        fs::write(&file, manifest.to_json()).unwrap();
+        assert_eq!(Manifest::read(&file).names(Writer::Compare).collect::<Vec<_>>(), ["a"]);
+        assert_eq!(Manifest::read(&file).names(Writer::Solve).count(), 0);
+        fs::write(&file, &manifest.to_json()[..40]).unwrap();
+        assert_eq!(Manifest::read(&file).names(Writer::Compare).count(), 0);
+    }
+}

@@ -1,0 +1,269 @@
+//! A complete result takes the place of the one before, file by file, so that a kill at any moment loses neither.
+//!
+//! [`decide`](Publication::decide) puts the list of the new result beside it; from then on the next run completes what
+//! this one does not. A file gets a second name in the output folder and keeps the one where it was gathered: until all
+//! are in place and listed the whole new result stands there, and then that folder goes in one move.
+
+use super::folder::{FolderError, foreign, names, own, remove_folder, staging};
+use super::manifest::{Manifest, Standing, Writer, Written};
+use super::{OutputError, write_text};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The list of a result that is to be published, beside its files.
+const DECIDED: &str = ".publish.json";
+
+/// The result a writer has gathered in an output folder.
+#[derive(Debug)]
+pub(super) struct Publication<'a> {
+    folder: &'a Path,
+    writer: Writer,
+    staging: PathBuf,
+}
+
+/// One change that happens at once or not at all.
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Action {
+    /// A file of the new result takes its place.
+    Place(String),
+    /// A file of the result before, which the new one does not have, goes.
+    Remove(String),
+    /// The new list replaces the one before.
+    List,
+    /// The folder in which the result was gathered goes.
+    Retire,
+}
+
+impl<'a> Publication<'a> {
+    /// Of a writer in an output folder, decided or not.
+    pub fn new(folder: &'a Path, writer: Writer) -> Self {
+        Self { folder, writer, staging: staging(folder, writer) }
+    }
+
+    fn list(&self) -> PathBuf {
+        own(self.folder, "written.json")
+    }
+
+    /// Lists the gathered files as the new result.
+    ///
+    /// # Errors
+    /// [`FolderError`]; then nothing is decided.
+    pub fn decide(&self) -> Result<(), FolderError> {
+        let old = Manifest::read(&self.list());
+        let mut new = old.without(self.writer);
+        for name in names(&self.staging)?.iter().filter(|name| !name.starts_with('.')) {
+            let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
+            if !gathered.is_file() {
+                continue;
+            }
+            let file = Written::of(&gathered, self.writer).map_err(|error| OutputError::new(&gathered, error))?;
+            match foreign(self.standing(&old, name)?) {
+                None => new.add(name, file),
+                // The same file stays its owner's.
+                Some(_) if Written::of(&path, self.writer).is_ok_and(|there| there == file) => {}
+                Some(reason) => return Err(FolderError::Foreign { path, reason }),
+            }
+        }
+        Ok(write_text(&self.staging.join(DECIDED), &new.to_json())?)
+    }
+
+    /// Does what is left of a decided publication, and sweeps up after a retired one.
+    ///
+    /// # Errors
+    /// [`FolderError`]; the next call goes on from there.
+    pub fn complete(&self) -> Result<(), FolderError> {
+        for action in self.actions()? {
+            self.act(&action)?;
+        }
+        Ok(remove_folder(&self.retired())?)
+    }
+
+    fn retired(&self) -> PathBuf {
+        own(self.folder, "retired")
+    }
+
+    fn standing(&self, manifest: &Manifest, name: &str) -> Result<Standing, OutputError> {
+        let found = manifest.standing(self.folder, name);
+        found.map_err(|error| OutputError::new(&self.folder.join(name), error))
+    }
+
+    /// What is left to do, in order: `summary.json` is the last name, and so the last file to come.
+    fn actions(&self) -> Result<Vec<Action>, FolderError> {
+        let decided = self.staging.join(DECIDED);
+        if !decided.is_file() {
+            return Ok(Vec::new());
+        }
+        let [old, new] = [self.list(), decided].map(|path| Manifest::read(&path));
+        let mut actions = Vec::new();
+        for name in new.names(self.writer) {
+            if self.standing(&new, name)? == Standing::Written || !self.staging.join(name).is_file() {
+                continue;
+            }
+            if let Some(reason) = foreign(self.standing(&old, name)?) {
+                return Err(FolderError::Foreign { path: self.folder.join(name), reason });
+            }
+            actions.push(Action::Place(name.to_owned()));
+        }
+        let kept: Vec<&str> = new.names(self.writer).collect();
+        for name in old.names(self.writer).filter(|name| !kept.contains(name)) {
+            // What its owner has changed in the meantime stays.
+            if self.standing(&old, name)? == Standing::Written {
+                actions.push(Action::Remove(name.to_owned()));
+            }
+        }
+        actions.extend([Action::List, Action::Retire]);
+        Ok(actions)
+    }
+
+    fn act(&self, action: &Action) -> Result<(), OutputError> {
+        match action {
+            Action::Place(name) => {
+                let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
+                let second = own(self.folder, "placing");
+                let place = || {
+                    if second.exists() {
+                        fs::remove_file(&second)?;
+                    }
+                    // Where a file cannot have two names it leaves the other place.
+                    match fs::hard_link(&gathered, &second) {
+                        Ok(()) => fs::rename(&second, &path),
+                        Err(_) => fs::rename(&gathered, &path),
+                    }
+                };
+                place().map_err(|error| OutputError::new(&path, error))
+            }
+            Action::Remove(name) => {
+                let path = self.folder.join(name);
+                fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))
+            }
+            Action::List => write_text(&self.list(), &Manifest::read(&self.staging.join(DECIDED)).to_json()),
+            Action::Retire => {
+                let retired = self.retired();
+                remove_folder(&retired)?;
+                fs::rename(&self.staging, &retired).map_err(|error| OutputError::new(&self.staging, error))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Plan, RunFolder};
+    use super::*;
+    use std::collections::BTreeMap;
+
+    const PLAN: [&str; 4] = ["case.toml", "curve.csv", "stress.npz", "summary.json"];
+
+    fn claim(folder: &Path) -> Result<RunFolder, FolderError> {
+        let names = PLAN.map(str::to_owned).to_vec();
+        RunFolder::claim(folder, &Plan { writer: Writer::Solve, names, case: None })
+    }
+
+    /// A run that has gathered some of the files, each with its content.
+    fn gathered(folder: &Path, names: &[&str], content: &str) -> RunFolder {
+        let run = claim(folder).unwrap();
+        for name in names {
+            fs::write(run.staging().join(name), format!("{name}: {content}")).unwrap();
+        }
+        run
+    }
+
+    /// Files in a folder but not below it, with their content.
+    fn files(folder: &Path) -> BTreeMap<String, String> {
+        let names = names(folder).unwrap_or_default().into_iter().filter(|name| !name.starts_with('.'));
+        names.filter_map(|name| Some((name.clone(), fs::read_to_string(folder.join(name)).ok()?))).collect()
+    }
+
+    #[test]
+    fn killed_between_any_two_changes_the_old_or_the_new_result_is_whole_and_the_next_run_ends_it() {
+        let old = ["case.toml", "stress.npz", "summary.json"];
+        let new = ["case.toml", "curve.csv", "summary.json"];
+        let result = |names: &[&str], content: &str| -> BTreeMap<String, String> {
+            names.iter().map(|&name| (name.to_owned(), format!("{name}: {content}"))).collect()
+        };
+        let mut moments = 0;
+        for moment in 0.. {
+            let folder = tempfile::tempdir().unwrap();
+            let folder = folder.path();
+            gathered(folder, &old, "old").publish().unwrap();
+            let run = gathered(folder, &new, "new");
+            let publication = Publication::new(folder, Writer::Solve);
+            publication.decide().unwrap();
+            let actions = publication.actions().unwrap();
+            for action in actions.iter().take(moment) {
+                publication.act(action).unwrap();
+            }
+            drop(run);
+            let whole = [files(folder), files(&folder.join("unfinished"))];
+            assert!(whole.contains(&result(&new, "new")), "killed at {moment}: {whole:?}");
+            assert!(moment > 0 || whole[0] == result(&old, "old"));
+
+            let next = claim(folder).unwrap();
+            assert_eq!(files(folder), result(&new, "new"), "killed at {moment}");
+            assert_eq!((next.set_aside(), files(&next.staging()).len()), (None, 0));
+            next.publish().unwrap();
+            assert!(files(folder).is_empty(), "a run without files removes those of the one before");
+            moments = moment;
+            if moment == actions.len() {
+                break;
+            }
+        }
+        // Three files to place, one to remove, the list and the folder.
+        assert_eq!(moments, 6);
+    }
+
+    #[test]
+    fn what_comes_into_the_way_during_a_run_stays_and_the_result_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        gathered(folder, &["case.toml", "stress.npz"], "old").publish().unwrap();
+        let run = gathered(folder, &["case.toml", "summary.json"], "new");
+        fs::write(folder.join("case.toml"), "mine").unwrap();
+        let error = run.publish().unwrap_err().to_string();
+        assert!(error.contains("case.toml") && error.contains("changed"), "{error}");
+        assert_eq!(files(folder)["case.toml"], "mine");
+        assert_eq!(files(folder)["stress.npz"], "stress.npz: old");
+        assert_eq!(files(&folder.join("unfinished")).len(), 2);
+
+        // The next run is refused too, and takes nothing.
+        assert!(matches!(claim(folder), Err(FolderError::Foreign { .. })));
+        assert_eq!(files(&folder.join("unfinished")).len(), 2);
+        fs::remove_file(folder.join("case.toml")).unwrap();
+        let next = claim(folder).unwrap();
+        assert_eq!(files(next.set_aside().unwrap()).len(), 2);
+    }
+
+    #[test]
+    fn two_runs_do_not_share_a_folder_and_a_dropped_one_lets_it_go() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = claim(folder.path()).unwrap();
+        let Err(error @ FolderError::Busy { .. }) = claim(folder.path()) else { panic!("both have it") };
+        assert!(error.to_string().contains(&std::process::id().to_string()), "{error}");
+        drop(run);
+        claim(folder.path()).unwrap();
+    }
+
+    #[test]
+    fn a_folder_called_unfinished_that_percoat_did_not_make_is_not_touched() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("unfinished")).unwrap();
+        fs::write(folder.path().join("unfinished/thesis.tex"), "mine").unwrap();
+        assert!(matches!(claim(folder.path()), Err(FolderError::Foreign { .. })));
+        assert_eq!(names(folder.path()).unwrap(), ["unfinished"]);
+    }
+
+    #[test]
+    fn a_finer_grid_keeps_the_coarser_steps_until_it_is_published() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = gathered(folder.path(), &["case.toml", "summary.json"], "coarse");
+        run.begin_finer().unwrap();
+        assert_eq!(files(&run.staging().join("coarser")).len(), 2);
+        fs::write(run.staging().join("summary.json"), "fine").unwrap();
+        run.begin_finer().unwrap();
+        assert_eq!(files(&run.staging().join("coarser"))["summary.json"], "fine");
+        fs::write(run.staging().join("summary.json"), "finest").unwrap();
+        run.publish().unwrap();
+        assert_eq!(files(folder.path()), BTreeMap::from([("summary.json".to_owned(), "finest".to_owned())]));
+        assert_eq!(names(folder.path()).unwrap(), [".percoat", "summary.json"]);
+    }
+}
