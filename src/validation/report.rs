@@ -10,8 +10,7 @@ use crate::output::table;
 use std::collections::BTreeMap;
 
 /// Columns of a row; Markdown leaves out the first one.
-const COLUMNS: [&str; 8] =
-    ["study", "quantity", "value", "reference", "error", "tolerance", "evidence", "verdict"];
+const COLUMNS: [&str; 8] = ["study", "quantity", "value", "reference", "error", "tolerance", "evidence", "verdict"];
 
 /// The studies that were run, with what they found.
 #[derive(Debug, Default)]
