@@ -1,9 +1,10 @@
 //! Orders of convergence with the number of points N, against a closed form.
 //!
 //! The pressure ends like a square root at the edge of a disc; its transform falls as q⁻² there, and so do the errors of
-//! sums over a grid: second order is what loads, pressures, penetrations and stresses inside can have. The radius has it
-//! by the interpolation on both sides of the edge. The largest tension on the surface stands at the edge itself; it
-//! is read without the square root ([`crate::stress::Crest`]) and converges like N^−1.2.
+//! sums over a grid: stresses inside are of second order, and the radius by the interpolation on both sides of the edge.
+//! Peak pressure and penetration feel the errors of the whole edge together, whose sign changes with where the edge
+//! cuts the samples: of O(N) of them O(√N) is left, and the order is 2.5. The largest tension on the surface stands at
+//! the edge itself; it is read without the square root ([`crate::stress::Crest`]).
 //!
 //! A paraboloid with a/l = 0.1 on the hexagonal lattice: what the series of its images leaves out is of the order
 //! (a/l)⁷, below every error measured here. Each error is the worst of several places of the site on the grid, so that
@@ -33,13 +34,13 @@ const SHIFTS: [[f64; 2]; 6] = [[0.0, 0.0], [0.37, 0.21], [0.5, 0.5], [0.13, 0.77
 /// Where stresses are compared inside: on the axis, z/a.
 const DEPTH: f64 = 0.5;
 
-/// What is measured: name, expected order and how far the fit may fall short, largest error at N = 512.
+/// What is measured: name, order to be seen and how far the fit may be from it, largest error at N = 512.
 const QUANTITIES: [(&str, f64, f64, f64); 5] = [
-    ("peak pressure", 2.0, 0.3, 2e-5),
+    ("peak pressure", 2.5, 0.3, 2e-5),
     ("contact radius", 2.0, 0.4, 2e-4),
-    ("penetration", 2.0, 0.3, 2e-5),
+    ("penetration", 2.5, 0.3, 2e-5),
     ("stress on the axis", 2.0, 0.3, 5e-5),
-    ("surface tension", 1.2, 0.3, 3e-2),
+    ("surface tension", 1.5, 0.3, 3e-2),
 ];
 
 fn run() -> Result<Outcome, StudyError> {
@@ -66,7 +67,7 @@ fn run() -> Result<Outcome, StudyError> {
             slack,
         ));
         let last = errors.last().copied().unwrap_or(f64::NAN);
-        checks.push(Check::at_most(format!("{name}: relative error at N = 512"), last, finest));
+        checks.push(Check::absolute(format!("{name}: relative error at N = 512"), last, 0.0, finest));
     }
     Ok(Outcome { checks, figures: vec![("figure", figure(&data))], data: vec![data], ..Outcome::default() })
 }

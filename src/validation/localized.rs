@@ -166,12 +166,14 @@ fn checks(name: &str, compared: &Comparison, shares: Pairs, data: &Data) -> Resu
             format!("{name}: load shares less the spectral ones, point forces"),
             shares,
             Tolerance::Absolute(1e-4),
-        ),
+        )
+        .of_refinement(),
         Check::worst(
             format!("{name}: penetration over the spectral one less 1, point forces"),
             penetrations,
             Tolerance::Absolute(1e-3),
-        ),
+        )
+        .of_refinement(),
         below("load shares, 301 indenters", near.load_share, 1e-3),
         below("load shares, 439 indenters", far.load_share, 3e-4),
         below("peak pressure, 439 indenters", far.max_pressure, 1e-3),

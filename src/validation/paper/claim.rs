@@ -2,8 +2,9 @@
 //!
 //! A statement is judged by [`Test`]s: of the model as printed first, then of other readings (a misprint, another
 //! meaning of a word). It holds as printed if all printed tests hold; else under the first reading whose tests hold;
-//! else it does not hold. Whether each test holds is also **found** once and for all: a run that finds otherwise fails
-//! its check, so that no verdict changes in silence.
+//! else it does not hold. Its numbers are **pinned** where they were found, to the error of the mesh and not across the
+//! bound of the test: a run that finds otherwise fails its check, so that no verdict changes in silence. A number that
+//! is compared with an independent solution anyway, or that follows from the printed parameters alone, needs no pin.
 
 use crate::validation::Check;
 
@@ -32,24 +33,30 @@ pub struct Test {
     pub value: f64,
     /// What it must be.
     pub rule: Rule,
-    /// Whether it was found to be so.
-    pub found: bool,
+    /// Where it was found, and the error of the mesh in it.
+    pin: Option<[f64; 2]>,
 }
 
 impl Test {
-    /// `what` must be greater than `bound`; `found`: whether it is.
-    pub fn above(what: impl Into<String>, value: f64, bound: f64, found: bool) -> Self {
-        Self { what: what.into(), value, rule: Rule::Above(bound), found }
+    /// `what` must be greater than `bound`.
+    pub fn above(what: impl Into<String>, value: f64, bound: f64) -> Self {
+        Self { what: what.into(), value, rule: Rule::Above(bound), pin: None }
     }
 
-    /// `what` must be less than `bound`; `found`: whether it is.
-    pub fn below(what: impl Into<String>, value: f64, bound: f64, found: bool) -> Self {
-        Self { what: what.into(), value, rule: Rule::Below(bound), found }
+    /// `what` must be less than `bound`.
+    pub fn below(what: impl Into<String>, value: f64, bound: f64) -> Self {
+        Self { what: what.into(), value, rule: Rule::Below(bound), pin: None }
     }
 
-    /// `what` must be the printed number, one unit of whose last digit is `unit`; `found`: whether it is.
-    pub fn printed(what: impl Into<String>, value: f64, printed: f64, unit: f64, found: bool) -> Self {
-        Self { what: what.into(), value, rule: Rule::Printed { value: printed, unit }, found }
+    /// `what` must be the printed number, one unit of whose last digit is `unit`.
+    pub fn printed(what: impl Into<String>, value: f64, printed: f64, unit: f64) -> Self {
+        Self { what: what.into(), value, rule: Rule::Printed { value: printed, unit }, pin: None }
+    }
+
+    /// The number was `found`, on a mesh that errs by `error`, both in its unit.
+    #[must_use]
+    pub fn pinned(self, found: f64, error: f64) -> Self {
+        Self { pin: Some([found, error]), ..self }
     }
 
     /// Whether the number is what the statement makes of it.
@@ -61,20 +68,15 @@ impl Test {
         }
     }
 
-    /// The check that the number is on the side where it was found.
-    fn check(&self, label: &str) -> Check {
-        let quantity = |what: &str| format!("{label}: {}{what}", self.what);
-        match (self.rule, self.found) {
-            (Rule::Above(bound), true) | (Rule::Below(bound), false) => {
-                Check::at_least(quantity(""), self.value, bound)
-            }
-            (Rule::Above(bound), false) | (Rule::Below(bound), true) => Check::at_most(quantity(""), self.value, bound),
-            (Rule::Printed { value, unit }, true) => Check::absolute(quantity(""), self.value, value, 0.5 * unit),
-            (Rule::Printed { value, unit }, false) => {
-                let off = (self.value - value).abs();
-                Check::at_least(quantity(&format!(", distance from the printed {value}")), off, 0.5 * unit)
-            }
-        }
+    /// The check that a pinned number is where it was found, and on that side of its bound.
+    fn check(&self, label: &str) -> Option<Check> {
+        let [found, error] = self.pin?;
+        let to_bound = match self.rule {
+            Rule::Above(bound) | Rule::Below(bound) => (found - bound).abs(),
+            Rule::Printed { value, unit } => ((found - value).abs() - 0.5 * unit).abs(),
+        };
+        let quantity = format!("{label}: {}", self.what);
+        Some(Check::absolute(quantity, self.value, found, error.min(to_bound)).as_finding())
     }
 }
 
@@ -146,12 +148,12 @@ impl Claim {
         }
     }
 
-    /// One check a test.
+    /// One check a pinned number.
     pub fn checks(&self) -> Vec<Check> {
-        let printed = self.printed.iter().map(|test| test.check(self.label));
+        let printed = self.printed.iter().filter_map(|test| test.check(self.label));
         let readings = self.readings.iter().chain(&self.explanation).flat_map(|(name, tests)| {
             let label = format!("{} ({name})", self.label);
-            tests.iter().map(move |test| test.check(&label))
+            tests.iter().filter_map(move |test| test.check(&label))
         });
         printed.chain(readings).collect()
     }
@@ -179,6 +181,12 @@ impl Claim {
     }
 }
 
+/// Tests with the numbers `found` and the `errors` of the mesh in them.
+pub fn pinned<const N: usize>(tests: [Test; N], found: [f64; N], errors: [f64; N]) -> Vec<Test> {
+    let pins = found.into_iter().zip(errors);
+    tests.into_iter().zip(pins).map(|(test, (found, error))| test.pinned(found, error)).collect()
+}
+
 /// A number with three significant digits, a true minus sign, an exponent only where a reader needs one; what is left
 /// of zero after rounding is zero.
 fn digits(x: f64) -> String {
@@ -195,29 +203,37 @@ mod tests {
     use super::*;
 
     fn claim(value: f64) -> Claim {
-        Claim::new("§3", "it rises", "rise", vec![Test::above("rise", value, 0.0, true)])
-            .or("it falls", vec![Test::below("rise", value, 0.0, false)])
+        Claim::new("§3", "it rises", "rise", vec![Test::above("rise", value, 0.0).pinned(1.0, 0.2)])
+            .or("it falls", vec![Test::below("rise", value, 0.0)])
     }
 
     #[test]
     fn the_verdict_follows_the_numbers_and_the_checks_what_was_found() {
         assert_eq!(claim(1.0).verdict(), Verdict::AsPrinted);
-        assert!(claim(1.0).checks().iter().all(Check::holds));
+        assert!(claim(1.1).checks().iter().all(Check::holds));
+        assert_eq!(claim(1.5).verdict(), Verdict::AsPrinted);
+        assert!(claim(1.5).checks().iter().all(|check| !check.holds()), "a pin holds on both sides");
         assert_eq!(claim(-1.0).verdict(), Verdict::Otherwise("it falls"));
         assert!(claim(-1.0).checks().iter().all(|check| !check.holds()));
         assert_eq!(claim(f64::NAN).verdict(), Verdict::Fails);
-        let explained = claim(0.0).explained_by("nothing", vec![Test::below("rise", 0.0, 1.0, true)]);
-        assert_eq!(explained.verdict(), Verdict::Explained("nothing"));
-        assert_eq!(explained.checks().len(), 3);
         assert!(claim(f64::NAN).checks().iter().all(|check| !check.holds()));
+        let explained = claim(0.0).explained_by("nothing", vec![Test::below("rise", 0.0, 1.0).pinned(0.0, 0.1)]);
+        assert_eq!(explained.verdict(), Verdict::Explained("nothing"));
+        assert_eq!(explained.checks().len(), 2, "only what is pinned is a check");
+    }
+
+    #[test]
+    fn a_pin_does_not_reach_across_the_bound_of_its_test() {
+        let near = |value| Test::above("rise", value, 0.0).pinned(0.1, 0.5).check("x").unwrap();
+        assert!(near(0.01).holds() && !near(-0.01).holds());
+        let outside = |value| Test::printed("p", value, 0.07, 0.01).pinned(0.08, 0.02).check("x").unwrap();
+        assert!(outside(0.076).holds() && !outside(0.0749).holds());
     }
 
     #[test]
     fn a_printed_number_counts_to_half_its_last_digit() {
-        let test = |value, found| Test::printed("p", value, 0.07, 0.01, found);
-        assert!(test(0.0651, true).holds() && !test(0.0649, true).holds());
-        assert!(test(0.0651, true).check("x").holds() && !test(0.0651, false).check("x").holds());
-        assert!(test(0.09, false).check("x").holds() && !test(0.09, true).check("x").holds());
+        let test = |value| Test::printed("p", value, 0.07, 0.01);
+        assert!(test(0.0651).holds() && !test(0.0649).holds());
     }
 
     #[test]

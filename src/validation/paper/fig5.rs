@@ -1,7 +1,7 @@
 //! Fig. 5: contact radius, largest pressure and largest principal shear stress of the first level against load.
 
 use super::model::Model;
-use super::{Claim, Test};
+use super::{CHANGE, Claim, Test, pinned};
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::Control;
 use crate::stress::{Field, MeanStress};
@@ -62,11 +62,8 @@ fn run() -> Result<Outcome, StudyError> {
         (three.peak[last], finer.levels[0].max_pressure),
         (three.radius[last], finer.levels[0].contact_radius.unwrap_or(f64::NAN)),
     ];
-    outcome.checks.push(Check::worst(
-        "peak and radius at p̄′ = 0.1, N = 192 against 384",
-        mesh,
-        Tolerance::Relative(2e-3),
-    ));
+    let name = "peak and radius at p̄′ = 0.1, N = 192 against 384";
+    outcome.checks.push(Check::worst(name, mesh, Tolerance::Relative(2e-3)).of_refinement());
     outcome.judge(claims(&loads, &three, &one));
     outcome.figures = vec![("figure", picture(&loads, &three, &one))];
     let mut curves = Data::new("curves", &["mean_pressure", "radius_three", "radius_one", "peak_three", "peak_one"]);
@@ -94,41 +91,52 @@ fn claims(loads: &[f64], three: &Course, one: &Course) -> [Claim; 4] {
             "§3, Fig. 5",
             "the radius of contact spot and maximal contact pressure increases with increasing the nominal pressure",
             "increase",
-            vec![
-                Test::above("least rise of a from load to load, relative", least_rise(&three.radius), 0.0, true),
-                Test::above("of p₁", least_rise(&three.peak), 0.0, true),
-            ],
+            pinned(
+                [
+                    Test::above("least rise of a from load to load, relative", least_rise(&three.radius), 0.0),
+                    Test::above("of p₁", least_rise(&three.peak), 0.0),
+                ],
+                [0.0094, 0.0164],
+                // A radius is good to 1e-3.
+                [2e-3, CHANGE],
+            ),
         ),
         Claim::new(
             "§3, Fig. 5",
             "No difference exists between the curves 1 and 2 for small values of average pressure",
             "no difference",
-            vec![Test::below("largest relative difference before level 2 touches", early, 1e-3, true)],
+            // One problem on two cells: what the solver's tolerance leaves.
+            vec![Test::below("largest relative difference before level 2 touches", early, 1e-3).pinned(0.0, 1e-6)],
         ),
         Claim::new(
             "§3, Fig. 5b",
             "The maximum [of τ₁] is localized at the layer-substrate interface",
             "at the interface",
-            vec![Test::below(
-                "largest distance of the maximum in the coating from it over h, all loads",
-                off_interface,
-                0.02,
-                true,
-            )],
+            vec![
+                Test::below(
+                    "largest distance of the maximum in the coating from it over h, all loads",
+                    off_interface,
+                    0.02,
+                )
+                .pinned(0.0, 1e-9),
+            ],
         ),
         Claim::new(
             "§4",
             "pressure distribution and the real contact area strongly depend on the contact density and height",
             "strong dependence",
-            vec![
-                Test::above("change of p₁ from one to three levels at p̄′ = 0.1", late[1], 0.05, true),
-                Test::above(
-                    "of the area under level 1",
-                    1.0 - (three.radius[loads.len() - 1] / one.radius[loads.len() - 1]).powi(2),
-                    0.05,
-                    true,
-                ),
-            ],
+            pinned(
+                [
+                    Test::above("change of p₁ from one to three levels at p̄′ = 0.1", late[1], 0.05),
+                    Test::above(
+                        "of the area under level 1",
+                        1.0 - (three.radius[loads.len() - 1] / one.radius[loads.len() - 1]).powi(2),
+                        0.05,
+                    ),
+                ],
+                [0.0580, 0.1727],
+                [CHANGE, 4e-3],
+            ),
         ),
     ]
 }

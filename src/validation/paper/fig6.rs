@@ -1,8 +1,8 @@
 //! Fig. 6: lines of equal tensile-compressive and principal shear stress under an indenter of the first level.
 
 use super::model::Model;
-use super::under::{Part, Under};
-use super::{Claim, Test};
+use super::under::{EDGE, INSIDE, Part, Under};
+use super::{Claim, Test, pinned};
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::stress::MeanStress;
 use crate::validation::draw::{curve, figure};
@@ -51,55 +51,70 @@ const DEEP: f64 = 2.0;
 
 fn claims(a: &Under, b: &Under, three: [&Under; 2], thick: &Under) -> Vec<Claim> {
     let ([shear_a, depth_a, tension_a], [shear_b, depth_b, tension_b]) = rayon::join(|| a.maxima(), || b.maxima());
-    let levels = |what: &str, under: &Under, found: bool| Test::above(what, under.levels as f64, 2.5, found);
-    let at_interface = |what: &str, depth: f64, found: bool| Test::above(what, depth, 0.98, found);
-    let edge = |what: &str, under: &Under| Test::above(what, under.largest(0, 0.9, 1.5)[0], 0.0, true);
+    let levels = |[a, b]: [&Under; 2], found: f64| {
+        let count = |what: &str, under: &Under| Test::above(what, under.levels as f64, 2.5).pinned(found, 0.0);
+        vec![count("levels in contact, (a)", a), count("(b)", b)]
+    };
+    let at_interface = |what: &str, depth: f64| Test::above(what, depth, 0.98);
+    let edge = |what: &str, under: &Under, found: f64| {
+        Test::above(what, under.largest(0, 0.9, 1.5)[0], 0.0).pinned(found, EDGE * found)
+    };
     vec![
         Claim::new(
             "§3, Figs 6, 7",
             "the nominal pressure p̄′, which provides three-level contact",
             "three levels",
-            vec![levels("levels in contact, (a)", a, false), levels("(b)", b, false)],
+            levels([a, b], 1.0),
         )
-        .or(
-            "(h₁ − h₂)/r₁ = 0.0036, a tenth, and l/r₁ = 0.67 in (a)",
-            vec![levels("levels in contact, (a)", three[1], true), levels("(b)", three[0], true)],
-        )
+        .or("(h₁ − h₂)/r₁ = 0.0036, a tenth, and l/r₁ = 0.67 in (a)", levels([three[1], three[0]], 3.0))
         .remark("In (b) levels 2 and 3 touch at p̄′ = 0.0174 and 0.0745; in (a) the penetration is 0.0003 r₁"),
         Claim::new(
             "§3, Fig. 6",
             "tension occurs at the surface near the boundary of contact",
             "surface tension",
-            vec![edge("largest σ_r/E₂ from 0.9 to 1.5 a, (a)", a), edge("(b)", b)],
+            vec![edge("largest σ_r/E₂ from 0.9 to 1.5 a, (a)", a, 0.00503), edge("(b)", b, 0.0269)],
         ),
         Claim::new(
             "§3, Fig. 6",
             "and at the coating-substrate interface for thicker coating",
             "interface tension",
-            vec![
-                Test::above("σ_r/E₂ in the coating under the centre: (a), h = 1.2 a", a.centre(1), 0.0, true),
-                Test::below("(b), h = 0.23 a", b.centre(1), 0.0, true),
-                Test::above("(b) with h/r₁ = 0.1", thick.centre(1), 0.0, true),
-            ],
+            pinned(
+                [
+                    Test::above("σ_r/E₂ in the coating under the centre: (a), h = 1.2 a", a.centre(1), 0.0),
+                    Test::below("(b), h = 0.23 a", b.centre(1), 0.0),
+                    Test::above("(b) with h/r₁ = 0.1", thick.centre(1), 0.0),
+                ],
+                [0.0073084, -0.0054197, 0.033488],
+                [INSIDE; 3],
+            ),
         ),
         Claim::new(
             "§3, Fig. 6",
             "principal shear stresses concentrate at the surface-substrate interface",
             "shear at the interface",
-            vec![
-                at_interface("depth of the largest τ₁ in the coating over h, (a)", depth_a, false),
-                at_interface("(b)", depth_b, true),
-            ],
+            pinned(
+                [
+                    at_interface("depth of the largest τ₁ in the coating over h, (a)", depth_a),
+                    at_interface("(b)", depth_b),
+                ],
+                [0.39118, 1.0],
+                // From 320 to 480 points the place moves by 1e-6 h.
+                [1e-5, 1e-9],
+            ),
         )
-        .or("for (b) alone", vec![at_interface("depth over h", depth_b, true)]),
+        .or("for (b) alone", vec![at_interface("depth over h", depth_b)]),
         Claim::new(
             "§4",
             "internal stresses in relatively hard coatings also depend essentially on the contact density",
             "contact density",
-            vec![
-                Test::above("largest tension of (b) over that of (a)", tension_b / tension_a, 1.5, true),
-                Test::above("largest τ₁", shear_b / shear_a, 1.5, true),
-            ],
+            pinned(
+                [
+                    Test::above("largest tension of (b) over that of (a)", tension_b / tension_a, 1.5),
+                    Test::above("largest τ₁", shear_b / shear_a, 1.5),
+                ],
+                [3.69, 3.8953],
+                [3.69 * EDGE, 2e-4],
+            ),
         ),
     ]
 }

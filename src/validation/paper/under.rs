@@ -8,6 +8,12 @@ use crate::validation::StudyError;
 
 pub const LOAD: f64 = 0.002;
 const POINTS: usize = 320;
+/// Errors of the mesh over E₂, under the centre and at the interface: from 320 to 480 points stresses move by up to
+/// 7e-7, on the surface by 1.5e-6.
+pub const INSIDE: f64 = 2e-6;
+pub const SURFACE: f64 = 5e-6;
+/// The same at the edge of the contact, relative: there they move by 5 %.
+pub const EDGE: f64 = 0.06;
 /// From level 1 toward the neighbouring level 2, as a direction.
 const TOWARD: [f64; 2] = [0.866_025_403_784_438_6, 0.5];
 /// Intervals of a section across, and down in each material.
