@@ -6,7 +6,8 @@
 //! w(**x**) = Σ_c Σ_i ∫ K(|**x** − **r**_i − **y**|) p_c(**y**) d²y − p̄ D_R(|**x**|),
 //!
 //! K the displacement under a point force on the layered surface, D_R that under a disc of the circle's radius: uniform
-//! p̄ outside the disc is p̄ everywhere, which only moves the mean plane, minus p̄ on the disc. Contact means w + f − δ
+//! p̄ outside the disc is p̄ everywhere, which only moves the mean plane, minus p̄ on the disc. In its place the indenters
+//! outside can stand themselves, as a lattice sum. Contact means w + f − δ
 //! = 0 with one penetration δ for all levels, and all pressures together carry p̄, Eq. (5).
 //!
 //! It shares nothing with the spectral solver but the indenters' shapes, the transfer function and the reading of a
@@ -26,6 +27,7 @@ mod exchange;
 pub mod exterior;
 pub mod isolated;
 pub mod mesh;
+mod patterns;
 pub mod point;
 pub mod press;
 pub mod quadrature;

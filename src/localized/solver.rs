@@ -10,6 +10,7 @@ use super::circle::{Circle, CircleRadius};
 use super::disc::FarField;
 use super::exchange::Sweep;
 use super::mesh::Mesh;
+use super::patterns::Patterns;
 use super::press::{press, punch};
 use super::spot::Spot;
 use super::system::Localized;
@@ -85,36 +86,6 @@ pub struct Coupled<'a> {
     /// Profile plus drop at each element, per site.
     shapes: Vec<Vec<f64>>,
     mutual_effect: bool,
-}
-
-/// What the sweeps carry on.
-struct Patterns {
-    penetration: f64,
-    loads: Vec<f64>,
-    pressures: Vec<Vec<f64>>,
-}
-
-impl Patterns {
-    /// Those of an earlier solution on the present mesh, or none.
-    fn new(mesh: Mesh, sites: usize, start: Option<&Solution>) -> Self {
-        let mut patterns = Self {
-            penetration: start.map_or(0.0, |start| start.penetration),
-            loads: vec![0.0; sites],
-            pressures: vec![vec![0.0; mesh.elements()]; sites],
-        };
-        for (m, spot) in start.into_iter().flat_map(|start| &start.spots).enumerate() {
-            let carried = (0..mesh.elements()).map(|index| spot.mesh.interpolated(&spot.pressure, mesh.place(index)));
-            patterns.pressures[m] = carried.collect();
-            let load = patterns.pressures[m].iter().sum::<f64>() * mesh.size * mesh.size;
-            patterns.scale(m, if load > 0.0 { spot.load() / load } else { 0.0 }, spot.load());
-        }
-        patterns
-    }
-
-    fn scale(&mut self, m: usize, factor: f64, load: f64) {
-        self.pressures[m].iter_mut().for_each(|p| *p *= factor);
-        self.loads[m] = if factor > 0.0 { load } else { 0.0 };
-    }
 }
 
 impl<'a> Coupled<'a> {

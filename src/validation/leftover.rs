@@ -40,6 +40,14 @@ pub struct Shift {
     pub penetration: f64,
 }
 
+/// What load-balanced circles change, shell by shell.
+pub struct Shells {
+    /// Indenters, largest change of a load share and of a level's own load, for every whole shell.
+    pub every: Vec<[f64; 3]>,
+    /// Largest change of an own load over the shells asked for.
+    pub worst: f64,
+}
+
 impl<'a> Leftover<'a> {
     /// For circles of up to `most` indenters; the spectral solution's `reading` under the mean pressure.
     pub fn new(
@@ -85,6 +93,22 @@ impl<'a> Leftover<'a> {
             shares: moved.into_iter().map(|load| load / whole).collect(),
             penetration: penetration / self.reading.penetration,
         })
+    }
+
+    /// All whole shells up to the larger number of indenters, the worst of those between both.
+    pub fn shells(&self, [least, most]: [usize; 2]) -> Result<Shells, StudyError> {
+        let (mut every, mut asked) = (Vec::new(), 1);
+        while asked <= most {
+            let inside = self.indenters(asked);
+            let shares = self.of(inside)?.shares;
+            let largest = |of: &dyn Fn(usize) -> f64| (0..shares.len()).map(|m| of(m).abs()).fold(0.0, f64::max);
+            let own = largest(&|m| shares[m] / self.reading.levels[m].load_share);
+            every.push([inside as f64, largest(&|m| shares[m]), own]);
+            asked = inside + 1;
+        }
+        let among = every.iter().filter(|shell| shell[0] >= least as f64);
+        let worst = among.map(|shell| shell[2]).fold(0.0, f64::max);
+        Ok(Shells { every, worst })
     }
 
     /// Indenters in whole shells, at least so many.

@@ -1,11 +1,12 @@
 //! The localized solution against what its circles should leave out, and against the spectral one.
 //!
 //! One level: lattice sums over the indenters inside predict contact and penetration ([`crate::exact::localization`]).
-//! Three levels on four coatings: loads, pressures, radii, penetration and stresses of both methods, and the exchange of
-//! load that [`super::leftover`] predicts.
+//! Three levels on four coatings, with load-balanced circles: the exchange of load that [`super::leftover`] predicts, its
+//! median and worst over all shells; with the lattice sum outside: loads, pressures, radii, penetration and stresses of
+//! both methods, whatever the shell.
 
 use super::draw::{self, curve};
-use super::leftover::Leftover;
+use super::leftover::{Leftover, Shells};
 use super::one_level::one_level;
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use crate::comparison::{CircleComparison, Comparison, Reading, StressPair, Task};
@@ -21,11 +22,13 @@ pub const STUDY: Study = Study { name: "localized", title: "Localized against sp
 
 const RADIUS: f64 = 0.8;
 /// Indenters in the circles of the three levels.
-const INDENTERS: [usize; 4] = [7, 37, 301, 439];
+const INDENTERS: [usize; 5] = [7, 37, 301, 439, 613];
+/// Whole shells between these numbers of indenters stand for one another.
+const SHELLS: [usize; 2] = [301, 613];
 /// Samples along the cell.
 const POINTS: usize = 192;
 
-const SETUP: Setup = Setup { indenters: 7, elements: 32, radius: CircleRadius::LoadBalanced, mutual_effect: true };
+const SETUP: Setup = Setup { indenters: 7, elements: 32, radius: CircleRadius::LatticeSum, mutual_effect: true };
 
 fn run() -> Result<Outcome, StudyError> {
     let mut outcome = Outcome::default();
@@ -50,10 +53,10 @@ fn run() -> Result<Outcome, StudyError> {
 }
 
 const CAPTION: &str = "(a) Lattice sums and computed circles, p̄ = 0.01 E*. (b) Load-balanced circles: computed (markers) and \
-                       from point forces (line, the first coating). Dashed: area-balanced circles.";
+                       from point forces (line, the first coating). Dashed: the lattice sum outside.";
 
-/// Names of data and checks, body and mean pressure.
-type Coated = ([&'static str; 2], HalfSpace, f64);
+/// Names of data, of the shells' data and of checks, body and mean pressure.
+type Coated = ([&'static str; 3], HalfSpace, f64);
 
 /// The coatings; E₂ = 1, ν₂ = 0.3.
 fn coatings() -> Result<[Coated; 4], StudyError> {
@@ -63,11 +66,15 @@ fn coatings() -> Result<[Coated; 4], StudyError> {
     };
     let body = |layers| HalfSpace::new(layers, substrate);
     Ok([
-        (["hard", "hard coating"], body(vec![layer(2.0, 0.2, 0.5, Interface::Bonded)?]), 0.03),
-        (["soft", "soft coating"], body(vec![layer(0.5, 0.45, 0.5, Interface::Bonded)?]), 0.008),
-        (["sliding", "sliding coating"], body(vec![layer(3.0, 0.2, 0.2, Interface::Frictionless)?]), 0.02),
+        (["hard", "hard-shells", "hard coating"], body(vec![layer(2.0, 0.2, 0.5, Interface::Bonded)?]), 0.03),
+        (["soft", "soft-shells", "soft coating"], body(vec![layer(0.5, 0.45, 0.5, Interface::Bonded)?]), 0.008),
         (
-            ["two-layers", "two layers"],
+            ["sliding", "sliding-shells", "sliding coating"],
+            body(vec![layer(3.0, 0.2, 0.2, Interface::Frictionless)?]),
+            0.02,
+        ),
+        (
+            ["two-layers", "two-layers-shells", "two layers"],
             body(vec![layer(1.2, 0.2, 0.3, Interface::Bonded)?, layer(0.5, 0.4, 0.4, Interface::Bonded)?]),
             0.02,
         ),
@@ -76,7 +83,7 @@ fn coatings() -> Result<[Coated; 4], StudyError> {
 
 /// Three levels on one coating: its checks, its data, and its curves of panel (b).
 fn coated(
-    [key, name]: [&'static str; 2],
+    [key, shells_key, name]: [&'static str; 3],
     half_space: &HalfSpace,
     mean_pressure: f64,
     colour: usize,
@@ -99,52 +106,59 @@ fn coated(
     if !compared.solution.report.stop.solved() {
         return Err(format!("{name}: {}", compared.solution.report).into());
     }
-    if let Some(circle) = compared.circles.iter().find(|circle| circle.stop != Stop::Converged) {
+    if let Some(circle) =
+        compared.circles.iter().chain(&compared.other_rule).find(|circle| circle.stop != Stop::Converged)
+    {
         return Err(format!("{name}, {} indenters: {}", circle.indenters, circle.stop).into());
     }
     let leftover =
-        Leftover::new(&lattice, half_space, INDENTERS[3], Reading::spectral(&compared.spectral), mean_pressure)?;
+        Leftover::new(&lattice, half_space, SHELLS[1], Reading::spectral(&compared.spectral), mean_pressure)?;
     let (data, shares) = exchange(key, &compared, &leftover)?;
-    for check in checks(name, &compared, shares, &data)? {
+    let shells = leftover.shells(SHELLS)?;
+    for check in checks(name, &compared, shares, &data, &shells)? {
         outcome.checks.push(check);
     }
     outcome.data.push(data);
     let share = |circle: &CircleComparison| [circle.indenters as f64, circle.difference.load_share];
     let mut curves = vec![
-        curve(name, Style::Markers, colour, compared.circles.iter().map(share)),
-        curve("", Style::Dashed, colour, compared.other_rule.iter().map(share)),
+        curve(name, Style::Markers, colour, compared.other_rule.iter().map(share)),
+        curve("", Style::Dashed, colour, compared.circles.iter().map(share)),
     ];
     if colour == 1 {
-        let mut line: Vec<[f64; 2]> = Vec::new();
-        for asked in 1..=INDENTERS[3] {
-            let inside = leftover.indenters(asked);
-            if line.last().is_none_or(|last| last[0] < inside as f64) {
-                let shares = leftover.of(asked)?.shares;
-                line.push([inside as f64, shares.into_iter().map(f64::abs).fold(0.0, f64::max)]);
-            }
-        }
-        let mut data = Data::new("point-forces", &["indenters", "share"]);
-        data.rows = line.iter().map(|point| point.to_vec()).collect();
-        outcome.data.push(data);
+        let line = shells.every.iter().map(|shell| [shell[0], shell[1]]);
         curves.push(curve("point forces", Style::Line, colour, line));
     }
+    let mut data = Data::new(shells_key, &["indenters", "share", "own_load"]);
+    data.rows = shells.every.iter().map(|shell| shell.to_vec()).collect();
+    outcome.data.push(data);
     Ok(curves)
 }
 
 /// Load shares less the spectral ones, with what point forces predict of it.
 type Pairs = Vec<(f64, f64)>;
 
-/// What changes hands between the levels, circle by circle, found and predicted.
+/// What changes hands between the levels, load-balanced circle by circle, found and predicted; and what is left of it
+/// with the lattice sum.
 fn exchange(key: &'static str, compared: &Comparison, leftover: &Leftover) -> Result<(Data, Pairs), StudyError> {
-    let columns = ["indenters", "level", "share", "share_predicted", "penetration", "penetration_predicted"];
+    let columns = [
+        "indenters",
+        "level",
+        "share",
+        "share_predicted",
+        "penetration",
+        "penetration_predicted",
+        "own_load",
+        "own_load_lattice_sum",
+    ];
     let (mut data, mut pairs) = (Data::new(key, &columns), Vec::new());
-    for circle in &compared.circles {
+    for (circle, lattice_sum) in compared.other_rule.iter().zip(&compared.circles) {
         let expected = leftover.of(circle.indenters)?;
         let penetration = circle.reading.penetration / compared.spectral.penetration - 1.0;
         for (m, (level, spectral)) in circle.reading.levels.iter().zip(&compared.spectral.levels).enumerate() {
             let pair = (level.load_share - spectral.load_share, expected.shares[m]);
             let number = [circle.indenters, level.level].map(|n| n as f64);
-            let rest = [pair.0, pair.1, penetration, expected.penetration];
+            let [own, whole] = [level.load, lattice_sum.reading.levels[m].load].map(|load| load / spectral.load - 1.0);
+            let rest = [pair.0, pair.1, penetration, expected.penetration, own, whole];
             data.rows.push([&number[..], &rest[..]].concat());
             pairs.push(pair);
         }
@@ -152,38 +166,65 @@ fn exchange(key: &'static str, compared: &Comparison, leftover: &Leftover) -> Re
     Ok((data, pairs))
 }
 
-fn checks(name: &str, compared: &Comparison, shares: Pairs, data: &Data) -> Result<Vec<Check>, StudyError> {
-    let [_, _, shells, largest] = &compared.circles[..] else { return Err("a circle is missing".into()) };
-    let area = &compared.other_rule[2];
+/// What the meshes leave in a load share, in the whole load, and in a peak or radius, relatively.
+const SHARE: f64 = 1e-4;
+const MESH: f64 = 5e-4;
+
+fn checks(
+    name: &str,
+    compared: &Comparison,
+    shares: Pairs,
+    data: &Data,
+    shells: &Shells,
+) -> Result<Vec<Check>, StudyError> {
     let scale = compared.stresses.iter().flat_map(|pair| pair.spectral.components()[..6].to_vec());
     let scale = scale.fold(0.0, |most: f64, stress| most.max(stress.abs()));
     let stress = compared.stresses.iter().map(StressPair::difference).fold(f64::NAN, f64::max) / scale;
     let penetrations = data.column("penetration").into_iter().zip(data.column("penetration_predicted"));
+    let least = compared.spectral.levels.iter().map(|level| level.load_share).fold(f64::INFINITY, f64::min);
+    // Peaks and radii follow the load with a power below ½ on any layers.
+    let (load, follows) = (shells.worst + SHARE / least, 0.5 * (shells.worst + SHARE / least) + MESH);
+    let balanced = |of: fn(&CircleComparison) -> f64| {
+        let far = compared.other_rule.iter().filter(|circle| circle.indenters >= SHELLS[0]);
+        far.map(of).fold(f64::NAN, f64::max)
+    };
+    let summed = |of: fn(&CircleComparison) -> f64| compared.circles.iter().map(of).fold(f64::NAN, f64::max);
     let below = |quantity: &str, value, bound| Check::at_most(format!("{name}: {quantity}"), value, bound);
-    let [far, near] = [largest.difference, shells.difference];
+    let last = compared.circles.last().ok_or("a circle is missing")?;
+    let between = compared.circles.iter().flat_map(|circle| {
+        let levels = circle.reading.levels.iter().zip(&last.reading.levels);
+        levels.map(|(level, last)| (level.load, last.load))
+    });
     Ok(vec![
         Check::worst(
-            format!("{name}: load shares less the spectral ones, point forces"),
+            format!("{name}: load-balanced, load shares less the spectral ones, point forces"),
             shares,
-            Tolerance::Absolute(1e-4),
+            Tolerance::Absolute(SHARE),
         )
         .of_refinement(),
         Check::worst(
-            format!("{name}: penetration over the spectral one less 1, point forces"),
+            format!("{name}: load-balanced, penetration over the spectral one less 1, point forces"),
             penetrations,
             Tolerance::Absolute(1e-3),
         )
         .of_refinement(),
-        below("load shares, 301 indenters", near.load_share, 1e-3),
-        below("load shares, 439 indenters", far.load_share, 3e-4),
-        below("peak pressure, 439 indenters", far.max_pressure, 1e-3),
-        below("contact radius, 439 indenters", far.contact_radius, 1e-3),
-        below("penetration, 439 indenters", far.penetration, 1e-3),
-        below("stresses over the largest, 439 indenters", stress, 1e-3),
-        Check::at_least(
-            format!("{name}: load shares, area- over load-balanced, 301 indenters"),
-            area.difference.load_share / near.load_share,
-            10.0,
+        below("load-balanced, own load, 301 to 613 indenters, worst shell", balanced(|c| c.difference.load), load),
+        below("load-balanced, peak pressure, 301 to 613 indenters", balanced(|c| c.difference.max_pressure), follows),
+        below(
+            "load-balanced, contact radius, 301 to 613 indenters",
+            balanced(|c| c.difference.contact_radius),
+            follows,
         ),
+        below("lattice sum, own load, 7 to 613 indenters", summed(|c| c.difference.load), 1e-3),
+        below("lattice sum, peak pressure, 7 to 613 indenters", summed(|c| c.difference.max_pressure), 1e-3),
+        below("lattice sum, contact radius, 7 to 613 indenters", summed(|c| c.difference.contact_radius), 1e-3),
+        below("lattice sum, penetration, 7 to 613 indenters", summed(|c| c.difference.penetration), 1e-3),
+        below("lattice sum, stresses over the largest, 613 indenters", stress, 1e-3),
+        Check::worst(
+            format!("{name}: lattice sum, own load, that with 613 indenters"),
+            between,
+            Tolerance::Relative(1e-6),
+        )
+        .of_refinement(),
     ])
 }

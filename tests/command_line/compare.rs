@@ -55,6 +55,10 @@ fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
             assert_close(number(circle, "/additional_displacement"), number(circle, "/penetration"), 1e-5);
         }
     }
+    // The lattice sum outside leaves six elements across the contact, whatever the circle.
+    let lattice_sum = &file["lattice_sum"];
+    assert_eq!((&lattice_sum["indenters"], &lattice_sum["converged"]), (&7.into(), &true.into()));
+    assert!(number(lattice_sum, "/difference/load") < 0.01 && number(lattice_sum, "/difference/penetration") < 0.01);
     let largest = list(&file, "/stresses").iter().map(|pair| number(pair, "/spectral/zz").abs()).fold(0.0, f64::max);
     for pair in list(&file, "/stresses") {
         for component in ["xx", "yy", "zz", "xy", "xz", "yz"] {
@@ -81,6 +85,23 @@ fn without_mutual_effect_every_indenter_is_alone() {
     assert!(list(circle, "/radius").iter().all(Value::is_null));
     // Isolated exact laws under one plate with the whole load.
     assert_close(number(circle, "/penetration"), 0.10462, 3e-3);
+}
+
+#[test]
+fn with_the_lattice_sum_outside_circles_of_any_size_agree() {
+    let desk = Desk::new();
+    let file = read(&compare(&desk, "sum", &["--set", "localized.radius=lattice-sum"]));
+    assert_eq!((&file["rule"], &file["other_rule"]["rule"]), (&"lattice-sum".into(), &"load-balanced".into()));
+    assert_eq!(file["lattice_sum"], Value::Null);
+    let [seven, thirteen] = &list(&file, "/localized")[..] else { panic!("two circles") };
+    assert_eq!((&seven["indenters"], &thirteen["indenters"]), (&7.into(), &13.into()));
+    for key in
+        ["/penetration", "/additional_displacement", "/levels/0/load", "/levels/2/load", "/levels/1/max_pressure"]
+    {
+        assert_close(number(seven, key), number(thirteen, key), 1e-6);
+    }
+    // Eq. (8), summed anew.
+    assert_close(number(seven, "/additional_displacement"), number(seven, "/penetration"), 1e-6);
 }
 
 #[test]

@@ -1,13 +1,15 @@
 //! The lattice sum outside the circles: against closed sums, against a sum over tens of thousands of images, and what
 //! loads it gives.
 
-use crate::common::{coated, paraboloid};
-use crate::{homogeneous, two_layers};
+use crate::common::{PAPER, coated, paraboloid, solve};
+use crate::{homogeneous, setup, two_layers};
 use percoat::lattice::{Cell, Lattice};
-use percoat::localized::Localized;
 use percoat::localized::exterior::Exterior;
 use percoat::localized::mesh::Mesh;
+use percoat::localized::{CircleRadius, Localized, Setup, Stop};
 use percoat::material::{HalfSpace, Interface};
+use percoat::solver::Control;
+use percoat::texture::Surface;
 use std::f64::consts::PI;
 
 /// Elements so small that forces on them are point forces.
@@ -134,4 +136,44 @@ fn oblique_lattices_have_the_sum_over_their_images_one_by_one() {
             assert!((found - sum).abs() < 1e-7, "{c} on {m}: {found} {sum}");
         }
     }
+}
+
+/// Every level's own load within 0.1 % of the spectral one, where load-balanced circles are off by up to 28 %. Grids of
+/// 128 and 256 samples differ by 3e-5 in own loads, 24 and 48 elements by 5e-4.
+#[test]
+fn levels_of_several_indenters_on_an_oblique_lattice_carry_their_own_loads_whatever_the_shell() {
+    let cell = Cell::new([2.2, 0.1], [0.6, 1.9]).unwrap();
+    let sites = vec![vec![[0.0, 0.0], [0.45, 0.1]], vec![[0.1, 0.45]], vec![[0.52, 0.62], [0.75, 0.35]]];
+    let lattice = Lattice::new(cell, sites).unwrap();
+    let levels = PAPER[0].levels();
+    let half_space = coated(3.0, 0.2, [0.2, 0.3], Interface::Frictionless);
+    let control = Control::MeanPressure(0.02);
+    let surface = Surface::Indenters { lattice: lattice.clone(), levels: levels.clone() };
+    let (_, _, spectral) = solve(&surface, &half_space, [256, 256], control);
+    let system = Localized::new(&lattice, &levels, &half_space, 37);
+    for indenters in [1, 7, 37] {
+        let setup = Setup { radius: CircleRadius::LatticeSum, ..setup(indenters, 48) };
+        let solution = system.solve(control, &setup);
+        assert_eq!(solution.stop, Stop::Converged);
+        for (found, expected) in system.observe(&solution).iter().zip(&spectral.levels) {
+            println!("{indenters}: {} {} {}", found.level, found.load, found.load / expected.load - 1.0);
+            assert!((found.load / expected.load - 1.0).abs() < 1e-3);
+            assert!((found.max_pressure / expected.max_pressure - 1.0).abs() < 1e-3);
+        }
+        assert!((solution.penetration / spectral.penetration - 1.0).abs() < 1e-3);
+        let additional = system.additional_displacement(&solution);
+        assert!((additional / solution.penetration - 1.0).abs() < 1e-6, "{additional} {}", solution.penetration);
+    }
+}
+
+#[test]
+fn a_penetration_gives_the_load_back_that_led_to_it() {
+    let paper = PAPER[1];
+    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 7);
+    let setup = Setup { radius: CircleRadius::LatticeSum, ..setup(7, 24) };
+    let loaded = system.solve(Control::MeanPressure(paper.pressure), &setup);
+    let pressed = system.solve(Control::Penetration(loaded.penetration), &setup);
+    assert_eq!((loaded.stop, pressed.stop), (Stop::Converged, Stop::Converged));
+    // The meshes differ in the last digits of the contact's size.
+    assert!((pressed.mean_pressure / paper.pressure - 1.0).abs() < 1e-5, "{}", pressed.mean_pressure);
 }

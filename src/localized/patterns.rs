@@ -1,0 +1,38 @@
+//! Patterns of pressure between two sweeps.
+
+use super::mesh::Mesh;
+use super::solver::Solution;
+
+/// What the sweeps carry on.
+pub(super) struct Patterns {
+    /// Penetration δ, a length.
+    pub penetration: f64,
+    /// Load on each spot.
+    pub loads: Vec<f64>,
+    /// Pressure on the elements of each spot.
+    pub pressures: Vec<Vec<f64>>,
+}
+
+impl Patterns {
+    /// Those of an earlier solution on the present mesh, or none.
+    pub fn new(mesh: Mesh, sites: usize, start: Option<&Solution>) -> Self {
+        let mut patterns = Self {
+            penetration: start.map_or(0.0, |start| start.penetration),
+            loads: vec![0.0; sites],
+            pressures: vec![vec![0.0; mesh.elements()]; sites],
+        };
+        for (m, spot) in start.into_iter().flat_map(|start| &start.spots).enumerate() {
+            let carried = (0..mesh.elements()).map(|index| spot.mesh.interpolated(&spot.pressure, mesh.place(index)));
+            patterns.pressures[m] = carried.collect();
+            let load = patterns.pressures[m].iter().sum::<f64>() * mesh.size * mesh.size;
+            patterns.scale(m, if load > 0.0 { spot.load() / load } else { 0.0 }, spot.load());
+        }
+        patterns
+    }
+
+    /// Scales the pressure of the spot m to its new load.
+    pub fn scale(&mut self, m: usize, factor: f64, load: f64) {
+        self.pressures[m].iter_mut().for_each(|p| *p *= factor);
+        self.loads[m] = if factor > 0.0 { load } else { 0.0 };
+    }
+}
