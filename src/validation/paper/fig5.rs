@@ -56,6 +56,7 @@ fn run() -> Result<Outcome, StudyError> {
     let (three, one) = (three?, one?);
     let mut outcome = Outcome::default();
     super::against_first_touches(&mut outcome, &model, TOUCHES)?;
+    outcome.checks = outcome.checks.into_iter().map(Check::of_refinement).collect();
     let last = COUNT - 1;
     let finer = model.steps(2 * POINTS)?.loaded(loads[last])?;
     let mesh = [
