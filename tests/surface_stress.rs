@@ -128,9 +128,9 @@ fn coated_tension(points: usize, shift: [f64; 2], chi: f64) -> (f64, f64, f64) {
 ///
 /// What is left beside the square root falls inward as the distance to the power 3/2: from the tension at an edge
 /// σ_r ∝ 1 − (2d/a)^{3/2}, the mean over a width d of two samples gives up to n^{−3/2}, of which the smoothing's fourth
-/// order leaves a part. The steps of the edge on the grid add their noise.
+/// order leaves a part. The width grows as n^{2/5} from n = 12 on; the steps of the edge on the grid add their noise.
 fn tension_bound(n: f64) -> f64 {
-    0.4 * n.powf(-1.5) + 0.04 / n
+    0.4 * ((n / 12.0).max(1.0).powf(0.4) / n).powf(1.5) + 0.04 / n
 }
 
 /// Bounds on |error of σ_r|/p₀ at the surface, regions as in [`Measured::radial`].

@@ -6,11 +6,11 @@
 //! longer.
 //!
 //! On the surface the stresses are those of [`super::surface`]: a line meets edges between the samples, where the series
-//! itself overshoots. Just below it, a Gaussian takes over from the surface what the depth does not damp yet.
+//! itself overshoots. Just below it, where the series still does, stresses are interpolated in depth.
 
 use super::field::{Depth, Field, REACH, components};
 use super::spectrum::Wave;
-use super::surface::{OPEN, Skin, fourth};
+use super::surface::{OPEN, Skin};
 use super::tensor::State;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -97,17 +97,28 @@ impl Field {
     /// States on a vertical section: for each depth those at the points of the line.
     pub fn section(&self, line: &Line, depths: &[Depth]) -> Vec<Vec<State>> {
         let collapsed = Collapsed::new(self, line);
-        depths.par_iter().map(|&depth| self.line_at(line, depth, &collapsed)).collect()
+        let shallow = self.shallow();
+        let between = |depth: &Depth| depth.side == 1 && depth.z > 0.0 && depth.z < shallow;
+        let ends = depths.iter().any(between).then(|| [0.0, shallow].map(|z| Depth { z, side: 1 }));
+        let ends = ends.map(|ends| ends.map(|depth| self.line_at(line, depth, &collapsed)));
+        let row = |depth: &Depth| {
+            let own = self.line_at(line, *depth, &collapsed);
+            match &ends {
+                Some([surface, below]) if between(depth) => {
+                    let part = depth.z / shallow;
+                    let pairs = surface.iter().zip(below).zip(own);
+                    pairs.map(|((a, b), own)| State { displacement: own.displacement, ..a.toward(b, part) }).collect()
+                }
+                _ => own,
+            }
+        };
+        depths.par_iter().map(row).collect()
     }
 
     fn line_at(&self, line: &Line, depth: Depth, collapsed: &Collapsed) -> Vec<State> {
         let amplitudes = self.amplitudes(depth, REACH);
         let waves = self.waves(amplitudes.len());
-        let damping = self.damping(depth);
-        let term = |wave: &Wave, value: Complex64| {
-            let shell = wave.shell as usize;
-            components(wave, &amplitudes[shell], damping.get(shell).copied().unwrap_or(1.0) * value)
-        };
+        let term = |wave: &Wave, value: Complex64| components(wave, &amplitudes[wave.shell as usize], value);
         let states = along(line, collapsed, waves, self.mean(depth).components(), term);
         let states = states.into_iter().map(State::from_components);
         if depth.z > 0.0 || !self.spots.have_edges() {
@@ -119,16 +130,11 @@ impl Field {
         on_surface.map(|(smooth, state)| State { displacement: state.displacement, ..skin.state(smooth) }).collect()
     }
 
-    /// Per shell, the factor that a wave of the least wavenumber the grid cannot hold needs to be as small at this depth
-    /// as on the surface; empty where the depth does it all.
-    fn damping(&self, depth: Depth) -> Vec<f64> {
-        let most = self.least_aliased();
-        let square = OPEN * OPEN - 2.0 * most * depth.z;
-        if square <= 0.0 || !self.spots.have_edges() {
-            return Vec::new();
-        }
-        let width = square.sqrt() / most;
-        self.spectrum.shells.iter().map(|&q| fourth(q * width)).collect()
+    /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
+    /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
+    fn shallow(&self) -> f64 {
+        let depth = if self.spots.have_edges() { 0.5 * OPEN * OPEN / self.least_aliased() } else { 0.0 };
+        depth.min(self.faces(1).1)
     }
 
     /// Where on the surface the normal stress along a line is largest, between its points: s and the stress. `surface`

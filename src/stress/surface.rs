@@ -213,7 +213,7 @@ impl<'a> Skin<'a> {
 }
 
 /// A Gaussian of which qw is wavenumber times width, made to leave what is smooth as it is to the fourth order.
-pub(super) fn fourth(qw: f64) -> f64 {
+fn fourth(qw: f64) -> f64 {
     (1.0 + 0.5 * qw * qw) * (-0.5 * qw * qw).exp()
 }
 
