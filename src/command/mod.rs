@@ -6,6 +6,7 @@ mod compare;
 mod interruption;
 mod kernel;
 mod pictures;
+mod plan;
 mod solve;
 mod stress;
 mod validate;

@@ -2,6 +2,7 @@
 
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
+use super::plan::plan;
 use super::stress::{largest, stress_change, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -11,7 +12,7 @@ use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
 use percoat::observables::{Observables, errors, observe};
 use percoat::output::summary::{Step, Summary, curve};
-use percoat::output::{Fields, Plan, RunFolder, Section, Stresses, Writer, table, write_text};
+use percoat::output::{Fields, RunFolder, Section, Stresses, table, write_text};
 use percoat::picture::{Cut, Snapshot};
 use percoat::refinement::{self, FIRST_POINTS, Refinement, balanced_points, change};
 use percoat::solver::Control;
@@ -52,26 +53,6 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     }
     let converged = result.steps.iter().all(|step| step.converged) && result.is_accurate(&case);
     Ok(if converged { Outcome::Done } else { Outcome::NotConverged })
-}
-
-/// What a run of the case may write.
-fn plan(case: &Case, steps: usize, pictures: &PictureOptions) -> Plan {
-    let mut names = ["case.toml", "contact.npz", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
-    let mut drawn = vec!["pressure", "contact", "profiles"];
-    if let Some(stress) = &case.stress {
-        names.push("stress.npz".to_owned());
-        if stress.volume.is_some() {
-            names.extend((1..=steps).map(|step| format!("stress.{step:04}.vts")));
-        }
-        if stress.section.is_some() {
-            drawn.extend(["section", "lines"]);
-        }
-    }
-    if steps > 1 {
-        drawn.push("curve");
-    }
-    names.extend(pictures.files(&drawn));
-    Plan { writer: Writer::Solve, names, case: Some(case.to_toml()) }
 }
 
 struct Run<'a> {

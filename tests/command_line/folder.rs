@@ -333,7 +333,7 @@ fn a_result_that_was_edited_or_is_not_listed_is_not_replaced() {
     assert_eq!(solve_into(&desk, "run", &[]).code, 0);
     // As versions that kept no list left it.
     std::fs::remove_dir_all(desk.path("run/.percoat")).unwrap();
-    solve_into(&desk, "run", &[]).complains(2, &["run/case.toml", "not listed"]);
+    solve_into(&desk, "run", &[]).complains(2, &["run/contact.npz", "not listed"]);
     assert!(run.files() == before.into_iter().chain([("curve.csv".to_owned(), curve.into_bytes())]).collect());
 }
 

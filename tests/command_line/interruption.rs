@@ -12,9 +12,17 @@ use std::time::{Duration, Instant};
 const LONG_ENOUGH: Duration = Duration::from_secs(120);
 /// Forty steps that take their time.
 const LONG: [&str; 4] = ["fig5", "--set", "grid.points=256", "--no-pictures"];
-/// Some steps that do not, on the same grid.
-const FIRST: [&str; 5] = ["fig2", "--set", "grid.points=48", "--set", "load.mean_pressure=[0.01, 0.02, 0.03]"];
-const SECOND: [&str; 5] = ["fig5", "--set", "grid.points=48", "--set", "load.mean_pressure=[0.002, 0.004]"];
+/// Some steps that do not, and others on the same grid.
+const FIRST: [&str; 6] = [
+    "fig2",
+    "--no-pictures",
+    "--set",
+    "grid.points=96",
+    "--set",
+    "load.mean_pressure=[0.01, 0.02, 0.03, 0.04, 0.05, 0.06]",
+];
+const SECOND: [&str; 6] =
+    ["fig5", "--no-pictures", "--set", "grid.points=96", "--set", "load.mean_pressure=[0.001, 0.002, 0.003, 0.004]"];
 
 /// `percoat solve` with `arguments` into `folder`, on its way.
 fn start(folder: &Path, arguments: &[&str]) -> Child {
@@ -181,7 +189,7 @@ fn survives_kills(moments: usize) {
             assert!(readable_steps(&folder.0.join(name)) > 0, "{name} has no steps");
         }
     }
-    eprintln!("killed {moments} times: before the first step, in the steps, after the second, published: {found:?}");
+    eprintln!("killed {moments} times: after no step, one, more, and with nothing unfinished: {found:?}");
     desk.solve("run", &SECOND);
     assert!(whole(&folder, &runs[1].1) && !folder.names().contains("unfinished"));
 }
@@ -203,7 +211,7 @@ fn a_disk_without_room_is_one_error_with_path_and_reason_and_the_steps_stay() {
     let desk = Desk::new();
     let folder = desk.solve("run", &FIRST);
     let before = folder.files();
-    // 96² numbers take 72 KiB, the archive 11 times that; blocks are of 512 or 1024 bytes.
+    // 96² numbers take 72 KiB, the archive has twelve times that; blocks are of 512 or 1024 bytes.
     let output = Command::new("sh")
         .args(["-c", "trap '' XFSZ; ulimit -f 250; exec \"$0\" \"$@\""])
         .arg(assert_cmd::cargo::cargo_bin!("percoat"))
