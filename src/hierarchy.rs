@@ -11,12 +11,16 @@ use crate::lattice::LatticeError;
 use crate::layered::TransferFunction;
 use crate::material::HalfSpace;
 use crate::operator::Operator;
-use crate::solver::{self, Certificate, Control, Method, Progress, Report, Settings, State};
+use crate::solver::{self, Certificate, Control, Method, Progress, Report, Settings, State, StopReason};
 use crate::texture::{Interpolation, Surface, Texture, resample};
 use std::fmt;
 
 /// No grid has fewer points along a vector, unless the finest one has.
 const COARSEST: usize = 24;
+
+/// Samples of a contact that is no wider than the spacing: an apex between samples may press the four around it with any
+/// load from zero on.
+const UNRESOLVED: usize = 4;
 
 /// A contact problem on its nested grids, with all it needs from step to step.
 #[derive(Debug)]
@@ -167,10 +171,13 @@ impl Hierarchy {
             change = Some((nest.operator.grid().points(), rise));
         }
         let nest = &mut self.nests[0];
-        let (report, work) = nest.solve(change, control, &self.settings, callback);
+        let (mut report, work) = nest.solve(change, control, &self.settings, callback);
+        if report.stop == StopReason::Converged && matches!(control, Control::Penetration(_)) && !nest.is_resolved() {
+            report.stop = StopReason::Unresolved;
+        }
         let Nest { texture, operator, state } = nest;
         let mut displacement = vec![0.0; texture.shape.len()];
-        let certificate = Certificate::new(operator, &texture.shape, texture.range, control, state, &mut displacement);
+        let certificate = Certificate::new(operator, &texture.shape, control, state, &mut displacement);
         let solution = Solution {
             pressure: state.pressure.clone(),
             displacement,
@@ -208,6 +215,17 @@ impl Nest {
             gap,
             penetration,
         }
+    }
+
+    /// Whether contact is wider than the grid's spacing, on the average of the indenters that touch.
+    fn is_resolved(&self) -> bool {
+        let Texture { owner, sites, .. } = &self.texture;
+        let (mut pressed, mut indenters) = (0, vec![false; sites.len().max(1)]);
+        for index in (0..self.state.pressure.len()).filter(|&i| self.state.pressure[i] > 0.0) {
+            pressed += 1;
+            indenters[owner.get(index).map_or(0, |&site| site as usize)] = true;
+        }
+        pressed > UNRESOLVED * indenters.into_iter().filter(|&touches| touches).count()
     }
 
     /// Solves on this grid after adding the `change` of the next coarser one; also gives convolutions times samples.

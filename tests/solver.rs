@@ -36,7 +36,7 @@ fn solutions_are_complementary_and_carry_their_load() {
             let expected = solution.displacement[i] + hierarchy.texture().shape[i] - solution.penetration;
             assert!((g[i] - expected).abs() < 1e-15);
         }
-        assert!(solution.certificate.energy_gap < 1e-6 && solution.certificate.load < 1e-12);
+        assert!(solution.certificate.energy_gap < 2e-7 && solution.certificate.load < 1e-12);
     }
 }
 
@@ -113,7 +113,7 @@ fn displacement_control_finds_the_load_that_belongs_to_its_penetration() {
         assert_eq!(pushed.report.stop, StopReason::Converged);
         assert!((observables.mean_pressure / case.pressure - 1.0).abs() < 1e-6, "{}", case.name);
         assert!(relative_difference(&pushed.pressure, &loaded.pressure) < 1e-5);
-        assert!(pushed.certificate.load < 1e-6);
+        assert!(pushed.certificate.load < 1e-8);
     }
 }
 
@@ -170,7 +170,7 @@ fn displacement_control_reaches_up_to_complete_contact() {
             let penetration = 0.999 * hierarchy.full_contact_penetration();
             let solution = hierarchy.solve(Control::Penetration(penetration), &mut |_| ());
             assert_eq!(solution.report.stop, StopReason::Converged, "{}: {}", case.name, solution.report);
-            assert!(solution.certificate.load < 1e-7 && solution.certificate.energy_gap < 1e-4);
+            assert!(solution.certificate.load < 1e-8 && solution.certificate.energy_gap < 2e-7);
         }
     }
 }
@@ -342,13 +342,16 @@ fn the_default_converges_wherever_the_baseline_does() {
         let (hierarchy, own, _) = solve(&surface, &half_space, [n, n], control);
         let context = format!("case {case}\n{surface}\n{half_space}\nload {load:e}: {} / {}", own.report, base.report);
         assert_eq!(own.report.stop, StopReason::Converged, "{context}");
-        assert!(own.certificate.energy_gap < 1e-4, "{context}: {}", own.certificate);
+        assert!(own.certificate.energy_gap < 2e-7, "{context}: {}", own.certificate);
         if base.report.stop.solved() {
             assert!(relative_difference(&own.pressure, &base.pressure) < 1e-4, "{context}");
         }
         if own.penetration < 0.999 * hierarchy.full_contact_penetration() {
             let (_, pushed, observables) = solve(&surface, &half_space, [n, n], Control::Penetration(own.penetration));
-            assert_eq!(pushed.report.stop, StopReason::Converged, "{context}: {}", pushed.report);
+            // At most four samples an indenter: as discrete an answer, told as unresolved.
+            let few = pushed.pressure.iter().filter(|&&p| p > 0.0).count() <= 4 * surface.levels().max(1);
+            let unresolved = few && pushed.report.stop == StopReason::Unresolved;
+            assert!(unresolved || pushed.report.stop == StopReason::Converged, "{context}: {}", pushed.report);
             assert!((observables.mean_pressure / load - 1.0).abs() < 1e-4, "{context}");
         }
         fell_back += usize::from(own.report.fell_back);

@@ -15,7 +15,7 @@ use percoat::output::summary::{Step, Summary, curve};
 use percoat::output::{Fields, RunFolder, Section, Stresses, table, write_text};
 use percoat::picture::{Cut, Snapshot};
 use percoat::refinement::{self, FIRST_POINTS, Refinement, balanced_points, change};
-use percoat::solver::Control;
+use percoat::solver::{Control, StopReason};
 use percoat::stress::Field;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -238,7 +238,18 @@ impl Run<'_> {
         let mut warnings = Vec::new();
         let steps = || (1..).zip(&solved.steps);
         let list = |numbers: &[usize]| numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
-        let failed: Vec<usize> = steps().filter(|(_, step)| !step.converged).map(|(number, _)| number).collect();
+        let is_unresolved = |step: &Step| step.stop_reason == StopReason::Unresolved.to_string();
+        let unresolved: Vec<usize> =
+            steps().filter(|(_, step)| is_unresolved(step)).map(|(number, _)| number).collect();
+        if !unresolved.is_empty() {
+            warnings.push(format!(
+                "the penetration of step {} reaches hardly a sample: contact is no wider than the grid's spacing, \
+                 and its load is unknown; raise grid.points, or prescribe more",
+                list(&unresolved)
+            ));
+        }
+        let is_failed = |step: &Step| !step.converged && !is_unresolved(step);
+        let failed: Vec<usize> = steps().filter(|(_, step)| is_failed(step)).map(|(number, _)| number).collect();
         if !failed.is_empty() {
             warnings.push(format!("not converged: step {}; judge it by its certificate", list(&failed)));
         }

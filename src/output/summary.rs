@@ -125,7 +125,7 @@ impl Stress {
 pub struct Certificate {
     /// Bound on the relative excess of energy.
     pub energy_gap: f64,
-    /// Deepest penetration outside contact over the range of f.
+    /// Deepest penetration outside contact over δ.
     pub penetration: f64,
     /// Deviation of what was prescribed.
     pub load: f64,

@@ -4,12 +4,12 @@
 //! − τt, 0); samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over
 //! contact, Ct likewise, and p is scaled back to its mean.
 
-use super::{Control, Patience, Progress, Report, Settings, State, StopReason};
+use super::{Check, Control, Patience, Progress, Report, Settings, State, StopReason};
 use crate::field;
 use crate::operator::Operator;
 
-/// Iterations without progress before the method counts as stalled.
-const PATIENCE: usize = 300;
+/// First window of the patience, iterations: the method is rougher on its way than the preconditioned one.
+const PATIENCE: usize = 100;
 
 pub(super) fn solve(
     operator: &mut Operator,
@@ -28,7 +28,7 @@ pub(super) fn solve(
     state.direction.fill(0.0);
     state.admit(control);
     loop {
-        let check = state.check(operator, shape, control);
+        let check = Check::new(operator, shape, control, state);
         if let Some(stop) = check.stop(settings, &mut patience, iterations) {
             return Report { stop, iterations, fell_back: false, residual: check.residual };
         }

@@ -5,12 +5,12 @@
 //! preconditioner is then symmetric on the admissible directions. Step τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p − τt, 0), and p is
 //! scaled back to its mean. C⁻¹ makes the spectrum of the iteration nearly independent of the grid.
 
-use super::{Control, Patience, Progress, Report, Settings, State, StopReason};
+use super::{Check, Control, Patience, Progress, Report, Settings, State, StopReason};
 use crate::field;
 use crate::operator::Operator;
 
-/// Iterations without progress before the method counts as stalled.
-const PATIENCE: usize = 40;
+/// First window of the patience, iterations.
+const PATIENCE: usize = 30;
 
 pub(super) fn solve(
     operator: &mut Operator,
@@ -29,7 +29,7 @@ pub(super) fn solve(
     state.active.fill(false);
     state.admit(control);
     loop {
-        let check = state.check(operator, shape, control);
+        let check = Check::new(operator, shape, control, state);
         if let Some(stop) = check.stop(settings, &mut patience, iterations) {
             return Report { stop, iterations, fell_back: false, residual: check.residual };
         }

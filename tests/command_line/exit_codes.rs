@@ -58,6 +58,21 @@ fn too_few_iterations_are_told_and_what_is_there_is_written() {
 }
 
 #[test]
+fn a_penetration_that_reaches_no_sample_is_told() {
+    let desk = Desk::new();
+    let case = "[lattice]\nkind = \"oblique\"\na1 = [1.0, 0.0]\na2 = [0.0, 1.0]\n\
+                [[levels]]\nshape = \"paraboloid\"\nradius = 1.0\nheight = 0.0\nsites = [[0.26, 0.27]]\n\
+                [substrate]\nyoung = 1.0\npoisson = 0.3\n[load]\npenetration = [1e-5, 1e-3]\n[grid]\npoints = 64\n";
+    desk.write("between.toml", case);
+    let answer = desk.percoat(&["solve", "between.toml", "-o", "out", "--no-pictures"]);
+    answer.complains(3, &["warning: the penetration of step 1 reaches hardly a sample", "raise grid.points"]);
+    assert!(!answer.err.contains("not converged"), "{}", answer.err);
+    let steps = Folder(desk.path("out")).steps();
+    assert_eq!((&steps[0]["converged"], &steps[0]["stop_reason"]), (&false.into(), &"unresolved".into()));
+    assert_eq!(steps[1]["converged"], true);
+}
+
+#[test]
 fn a_case_file_that_cannot_be_read_is_an_input_failure() {
     let desk = Desk::new();
     desk.percoat(&["solve", "absent.toml"]).complains(4, &["absent.toml"]);
