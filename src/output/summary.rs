@@ -17,6 +17,8 @@ pub struct Step {
     pub additional_displacement: f64,
     /// Fraction of the cell in contact.
     pub contact_fraction: f64,
+    /// Estimated discretisation error of the fraction in contact.
+    pub contact_fraction_error: f64,
     /// Largest pressure.
     pub max_pressure: f64,
     /// Whether the solution meets the tolerance.
@@ -128,8 +130,18 @@ pub struct Level {
     pub max_pressure: f64,
     /// Contact area of one indenter.
     pub contact_area: f64,
+    /// Its estimated discretisation error.
+    pub contact_area_error: f64,
     /// √(area/π); null for merged contacts.
     pub contact_radius: Option<f64>,
+    /// Its estimated discretisation error, a length.
+    pub contact_radius_error: Option<f64>,
+    /// Whether a contact of this level is open in the middle.
+    pub ring: bool,
+    /// √(area/π) of a ring's hole; null without one, for merged contacts and spots of too few samples.
+    pub radius_inner: Option<f64>,
+    /// √(area/π) of all inside a ring's outer boundary; see `radius_inner`.
+    pub radius_outer: Option<f64>,
     /// Smallest boundary radius; null for merged contacts and spots of too few samples.
     pub radius_min: Option<f64>,
     /// Largest boundary radius.
@@ -151,6 +163,7 @@ impl Step {
             penetration: observables.penetration,
             additional_displacement: observables.penetration,
             contact_fraction: observables.contact_fraction,
+            contact_fraction_error: observables.contact_fraction_error,
             max_pressure: observables.max_pressure,
             converged: report.stop.solved(),
             stop_reason: report.stop.to_string(),
@@ -174,7 +187,12 @@ impl Step {
                     load_share: level.load_share,
                     max_pressure: level.max_pressure,
                     contact_area: level.contact_area,
+                    contact_area_error: level.contact_area_error,
                     contact_radius: level.contact_radius,
+                    contact_radius_error: level.radius_error,
+                    ring: level.ring,
+                    radius_inner: level.ring_radii.map(|(inner, _)| inner),
+                    radius_outer: level.ring_radii.map(|(_, outer)| outer),
                     radius_min: level.radius_extremes.map(|(least, _)| least),
                     radius_max: level.radius_extremes.map(|(_, largest)| largest),
                     asymmetry: level.asymmetry(),

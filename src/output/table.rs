@@ -33,7 +33,12 @@ fn detailed(steps: &[Step]) -> String {
         for level in &step.levels {
             let radius = match level.contact_radius {
                 _ if level.load == 0.0 => "–".to_owned(),
-                Some(radius) => number(radius),
+                // The radius of the area says little of a ring.
+                Some(radius) if level.ring => match (level.radius_inner, level.radius_outer) {
+                    (Some(inner), Some(outer)) => format!("ring {}–{}", number(inner), number(outer)),
+                    _ => format!("ring, area of {}", number(radius)),
+                },
+                Some(radius) => with_error(radius, level.contact_radius_error),
                 None => "merged".to_owned(),
             };
             let cells = [
@@ -102,7 +107,8 @@ pub fn readings(comparison: &Comparison, setup: &Setup) -> String {
                 number(level.load),
                 percent(level.load_share),
                 number(level.max_pressure),
-                length(if level.load > 0.0 { level.contact_radius } else { f64::NAN }),
+                length(if level.load > 0.0 { level.contact_radius } else { f64::NAN })
+                    + if level.ring { " (ring)" } else { "" },
                 length(level.radius),
             ];
             rows.push([&lead[..], &cells[..]].concat());
@@ -158,6 +164,14 @@ pub fn render_with(header: &[String], rows: &[Vec<String>], words: usize) -> Str
     let rule = "─".repeat(width);
     lines.insert(1.min(lines.len()), &rule);
     lines.join("\n")
+}
+
+/// A value and its estimated error, `0.4217 ± 0.0001`.
+fn with_error(value: f64, error: Option<f64>) -> String {
+    match error {
+        Some(error) if error > 0.0 => format!("{} ± {error:.0e}", number(value)),
+        _ => number(value),
+    }
 }
 
 fn percent(x: f64) -> String {
