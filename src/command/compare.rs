@@ -1,7 +1,7 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
 use super::pictures::PictureOptions;
-use super::solve::refuse_beyond_full_contact;
+use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
@@ -29,6 +29,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let started = Instant::now();
     let controls = case.load.controls();
     let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    refuse_beyond_memory(&case, pictures.wanted())?;
     refuse_beyond_full_contact(&case, &[control])?;
     let localized = &case.localized;
     let setup = Setup {
@@ -54,7 +55,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
             sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy).map_err(refused)?
         }
     };
-    let progress = if common.quiet || common.verbose { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+    let progress = if common.shows_progress() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
     let comparison = task.compare(points, &mut |what| {
         progress.set_message(what.to_owned());
         progress.tick();

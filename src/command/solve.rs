@@ -4,7 +4,7 @@ use super::pictures::PictureOptions;
 use super::stress::{largest, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
-use percoat::case::{Case, GridSection, LoadSection};
+use percoat::case::{Case, GridSection, LoadSection, available_memory, plausibility, resources};
 use percoat::grid::Grid;
 use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
@@ -29,12 +29,14 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
     let run = Run { case: &case, controls: case.load.controls(), folder, pictures, common };
+    refuse_beyond_memory(&case, pictures.wanted())?;
     refuse_beyond_full_contact(run.case, &run.controls)?;
     let result = match case.grid {
         GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
     };
-    let warnings = run.warnings(&result);
+    let doubts = [plausibility::of_case(&case), plausibility::of_steps(&case, &result.steps)].concat();
+    let warnings = [run.warnings(&result), doubts].concat();
     run.record(&result.steps, true, &warnings, result.accuracy)?;
     if !common.quiet {
         run.print(&result, started)?;
@@ -173,7 +175,7 @@ impl Run<'_> {
     }
 
     fn progress(&self) -> ProgressBar {
-        if self.common.quiet || self.common.verbose {
+        if !self.common.shows_progress() {
             return ProgressBar::hidden();
         }
         let style = ProgressStyle::with_template("{bar:24} step {pos}/{len}  {msg}");
@@ -267,6 +269,11 @@ impl Run<'_> {
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), self.folder.display())?;
         Ok(())
     }
+}
+
+/// A grid that memory does not hold is refused before any of it is taken.
+pub fn refuse_beyond_memory(case: &Case, pictures: bool) -> Result<(), Failure> {
+    resources::refusal(case, available_memory(), pictures).map_or(Ok(()), |why| Err(Failure::Refused(why)))
 }
 
 /// No load reaches a penetration at which contact is complete: refused before anything is written.

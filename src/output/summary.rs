@@ -146,14 +146,18 @@ impl Step {
     /// The step's scalars; `points` of the grid it was solved on.
     pub fn new(observables: &Observables, solution: &Solution, points: [usize; 2]) -> Self {
         let (report, certificate) = (&solution.report, &solution.certificate);
+        let numbers =
+            [observables.mean_pressure, observables.penetration, observables.max_pressure, certificate.energy_gap];
+        // What is not a number compares as small as any tolerance.
+        let finite = numbers.iter().all(|x| x.is_finite());
         Self {
             mean_pressure: observables.mean_pressure,
             penetration: observables.penetration,
             additional_displacement: observables.penetration,
             contact_fraction: observables.contact_fraction,
             max_pressure: observables.max_pressure,
-            converged: report.stop.solved(),
-            stop_reason: report.stop.to_string(),
+            converged: report.stop.solved() && finite,
+            stop_reason: if finite { report.stop.to_string() } else { "not a number".to_owned() },
             fell_back: report.fell_back,
             iterations: report.iterations,
             convolutions: solution.convolutions,

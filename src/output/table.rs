@@ -161,7 +161,8 @@ pub fn render_with(header: &[String], rows: &[Vec<String>], words: usize) -> Str
 }
 
 fn percent(x: f64) -> String {
-    format!("{:.2} %", 100.0 * x)
+    // Rounding leaves no sign on what it makes 0.
+    format!("{:.2} %", if x.abs() < 5e-5 { 0.0 } else { 100.0 * x })
 }
 
 /// The largest stresses of a step in one line.
@@ -172,4 +173,14 @@ pub fn stress(stress: &Stress) -> String {
         format!("{name} {value} in material {material} at ({x}, {y}, {z})")
     };
     format!("{}; {}", peak("largest τ₁", &stress.max_tau1), peak("largest tension", &stress.max_tension))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_percentage_that_rounds_to_zero_has_no_sign() {
+        assert_eq!([-1e-9, 4e-5, -4e-3, 0.5].map(percent), ["0.00 %", "0.00 %", "-0.40 %", "50.00 %"]);
+    }
 }
