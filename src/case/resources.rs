@@ -1,10 +1,10 @@
 //! Memory and disk that a case takes, and the largest grid that fits.
 //!
 //! The figures are peaks of the resident memory, measured from 64 to 1024 points with and without stresses, volumes and
-//! pictures (`tests/command_line/resources.rs` measures them again). An estimate lies above the peak by some tenth:
+//! pictures (`tests/command_line/refusals.rs` measures two of them again). An estimate lies above the peak by some tenth:
 //! below a quarter in all that were measured.
 
-use super::{Case, GridSection, LocalizedSection, StressSection};
+use super::{Case, GridSection, StressSection};
 use crate::fourier::fast_points;
 use crate::hierarchy;
 use crate::material::HalfSpace;
@@ -25,8 +25,8 @@ const COMPONENTS: u64 = 12;
 const VTK_NUMBERS: u64 = 16;
 /// Sheets of paper as pixels, several at a time: maps and profiles, cuts, load curves.
 const MAPS: u64 = 90 * MEBIBYTE;
-const CUTS: u64 = 40 * MEBIBYTE;
-const CURVES: u64 = 65 * MEBIBYTE;
+const CUTS: u64 = 46 * MEBIBYTE;
+const CURVES: u64 = 84 * MEBIBYTE;
 /// A picture on disk.
 const PICTURE: u64 = MEBIBYTE / 5;
 /// Rows and columns of a vertical section.
@@ -79,13 +79,6 @@ fn of_pictures(case: &Case) -> u64 {
 
 fn has_cut(case: &Case) -> bool {
     case.stress.as_ref().is_some_and(|stress| stress.section.is_some())
-}
-
-/// What the localized method of `compare` takes beside the spectral one: influence tables of all pairs of sites.
-pub fn of_localized(localized: &LocalizedSection, sites: usize) -> u64 {
-    let width = (1.5 * localized.elements as f64) as u64 + 1;
-    // A table has a number for every difference of elements, and as many complex ones to convolve with.
-    sites as u64 * sites as u64 * 4 * width * width * 8 * 3 + 16 * MEBIBYTE
 }
 
 /// The largest grid of `case`, shaped like `points`, on which it takes at most `memory` bytes; `None` if none does.
