@@ -253,15 +253,19 @@ impl Nest {
     }
 }
 
-/// Memory that a hierarchy with a finest grid of `points` and one solution take, bytes.
+/// Peak of the memory that solving and reading on a finest grid of `points` takes, bytes.
 ///
 /// Per sample of each grid: the solver's 5 fields and 1 flag, the shape and its owner, 2 multipliers and 2 spectra of
-/// half the components; of the finest grid also the solution's 3 fields and one for interpolation.
+/// half the components; of the finest grid also the solution's 3 fields, one for interpolation, and what passes
+/// from grid to grid. Per row and column of each grid: what its transforms need.
 pub fn memory(points: [usize; 2], method: Method) -> usize {
-    let (solver, texture, operator, solution) = (5 * 8 + 1, 8 + 4, 2 * 4 + 2 * 8, 4 * 8);
-    let finest = points[0] * points[1];
-    let samples: usize = nested_points(points, method).iter().map(|[n1, n2]| n1 * n2).sum();
-    samples * (solver + texture + operator) + finest * solution
+    let (solver, texture, operator) = (5 * 8 + 1, 8 + 4, 2 * 4 + 2 * 8);
+    let (solution, rows) = (4 * 8, 2048);
+    // Changes from grid to grid.
+    let passing = if method == Method::Preconditioned { 5 * 8 + 4 } else { 0 };
+    let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * (solver + texture + operator) + (n1 + n2) * rows;
+    let nested: usize = nested_points(points, method).into_iter().map(of_grid).sum();
+    nested + points[0] * points[1] * (solution + passing)
 }
 
 impl fmt::Display for Hierarchy {

@@ -2,9 +2,11 @@
 
 mod command;
 
-use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    command::run(&command::Arguments::parse())
+    match command::Arguments::read() {
+        Ok(arguments) => command::run(&arguments),
+        Err(code) => code,
+    }
 }

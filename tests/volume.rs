@@ -77,7 +77,8 @@ fn every_point_of_the_file_has_the_state_of_its_place() {
             assert_eq!(material[index], depth.side as f64);
             let state = field.points(depth, &[[x, y]])[0];
             let [xx, yy, zz, xy, xz, yz, ux, uy, uz] = state.components();
-            let expected = [xx, yy, zz, xy, xz, yz, state.tau1(), state.mises(), state.s1()];
+            // z upwards, as coordinates and displacements.
+            let expected = [xx, yy, zz, xy, -xz, -yz, state.tau1(), state.mises(), state.s1()];
             for (name, value) in names.iter().zip(expected) {
                 assert!((arrays[*name][index] - value).abs() < 1e-11, "{name} at {i}, {j}, {k}");
             }
@@ -86,6 +87,37 @@ fn every_point_of_the_file_has_the_state_of_its_place() {
             }
         }
     }
+}
+
+/// Along the drawn axes the tensor of the file has the principal stresses that the file gives, and on them the surface
+/// displacement gradient of its own coordinates: σ_xz = G(∂u_x/∂z + ∂u_z/∂x) below the surface.
+#[test]
+fn stresses_displacements_and_coordinates_have_one_set_of_axes() {
+    let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
+    let grid = Grid::new(Cell::square(1.0).unwrap(), POINTS).unwrap();
+    let wave = |index: usize| 1.0 + (std::f64::consts::TAU * grid.fractions(index)[0]).cos();
+    let pressure: Vec<f64> = (0..grid.len()).map(wave).collect();
+    let field = Field::new(&grid, &pressure, &half_space, MeanStress::Confined);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stress.vts");
+    let (z, step) = (0.2, 1e-3);
+    let depths = [z - step, z, z + step].map(|z| Depth { z, side: 1 });
+    write_volume(&path, &field, &depths, POINTS).unwrap();
+    let (_, arrays) = read(&path);
+    let [n1, n2] = POINTS;
+    let at = |i: usize, k: usize| i + (n1 + 1) * (n2 + 1) * k;
+    let (places, displacement) = (&arrays["points"], &arrays["displacement"]);
+    let i = 2;
+    let rise = places[3 * at(i, 2) + 2] - places[3 * at(i, 0) + 2];
+    let shear_up = (displacement[3 * at(i, 2)] - displacement[3 * at(i, 0)]) / rise;
+    // u_z goes with cos(2πx): its slope at x is −2π tan(2πx) times itself, the mean taken off.
+    let angle = std::f64::consts::TAU * i as f64 / n1 as f64;
+    let mean: f64 = (0..n1).map(|i| displacement[3 * at(i, 1) + 2]).sum::<f64>() / n1 as f64;
+    let along = -(displacement[3 * at(i, 1) + 2] - mean) * std::f64::consts::TAU * angle.tan();
+    let stress = arrays["sigma_xz"][at(i, 1)];
+    assert!(stress.abs() > 0.1, "{stress} says nothing");
+    // Differences over 2e-3: (2π·1e-3)²/6 of the derivative.
+    assert!((stress / (shear_up + along) - 1.0).abs() < 1e-4, "{stress} {}", shear_up + along);
 }
 
 #[test]

@@ -104,7 +104,8 @@ impl CaseError {
         let source = ariadne::Source::from(text.as_str());
         match report.finish().write((name.as_str(), source), &mut rendered) {
             Ok(()) => {
-                let lines = String::from_utf8_lossy(&rendered);
+                // As every other error of the command line is spelt; a kind of one's own is coloured always.
+                let lines = String::from_utf8_lossy(&rendered).replacen("Error:", "error:", 1);
                 lines.lines().map(str::trim_end).collect::<Vec<_>>().join("\n").trim_end().to_owned()
             }
             // Writing into memory does not fail; the message alone would still be right.

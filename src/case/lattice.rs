@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::levels::LevelSection;
-use super::reader::{POSITIVE, Section};
+use super::limits;
+use super::reader::Section;
 use crate::lattice::{Cell, Lattice, LatticeError};
 
 /// The section `[lattice]`.
@@ -43,7 +44,7 @@ impl LatticeSection {
         let kind = section.required("kind", "\"hexagonal\", \"square\" or \"oblique\"")?;
         let period = || {
             section.only(&["kind", "period"], &[("a1", VECTORS), ("a2", VECTORS)])?;
-            section.required("period", PERIOD)?.number(POSITIVE)
+            limits::size(&section.required("period", PERIOD)?)
         };
         match kind.choice(&[("hexagonal", 0), ("square", 1), ("oblique", 2)])? {
             0 => Ok(Self::Hexagonal { period: period()? }),
@@ -102,6 +103,7 @@ pub(super) fn build(
             return Err(Refusal::new(section.place(), message, "too many sites"));
         }
     }
+    limits::cell(lattice, section)?;
     lattice.build(levels).map_err(|error| match error {
         LatticeError::NoStandardSites { .. } if matches!(lattice, LatticeSection::Oblique { .. }) => {
             Refusal::new(level_sections[0].place(), "`levels[0].sites` is missing", "no `sites` in this level")
@@ -129,10 +131,10 @@ pub(super) fn build(
 
 /// The cell of a case with a surface, or what is wrong with it.
 pub(super) fn build_cell(lattice: &LatticeSection, section: &Section<'_>) -> Result<Cell, Refusal> {
-    lattice.cell().map_err(|error| flat(section, &error))
+    limits::cell(lattice, section)
 }
 
-fn flat(section: &Section<'_>, error: &LatticeError) -> Refusal {
+pub(super) fn flat(section: &Section<'_>, error: &LatticeError) -> Refusal {
     match section.optional("a2") {
         Some(a2) => Refusal::new(a2.place(), format!("`{}`: {error}", a2.path()), "no cell")
             .help("give two vectors that are not parallel"),

@@ -4,8 +4,9 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
+use super::limits;
 use super::node::Value;
-use super::reader::{Field, POSITIVE, Section};
+use super::reader::{Field, Section};
 use crate::material::{HalfSpace, Interface, Layer, Material, MaterialError};
 
 /// One section of `[[layers]]`, from the surface down.
@@ -43,7 +44,7 @@ pub struct SubstrateSection {
 }
 
 impl Modulus {
-    fn key(self) -> &'static str {
+    pub(super) fn key(self) -> &'static str {
         match self {
             Self::ShearRatio(_) => "shear_ratio",
             Self::Young(_) => "young",
@@ -54,11 +55,11 @@ impl Modulus {
 impl LayerSection {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
         section.only(&["thickness", "shear_ratio", "young", "poisson", "interface"], &[])?;
-        let thickness = section.required("thickness", "the thickness of the layer, a length")?.number(POSITIVE)?;
+        let thickness = limits::size(&section.required("thickness", "the thickness of the layer, a length")?)?;
         let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure)";
         let modulus = match section.one_of(["shear_ratio", "young"], what)? {
-            (0, ratio) => Modulus::ShearRatio(ratio.number(POSITIVE)?),
-            (_, young) => Modulus::Young(young.number(POSITIVE)?),
+            (0, ratio) => Modulus::ShearRatio(limits::size(&ratio)?),
+            (_, young) => Modulus::Young(limits::size(&young)?),
         };
         let poisson = poisson(section)?;
         let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |field| interface(&field))?;
@@ -80,7 +81,7 @@ impl SubstrateSection {
             &["young", "poisson"],
             &[("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")],
         )?;
-        let young = section.required("young", "Young's modulus, a pressure")?.number(POSITIVE)?;
+        let young = limits::size(&section.required("young", "Young's modulus, a pressure")?)?;
         Ok(Self { young, poisson: poisson(section)? })
     }
 }
@@ -120,22 +121,26 @@ fn interface(field: &Field<'_>) -> Result<Interface, Refusal> {
         Value::Table(table) if !table.entries.is_empty() => {
             let section = field.table(WANTED)?;
             section.only(&["tangential_stiffness", "normal_stiffness"], &[])?;
-            let stiffness = |key| section.optional(key).map_or(Ok(f64::INFINITY), |field| rigidity(&field));
+            let stiffness =
+                |key, without| section.optional(key).map_or(Ok(f64::INFINITY), |field| rigidity(&field, without));
             Ok(Interface::Spring {
-                tangential: stiffness("tangential_stiffness")?,
-                normal: stiffness("normal_stiffness")?,
+                tangential: stiffness("tangential_stiffness", NO_SHEAR)?,
+                normal: stiffness("normal_stiffness", NO_PRESSURE)?,
             })
         }
         _ => Err(field.refuse(WANTED).help("a spring needs one stiffness at least; the one left out is rigid")),
     }
 }
 
-fn rigidity(field: &Field<'_>) -> Result<f64, Refusal> {
-    field.number(POSITIVE).map_err(|refusal| match field.value() {
-        Value::Integer(0) => refusal.help("for no tangential stiffness write interface = \"frictionless\""),
-        Value::Float(value) if *value == 0.0 => {
-            refusal.help("for no tangential stiffness write interface = \"frictionless\"")
-        }
+const NO_SHEAR: &str = "for no tangential stiffness write interface = \"frictionless\"";
+const NO_PRESSURE: &str =
+    "without normal stiffness an interface carries no pressure; leave the key out where the faces do not approach";
+
+/// A stiffness; `without` says what to do instead of 0.
+fn rigidity(field: &Field<'_>, without: &str) -> Result<f64, Refusal> {
+    limits::size(field).map_err(|refusal| match *field.value() {
+        Value::Integer(0) => refusal.help(without),
+        Value::Float(value) if value == 0.0 => refusal.help(without),
         Value::Float(value) if value.is_infinite() => refusal.help("leave the key out: an absent stiffness is rigid"),
         _ => refusal,
     })

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::reader::{POSITIVE, Section};
+use super::limits;
+use super::reader::Section;
 use crate::indenter::{Level, Shape};
 
 /// Most levels a case can have.
@@ -44,7 +45,7 @@ pub(super) fn read(sections: &[Section<'_>]) -> Result<Vec<LevelSection>, Refusa
 impl LevelSection {
     fn read(section: &Section<'_>) -> Result<Self, Refusal> {
         let shape = shape(section)?;
-        let height = section.optional("height").map_or(Ok(0.0), |height| height.number(..))?;
+        let height = section.optional("height").map_or(Ok(0.0), |height| limits::place(&height))?;
         Ok(Self { shape, height, sites: sites(section)? })
     }
 
@@ -62,7 +63,7 @@ fn shape(section: &Section<'_>) -> Result<Shape, Refusal> {
     const COEFFICIENT: &str = "`coefficient` is a size of a power profile c rⁿ";
     const EXPONENT: &str = "`exponent` is a size of a power profile c rⁿ";
     let foreign = [("radius", RADIUS), ("slope", SLOPE), ("coefficient", COEFFICIENT), ("exponent", EXPONENT)];
-    let size = |key, what| section.required(key, what)?.number(POSITIVE);
+    let size = |key, what| limits::size(&section.required(key, what)?);
     let radius = || {
         section.only(&["shape", "radius", "height", "sites"], &foreign)?;
         size("radius", "the radius at the apex, a length greater than 0")

@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::error::Refusal;
+use super::limits;
 use super::node::Value;
-use super::reader::{Field, POSITIVE, Section};
+use super::reader::{Field, Section};
 use crate::solver::Control;
 
 /// Most load steps a case can have.
@@ -60,9 +61,9 @@ impl LoadSection {
 fn steps(field: &Field<'_>) -> Result<Vec<f64>, Refusal> {
     const WANTED: &str = "a number, a list of numbers or { from = …, to = …, steps = … }";
     match field.value() {
-        Value::Integer(_) | Value::Float(_) => Ok(vec![field.number(0.0..)?]),
+        Value::Integer(_) | Value::Float(_) => Ok(vec![limits::size_or_zero(field)?]),
         Value::List(items) if (1..=MOST).contains(&items.len()) => {
-            field.list(WANTED, WANTED)?.iter().map(|item| item.number(0.0..)).collect()
+            field.list(WANTED, WANTED)?.iter().map(limits::size_or_zero).collect()
         }
         Value::List(items) if items.len() > MOST => Err(field.refuse(format!("a list of at most {MOST} numbers"))),
         Value::List(_) => Err(field.refuse("a list of at least one number")),
@@ -86,9 +87,9 @@ fn range(section: &Section<'_>) -> Result<Vec<f64>, Refusal> {
     let value = |key, what| {
         let field = section.required(key, what)?;
         match spacing {
-            Spacing::Linear => field.number(0.0..),
+            Spacing::Linear => limits::size_or_zero(&field),
             Spacing::Log => {
-                field.number(POSITIVE).map_err(|refusal| refusal.or_help("spacing = \"log\" never reaches 0"))
+                limits::size(&field).map_err(|refusal| refusal.or_help("spacing = \"log\" never reaches 0"))
             }
         }
     };

@@ -2,7 +2,8 @@
 //!
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
 //! surface and half-space. What is wrong is refused with its line ([`CaseError`]). One file a section:
-//! lattice, levels, surface, layers (with the substrate), load, grid, solver, stress, localized.
+//! lattice, levels, surface, layers (with the substrate), load, grid, solver, stress, localized. `limits` refuses what
+//! double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says what a run takes.
 //!
 //! ```
 //! use percoat::case::{Case, embedded};
@@ -17,12 +18,17 @@ mod grid;
 mod lattice;
 mod layers;
 mod levels;
+mod limits;
 mod load;
 mod localized;
+mod machine;
 mod model;
 mod node;
+mod npy;
 mod overrides;
+pub mod plausibility;
 mod reader;
+pub mod resources;
 mod solver;
 mod source;
 mod stress;
@@ -35,8 +41,10 @@ pub use grid::GridSection;
 pub use lattice::LatticeSection;
 pub use layers::{LayerSection, Modulus, SubstrateSection};
 pub use levels::LevelSection;
+pub use limits::CARRIED;
 pub use load::LoadSection;
 pub use localized::LocalizedSection;
+pub use machine::available_memory;
 pub use model::Case;
 pub use source::Source;
 pub use stress::{Cut, StressSection, Toward, Volume};

@@ -11,7 +11,8 @@ use super::{
     GridSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection,
 };
-use super::{lattice, layers, levels, solver};
+use super::{lattice, layers, levels, limits, solver};
+use crate::indenter::Level;
 use crate::material::HalfSpace;
 use crate::solver::Settings;
 use crate::texture::Surface;
@@ -142,7 +143,9 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         None => {
             let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
             let lattice = lattice::build(&lattice, &lattice_section, &levels, &level_sections)?;
-            (None, Surface::Indenters { lattice, levels: built.collect::<Result<_, _>>()? })
+            let built: Vec<Level> = built.collect::<Result<_, _>>()?;
+            limits::profiles(&built, &level_sections, lattice.cell())?;
+            (None, Surface::Indenters { lattice, levels: built })
         }
     };
 
@@ -152,15 +155,20 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let substrate = SubstrateSection::read(&substrate_section)?;
     let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
 
+    limits::layers(&half_space, &layers, &layer_sections, built_surface.cell())?;
+
     let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
     let file_points = match &built_surface {
         Surface::Heights { points, .. } => Some(*points),
         Surface::Indenters { .. } => None,
     };
+    let grid_section = root.section("grid")?;
+    let grid = GridSection::read(grid_section.as_ref(), file_points)?;
+    limits::grid(grid, grid_section.as_ref(), &lattice_section, built_surface.cell())?;
     Ok(Case {
         title,
         lattice,
-        grid: GridSection::read(root.section("grid")?.as_ref(), file_points)?,
+        grid,
         solver: solver::read(root.section("solver")?.as_ref())?,
         stress: root.section("stress")?.map(|section| StressSection::read(&section, levels.len())).transpose()?,
         localized: LocalizedSection::read(root.section("localized")?.as_ref())?,

@@ -15,6 +15,9 @@ const EXCLUSIVE: [&[&[&str]]; 6] = [
     &[&["radius"], &["slope"], &["coefficient", "exponent"]],
 ];
 
+/// Parts of the longest path; the longest of a case has four.
+const DEEPEST: usize = 16;
+
 /// One override, parsed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Override {
@@ -40,6 +43,10 @@ impl Override {
     pub(super) fn parse(text: &str, source: usize) -> Result<Self, Refusal> {
         let (key, value) = split(text, source)?;
         let steps = steps(key, source)?;
+        if let Some(step) = steps.get(DEEPEST) {
+            return Err(Refusal::new(step.place, "no key of a case lies as deep as this", "too deep")
+                .help("write KEY=VALUE, for example layers.0.thickness=0.2"));
+        }
         let offset = key.len() + 1 + (value.len() - value.trim_start().len());
         let value = value.trim();
         let place = Place::new(source, offset..offset + value.len());
@@ -223,6 +230,12 @@ mod tests {
         let root = set("[[levels]]\ncoefficient = 1\nexponent = 3\nheight = 1\n", "levels.0.slope=0.1").unwrap();
         assert_eq!(value(&root, &["levels", "0", "exponent"]), None);
         assert_eq!(value(&root, &["levels", "0", "height"]), Some(&Value::Integer(1)));
+    }
+
+    #[test]
+    fn a_path_of_any_length_is_refused_without_descending_it() {
+        let deep = "a.".repeat(200_000) + "a=1";
+        assert!(Override::parse(&deep, 1).is_err());
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::ops::{Bound, RangeBounds, RangeInclusive};
 
 use super::error::Refusal;
+use super::limits;
 use super::node::{Node, Place, Table, Value, plain};
 
 /// Numbers greater than zero.
@@ -223,7 +224,7 @@ impl<'a> Field<'a> {
     /// Two finite numbers, `wanted` such as "a vector [x, y]".
     pub(super) fn pair(&self, wanted: &str) -> Result<[f64; 2], Refusal> {
         match &self.list(wanted, "two numbers in brackets")?[..] {
-            [x, y] => Ok([x.number(..)?, y.number(..)?]),
+            [x, y] => Ok([limits::place(x)?, limits::place(y)?]),
             _ => Err(self.refuse(wanted).help("two numbers in brackets")),
         }
     }

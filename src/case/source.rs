@@ -1,7 +1,7 @@
 //! Where a case comes from.
 
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// Text of a case and where it comes from.
@@ -15,13 +15,40 @@ pub struct Source {
     pub folder: PathBuf,
 }
 
+/// Bytes of the longest case file that is read: a case of ten thousand loads and sites has a tenth of it.
+const LONGEST: u64 = 16 << 20;
+
 impl Source {
     /// The case file at `path`.
     ///
     /// # Errors
-    /// When the file cannot be read or is not UTF-8.
+    /// When the file cannot be read, or, as [`io::ErrorKind::InvalidData`], when it is no text of a case: longer than
+    /// 16 MiB or not UTF-8.
     pub fn file(path: &Path) -> io::Result<Self> {
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        Ok(Self { name: path.display().to_string(), text: fs::read_to_string(path)?, folder })
+        let name = path.display().to_string();
+        let mut bytes = Vec::new();
+        fs::File::open(path)?.take(LONGEST + 1).read_to_end(&mut bytes)?;
+        let refused = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
+        if bytes.len() as u64 > LONGEST {
+            return Err(refused(format!("{name} is longer than 16 MiB: it is no case file")));
+        }
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self { name, text, folder }),
+            Err(error) => Err(refused(not_utf8(&name, error.as_bytes(), error.utf8_error().valid_up_to()))),
+        }
     }
+}
+
+/// Where a file ceases to be UTF-8, and what to do about it.
+fn not_utf8(name: &str, bytes: &[u8], at: usize) -> String {
+    let (before, byte) = (&bytes[..at], bytes[at]);
+    let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
+    let start = before.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+    let column = 1 + String::from_utf8_lossy(&before[start..]).chars().count();
+    let guess = match bytes {
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "it looks like UTF-16",
+        _ => "it may be in Latin-1 or another old encoding",
+    };
+    format!("{name}:{line}:{column}: the case is not UTF-8 text (byte {byte:#04x}): {guess}; save it as UTF-8")
 }

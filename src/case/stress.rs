@@ -3,8 +3,9 @@
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
+use super::limits;
 use super::node::Value;
-use super::reader::{Field, POSITIVE, Section};
+use super::reader::{Field, Section};
 use crate::stress::MeanStress;
 
 /// The section `[stress]`.
@@ -75,7 +76,8 @@ impl StressSection {
         let planes = match section.optional("planes") {
             Some(field) => {
                 let depths = field.list("a list of depths", "for example planes = [0.0, 0.5]")?;
-                depths.iter().map(|depth| depth.number(0.0..)).collect::<Result<_, _>>()?
+                at_most(&field, depths.len(), PLANES)?;
+                depths.iter().map(limits::size_or_zero).collect::<Result<_, _>>()?
             }
             None => Vec::new(),
         };
@@ -89,6 +91,7 @@ impl StressSection {
         let points = match section.optional("points") {
             Some(field) => {
                 let points = field.list("a list of points", "for example points = [[0.0, 0.0, 0.1]]")?;
+                at_most(&field, points.len(), POINTS)?;
                 points.iter().map(point).collect::<Result<_, _>>()?
             }
             None => Vec::new(),
@@ -98,12 +101,20 @@ impl StressSection {
     }
 }
 
+/// Most planes and points that a case can ask for.
+const PLANES: usize = 1000;
+const POINTS: usize = 100_000;
+
+fn at_most(field: &Field<'_>, count: usize, most: usize) -> Result<(), Refusal> {
+    if count <= most { Ok(()) } else { Err(field.refuse(format!("a list of at most {most} items"))) }
+}
+
 /// A point [x, y, z] at or below the surface.
 fn point(field: &Field<'_>) -> Result<[f64; 3], Refusal> {
     const WANTED: &str = "three numbers [x, y, z], z not less than 0";
     let items = field.list(WANTED, WANTED)?;
     let [x, y, z] = &items[..] else { return Err(field.refuse(WANTED)) };
-    Ok([x.number(..)?, y.number(..)?, z.number(0.0..)?])
+    Ok([limits::place(x)?, limits::place(y)?, limits::size_or_zero(z)?])
 }
 
 impl Volume {
@@ -115,7 +126,7 @@ impl Volume {
             None => Ok(default),
         };
         Ok(Self {
-            depth: section.required("depth", "how deep it goes")?.number(POSITIVE)?,
+            depth: limits::size(&section.required("depth", "how deep it goes")?)?,
             rows: count("rows", 40)?,
             points: count("points", 96)?,
         })
@@ -133,8 +144,8 @@ impl Cut {
         Ok(Self {
             from: level(&section.required("from", "where the cut begins, such as \"level 1\"")?, levels)?,
             toward: Toward::read(&section.required("toward", "where it runs to, such as \"level 2\"")?, levels)?,
-            length: section.required("length", "its length along the surface")?.number(POSITIVE)?,
-            depth: section.required("depth", "how deep it goes")?.number(POSITIVE)?,
+            length: limits::size(&section.required("length", "its length along the surface")?)?,
+            depth: limits::size(&section.required("depth", "how deep it goes")?)?,
         })
     }
 }
@@ -147,8 +158,8 @@ impl Toward {
         }
         let items = field.list(WANTED, WANTED)?;
         let [x, y] = &items[..] else { return Err(field.refuse(WANTED)) };
-        let direction = [x.number(..)?, y.number(..)?];
-        if direction == [0.0, 0.0] {
+        let direction = [limits::place(x)?, limits::place(y)?];
+        if direction.iter().all(|x| x.abs() < *limits::CARRIED.start()) {
             return Err(field.refuse("a direction [x, y] other than [0, 0]"));
         }
         Ok(Self::Direction(direction))

@@ -1,13 +1,15 @@
 //! `[surface]`: one period of any topography, read from a NumPy file.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Read};
 use std::path::Path;
 
-use npyz::{NpyFile, Order};
 use serde::Serialize;
 
 use super::error::Refusal;
+use super::limits::CARRIED;
+use super::machine::available_memory;
+use super::npy::Head;
 use super::reader::{Field, Section};
 
 /// The section `[surface]`.
@@ -50,35 +52,42 @@ impl Heights {
         let unreadable = |error| refuse(format!("cannot read {shown}: {error}"), "this file".into());
         let file = File::open(path).map_err(unreadable)?;
         let bytes = file.metadata().map_err(unreadable)?.len();
-        let npy = NpyFile::new(BufReader::new(file))
+        let mut reader = BufReader::new(file);
+        let head = Head::read(&mut reader)
             .map_err(|error| refuse(format!("{shown} is not a NumPy file: {error}"), "this file".into()))?;
 
-        let shape = npy.shape().to_vec();
-        let &[n1, n2] = &shape[..] else { return Err(refuse_shape(&refuse, path, &shape)) };
+        let &[n1, n2] = &head.shape[..] else { return Err(refuse_shape(&refuse, path, &head.shape)) };
         if !(2..=32768).contains(&n1) || !(2..=32768).contains(&n2) {
-            return Err(refuse_shape(&refuse, path, &shape));
+            return Err(refuse_shape(&refuse, path, &head.shape));
         }
-        let (dtype, order) = (npy.dtype().descr(), npy.order());
-        let samples = npy
-            .try_data::<f64>()
-            .map_err(|_| refuse(format!("{shown} holds values of type {dtype}"), format!("type {dtype}")))?;
+        let Head { kind, .. } = &head;
+        let decode = head
+            .decode()
+            .ok_or_else(|| refuse(format!("{shown} holds values of type {kind}"), format!("type {kind}")))?;
         let truncated = || refuse(format!("{shown} ends before its {n1} × {n2} values"), "truncated".into());
         if bytes < 8 * n1 * n2 {
             return Err(truncated());
         }
-        let stored: Vec<f64> = samples.collect::<Result<_, _>>().map_err(|_| truncated())?;
+        // As stored, in the order of the grid, and once more on it.
+        if 24 * n1 * n2 > available_memory() {
+            let what = format!("{shown} holds {n1} × {n2} values, more than memory does");
+            return Err(refuse(what, "too large".into()));
+        }
+        let mut value = [0; 8];
+        let mut next = |_| reader.read_exact(&mut value).map(|()| decode(value));
+        let stored: Vec<f64> = (0..n1 * n2).map(&mut next).collect::<Result<_, _>>().map_err(|_| truncated())?;
 
         let points = [n1 as usize, n2 as usize];
         let [n1, n2] = points;
-        let values = match order {
-            Order::C => stored,
-            Order::Fortran => (0..n1 * n2).map(|k| stored[k / n2 + n1 * (k % n2)]).collect(),
-        };
-        match values.iter().position(|height| !height.is_finite()) {
+        let values = if head.fortran { (0..n1 * n2).map(|k| stored[k / n2 + n1 * (k % n2)]).collect() } else { stored };
+        match values.iter().position(|height| !(height.abs() <= *CARRIED.end())) {
             None => Ok(Self { points, values }),
             Some(k) => {
                 let (value, i, j) = (super::node::plain(values[k]), k / n2, k % n2);
-                Err(refuse(format!("{shown} holds {value} at [{i}, {j}]"), "every height must be finite".into()))
+                Err(refuse(
+                    format!("{shown} holds {value} at [{i}, {j}]"),
+                    "every height must be finite and at most 1e60".into(),
+                ))
             }
         }
     }
@@ -96,7 +105,7 @@ mod tests {
     use super::*;
     use crate::case::{Case, CaseError, GridSection, Source};
     use crate::texture::Surface;
-    use npyz::WriterBuilder;
+    use npyz::{Order, WriterBuilder};
 
     const CASE: &str = "[lattice]\nkind = \"square\"\nperiod = 1\n[surface]\nheights = \"surface.npy\"\n\
                         [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";

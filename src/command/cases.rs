@@ -4,7 +4,7 @@ use super::{Failure, Outcome};
 use percoat::case::{Case, embedded};
 use std::io::Write;
 
-pub fn run(name: Option<&str>) -> Result<Outcome, Failure> {
+pub fn run(name: Option<&str>, set: &[String]) -> Result<Outcome, Failure> {
     let mut out = std::io::stdout().lock();
     match name {
         Some(name) => {
@@ -15,7 +15,18 @@ pub fn run(name: Option<&str>) -> Result<Outcome, Failure> {
                     names.join(", ")
                 )));
             };
-            write!(out, "{text}")?;
+            match (embedded::source(name), set) {
+                (Some(source), [_, ..]) => {
+                    let case = Case::read(&source, set).map_err(|error| Failure::Case(Box::new(error)))?;
+                    write!(out, "# {name} with {}\n\n{}", set.join(", ").replace('\n', " "), case.to_toml())?;
+                }
+                _ => write!(out, "{text}")?,
+            }
+        }
+        None if !set.is_empty() => {
+            return Err(Failure::Refused(
+                "--set changes a case: say which one, as in percoat cases fig2 --set …".to_owned(),
+            ));
         }
         None => {
             for (name, _) in embedded::all() {

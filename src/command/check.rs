@@ -1,9 +1,11 @@
 //! `percoat check`: what a case means, without solving it.
 
-use super::{Common, Failure, Outcome, read_case};
-use percoat::case::{Case, GridSection};
+use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
+use super::{Failure, Outcome, read_changed};
+use percoat::case::resources::{Needs, bytes, finest_points, needs};
+use percoat::case::{Case, GridSection, available_memory, plausibility};
 use percoat::grid::Grid;
-use percoat::hierarchy::{self, Hierarchy};
+use percoat::hierarchy::Hierarchy;
 use percoat::number::number;
 use percoat::refinement::balanced_points;
 use percoat::texture::Surface;
@@ -11,19 +13,21 @@ use percoat::touch::first_touches;
 use std::io::Write;
 use std::path::Path;
 
-pub fn run(path: &Path, common: &Common) -> Result<Outcome, Failure> {
-    let (case, name) = read_case(Some(path), common)?;
+pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
+    let (case, name) = read_changed(Some(path), set)?;
+    refuse_beyond_memory(&case, true)?;
+    refuse_beyond_full_contact(&case, &case.load.controls())?;
     let mut out = std::io::stdout().lock();
     let title = if case.title.is_empty() { &name } else { &case.title };
     writeln!(out, "{title}\n\n{}\n\n{}\n", case.surface(), case.half_space())?;
     match case.grid {
         GridSection::Points(points) => {
             let grid = Grid::new(case.surface().cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
-            let mebibytes = hierarchy::memory(points, case.solver.method) as f64 / f64::from(1 << 20);
-            writeln!(out, "{grid}\nmemory: about {mebibytes:.0} MiB")?;
+            writeln!(out, "{grid}")?;
         }
         GridSection::Accuracy(accuracy) => writeln!(out, "grid: refined until results change by less than {accuracy}")?,
     }
+    write_needs(&mut out, &case)?;
     let (name, values) = (case.load.quantity(), case.load.values());
     let [first, last] = [values[0], values[values.len() - 1]].map(number);
     match values.len() {
@@ -31,7 +35,26 @@ pub fn run(path: &Path, common: &Common) -> Result<Outcome, Failure> {
         count => writeln!(out, "load: {name} {first} … {last}, {count} steps")?,
     }
     write_touches(&mut out, &case)?;
+    for doubt in [plausibility::of_case(&case), plausibility::foreseen(&case)].concat() {
+        eprintln!("warning: {doubt}");
+    }
     Ok(Outcome::Done)
+}
+
+/// Memory and disk that solving the case takes, with pictures and without.
+fn write_needs(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
+    let points = finest_points(case);
+    let Needs { memory, disk } = needs(case, points, true);
+    let most = if matches!(case.grid, GridSection::Accuracy(_)) { "at most " } else { "" };
+    writeln!(
+        out,
+        "memory: about {most}{} ({} without pictures), {} available",
+        bytes(memory),
+        bytes(needs(case, points, false).memory),
+        bytes(available_memory())
+    )?;
+    writeln!(out, "disk: about {most}{}, twice as much while it runs", bytes(disk))?;
+    Ok(())
 }
 
 /// Points along the shorter cell vector on which the first touches are looked for.

@@ -2,7 +2,7 @@
 
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
-use super::solve::refuse_beyond_full_contact;
+use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
@@ -30,6 +30,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let started = Instant::now();
     let controls = case.load.controls();
     let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    refuse_beyond_memory(&case, pictures.wanted())?;
     refuse_beyond_full_contact(&case, &[control])?;
     interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
@@ -59,7 +60,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
                 .map_err(|error| Failure::Refused(error.to_string()))?
         }
     };
-    let progress = if common.quiet || common.verbose { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+    let progress = if common.shows_progress() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
     let comparison = task.compare(points, &mut |what| {
         progress.set_message(what.to_owned());
         progress.tick();

@@ -1,14 +1,14 @@
 //! `percoat kernel`: the layered half-space's response, one JSON line a wavenumber.
 
-use super::{Common, Failure, Outcome, read_case};
+use super::{Failure, Outcome, read_changed};
 use percoat::layered::{Interior, TransferFunction};
 use percoat::material::HalfSpace;
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
 
-pub fn run(case: Option<&Path>, wavenumbers: &[f64], depths: &[f64], common: &Common) -> Result<Outcome, Failure> {
-    let (case, _) = read_case(case, common)?;
+pub fn run(case: Option<&Path>, wavenumbers: &[f64], depths: &[f64], set: &[String]) -> Result<Outcome, Failure> {
+    let (case, _) = read_changed(case, set)?;
     let transfer = TransferFunction::new(case.half_space());
     let mut out = std::io::stdout().lock();
     for &wavenumber in wavenumbers {

@@ -9,13 +9,15 @@ mod pictures;
 mod plan;
 mod solve;
 mod stress;
+mod terminal;
 mod validate;
+mod without_effect;
 
 use clap::{Args, Parser, Subcommand};
-use percoat::case::{Case, CaseError, Source, embedded};
+use percoat::case::{CARRIED, Case, CaseError, Source, embedded};
 use percoat::output::{FolderError, OutputError};
 use pictures::PictureOptions;
-use std::io::IsTerminal;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -26,8 +28,6 @@ use std::process::ExitCode;
 pub struct Arguments {
     #[command(subcommand)]
     command: Command,
-    #[command(flatten)]
-    common: Common,
 }
 
 #[derive(Debug, Subcommand)]
@@ -38,6 +38,8 @@ enum Command {
         case: Option<PathBuf>,
         #[command(flatten)]
         pictures: PictureOptions,
+        #[command(flatten)]
+        common: Common,
     },
     /// Solve a case by both methods, spectral and localized, and show their differences (the last load step)
     Compare {
@@ -45,27 +47,37 @@ enum Command {
         case: Option<PathBuf>,
         #[command(flatten)]
         pictures: PictureOptions,
+        #[command(flatten)]
+        common: Common,
     },
     /// Response of the layered half-space to a harmonic pressure cos(qx), as JSON lines
     Kernel {
         /// Case file, or the name of an embedded case
         case: Option<PathBuf>,
         /// Wavenumbers q > 0, 1/length
-        #[arg(long, value_delimiter = ',', required = true, value_name = "Q,…", value_parser = positive)]
+        #[arg(long, value_delimiter = ',', required = true, value_name = "Q,…", value_parser = wavenumber)]
         wavenumber: Vec<f64>,
         /// Depths z ≥ 0 at which stresses and displacements are wanted
-        #[arg(long, value_delimiter = ',', value_name = "Z,…", value_parser = not_negative)]
+        #[arg(long, value_delimiter = ',', value_name = "Z,…", value_parser = depth)]
         depth: Vec<f64>,
+        #[command(flatten)]
+        changes: Changes,
     },
     /// Say what a case means: cell, grid, materials, memory, first touch loads; solves nothing at full size
     Check {
         /// Case file, or the name of an embedded case
         case: PathBuf,
+        #[command(flatten)]
+        changes: Changes,
+        #[command(flatten)]
+        work: Work,
     },
-    /// List the embedded example cases, or print one
+    /// List the embedded example cases, or print one; changed by --set it is complete with its defaults
     Cases {
         /// Name of the case to print
         name: Option<String>,
+        #[command(flatten)]
+        changes: Changes,
     },
     /// Hold percoat against closed forms, references and peers; exit code 1 when a check fails
     Validate {
@@ -74,33 +86,75 @@ enum Command {
         /// An earlier REPORT.md: fail unless studies, quantities and verdicts are the same
         #[arg(long, value_name = "REPORT")]
         expect: Option<PathBuf>,
+        #[command(flatten)]
+        studies: Studies,
+        #[command(flatten)]
+        work: Work,
     },
 }
 
+/// Options of the commands that solve a case into a folder.
 #[derive(Debug, Args)]
 struct Common {
     /// Output folder [default: out/<case name>]
-    #[arg(short, long, global = true, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Change a value of the case, as in layers.0.thickness=0.2 (repeatable)
-    #[arg(long, global = true, value_name = "KEY=VALUE")]
+    #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Threads to use [default: all cores]; results do not depend on it
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Print nothing but errors
-    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
     /// Say more on the way
-    #[arg(short, long, global = true)]
+    #[arg(short, long)]
     verbose: bool,
+}
+
+impl Common {
+    /// Whether progress is drawn.
+    fn shows_progress(&self) -> bool {
+        !self.quiet && !self.verbose && terminal::moves()
+    }
+}
+
+/// Overrides of a case.
+#[derive(Debug, Args)]
+struct Changes {
+    /// Change a value of the case, as in layers.0.thickness=0.2 (repeatable)
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
+
+/// Where the studies of a validation go, and how they are told of.
+#[derive(Debug, Args)]
+struct Studies {
+    /// Output folder [default: out/validate]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say more on the way
+    #[arg(short, long)]
+    verbose: bool,
+}
+
+/// How much of the machine is used.
+#[derive(Debug, Args)]
+struct Work {
+    /// Threads to use [default: all cores]; results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
 }
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 enum Failure {
     /// The case is refused.
-    #[error("{}", .0.render(std::io::stderr().is_terminal()).trim_end())]
+    #[error("{}", .0.render(terminal::coloured()).trim_end())]
     Case(Box<CaseError>),
     /// The command line, or what it asks for, is refused.
     #[error("{0}")]
@@ -135,30 +189,55 @@ enum Outcome {
     NotConverged,
 }
 
+impl Arguments {
+    /// The command line as typed; what cannot be read is told, with the exit code that goes with it.
+    pub fn read() -> Result<Self, ExitCode> {
+        Self::try_parse().map_err(|error| {
+            let typed: Vec<String> =
+                std::env::args_os().skip(1).map(|arg| arg.to_string_lossy().into_owned()).collect();
+            match without_effect::explained(&error, &typed) {
+                Some(message) => eprintln!("error: {message}"),
+                // Help that nobody reads is no fault.
+                None => drop(error.print()),
+            }
+            ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+        })
+    }
+
+    fn threads(&self) -> Option<u16> {
+        match &self.command {
+            Command::Solve { common, .. } | Command::Compare { common, .. } => common.threads,
+            Command::Check { work, .. } | Command::Validate { work, .. } => work.threads,
+            Command::Kernel { .. } | Command::Cases { .. } => None,
+        }
+    }
+}
+
 /// Runs the command; the exit codes are 0 done, 1 a validation failed, 2 refused, 3 not converged, 4 input or output
 /// failed, 130 interrupted.
 pub fn run(arguments: &Arguments) -> ExitCode {
-    let common = &arguments.common;
-    if let Some(threads) = common.threads
+    if let Some(threads) = arguments.threads()
         && let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()
     {
         eprintln!("error: cannot start {threads} threads: {error}");
         return ExitCode::from(4);
     }
     let outcome = match &arguments.command {
-        Command::Solve { case, pictures } => solve::run(case.as_deref(), pictures, common),
-        Command::Compare { case, pictures } => compare::run(case.as_deref(), pictures, common),
-        Command::Kernel { case, wavenumber, depth } => kernel::run(case.as_deref(), wavenumber, depth, common),
-        Command::Check { case } => check::run(case, common),
-        Command::Cases { name } => cases::run(name.as_deref()),
-        Command::Validate { study, expect } => validate::run(study.as_deref(), expect.as_deref(), common),
+        Command::Solve { case, pictures, common } => solve::run(case.as_deref(), pictures, common),
+        Command::Compare { case, pictures, common } => compare::run(case.as_deref(), pictures, common),
+        Command::Kernel { case, wavenumber, depth, changes } => {
+            kernel::run(case.as_deref(), wavenumber, depth, &changes.set)
+        }
+        Command::Check { case, changes, .. } => check::run(case, &changes.set),
+        Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
+        Command::Validate { study, expect, studies, .. } => validate::run(study.as_deref(), expect.as_deref(), studies),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
         Ok(Outcome::Failed) => ExitCode::FAILURE,
         Ok(Outcome::NotConverged) => ExitCode::from(3),
         // Whoever reads standard output may stop reading; that is no fault.
-        Err(Failure::Print(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Failure::Print(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             match &failure {
                 Failure::Case(_) => eprintln!("{failure}"),
@@ -175,6 +254,11 @@ pub fn run(arguments: &Arguments) -> ExitCode {
 
 /// The case a command works on, and its name: a file, an embedded case by its name, or the default.
 fn read_case(case: Option<&Path>, common: &Common) -> Result<(Case, String), Failure> {
+    read_changed(case, &common.set)
+}
+
+/// The same with the overrides `set`.
+fn read_changed(case: Option<&Path>, set: &[String]) -> Result<(Case, String), Failure> {
     let path = case.unwrap_or(Path::new(embedded::DEFAULT));
     let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let embedded = path.to_str().filter(|_| case.is_none() || !path.is_file()).and_then(embedded::source);
@@ -188,18 +272,23 @@ fn read_case(case: Option<&Path>, common: &Common) -> Result<(Case, String), Fai
                 names.join(", ")
             )));
         }
-        None => Source::file(path).map_err(|error| Failure::Input { path: path.to_owned(), error })?,
+        None => Source::file(path).map_err(|error| match error.kind() {
+            // It can be read, but is no case.
+            ErrorKind::InvalidData => Failure::Refused(error.to_string()),
+            _ => Failure::Input { path: path.to_owned(), error },
+        })?,
     };
-    let case = Case::read(&source, &common.set).map_err(|error| Failure::Case(Box::new(error)))?;
+    let case = Case::read(&source, set).map_err(|error| Failure::Case(Box::new(error)))?;
     Ok((case, name))
 }
 
-fn positive(text: &str) -> Result<f64, String> {
-    number(text, |x| x > 0.0, "a number greater than 0")
+/// A wavenumber that double precision carries through the products made of it.
+fn wavenumber(text: &str) -> Result<f64, String> {
+    number(text, |x| CARRIED.contains(&x), "a number greater than 0, between 1e-60 and 1e60")
 }
 
-fn not_negative(text: &str) -> Result<f64, String> {
-    number(text, |x| x >= 0.0, "a number not less than 0")
+fn depth(text: &str) -> Result<f64, String> {
+    number(text, |x| x == 0.0 || CARRIED.contains(&x), "a number not less than 0, at most 1e60")
 }
 
 fn number(text: &str, allowed: impl Fn(f64) -> bool, wanted: &str) -> Result<f64, String> {

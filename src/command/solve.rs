@@ -6,7 +6,7 @@ use super::plan::plan;
 use super::stress::{largest, stress_change, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
-use percoat::case::{Case, GridSection, LoadSection};
+use percoat::case::{Case, GridSection, LoadSection, available_memory, plausibility, resources};
 use percoat::grid::Grid;
 use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
@@ -31,6 +31,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
     let controls = case.load.controls();
+    refuse_beyond_memory(&case, pictures.wanted())?;
     refuse_beyond_full_contact(&case, &controls)?;
     interruption::watch();
     let claim = RunFolder::claim(&folder, &plan(&case, controls.len(), pictures))?;
@@ -42,7 +43,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
     };
-    let warnings = run.warnings(&result);
+    let doubts = [plausibility::of_case(&case), plausibility::of_steps(&case, &result.steps)].concat();
+    let warnings = [run.warnings(&result), doubts].concat();
     run.record(&result.steps, true, &warnings, result.accuracy)?;
     run.publish(&folder)?;
     if !common.quiet {
@@ -188,7 +190,7 @@ impl Run<'_> {
 
     /// A sign of life while something without steps goes on.
     fn spinner(&self, what: &str) -> ProgressBar {
-        if self.common.quiet || self.common.verbose {
+        if !self.common.shows_progress() {
             return ProgressBar::hidden();
         }
         let spinner = ProgressBar::new_spinner().with_message(what.to_owned());
@@ -197,7 +199,7 @@ impl Run<'_> {
     }
 
     fn progress(&self) -> ProgressBar {
-        if self.common.quiet || self.common.verbose {
+        if !self.common.shows_progress() {
             return ProgressBar::hidden();
         }
         let style = ProgressStyle::with_template("{bar:24} step {pos}/{len}  {msg}");
@@ -313,6 +315,11 @@ fn print(case: &Case, solved: &Solved, folder: &Path, started: Instant) -> Resul
     }
     writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
     Ok(())
+}
+
+/// A grid that memory does not hold is refused before any of it is taken.
+pub fn refuse_beyond_memory(case: &Case, pictures: bool) -> Result<(), Failure> {
+    resources::refusal(case, available_memory(), pictures).map_or(Ok(()), |why| Err(Failure::Refused(why)))
 }
 
 /// No load reaches a penetration at which contact is complete: refused before anything is written.

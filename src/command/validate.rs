@@ -1,19 +1,16 @@
 //! `percoat validate`: the studies, their verdicts, and a report of them.
 
 use super::interruption::{self, Saved};
-use super::{Common, Failure, Outcome};
+use super::{Failure, Outcome, Studies, terminal};
 use percoat::output::{make_folder, write_text};
 use percoat::picture::{Format, write_picture};
 use percoat::validation::paper::table;
 use percoat::validation::{self, Report, STUDIES, Study, differences};
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-pub fn run(name: Option<&str>, expected: Option<&Path>, common: &Common) -> Result<Outcome, Failure> {
-    if !common.set.is_empty() {
-        return Err(Failure::Refused("--set changes a case, and validate has none: its studies are fixed".to_owned()));
-    }
+pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Result<Outcome, Failure> {
     let studies: Vec<&'static Study> = match name {
         Some(name) => validation::named(name),
         None => STUDIES.iter().collect(),
@@ -24,21 +21,22 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, common: &Common) -> Resu
     let expected = expected
         .map(|path| std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error }));
     let expected = expected.transpose()?;
-    let folder = common.output.clone().unwrap_or_else(|| PathBuf::from("out/validate"));
+    let folder = options.output.clone().unwrap_or_else(|| PathBuf::from("out/validate"));
     // The report of one study stays in its folder, so that it does not pass for the whole.
     let path = name.map_or_else(|| folder.clone(), |name| folder.join(name)).join("REPORT.md");
     refuse_foreign(&folder, &path, &studies)?;
     interruption::watch();
+    let progress = !options.quiet && !options.verbose && terminal::moves();
     let started = Instant::now();
     let mut report = Report::default();
     let mut outcomes = Vec::new();
     for (number, study) in (1..).zip(&studies) {
         let started = Instant::now();
-        if !common.quiet && !common.verbose && std::io::stderr().is_terminal() {
+        if progress {
             eprint!("\r\x1b[Kstudy {number} of {}: {}", studies.len(), study.name);
         }
         let result = (study.run)();
-        if common.verbose {
+        if options.verbose {
             eprintln!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
         }
         if let Ok(outcome) = &result {
@@ -46,7 +44,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, common: &Common) -> Resu
         }
         report.add(study, result);
     }
-    if !common.quiet && !common.verbose && std::io::stderr().is_terminal() {
+    if progress {
         eprint!("\r\x1b[K");
     }
     let markdown = report.markdown();
@@ -67,7 +65,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, common: &Common) -> Resu
     for line in report.errors().iter().chain(differences.iter().flatten()) {
         eprintln!("error: {line}");
     }
-    if !common.quiet {
+    if !options.quiet {
         print(&report, &path, started)?;
     }
     let as_expected = differences.is_none_or(|differences| differences.is_empty());

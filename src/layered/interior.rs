@@ -11,7 +11,7 @@
 //! (𝒜²−1)² = 0 gives exp(d𝒜) = cosh d + ½d sinh d (𝒜²−1) + 𝒜 sinh d + ½(d cosh d − sinh d)(𝒜³−𝒜).
 //! A frictionless interface transmits p alone: below it ℓ starts afresh.
 
-use super::minors::{Minors, PlaneStrain};
+use super::minors::{EXTINCT, Minors, PlaneStrain};
 use super::transfer::TransferFunction;
 use crate::material::Interface;
 
@@ -46,7 +46,7 @@ struct Functional {
 #[derive(Debug, Clone)]
 struct Body {
     material: PlaneStrain,
-    /// qh, infinite in the substrate.
+    /// qh, no more than [`EXTINCT`]; infinite in the substrate.
     thickness: f64,
     /// The plane at the body's lower face (in the substrate: its upper face).
     below: Minors,
@@ -81,7 +81,7 @@ impl Interior {
         for (k, layer) in transfer.strata.iter().enumerate() {
             let body = Body {
                 material: layer.material,
-                thickness: wavenumber * layer.thickness,
+                thickness: (wavenumber * layer.thickness).min(EXTINCT),
                 below: planes[k],
                 above: functional,
             };
@@ -120,7 +120,7 @@ impl Interior {
     /// When there is no material `side`.
     pub fn at(&self, side: usize, depth: f64) -> Amplitudes {
         let body = &self.bodies[side - 1];
-        let [u, w, t, p] = body.state((self.wavenumber * depth).min(body.thickness));
+        let [u, w, t, p] = body.state((self.wavenumber * depth).min(body.thickness).min(EXTINCT));
         let PlaneStrain { shear, poisson, e, r, .. } = body.material;
         let sqq = -e * u - r * p;
         let per_displacement = 1.0 / (shear * self.wavenumber);
@@ -227,4 +227,42 @@ fn hyperbolic_coefficients(d: f64) -> (f64, f64, f64) {
         d * cosh - sinh
     };
     (cosh, sinh, bending)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{HalfSpace, Layer, Material};
+
+    #[test]
+    fn amplitudes_are_finite_however_thick_the_layer_and_short_the_wave() {
+        let coating = Material::from_shear(2.0, 0.2).unwrap();
+        for thickness in [1.0, 1e17, 1e155] {
+            let layer = Layer::new(coating, thickness, Interface::Bonded).unwrap();
+            let half_space = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
+            let transfer = TransferFunction::new(&half_space);
+            for wavenumber in [1.0, 30.0, 1e17, 1e155, 1e300] {
+                assert!(transfer.compliance(wavenumber).is_finite(), "h = {thickness}, q = {wavenumber}");
+                let interior = Interior::new(&transfer, wavenumber);
+                for (side, depth) in [(1, 0.0), (1, 0.9 * thickness), (1, thickness), (2, 0.0), (2, 1e200)] {
+                    let Amplitudes { szz, sqz, sqq, stt, uz, uq } = interior.at(side, depth);
+                    let all = [szz, sqz, sqq, stt, uz, uq];
+                    assert!(all.iter().all(|x| x.is_finite()), "h = {thickness}, q = {wavenumber}: {all:?}");
+                }
+            }
+        }
+    }
+
+    /// Near the surface a layer of any thickness beyond reach is the same half-space.
+    #[test]
+    fn a_layer_thicker_than_any_wave_is_a_half_space() {
+        let coating = Material::from_shear(2.0, 0.2).unwrap();
+        let at = |thickness: f64| {
+            let layer = Layer::new(coating, thickness, Interface::Bonded).unwrap();
+            let half_space = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
+            Interior::new(&TransferFunction::new(&half_space), 3.0).at(1, 0.4)
+        };
+        let (thick, thickest) = (at(100.0), at(1e14));
+        assert!((thick.szz / thickest.szz - 1.0).abs() < 1e-12 && (thick.uq / thickest.uq - 1.0).abs() < 1e-12);
+    }
 }

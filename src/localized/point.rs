@@ -100,10 +100,13 @@ impl PointKernel {
         }
     }
 
-    /// C(r) from the table, 1/length, for r up to [`PointKernel::reach`].
+    /// C(r), 1/length: from the table up to [`PointKernel::reach`], beyond it by quadrature, as exact but slower.
     pub fn correction(&self, r: f64) -> f64 {
         if self.intervals.is_empty() {
             return 0.0;
+        }
+        if r > self.reach {
+            return self.correction_by_quadrature(r).value;
         }
         let index = self.intervals.partition_point(|(end, _)| *end < r).min(self.intervals.len() - 1);
         let start = if index == 0 { 0.0 } else { self.intervals[index - 1].0 };
@@ -151,4 +154,21 @@ pub(super) fn clenshaw(series: &[f64], x: f64) -> f64 {
         (one, two) = (2.0 * x * one - two + c, one);
     }
     x * one - two + series[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{Interface, Material};
+
+    #[test]
+    fn beyond_its_reach_the_kernel_is_that_of_a_longer_table() {
+        let coating = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.1, Interface::Bonded).unwrap();
+        let half_space = HalfSpace::new(vec![coating], Material::from_shear(1.0, 0.3).unwrap());
+        let (short, long) = (PointKernel::new(&half_space, 1.0), PointKernel::new(&half_space, 8.0));
+        for r in [0.9, 1.0, 1.001, 1.5, 3.0, 7.9] {
+            let (one, other) = (short.at(r), long.at(r));
+            assert!((one / other - 1.0).abs() < 2.0 * TOLERANCE, "r = {r}: {one} {other}");
+        }
+    }
 }

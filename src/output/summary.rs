@@ -172,6 +172,10 @@ impl Step {
     /// The step's scalars with their errors; `points` of the grid it was solved on.
     pub fn new(observables: &Observables, errors: &Errors, solution: &Solution, points: [usize; 2]) -> Self {
         let (report, certificate) = (&solution.report, &solution.certificate);
+        let numbers =
+            [observables.mean_pressure, observables.penetration, observables.max_pressure, certificate.energy_gap];
+        // What is not a number compares as small as any tolerance.
+        let finite = numbers.iter().all(|x| x.is_finite());
         Self {
             mean_pressure: observables.mean_pressure,
             penetration: observables.penetration,
@@ -180,8 +184,8 @@ impl Step {
             max_pressure: (!observables.singular_peak()).then_some(observables.max_pressure),
             singular: observables.singular_peak(),
             errors: errors.clone(),
-            converged: report.stop.solved(),
-            stop_reason: report.stop.to_string(),
+            converged: report.stop.solved() && finite,
+            stop_reason: if finite { report.stop.to_string() } else { "not a number".to_owned() },
             fell_back: report.fell_back,
             iterations: report.iterations,
             convolutions: solution.convolutions,

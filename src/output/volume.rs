@@ -3,7 +3,8 @@
 //! A structured grid in VTK's XML format (`.vts`) with its numbers appended as raw bytes: some forty lines of ours,
 //! since the library at hand, vtkio 0.6, needs parsers that newer compilers reject and four times the file in memory.
 //! VTK itself reads what is written (`tests/volume.rs`). VTK's z axis points upwards out of the body, so that depth is
-//! drawn downwards: coordinates are −z, displacements −u_z.
+//! drawn downwards. Everything in the file follows the drawn axes: coordinates are −z, displacements −u_z, and σ_xz, σ_yz
+//! have the opposite sign of [`State`]'s, whose z points into the body.
 
 use super::{OutputError, write_file};
 use crate::stress::{Depth, Field, State};
@@ -25,7 +26,7 @@ const SCALARS: [&str; 10] =
 ///   the pressure, positive in tension; `material` ([`Depth::side`]); the vector `displacement` (u_x, u_y, −u_z), a
 ///   length, along the drawn axes.
 ///
-/// Stresses keep the axes of [`State`], z into the body; along the drawn axes σ_xz and σ_yz have the opposite sign.
+/// `sigma_xz` and `sigma_yz` too are along the drawn axes, the opposite of [`State`]'s, where z points into the body.
 /// Waves that `points` cannot hold are left out. Planes are computed one at a time; the states of all points are kept
 /// until they are written, about the size of the file.
 ///
@@ -95,8 +96,8 @@ fn block(writer: &mut impl Write, len: usize, values: impl Iterator<Item = f64>)
     values.into_iter().try_for_each(|value| writer.write_all(&value.to_le_bytes()))
 }
 
-/// The values of [`SCALARS`].
+/// The values of [`SCALARS`] along the drawn axes, z upwards.
 fn values(state: &State, side: usize) -> [f64; SCALARS.len()] {
     let State { xx, yy, zz, xy, xz, yz, .. } = *state;
-    [xx, yy, zz, xy, xz, yz, state.tau1(), state.mises(), state.s1(), side as f64]
+    [xx, yy, zz, xy, -xz, -yz, state.tau1(), state.mises(), state.s1(), side as f64]
 }

@@ -10,8 +10,20 @@
 //!   σ_xx = Eε₂/(1−ν) − νp̄/(1−ν). Layers above a frictionless interface are a laminate of their own, a wide sheet
 //!   whose loaded disc wants to spread: with A₁₁ = Σ Eh/(1−ν²) and T = Σ hνp̄/(1−ν) its strain is ε = T/(2A₁₁) (a disc
 //!   in an infinite sheet; for one layer σ_xx = −νp̄/2).
+//!
+//! **A spring of any stiffness is bonded here, a frictionless interface is not**, though the one is the limit of the other:
+//! "wide" and "k_t → 0" do not commute. Under a disc of radius R the layers above a spring obey A₁₁ 𝓛v = k_t v away from
+//! the rim, v their radial displacement against the substrate's, 𝓛v = v″ + v′/r − v/r², while at the rim v′ jumps by
+//! −2(ε_f − ε₂), ε_f the strain of the laminate on its own. So v is a I₁(r/ℓ) inside and b K₁(r/ℓ) outside, and at the
+//! centre
+//!
+//! ε = ε₂ + (ε_f − ε₂) ρK₁(ρ),  ρ = R/ℓ,  ℓ = √(A₁₁/k_t).
+//!
+//! ρK₁(ρ) is 1 at ρ = 0 and √(πρ/2) e^{−ρ} far off: the load is wide against the **slip length** ℓ ([`MeanStress::slip_lengths`])
+//! and the layers follow the substrate, or it is narrow and they spread on their own. `half-space` means R → ∞ with k_t
+//! fixed. Where ℓ is longer than the cell a case is warned, for then only loads of many cells are wide.
 
-use crate::material::{HalfSpace, Interface, Material};
+use crate::material::{HalfSpace, Interface, Layer, Material};
 
 /// What the mean lateral stress is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
@@ -38,6 +50,21 @@ impl MeanStress {
     }
 }
 
+impl MeanStress {
+    /// Slip length ℓ = √(A₁₁/k_t) of the spring under each layer, `None` under a layer without one: over it the shear that a
+    /// spring carries makes the layers above follow what is below. A length.
+    pub fn slip_lengths(half_space: &HalfSpace) -> Vec<Option<f64>> {
+        let layers = half_space.layers();
+        let length = |(index, layer): (usize, &Layer)| match layer.interface() {
+            Interface::Spring { tangential, .. } if tangential.is_finite() => {
+                Some((laminate(layers, index).0 / tangential).sqrt())
+            }
+            _ => None,
+        };
+        layers.iter().enumerate().map(length).collect()
+    }
+}
+
 /// Lateral stress at the lateral strain ε under σ_zz = −1.
 fn stress_at(material: Material, strain: f64) -> f64 {
     (material.young() * strain - material.poisson()) / (1.0 - material.poisson())
@@ -52,17 +79,7 @@ fn lateral_strains(half_space: &HalfSpace) -> Vec<f64> {
     let mut strains = vec![strain; layers.len() + 1];
     for (index, layer) in layers.iter().enumerate().rev() {
         if layer.interface() == Interface::Frictionless {
-            // The laminate of this layer and all above it that hold to it.
-            let top = layers[..index]
-                .iter()
-                .rposition(|above| above.interface() == Interface::Frictionless)
-                .map_or(0, |above| above + 1);
-            let (mut stiffness, mut push) = (0.0, 0.0);
-            for layer in &layers[top..=index] {
-                let (material, h) = (layer.material(), layer.thickness());
-                stiffness += h * material.young() / (1.0 - material.poisson() * material.poisson());
-                push += h * material.poisson() / (1.0 - material.poisson());
-            }
+            let (stiffness, push) = laminate(layers, index);
             strain = push / (2.0 * stiffness);
         }
         strains[index] = strain;
@@ -70,10 +87,20 @@ fn lateral_strains(half_space: &HalfSpace) -> Vec<f64> {
     strains
 }
 
+/// A₁₁ = Σ Eh/(1−ν²) and T = Σ hν/(1−ν) of layer `index` and all above it, up to a frictionless interface.
+fn laminate(layers: &[Layer], index: usize) -> (f64, f64) {
+    let slides = |above: &Layer| above.interface() == Interface::Frictionless;
+    let top = layers[..index].iter().rposition(slides).map_or(0, |above| above + 1);
+    layers[top..=index].iter().fold((0.0, 0.0), |(stiffness, push), layer| {
+        let (material, h) = (layer.material(), layer.thickness());
+        let nu = material.poisson();
+        (stiffness + h * material.young() / (1.0 - nu * nu), push + h * nu / (1.0 - nu))
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::Layer;
 
     fn coated(interfaces: &[Interface]) -> HalfSpace {
         let coating = Material::from_young(5.0, 0.2).unwrap();
@@ -114,5 +141,61 @@ mod tests {
             let lateral = mean.lateral(&HalfSpace::new(vec![layer], substrate));
             assert!((lateral[0] - lateral[1]).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn a_spring_slips_over_the_length_that_its_layers_stiffness_gives() {
+        let spring = |tangential| Interface::Spring { tangential, normal: f64::INFINITY };
+        let stiffness: f64 = 0.1 * 5.0 / 0.96;
+        let lengths = MeanStress::slip_lengths(&coated(&[Interface::Bonded, spring(2.0)]));
+        assert_eq!(lengths[0], None);
+        assert!((lengths[1].unwrap() - (2.0 * stiffness / 2.0).sqrt()).abs() < 1e-15);
+        // Layers above a frictionless interface pull at nothing below it.
+        let lengths = MeanStress::slip_lengths(&coated(&[Interface::Frictionless, spring(2.0), spring(f64::INFINITY)]));
+        assert!((lengths[1].unwrap() - (stiffness / 2.0).sqrt()).abs() < 1e-15);
+        assert_eq!((lengths[0], lengths[2]), (None, None));
+    }
+
+    /// The shear-lag equation of the module's head by finite differences: layers above a spring under a disc of radius R.
+    fn strain_by_differences(ratio: f64) -> f64 {
+        // Unknowns v at r = i·step, in units in which ε_f − ε₂ = 1 and ℓ = 1; v = 0 at the axis and far outside.
+        let (rim, per_rim) = (ratio, 400);
+        let step = rim / per_rim as f64;
+        let count = per_rim + (30.0 / step).ceil() as usize;
+        let (mut slope, mut value) = (vec![0.0; count], vec![0.0; count]);
+        for i in 1..count {
+            let n = i as f64;
+            let (below, above) = (1.0 - 0.5 / n, 1.0 + 0.5 / n);
+            let diagonal = -2.0 - 1.0 / (n * n) - step * step;
+            let load = if i == per_rim { -2.0 * step } else { 0.0 };
+            let pivot = diagonal - below * slope[i - 1];
+            slope[i] = above / pivot;
+            value[i] = (load - below * value[i - 1]) / pivot;
+        }
+        let mut v = 0.0;
+        for i in (1..count).rev() {
+            v = value[i] - slope[i] * v;
+        }
+        v / step
+    }
+
+    /// ρK₁(ρ) = ∫₀^∞ ρ cosh t e^{−ρ cosh t} dt, the trapezoidal rule.
+    fn narrowness(ratio: f64) -> f64 {
+        let term = |k: i32| {
+            let cosh = (0.01 * f64::from(k)).cosh();
+            ratio * cosh * (-ratio * cosh).exp()
+        };
+        0.01 * (0.5 * term(0) + (1..2000).map(term).sum::<f64>())
+    }
+
+    #[test]
+    fn a_load_must_be_wide_against_the_slip_length_for_layers_to_follow() {
+        for ratio in [0.3, 1.0, 3.0] {
+            // The scheme is of second order, with 400 steps to the rim.
+            let (numeric, exact) = (strain_by_differences(ratio), narrowness(ratio));
+            assert!((numeric - exact).abs() < 3e-3 * exact.max(0.1), "ρ = {ratio}: {numeric} {exact}");
+        }
+        // Narrow loads see a frictionless interface, wide ones a bonded one.
+        assert!((narrowness(1e-3) - 1.0).abs() < 1e-5 && narrowness(20.0) < 1e-7);
     }
 }

@@ -1,0 +1,106 @@
+//! What the machine has left: memory that a run may still take.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Memory taken for granted where the system says nothing, bytes.
+const UNKNOWN: u64 = 64 << 30;
+
+/// Bytes that this process may still take without being killed or swapped out: the least of what is free, what its
+/// control groups allow and what its address space may still grow. Where none of them can be read, 64 GiB.
+pub fn available_memory() -> u64 {
+    let limits = [free(), groups(), address_space()];
+    limits.into_iter().flatten().min().unwrap_or(UNKNOWN)
+}
+
+/// `MemAvailable` of Linux.
+fn free() -> Option<u64> {
+    kibibytes(&fs::read_to_string("/proc/meminfo").ok()?, "MemAvailable:")
+}
+
+/// What the address space may still grow under `ulimit -v`.
+fn address_space() -> Option<u64> {
+    let limits = fs::read_to_string("/proc/self/limits").ok()?;
+    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
+    let used = kibibytes(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")?;
+    Some(limit.saturating_sub(used))
+}
+
+/// What the control groups of this process, and those they stand in, have left (versions 1 and 2).
+fn groups() -> Option<u64> {
+    let own = fs::read_to_string("/proc/self/cgroup").ok()?;
+    let folders = own.lines().filter_map(|line| {
+        let [_, controllers, path] = line.splitn(3, ':').collect::<Vec<_>>()[..] else { return None };
+        let root = match controllers {
+            "" => "/sys/fs/cgroup",
+            list if list.split(',').any(|name| name == "memory") => "/sys/fs/cgroup/memory",
+            _ => return None,
+        };
+        Some((PathBuf::from(root), path.trim_start_matches('/').to_owned()))
+    });
+    let mut least = None;
+    for (root, path) in folders {
+        // In a container the path may be that of its host: then only the root is there.
+        for folder in root.join(path).ancestors().take_while(|folder| folder.starts_with(&root)) {
+            least = least.into_iter().chain(left_in(folder)).min();
+        }
+    }
+    least
+}
+
+/// What is left in one control group: its limit without what is used, caches of files not counted.
+fn left_in(folder: &Path) -> Option<u64> {
+    let number = |name: &str| fs::read_to_string(folder.join(name)).ok()?.trim().parse::<u64>().ok();
+    let (limit, used) = number("memory.max")
+        .zip(number("memory.current"))
+        .or_else(|| number("memory.limit_in_bytes").zip(number("memory.usage_in_bytes")))?;
+    let statistics = fs::read_to_string(folder.join("memory.stat")).unwrap_or_default();
+    let cached = |name: &str| {
+        let line = statistics.lines().find_map(|line| line.strip_prefix(name))?;
+        line.trim().parse::<u64>().ok()
+    };
+    let cached = cached("total_inactive_file ").or_else(|| cached("inactive_file ")).unwrap_or(0);
+    Some(limit.saturating_sub(used.saturating_sub(cached)))
+}
+
+/// The value of a line `name   N kB`, in bytes.
+fn kibibytes(text: &str, name: &str) -> Option<u64> {
+    let line = text.lines().find_map(|line| line.strip_prefix(name))?;
+    Some(line.split_whitespace().next()?.parse::<u64>().ok()? << 10)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_group_has_left_what_its_limit_leaves_beside_caches() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+        write("memory.max", "max\n");
+        write("memory.current", "900\n");
+        assert_eq!(left_in(folder.path()), None);
+        write("memory.max", "1000\n");
+        assert_eq!(left_in(folder.path()), Some(100));
+        write("memory.stat", "anon 200\ninactive_file 700\n");
+        assert_eq!(left_in(folder.path()), Some(800));
+        write("memory.max", "100\n");
+        assert_eq!(left_in(folder.path()), Some(0));
+    }
+
+    #[test]
+    fn memory_of_the_first_version_of_groups_is_read_too() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+        write("memory.limit_in_bytes", "5000\n");
+        write("memory.usage_in_bytes", "3000\n");
+        write("memory.stat", "inactive_file 1\ntotal_inactive_file 500\n");
+        assert_eq!(left_in(folder.path()), Some(2500));
+    }
+
+    #[test]
+    fn lines_of_the_system_are_in_kibibytes() {
+        assert_eq!(kibibytes("MemFree:  1 kB\nMemAvailable:   2048 kB\n", "MemAvailable:"), Some(2 << 20));
+    }
+}

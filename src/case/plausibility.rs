@@ -1,0 +1,308 @@
+//! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
+//!
+//! The theory is one of small strains and small slopes: under an indenter the strain is about the slope of its flank at
+//! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, numbers are those
+//! of a linear body that is not there.
+
+use super::{Case, LoadSection};
+use crate::indenter::{Level, Shape};
+use crate::lattice::Cell;
+use crate::material::{HalfSpace, Interface};
+use crate::number::number;
+use crate::output::summary::Step;
+use crate::stress::MeanStress;
+use crate::texture::Surface;
+
+/// Slope of a flank beyond which strains are not small.
+const STEEP: f64 = 0.5;
+/// Lengths of one case that differ by more than this are hardly in one unit.
+const APART: f64 = 1e4;
+/// Peak pressure over E* beyond which strains are not small.
+const HIGH: f64 = 1.0 / 3.0;
+
+/// What the case alone makes doubtful, one sentence each.
+pub fn of_case(case: &Case) -> Vec<String> {
+    let cell = case.surface().cell();
+    let mut doubts: Vec<String> = pressures(&case.load, case.half_space()).into_iter().collect();
+    doubts.extend(lengths(case, cell));
+    if let Surface::Indenters { levels, .. } = case.surface() {
+        doubts.extend(heights(levels, cell));
+        doubts.extend(levels.iter().enumerate().filter_map(|(index, level)| steep_cone(index, level)));
+    }
+    if let Surface::Heights { cell, points, heights } = case.surface() {
+        doubts.extend(topography(*cell, *points, heights));
+    }
+    if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
+        doubts.extend(slipping(case.half_space(), cell));
+    }
+    doubts
+}
+
+/// What the solved steps make doubtful beside it: the steepest flank in contact and the highest pressure.
+pub fn of_steps(case: &Case, steps: &[Step]) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if let Surface::Indenters { levels, .. } = case.surface() {
+        let flanks = (1..).zip(steps).flat_map(|(number, step)| {
+            let touching = step.levels.iter().filter(|level| level.load > 0.0);
+            touching.filter_map(move |level| Some((number, level.level, level.contact_radius?)))
+        });
+        let slope = |level: usize, radius: f64| slope(levels[level - 1].shape(), radius);
+        let steepest = flanks
+            .filter(|(_, level, _)| !matches!(levels[level - 1].shape(), Shape::Cone { .. }))
+            .max_by(|a: &(usize, usize, f64), b| slope(a.1, a.2).total_cmp(&slope(b.1, b.2)));
+        if let Some((step, level, radius)) = steepest.filter(|&(_, level, radius)| slope(level, radius) > STEEP) {
+            doubts.push(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius));
+        }
+    }
+    let modulus = case.half_space().surface_material().contact_modulus();
+    // A pressure that is infinite under a tip is beyond any measure.
+    let peaks = (1..).zip(steps).filter_map(|(number, step): (usize, &Step)| Some((number, step.max_pressure?)));
+    let highest = peaks.max_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((step, pressure)) = highest.filter(|(_, p)| *p > HIGH * modulus) {
+        doubts.push(format!(
+            "step {step}: the largest pressure {} is {} of E* at the surface: strains are not small any more; are load and \
+             moduli in one unit?",
+            number(pressure),
+            part(pressure / modulus)
+        ));
+    }
+    doubts
+}
+
+/// What an estimate by Hertz's formulas foresees of the last step, for those who have not solved it.
+pub fn foreseen(case: &Case) -> Vec<String> {
+    let (Surface::Indenters { lattice, levels }, LoadSection::MeanPressure(loads)) = (case.surface(), &case.load)
+    else {
+        return Vec::new();
+    };
+    let load = loads.iter().copied().fold(0.0, f64::max);
+    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
+    let force = load * lattice.cell().area() / sites as f64;
+    let modulus =
+        case.half_space().substrate().contact_modulus().max(case.half_space().surface_material().contact_modulus());
+    let estimates = (1..).zip(levels).filter_map(|(number, level)| {
+        let (Shape::Paraboloid { radius } | Shape::Sphere { radius }) = level.shape() else { return None };
+        Some((number, level.shape(), (0.75 * force * radius / modulus).cbrt()))
+    });
+    let steep = estimates.filter(|&(_, shape, radius)| slope(shape, radius) > STEEP);
+    let first = steep.take(1).map(|(number, shape, radius)| flank("by Hertz's formulas", number, shape, radius));
+    first.collect()
+}
+
+/// Slope f′(a) of a flank at the edge of contact.
+fn slope(shape: Shape, a: f64) -> f64 {
+    match shape {
+        Shape::Paraboloid { radius } => a / radius,
+        Shape::Sphere { radius } if a < radius => a / ((radius - a) * (radius + a)).sqrt(),
+        Shape::Sphere { .. } => f64::INFINITY,
+        Shape::Cone { slope } => slope,
+        Shape::Power { coefficient, exponent } => coefficient * exponent * a.powf(exponent - 1.0),
+    }
+}
+
+fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
+    let told = match shape {
+        Shape::Paraboloid { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
+        Shape::Sphere { radius } if a >= radius => {
+            format!("beyond the equator of its sphere of radius {}", number(radius))
+        }
+        Shape::Sphere { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
+        _ => format!("where its flank has the slope {}", part(slope(shape, a))),
+    };
+    format!(
+        "{context}: the contact radius {} of level {level} is {told}: strains are not small any more; are radius, period, \
+         load and moduli in consistent units?",
+        number(a)
+    )
+}
+
+fn pressures(load: &LoadSection, half_space: &HalfSpace) -> Option<String> {
+    let LoadSection::MeanPressure(loads) = load else { return None };
+    let highest = loads.iter().copied().fold(0.0, f64::max);
+    let layers = half_space.layers().iter().map(|layer| layer.material());
+    let names = (1..=half_space.layers().len()).map(|number| format!("layer {number}"));
+    let materials = layers.zip(names).chain([(half_space.substrate(), "the substrate".to_owned())]);
+    let (material, name) = materials.min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
+    let ratio = highest / material.young();
+    (ratio > HIGH).then(|| {
+        format!(
+            "load.mean_pressure = {} is {} of Young's modulus {} of {name}: strains are not small any more; are load and \
+             moduli in one unit, not one in MPa and the other in GPa?",
+            number(highest),
+            part(ratio),
+            number(material.young())
+        )
+    })
+}
+
+/// Radii and thicknesses that the cell dwarfs, or that dwarf it.
+fn lengths(case: &Case, cell: Cell) -> Vec<String> {
+    let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
+    let side = side.min(other);
+    let mut all: Vec<(String, f64)> = Vec::new();
+    if let Surface::Indenters { levels, .. } = case.surface() {
+        for (number, level) in levels.iter().enumerate() {
+            if let Shape::Paraboloid { radius } | Shape::Sphere { radius } = level.shape() {
+                all.push((format!("levels[{number}].radius"), radius));
+            }
+        }
+    }
+    let layers = case.half_space().layers().iter().enumerate();
+    all.extend(layers.map(|(number, layer)| (format!("layers[{number}].thickness"), layer.thickness())));
+    let odd = all.into_iter().filter(|(_, length)| !(side / APART..=side * APART).contains(length));
+    odd.map(|(key, length)| {
+        format!(
+            "{key} = {} is {} times the side {} of the cell: are all lengths in one unit, not some in metres and others in \
+             micrometres?",
+            number(length),
+            part(length / side),
+            number(side)
+        )
+    })
+    .collect()
+}
+
+/// Heights whose differences are lost among their digits, or are larger than the cell.
+fn heights(levels: &[Level], cell: Cell) -> Option<String> {
+    let largest = levels.iter().map(|level| level.height().abs()).fold(0.0, f64::max);
+    let side = cell.reduced().longer_side();
+    let reach = levels.iter().map(|level| level.shape().profile(side)).fold(f64::INFINITY, f64::min);
+    (largest > 1e6 * side.max(reach)).then(|| {
+        format!(
+            "heights up to {} beside a cell of side {}: only differences of heights matter, and their digits are lost; are \
+             all lengths in one unit?",
+            number(largest),
+            number(side)
+        )
+    })
+}
+
+fn steep_cone(index: usize, level: &Level) -> Option<String> {
+    let Shape::Cone { slope } = level.shape() else { return None };
+    (slope > STEEP).then(|| {
+        format!(
+            "levels[{}].slope = {}: the flank of a cone must be flat against the surface for small strains, its slope below \
+             {STEEP}",
+            index,
+            number(slope)
+        )
+    })
+}
+
+/// A topography whose mean slope is no surface's.
+fn topography(cell: Cell, [n1, n2]: [usize; 2], heights: &[f64]) -> Option<String> {
+    let [step1, step2] = [(0, n1), (1, n2)].map(|(axis, n)| {
+        let [x, y] = cell.vectors()[axis];
+        x.hypot(y) / n as f64
+    });
+    let squares = heights.iter().enumerate().map(|(index, height)| {
+        let (i, j) = (index / n2, index % n2);
+        let along = (heights[(i + 1) % n1 * n2 + j] - height) / step1;
+        let across = (heights[i * n2 + (j + 1) % n2] - height) / step2;
+        along * along + across * across
+    });
+    let slope = (squares.sum::<f64>() / heights.len() as f64).sqrt();
+    let told = match slope {
+        steep if steep > 2.0 => "steeper than any surface whose contact is one of small strains",
+        flat if flat > 0.0 && flat < 1e-8 => "flatter than atoms allow",
+        _ => return None,
+    };
+    Some(format!("surface.heights: the mean slope is {}, {told}: are heights and the cell in one unit?", number(slope)))
+}
+
+/// Springs that slip over more than the cell: the wide disc of `mean = "half-space"` must be wider than that.
+fn slipping(half_space: &HalfSpace, cell: Cell) -> Vec<String> {
+    let side = cell.reduced().longer_side();
+    let lengths = MeanStress::slip_lengths(half_space).into_iter().enumerate();
+    lengths
+        .filter_map(|(index, length)| Some((index, length.filter(|&length| length > side)?)))
+        .map(|(index, length)| {
+            let Interface::Spring { tangential, .. } = half_space.layers()[index].interface() else {
+                return String::new();
+            };
+            format!(
+                "stress.mean = \"half-space\": the spring under layer {} (tangential stiffness {}) slips over {}, {} times \
+                 the cell: the layers above follow the substrate only where the load is several times wider than that; \
+                 under a narrower one they spread as above a frictionless interface",
+                index + 1,
+                number(tangential),
+                number(length),
+                part(length / side)
+            )
+        })
+        .collect()
+}
+
+/// A ratio with two digits.
+fn part(x: f64) -> String {
+    if (0.01..1000.0).contains(&x) { format!("{:.2}", x) } else { format!("{x:.1e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Source, embedded};
+    use super::*;
+    use std::f64::consts::PI;
+    use std::path::PathBuf;
+
+    fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
+        let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
+        let case = Case::read(&embedded::source(name).unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"));
+        [of_case(&case), foreseen(&case)].concat()
+    }
+
+    #[test]
+    fn the_embedded_cases_are_not_doubted() {
+        for (name, _) in embedded::all() {
+            assert_eq!(doubts(name, &[]), Vec::<String>::new(), "{name}");
+        }
+    }
+
+    #[test]
+    fn mixed_units_are_named() {
+        for (overrides, words) in [
+            (&["load.mean_pressure=60"][..], &["load.mean_pressure", "MPa", "GPa"][..]),
+            (&["lattice.period=1e-6"], &["levels[0].radius", "metres", "layers[0].thickness"]),
+            (&["levels.0.radius=1e-6"], &["levels[0].radius = 1.0000e-6"]),
+            (&["levels.0.height=1e9"], &["only differences of heights matter"]),
+            (&["levels.0.slope=3", "levels.0.shape=cone"], &["levels[0].slope", "cone"]),
+            (&["levels.2.radius=0.05"], &["level 3", "Hertz"]),
+        ] {
+            let said = doubts("fig2", overrides).join("\n");
+            for word in words {
+                assert!(said.contains(word), "{overrides:?}: \"{word}\" does not stand in\n{said}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_topography_of_micrometres_on_a_cell_of_metres_is_doubted_either_way() {
+        let cell = Cell::square(1.0).unwrap();
+        let waves =
+            |height: f64| -> Vec<f64> { (0..64).map(|k| height * (f64::from(k % 8) * PI / 4.0).cos()).collect() };
+        assert!(topography(cell, [8, 8], &waves(1e3)).unwrap().contains("steeper"));
+        assert!(topography(cell, [8, 8], &waves(1e-10)).unwrap().contains("flatter"));
+        assert_eq!(topography(cell, [8, 8], &waves(0.01)), None);
+        assert_eq!(topography(cell, [8, 8], &waves(0.0)), None);
+    }
+
+    #[test]
+    fn a_spring_that_slips_further_than_the_cell_is_named_where_it_matters() {
+        let spring = |k: &str| format!("layers.0.interface={{ tangential_stiffness = {k} }}");
+        let half_space = "stress.mean=half-space";
+        let soft = doubts("fig2", &[&spring("1e-3"), half_space]).join("\n");
+        assert!(soft.contains("layer 1") && soft.contains("slips over"), "{soft}");
+        assert!(doubts("fig2", &[&spring("1e3"), half_space]).is_empty());
+        assert!(doubts("fig2", &[&spring("1e-3"), "stress.mean=confined"]).is_empty());
+    }
+
+    #[test]
+    fn contact_beyond_the_equator_is_told() {
+        assert!(slope(Shape::Sphere { radius: 1.0 }, 1.5).is_infinite());
+        assert!(flank("step 1", 1, Shape::Sphere { radius: 1.0 }, 1.5).contains("equator"));
+        let text = "lattice={kind=\"square\",period=10}\nlevels=[{shape=\"sphere\",radius=1}]\n\
+                    substrate={young=1,poisson=0.3}\nload={mean_pressure=0.05}";
+        let source = Source { name: "case".to_owned(), text: text.to_owned(), folder: PathBuf::new() };
+        assert!(foreseen(&Case::read(&source, &[]).unwrap()).join("").contains("equator"));
+    }
+}

@@ -1,0 +1,34 @@
+//! What standard error can show: <https://no-color.org>, and terminals that only print.
+
+use std::env;
+use std::ffi::OsString;
+use std::io::IsTerminal;
+
+/// Whether messages may be coloured.
+pub fn coloured() -> bool {
+    moves() && allows_colour(env::var_os("NO_COLOR"))
+}
+
+/// Whether lines may be drawn again in their place, as progress does.
+pub fn moves() -> bool {
+    std::io::stderr().is_terminal() && has_cursor(env::var_os("TERM"))
+}
+
+fn allows_colour(no_color: Option<OsString>) -> bool {
+    no_color.is_none_or(|value| value.is_empty())
+}
+
+fn has_cursor(term: Option<OsString>) -> bool {
+    term.is_none_or(|name| name != "dumb")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_color_and_a_dumb_terminal_are_obeyed() {
+        assert!(allows_colour(None) && allows_colour(Some("".into())) && !allows_colour(Some("1".into())));
+        assert!(has_cursor(None) && has_cursor(Some("xterm".into())) && !has_cursor(Some("dumb".into())));
+    }
+}
