@@ -27,7 +27,7 @@
 //! ```
 //!
 //! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`linear`] (small systems),
-//! [`edge`] and [`boundary`] (the outline of a contact between samples, layered half-spaces included) and [`number`] serve all of them.
+//! [`boundary`] (the outline of a contact between samples) and [`number`] serve all of them.
 //! Nothing left of [`case`] reads a file or prints. [`exact`] holds the closed forms that [`validation`] compares with;
 //! the solver knows nothing of it.
 //!
@@ -63,7 +63,6 @@
 pub mod boundary;
 pub mod case;
 pub mod comparison;
-pub mod edge;
 pub mod exact;
 pub mod field;
 pub mod fourier;
