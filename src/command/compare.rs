@@ -2,7 +2,7 @@
 
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
-use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
+use super::solve::{FEW_SAMPLES, refuse_beyond_full_contact, refuse_beyond_memory};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
@@ -102,6 +102,14 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         if circle.stop != Stop::Converged {
             eprintln!("warning: {} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop);
         }
+    }
+    let samples = comparison.spectral.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
+    let fewest = samples.fold(f64::INFINITY, f64::min);
+    if fewest < FEW_SAMPLES {
+        eprintln!(
+            "warning: a contact radius has only {fewest:.1} samples in the spectral solution: differences from it are \
+             those of the grid; raise grid.points"
+        );
     }
     let all_solved = comparison.circles.iter().all(|circle| circle.stop == Stop::Converged);
     let solved = comparison.solution.report.stop.solved() && all_solved;

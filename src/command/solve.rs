@@ -24,7 +24,7 @@ use std::time::Instant;
 /// A larger error of the stresses on the surface than this is worth a warning.
 const WORTH_SAYING: f64 = 0.02;
 /// Fewer samples along a contact radius than this are worth a warning.
-const FEW_SAMPLES: f64 = 10.0;
+pub const FEW_SAMPLES: f64 = 10.0;
 
 pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Outcome, Failure> {
     let (case, name) = read_case(case, common)?;
@@ -106,7 +106,7 @@ impl Run<'_> {
         if let (Some(solution), Some(observables), true) = (last, solved.observables.last(), self.pictures.wanted()) {
             let (surface, half_space) = (self.case.surface(), self.case.half_space());
             let snapshot = Snapshot::new(&self.case.title, surface, half_space, &hierarchy, &solution, observables);
-            let cut = cut.map(|(Section { line, depths }, states, highest)| Cut { line, depths, states, highest });
+            let cut = cut.map(|(Section { line, depths }, states)| Cut { line, depths, states });
             let spinner = self.spinner("drawing pictures");
             self.pictures.draw(&self.staging, &snapshot, cut.as_ref(), &solved.steps)?;
             spinner.finish_and_clear();
