@@ -262,8 +262,10 @@ fn surface(random: &mut Random) -> Vec<u8> {
     let head = format!("{{'descr': {}, 'fortran_order': {order}, 'shape': {shape}, }}\n", random.pick(&kinds));
     let size = if index(random, 20) == 0 { random.unit() * 70_000.0 } else { head.len() as f64 } as u16;
     let mut bytes = [&b"\x93NUMPY"[..], &[1, 0], &size.to_le_bytes(), head.as_bytes()].concat();
-    for _ in 0..index(random, 20) {
-        let value = match index(random, 12) {
+    // Half of them have the 16 values of 8 × 2, so that some surfaces are taken.
+    let count = if index(random, 2) == 0 { 16 } else { index(random, 20) };
+    for _ in 0..count {
+        let value = match index(random, 60) {
             0 => f64::NAN,
             1 => random.log(1e-300, 1e300),
             _ => 0.01 * random.unit(),
