@@ -140,7 +140,7 @@ const NO_PRESSURE: &str =
 fn rigidity(field: &Field<'_>, without: &str) -> Result<f64, Refusal> {
     limits::size(field).map_err(|refusal| match *field.value() {
         Value::Integer(0) => refusal.help(without),
-        Value::Float(value) if value == 0.0 => refusal.help(without),
+        Value::Float(0.0) => refusal.help(without),
         Value::Float(value) if value.is_infinite() => refusal.help("leave the key out: an absent stiffness is rigid"),
         _ => refusal,
     })

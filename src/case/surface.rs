@@ -80,7 +80,7 @@ impl Heights {
         let points = [n1 as usize, n2 as usize];
         let [n1, n2] = points;
         let values = if head.fortran { (0..n1 * n2).map(|k| stored[k / n2 + n1 * (k % n2)]).collect() } else { stored };
-        match values.iter().position(|height| !(height.abs() <= *CARRIED.end())) {
+        match values.iter().position(|height| height.is_nan() || height.abs() > *CARRIED.end()) {
             None => Ok(Self { points, values }),
             Some(k) => {
                 let (value, i, j) = (super::node::plain(values[k]), k / n2, k % n2);

@@ -151,7 +151,7 @@ mod tests {
             other[bit / 8] ^= 1 << (bit % 8);
             assert_ne!(of(&other), whole, "bit {bit}");
             // The sign of a second number does not undo the first.
-            other[bit / 8 ^ 8] ^= 1 << (bit % 8);
+            other[(bit / 8) ^ 8] ^= 1 << (bit % 8);
             assert_ne!(of(&other), whole, "bits {bit}");
         }
         assert_ne!(of(b"a"), of(b"a\0"));
