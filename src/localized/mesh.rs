@@ -86,7 +86,7 @@ pub struct Influence {
 
 impl Influence {
     /// Influence on a spot of the indenters at the places `images` relative to it, and of others `outside`: the
-    /// displacement at (x, y) from an element by unit pressure on all its images that stand as far as [`FAR`] says.
+    /// displacement at (x, y) from an element by unit pressure on all its images that stand far away.
     pub fn new(squares: &Squares<'_>, mesh: Mesh, images: &[[f64; 2]], outside: Option<&Smooth<'_>>) -> Self {
         let (side, last) = (2 * mesh.width - 1, mesh.width as f64 - 1.0);
         let half = mesh.span();

@@ -57,7 +57,7 @@ pub struct Stress {
     pub materials: Vec<Extremes>,
     /// On each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
-    /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest`].
+    /// Estimated relative error of the largest tension on the surface, see [`crate::stress::surface_error`].
     pub surface_error: f64,
 }
 
