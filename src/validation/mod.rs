@@ -31,6 +31,7 @@ mod periodic_hertz;
 mod report;
 mod sinusoidal_stresses;
 mod steps;
+mod thin_coatings;
 mod wavy;
 mod westergaard;
 
@@ -53,7 +54,7 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 21] = [
+pub const STUDIES: [Study; 22] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -61,6 +62,7 @@ pub const STUDIES: [Study; 21] = [
     westergaard::STUDY,
     wavy::STUDY,
     isolated::STUDY,
+    thin_coatings::STUDY,
     hertz_stresses::STUDY,
     sinusoidal_stresses::STUDY,
     convergence::STUDY,
