@@ -13,7 +13,7 @@ mod terminal;
 mod validate;
 mod without_effect;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use percoat::case::{CARRIED, Case, CaseError, Source, embedded};
 use percoat::output::{FolderError, OutputError};
 use pictures::PictureOptions;
@@ -192,7 +192,9 @@ enum Outcome {
 impl Arguments {
     /// The command line as typed; what cannot be read is told, with the exit code that goes with it.
     pub fn read() -> Result<Self, ExitCode> {
-        Self::try_parse().map_err(|error| {
+        let command = Self::command().color(terminal::parser_colour());
+        let read = command.try_get_matches().and_then(|matches| Self::from_arg_matches(&matches));
+        read.map_err(|error| {
             let typed: Vec<String> =
                 std::env::args_os().skip(1).map(|arg| arg.to_string_lossy().into_owned()).collect();
             match without_effect::explained(&error, &typed) {

@@ -4,9 +4,21 @@ use std::env;
 use std::ffi::OsString;
 use std::io::IsTerminal;
 
+use clap::ColorChoice;
+
 /// Whether messages may be coloured.
 pub fn coloured() -> bool {
     moves() && allows_colour(env::var_os("NO_COLOR"))
+}
+
+/// Colour of help and of arguments that cannot be read: where a terminal shows it, also in continuous integration,
+/// where clap alone would colour a terminal that only prints.
+pub fn parser_colour() -> ColorChoice {
+    if has_cursor(env::var_os("TERM")) && allows_colour(env::var_os("NO_COLOR")) {
+        ColorChoice::Auto
+    } else {
+        ColorChoice::Never
+    }
 }
 
 /// Whether lines may be drawn again in their place, as progress does.
