@@ -51,6 +51,7 @@ impl Reading {
             load_share: level.load_share,
             max_pressure: level.max_pressure,
             contact_radius: level.contact_radius.unwrap_or(f64::NAN),
+            ring: level.ring,
             radius: f64::INFINITY,
         };
         Self { penetration: observables.penetration, levels: observables.levels.iter().map(level).collect() }
@@ -274,7 +275,7 @@ impl Task<'_> {
         if !spot.touches() || localized.stop != Stop::Converged {
             return Vec::new();
         }
-        let radius = spot.contact_radius(system.contact_modulus());
+        let radius = spot.contact_radius();
         let field = LocalizedField::new(localized, self.half_space, self.mean);
         let whole = Field::new(hierarchy.grid(), &spectral.pressure, self.half_space, self.mean);
         let faces = self.half_space.interface_depths();

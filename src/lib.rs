@@ -27,7 +27,7 @@
 //! ```
 //!
 //! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`linear`] (small systems),
-//! [`boundary`] (the outline of a contact between samples) and [`number`] serve all of them.
+//! [`edge`] and [`boundary`] (the outline of a contact between samples) and [`number`] serve all of them.
 //! Nothing left of [`case`] reads a file or prints. [`exact`] holds the closed forms that [`validation`] compares with;
 //! the solver knows nothing of it.
 //!
@@ -62,7 +62,9 @@
 
 pub mod boundary;
 pub mod case;
+mod closed_line;
 pub mod comparison;
+pub mod edge;
 pub mod exact;
 pub mod field;
 pub mod fourier;

@@ -41,6 +41,7 @@ studies! {
     westergaard = "westergaard",
     wavy = "wavy",
     isolated = "isolated",
+    thin_coatings = "thin-coatings",
     hertz_stresses = "hertz-stresses",
     sinusoidal_stresses = "sinusoidal-stresses",
     convergence = "convergence",

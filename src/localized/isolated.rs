@@ -44,7 +44,7 @@ pub fn profile(
     let Solution { spots, stop, .. } = system.solve(Control::MeanPressure(load / system.cell_area()), &ALONE);
     let spot = &spots[0];
     let middle = spot.mesh.width / 2;
-    let edge = spot.contact_radius(system.contact_modulus());
+    let edge = spot.contact_radius();
     let row = (middle..spot.mesh.width).map(|j| middle * spot.mesh.width + j);
     let points = row.map(|index| [spot.mesh.place(index)[1], spot.pressure[index]]);
     let inside = points.filter(|[r, p]| *p > 0.0 && *r < edge).chain([[edge, 0.0]]);

@@ -10,13 +10,14 @@
 //! outside can stand themselves, as a lattice sum. Contact means w + f − δ
 //! = 0 with one penetration δ for all levels, and all pressures together carry p̄, Eq. (5).
 //!
-//! It shares nothing with the spectral solver but the indenters' shapes, the transfer function and the reading of a
-//! contact's boundary, so that each checks the other. In the order of building:
+//! It shares nothing with the spectral solver but the indenters' shapes, the transfer function and general numerics (least
+//! squares, FFT), so that each checks the other; also the boundary of a contact is read in its own way ([`outline`], from
+//! pressures, where the spectral reading rests on gaps). In the order of building:
 //!
 //! - [`quadrature`], [`point`]: K by adaptive quadrature of the layer correction, tabulated;
 //! - [`square`], [`disc`]: influence coefficients, Eq. (7), and the far field;
 //! - [`circle`]: who stands inside, and the radius, Eq. (4); [`exterior`]: the lattice sum outside, in the place of p̄;
-//! - [`mesh`], [`press`]: elements and the contact of one spot; [`spot`]: what is read off it;
+//! - [`mesh`], [`press`]: elements and the contact of one spot; [`spot`], [`outline`]: what is read off it;
 //! - [`solver`]: level by level to one penetration and one load;
 //! - [`isolated`]: indenters without mutual effect;
 //! - [`system`]: the whole, and the additional displacement w_a of Eq. (8); [`stress`]: the stresses below.
@@ -27,6 +28,7 @@ mod exchange;
 pub mod exterior;
 pub mod isolated;
 pub mod mesh;
+pub mod outline;
 mod patterns;
 pub mod point;
 pub mod press;

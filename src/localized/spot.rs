@@ -2,7 +2,7 @@
 
 use super::circle::Circle;
 use super::mesh::Mesh;
-use crate::boundary::{Boundary, Polar};
+use super::outline::Outline;
 use crate::least_squares;
 use std::f64::consts::PI;
 
@@ -72,24 +72,14 @@ impl Spot {
         self.pressure[index] - (c[5] * c[1] * c[1] - c[4] * c[1] * c[2] + c[3] * c[2] * c[2]) / determinant
     }
 
-    /// Boundary of the contact between the elements; `contact_modulus` is E* of the surface material. `None` for spots
-    /// of too few elements.
-    pub fn boundary(&self, contact_modulus: f64) -> Option<Boundary> {
-        let reach = 2.0 * self.counted_radius();
-        let sample = |index: usize| {
-            let [x, y] = self.mesh.place(index);
-            let (r, p) = (x.hypot(y), self.pressure[index]);
-            let opening = 0.75 * contact_modulus * self.gap[index];
-            (r < reach || p > 0.0).then(|| Polar { r, theta: y.atan2(x), p, opening })
-        };
-        let samples: Vec<Polar> = (0..self.pressure.len()).filter_map(sample).collect();
-        Boundary::locate(&samples, self.element_area(), self.mesh.size)
+    /// Outline of the contact between the elements. `None` for spots of too few elements.
+    pub fn outline(&self) -> Option<Outline> {
+        Outline::new(&self.mesh, &self.pressure, &self.gap)
     }
 
-    /// Contact radius √(A/π), from the boundary, or from the number of elements where it is not found.
-    pub fn contact_radius(&self, contact_modulus: f64) -> f64 {
-        let boundary = self.boundary(contact_modulus);
-        boundary.map_or(self.counted_radius(), |boundary| (boundary.area() / PI).sqrt())
+    /// Contact radius √(A/π), from the outline, or from the number of elements where it is not found.
+    pub fn contact_radius(&self) -> f64 {
+        self.outline().map_or(self.counted_radius(), |outline| (outline.area() / PI).sqrt())
     }
 
     /// √(A/π) of the elements in contact.

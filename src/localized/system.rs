@@ -227,13 +227,14 @@ impl Localized {
         let reading = |level: usize| {
             let own: Vec<&Spot> = solution.spots.iter().filter(|spot| spot.level == level).collect();
             let load: f64 = own.iter().map(|spot| spot.load()).sum();
-            let area = |spot: &&Spot| PI * spot.contact_radius(self.contact_modulus).powi(2);
+            let area = |spot: &&Spot| PI * spot.contact_radius().powi(2);
             LevelReading {
                 level,
                 load: load / own.len() as f64,
                 load_share: if whole > 0.0 { load / whole } else { 0.0 },
                 max_pressure: own.iter().map(|spot| spot.peak()).fold(0.0, f64::max),
                 contact_radius: (own.iter().map(area).sum::<f64>() / PI / own.len() as f64).sqrt(),
+                ring: own.iter().any(|spot| spot.outline().is_some_and(|outline| outline.hole > 0.0)),
                 radius: own.iter().map(|spot| spot.radius).sum::<f64>() / own.len() as f64,
             }
         };
@@ -255,6 +256,8 @@ pub struct LevelReading {
     pub max_pressure: f64,
     /// √(contact area/π), a length.
     pub contact_radius: f64,
+    /// Whether a contact of this level is open in the middle.
+    pub ring: bool,
     /// Radius R of the circle, a length; infinite without mutual effect.
     pub radius: f64,
 }

@@ -3,7 +3,7 @@
 //! Along every line of samples contact is a set of intervals. At a distance d inside an end p² falls nearly as d, at a
 //! distance d outside g^{2/3} rises nearly as d: the end is the mean of the roots of two parabolas, one fitted to p² on
 //! the one side, one to g^{2/3} on the other, each without the outermost sample. The lengths, averaged over the lines
-//! of both directions, give the fraction of the cell. Between intervals of few samples the end is halfway.
+//! of both directions, give the fraction of the cell. What the two roots differ measures their error. Between intervals of few samples the end is halfway.
 
 use crate::grid::Grid;
 use crate::least_squares;
@@ -12,24 +12,38 @@ use crate::least_squares;
 const FEWEST: usize = 6;
 const MOST: usize = 3;
 
-/// Fraction of the cell in contact, from pressure and gap (one value per sample each).
-pub fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64]) -> f64 {
+/// Fraction of the cell in contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Area {
+    /// The fraction.
+    pub fraction: f64,
+    /// Its estimated error: half of what the two readings of each end differ.
+    pub error: f64,
+}
+
+/// Fraction of the cell in contact, from pressure and gap (one value per sample each), without the intervals whose
+/// samples are `known`.
+pub fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(usize) -> bool) -> Area {
     let [n1, n2] = grid.points();
     let height = |index: usize| match pressure[index] {
         p if p > 0.0 => p * p,
         _ => -gap[index].max(0.0).powf(2.0 / 3.0),
     };
-    let along: f64 = (0..n1).map(|i| line_fraction(n2, |j| height(i * n2 + j))).sum();
-    let across: f64 = (0..n2).map(|j| line_fraction(n1, |i| height(i * n2 + j))).sum();
-    0.5 * (along / n1 as f64 + across / n2 as f64)
+    let add = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+    let rows = (0..n1).map(|i| line_fraction(n2, |j| height(i * n2 + j), |j| known(i * n2 + j)));
+    let columns = (0..n2).map(|j| line_fraction(n1, |i| height(i * n2 + j), |i| known(i * n2 + j)));
+    let (along, across) = (rows.fold([0.0; 2], add), columns.fold([0.0; 2], add));
+    let [fraction, error] = [0, 1].map(|k| 0.5 * (along[k] / n1 as f64 + across[k] / n2 as f64));
+    Area { fraction, error }
 }
 
-/// Fraction in contact of a closed line of `n` samples with the heights p² in contact and −g^{2/3} outside.
-fn line_fraction(n: usize, height: impl Fn(usize) -> f64) -> f64 {
+/// Fraction in contact of a closed line of `n` samples with the heights p² in contact and −g^{2/3} outside, and its
+/// estimated error.
+fn line_fraction(n: usize, height: impl Fn(usize) -> f64, known: impl Fn(usize) -> bool) -> [f64; 2] {
     let touches = |i: usize| height(i % n) > 0.0;
     let Some(start) = (0..n).find(|&i| !touches(i) && touches(i + 1)) else {
         // No end: all or nothing.
-        return f64::from(u8::from(touches(0)));
+        return [f64::from(u8::from(touches(0) && !known(0))), 0.0];
     };
     // Intervals in turn, from the first sample in contact: contact, open, contact, …
     let mut ends = vec![start + 1];
@@ -39,17 +53,22 @@ fn line_fraction(n: usize, height: impl Fn(usize) -> f64) -> f64 {
         }
     }
     ends.push(start + 1 + n);
-    let mut total = 0.0;
-    for interval in ends.windows(2).step_by(2) {
+    let mut total = [0.0; 2];
+    for interval in ends.windows(2).step_by(2).filter(|interval| !known(interval[0] % n)) {
         let [first, last] = [interval[0], interval[1]];
-        total += (last - first) as f64 - 1.0;
+        total[0] += (last - first) as f64 - 1.0;
         // How far contact reaches beyond its outermost samples.
         let (before, after) = (open_length(&ends, first, n), open_length(&ends, last, n));
         let count = last - first;
-        total += overhang(|k| height((first + k) % n), count, |k| -height((first + n - 1 - k) % n), before);
-        total += overhang(|k| height((last - 1 - k) % n), count, |k| -height((last + k) % n), after);
+        for [length, error] in [
+            overhang(|k| height((first + k) % n), count, |k| -height((first + n - 1 - k) % n), before),
+            overhang(|k| height((last - 1 - k) % n), count, |k| -height((last + k) % n), after),
+        ] {
+            total[0] += length;
+            total[1] += error;
+        }
     }
-    total / n as f64
+    total.map(|samples| samples / n as f64)
 }
 
 /// Length of the open interval that ends or begins at the border `end`.
@@ -60,15 +79,16 @@ fn open_length(ends: &[usize], end: usize, n: usize) -> usize {
     if index % 2 == 1 { ends[index + 1] - end } else { (end + n - ends[(index + borders - 1) % borders]) % n }
 }
 
-/// How far contact reaches beyond its outermost sample, in samples, between 0 and 1: `inside(k)` and `outside(k)` are
-/// the heights k samples from the end on either side.
-fn overhang(inside: impl Fn(usize) -> f64, count: usize, outside: impl Fn(usize) -> f64, open: usize) -> f64 {
+/// How far contact reaches beyond its outermost sample, in samples, between 0 and 1, and how uncertain that is:
+/// `inside(k)` and `outside(k)` are the heights k samples from the end on either side. Where one side alone can be read,
+/// a quarter of a sample is uncertain, where none can, half.
+fn overhang(inside: impl Fn(usize) -> f64, count: usize, outside: impl Fn(usize) -> f64, open: usize) -> [f64; 2] {
     let from_inside = beyond(inside, count);
     let from_outside = beyond(outside, open).map(|x| 1.0 - x);
     match (from_inside, from_outside) {
-        (Some(a), Some(b)) => 0.5 * (a + b),
-        (Some(x), None) | (None, Some(x)) => x,
-        (None, None) => 0.5,
+        (Some(a), Some(b)) => [0.5 * (a + b), 0.5 * (a - b).abs()],
+        (Some(x), None) | (None, Some(x)) => [x, 0.25],
+        (None, None) => [0.5; 2],
     }
 }
 
@@ -110,7 +130,7 @@ mod tests {
                 .collect();
             let pressure: Vec<f64> = depth.iter().map(|d| d.max(0.0).sqrt()).collect();
             let gap: Vec<f64> = depth.iter().map(|d| (-d).max(0.0).powf(1.5)).collect();
-            let fraction = contact_fraction(&grid, &pressure, &gap);
+            let Area { fraction, .. } = contact_fraction(&grid, &pressure, &gap, |_| false);
             assert!((fraction - expected).abs() < 2e-4, "{fraction} {expected}");
         }
     }
@@ -118,8 +138,9 @@ mod tests {
     #[test]
     fn full_contact_and_none_are_exact() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 12]).unwrap();
-        assert_eq!(contact_fraction(&grid, &[1.0; 96], &[0.0; 96]), 1.0);
-        assert_eq!(contact_fraction(&grid, &[0.0; 96], &[1.0; 96]), 0.0);
+        let exact = |fraction| Area { fraction, error: 0.0 };
+        assert_eq!(contact_fraction(&grid, &[1.0; 96], &[0.0; 96], |_| false), exact(1.0));
+        assert_eq!(contact_fraction(&grid, &[0.0; 96], &[1.0; 96], |_| false), exact(0.0));
     }
 
     #[test]
@@ -128,6 +149,8 @@ mod tests {
         let mut pressure = [0.0; 64];
         pressure[27] = 1.0;
         // One line of eight in each direction, with one sample: half a sample beyond it on either side.
-        assert!((contact_fraction(&grid, &pressure, &[0.0; 64]) - 1.0 / 64.0).abs() < 1e-12);
+        let found = contact_fraction(&grid, &pressure, &[0.0; 64], |_| false);
+        assert!((found.fraction - 1.0 / 64.0).abs() < 1e-12 && found.error > 0.0);
+        assert_eq!(contact_fraction(&grid, &pressure, &[0.0; 64], |index| index == 27).fraction, 0.0);
     }
 }

@@ -12,7 +12,7 @@
 //! | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
 //! | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
 //! | penetration | 0.01 n⁻² |
-//! | area; radius half of it | 0.6 n^{−3/2} |
+//! | area, radius, fraction in contact | what the reading of the boundary says of itself |
 //!
 //! The numbers are read off three hundred random cases solved again with four times the points; that the estimates hold
 //! in 95 % of others is shown in `validation/discretisation`. What is prescribed has no error, the peak under a tip is
@@ -83,10 +83,6 @@ impl Resolved {
     fn penetration(&self) -> f64 {
         0.01 * self.samples.powi(-2)
     }
-
-    fn area(&self) -> f64 {
-        0.6 * self.samples.powf(-1.5)
-    }
 }
 
 /// Errors of `fine`, what was read off the last step of `hierarchy`, solved under `control`.
@@ -150,8 +146,8 @@ fn between(fine: &Observables, coarser: &[Observables], exponents: &[f64], contr
             load: of(LOAD, if by_load { share } else { resolved.load() }, |level| Some(level.load)),
             load_share: of(SHARE, share, |level| Some(level.load_share)),
             max_pressure: of(PEAK, resolved.peak(), |level| (!level.singular_peak).then_some(level.max_pressure)),
-            contact_area: of(RADIUS, resolved.area(), |level| Some(level.contact_area)),
-            contact_radius: of(RADIUS, 0.5 * resolved.area(), |level| level.contact_radius),
+            contact_area: of(RADIUS, own.contact_area_error / own.contact_area, |level| Some(level.contact_area)),
+            contact_radius: of(RADIUS, own.contact_area_error / (2.0 * own.contact_area), |level| level.contact_radius),
         }
     };
     let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
@@ -160,7 +156,9 @@ fn between(fine: &Observables, coarser: &[Observables], exponents: &[f64], contr
     Errors {
         mean_pressure: prescribed(mean_pressure, by_load),
         penetration: prescribed(penetration, !by_load),
-        contact_fraction: estimate(FRACTION, law(Resolved::area, largest), &|step| Some(step.contact_fraction)),
+        contact_fraction: estimate(FRACTION, fine.contact_fraction_error / fine.contact_fraction, &|step| {
+            Some(step.contact_fraction)
+        }),
         max_pressure: estimate(HIGHEST, law(Resolved::peak, smallest), &|step| {
             (!step.singular_peak()).then_some(step.max_pressure)
         }),

@@ -1,19 +1,25 @@
 //! What a tribologist reads off a solved contact, level by level and between the samples.
 //!
 //! A sample belongs to the indenter whose surface is nearest to it. Contacts of neighbouring indenters that touch have
-//! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning.
+//! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning. A contact that is open in
+//! the middle is a **ring**: its area is that in contact. Radii and areas carry an estimate of their discretisation
+//! error.
 
 pub mod area;
+mod components;
 pub mod error;
 pub mod peak;
+mod spots;
 
 pub use crate::boundary::Boundary;
 pub use error::{Errors, LevelErrors, errors};
 
-use crate::boundary::Polar;
+use crate::boundary::Scale;
+use crate::edge::Edge;
 use crate::field;
 use crate::hierarchy::{Contact, Hierarchy, Solution};
 use crate::number::number;
+use spots::Spot;
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -26,6 +32,8 @@ pub struct Observables {
     pub penetration: f64,
     /// Fraction of the cell in contact.
     pub contact_fraction: f64,
+    /// Estimated error of the fraction in contact.
+    pub contact_fraction_error: f64,
     /// Largest pressure, between the samples.
     pub max_pressure: f64,
     /// Per level; empty for a topography.
@@ -52,8 +60,17 @@ pub struct LevelObservables {
     pub singular_peak: bool,
     /// Contact area of one indenter.
     pub contact_area: f64,
+    /// Estimated error of the contact area.
+    pub contact_area_error: f64,
     /// √(area/π), a length; `None` for merged contacts.
     pub contact_radius: Option<f64>,
+    /// Estimated error of the contact radius, a length.
+    pub radius_error: Option<f64>,
+    /// Whether the contact of an indenter of this level is open in the middle.
+    pub ring: bool,
+    /// Inner and outer radius of a ring: √(area/π) of the hole and of all inside the outer boundary, lengths. `None`
+    /// without a hole, for merged contacts and for spots of too few samples.
+    pub ring_radii: Option<(f64, f64)>,
     /// Smallest and largest distance of the boundary from the axis; `None` for merged contacts and for spots of too few
     /// samples.
     pub radius_extremes: Option<(f64, f64)>,
@@ -77,17 +94,6 @@ impl LevelObservables {
     }
 }
 
-/// Contact spot of one site.
-#[derive(Debug, Clone, Default)]
-struct Spot {
-    load: f64,
-    /// Area of its samples; one that several sites own together counts in parts.
-    counted: f64,
-    peak: Option<usize>,
-    merged: bool,
-    boundary: Option<Boundary>,
-}
-
 /// Observables of a solved step; `solution` is the last one of `hierarchy`, or one of the same grid.
 pub fn observe(hierarchy: &Hierarchy, solution: &Solution) -> Observables {
     read(&hierarchy.contact(solution))
@@ -100,16 +106,26 @@ pub fn read(contact: &Contact<'_>) -> Observables {
     let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
     let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
 
-    let spots = spots(contact);
+    let count = pressure.iter().filter(|p| **p > 0.0).count() as f64;
+    let [shortest, longest] = Scale::distances((count / PI).sqrt()).map(|distance| distance * grid.spacing());
+    let edge = Edge::new(contact.transfer, shortest, longest);
+    let scale = Scale { sample_area: grid.sample_area(), spacing: grid.spacing(), edge: &edge };
+    let spots = spots::spots(contact, &scale);
+    let (topography, located_samples) =
+        if texture.owner.is_empty() { spots::of_topography(contact, &scale) } else { spots::samples(contact, &spots) };
+
     let cell = grid.cell().area();
-    // Located spots have their own area. The others share what the lines of samples find beside them, as they were
-    // counted.
-    let located: f64 = spots.iter().filter_map(|spot| spot.boundary.as_ref()).map(Boundary::area).sum();
+    // Located spots have their own area. The others share what the lines of samples find there, as they were counted.
+    let located = || spots.iter().filter_map(|spot| spot.boundary.as_ref()).chain(&topography);
+    let along_lines = area::contact_fraction(grid, pressure, gap, |index| located_samples[index]);
+    let located_area: f64 = located().map(Boundary::area).sum();
+    let contact_area = located_area + cell * along_lines.fraction;
     let counted: f64 = spots.iter().filter(|spot| spot.boundary.is_none()).map(|spot| spot.counted).sum();
-    let all_located = !spots.is_empty() && counted == 0.0;
-    let contact_area = if all_located { located } else { cell * area::contact_fraction(grid, pressure, gap) };
-    let correction = if counted > 0.0 { ((contact_area - located) / counted).max(0.0) } else { 1.0 };
-    let spot_area = |spot: &Spot| spot.boundary.as_ref().map_or(correction * spot.counted, Boundary::area);
+    let share = if counted > 0.0 { cell / counted } else { 0.0 };
+    let spot_area = |spot: &Spot| match &spot.boundary {
+        Some(boundary) => [boundary.area(), boundary.area_error()],
+        None => [along_lines.fraction, along_lines.error].map(|part| part * share * spot.counted),
+    };
 
     let levels = (1..=contact.levels)
         .map(|level| {
@@ -117,10 +133,18 @@ pub fn read(contact: &Contact<'_>) -> Observables {
                 texture.sites.iter().zip(&spots).filter(|(site, _)| site.level == level).map(|(_, s)| s).collect();
             let indenters = own.len() as f64;
             let load = own.iter().map(|spot| spot.load).sum::<f64>();
-            let area = own.iter().map(|spot| spot_area(spot)).sum::<f64>() / indenters;
+            let [area, area_error] = [0, 1].map(|k| own.iter().map(|spot| spot_area(spot)[k]).sum::<f64>() / indenters);
             let merged = own.iter().any(|spot| spot.merged);
             let peaks = own.iter().filter_map(|spot| spot.peak);
-            let extremes = own.iter().map(|spot| spot.boundary.as_ref().map(Boundary::extremes));
+            let boundaries = || own.iter().map(|spot| spot.boundary.as_ref());
+            let extremes = boundaries().map(|boundary| boundary.map(Boundary::extremes));
+            let radius = (area / PI).sqrt();
+            let ring = !merged && own.iter().any(|spot| spot.ring);
+            // Means over the indenters, by area.
+            let mean = |radius: fn(&Boundary) -> f64| {
+                let squares: Option<Vec<f64>> = boundaries().map(|b| b.map(|b| radius(b).powi(2))).collect();
+                squares.map(|squares| (squares.iter().sum::<f64>() / indenters).sqrt())
+            };
             LevelObservables {
                 level,
                 load: load / indenters,
@@ -129,7 +153,11 @@ pub fn read(contact: &Contact<'_>) -> Observables {
                 singular_peak: load > 0.0
                     && texture.sites.iter().any(|site| site.level == level && site.shape.singular_peak()),
                 contact_area: area,
-                contact_radius: (!merged).then(|| (area / PI).sqrt()),
+                contact_area_error: area_error,
+                contact_radius: (!merged).then_some(radius),
+                radius_error: (!merged && area > 0.0).then(|| 0.5 * area_error / area * radius),
+                ring,
+                ring_radii: mean(Boundary::mean_hole_radius).zip(mean(Boundary::mean_radius)).filter(|_| ring),
                 radius_extremes: extremes.reduce(|a, b| a.zip(b).map(|(a, b)| (a.0.min(b.0), a.1.max(b.1)))).flatten(),
                 merged,
                 resolution: (area / PI / grid.sample_area()).sqrt(),
@@ -137,82 +165,16 @@ pub fn read(contact: &Contact<'_>) -> Observables {
         })
         .collect();
     let contact_fraction = contact_area / cell;
+    let contact_fraction_error = located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error;
     let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
-    Observables { mean_pressure, penetration, contact_fraction, max_pressure, levels, boundaries }
-}
-
-fn spots(contact: &Contact<'_>) -> Vec<Spot> {
-    let Contact { grid, texture, pressure, .. } = *contact;
-    let (reduced, [n1, n2]) = (grid.cell().reduced(), grid.points());
-    let mut spots = vec![Spot::default(); texture.sites.len()];
-    if texture.owner.is_empty() {
-        return spots;
-    }
-    let offset = |index: usize| texture.offset(grid, &reduced, texture.owner[index], index);
-    // The way to the next sample along a₁ and a₂, in a skewed cell by its shortest equivalent.
-    let steps = [reduced.nearest([1.0 / n1 as f64, 0.0]), reduced.nearest([0.0, 1.0 / n2 as f64])];
-    let tolerance = 1e-6 * grid.spacing();
-    for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
-        let owner = texture.owner[index];
-        let owners = match texture.ties.binary_search_by_key(&index, |(sample, _)| *sample) {
-            Ok(tie) => &texture.ties[tie].1[..],
-            Err(_) => std::slice::from_ref(&owner),
-        };
-        let part = grid.sample_area() / owners.len() as f64;
-        for &site in owners {
-            let spot = &mut spots[site as usize];
-            spot.load += part * p;
-            spot.counted += part;
-            if spot.peak.is_none_or(|peak| p > pressure[peak]) {
-                spot.peak = Some(index);
-            }
-        }
-        // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
-        let (row, column) = (index / n2, index % n2);
-        let neighbours = [(row + 1) % n1 * n2 + column, row * n2 + (column + 1) % n2];
-        for (neighbour, step) in neighbours.into_iter().zip(steps) {
-            if pressure[neighbour] <= 0.0 {
-                continue;
-            }
-            let (here, there) = (offset(index), offset(neighbour));
-            let apart = [0, 1].map(|k| (there[k] - here[k] - step[k]).abs());
-            let other = texture.owner[neighbour];
-            if other != owner || apart[0].max(apart[1]) > tolerance {
-                spots[owner as usize].merged = true;
-                spots[other as usize].merged = true;
-            }
-        }
-    }
-    locate(contact, &mut spots);
-    spots
-}
-
-/// Finds the boundaries of the spots that stand alone.
-fn locate(contact: &Contact<'_>, spots: &mut [Spot]) {
-    let Contact { grid, texture, pressure, gap, .. } = *contact;
-    let reduced = grid.cell().reduced();
-    // Samples that a fit can reach: out to twice the counted radius.
-    let reach: Vec<f64> = spots
-        .iter()
-        .map(|spot| if spot.merged || spot.counted == 0.0 { 0.0 } else { 2.0 * (spot.counted / PI).sqrt() })
-        .collect();
-    let mut samples: Vec<Vec<Polar>> = vec![Vec::new(); spots.len()];
-    for (index, &owner) in texture.owner.iter().enumerate() {
-        let reach = reach[owner as usize];
-        if reach == 0.0 {
-            continue;
-        }
-        let [x, y] = texture.offset(grid, &reduced, owner, index);
-        let r = x.hypot(y);
-        if r < reach || pressure[index] > 0.0 {
-            let opening = 0.75 * contact.contact_modulus * gap[index];
-            samples[owner as usize].push(Polar { r, theta: y.atan2(x), p: pressure[index], opening });
-        }
-    }
-    for (spot, samples) in spots.iter_mut().zip(&samples) {
-        if !samples.is_empty() {
-            spot.boundary = Boundary::locate(samples, grid.sample_area(), grid.spacing());
-        }
+    Observables {
+        mean_pressure,
+        penetration,
+        contact_fraction,
+        contact_fraction_error,
+        max_pressure,
+        levels,
+        boundaries,
     }
 }
 
@@ -234,7 +196,11 @@ impl fmt::Display for Observables {
                 100.0 * level.load_share,
                 number(level.max_pressure),
                 number(level.contact_area),
-                if level.merged { ", merged with a neighbour" } else { "" }
+                match (level.merged, level.ring) {
+                    (true, _) => ", merged with a neighbour",
+                    (false, true) => ", a ring",
+                    (false, false) => "",
+                }
             )?;
         }
         Ok(())

@@ -77,6 +77,7 @@ fn circle(circle: &CircleComparison) -> Value {
             "load_share": level.load_share,
             "max_pressure": level.max_pressure,
             "contact_radius": level.contact_radius,
+            "ring": level.ring,
         })
     };
     let radius: Vec<Option<f64>> =

@@ -148,6 +148,12 @@ pub struct Level {
     pub contact_area: f64,
     /// √(area/π); null for merged contacts.
     pub contact_radius: Option<f64>,
+    /// Whether a contact of this level is open in the middle.
+    pub ring: bool,
+    /// √(area/π) of a ring's hole; null without one, for merged contacts and spots of too few samples.
+    pub radius_inner: Option<f64>,
+    /// √(area/π) of all inside a ring's outer boundary; see `radius_inner`.
+    pub radius_outer: Option<f64>,
     /// Smallest boundary radius; null for merged contacts and spots of too few samples.
     pub radius_min: Option<f64>,
     /// Largest boundary radius.
@@ -203,6 +209,9 @@ impl Step {
                     singular: level.singular_peak,
                     contact_area: level.contact_area,
                     contact_radius: level.contact_radius,
+                    ring: level.ring,
+                    radius_inner: level.ring_radii.map(|(inner, _)| inner),
+                    radius_outer: level.ring_radii.map(|(_, outer)| outer),
                     radius_min: level.radius_extremes.map(|(least, _)| least),
                     radius_max: level.radius_extremes.map(|(_, largest)| largest),
                     asymmetry: level.asymmetry(),

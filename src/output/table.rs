@@ -37,6 +37,11 @@ fn detailed(steps: &[Step]) -> String {
         for level in &step.levels {
             let radius = match level.contact_radius {
                 _ if level.load == 0.0 => "–".to_owned(),
+                // The radius of the area says little of a ring.
+                Some(radius) if level.ring => match (level.radius_inner, level.radius_outer) {
+                    (Some(inner), Some(outer)) => format!("ring {}–{}", number(inner), number(outer)),
+                    _ => format!("ring, area of {}", number(radius)),
+                },
                 Some(radius) => with_error(radius, level.errors.contact_radius),
                 None => "merged".to_owned(),
             };
@@ -106,7 +111,8 @@ pub fn readings(comparison: &Comparison, setup: &Setup) -> String {
                 number(level.load),
                 percent(level.load_share),
                 number(level.max_pressure),
-                length(if level.load > 0.0 { level.contact_radius } else { f64::NAN }),
+                length(if level.load > 0.0 { level.contact_radius } else { f64::NAN })
+                    + if level.ring { " (ring)" } else { "" },
                 length(level.radius),
             ];
             rows.push([&lead[..], &cells[..]].concat());

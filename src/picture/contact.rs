@@ -37,6 +37,10 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
                 };
                 if let Some(boundary) = boundary {
                     over.push(ring(&|theta| boundary.radius(theta), Dash::Solid, 0.9, Colour::line(site.level)));
+                    if !boundary.hole.is_empty() {
+                        let inner = |theta| boundary.hole_radius(theta);
+                        over.push(ring(&inner, Dash::Solid, 0.9, Colour::line(site.level)));
+                    }
                 }
                 let alone = without_mutual_effect.and_then(|radii| radii.get(site.level - 1));
                 if let Some(&radius) = alone.filter(|radius| **radius > 0.0) {
@@ -49,7 +53,7 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
         let spots = Map { title: "(a) contact spots".into(), x, y, aspect: aspect(window), fill, over };
         let radii = radii(snapshot, without_mutual_effect);
         let mut caption = snapshot.caption();
-        let mut what = "Numbers are levels; ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the contact area.".to_owned();
+        let mut what = "Numbers are levels; ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the area within it.".to_owned();
         if without_mutual_effect.is_some() {
             what += " Dashed circles and lines: without the mutual effect of the indenters.";
         }
@@ -70,7 +74,7 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<C
     for level in 1..=snapshot.levels() {
         let site = snapshot.site_of(level)?;
         let Some(boundary) = &snapshot.boundaries[site] else { continue };
-        let mean = (boundary.area() / (0.5 * TAU)).sqrt();
+        let mean = boundary.mean_radius();
         let count = boundary.radii.len();
         let points = (0..=count).map(|k| [degrees(k, count), 100.0 * (boundary.radii[k % count] / mean - 1.0)]);
         curves.push(Curve {

@@ -66,7 +66,7 @@ impl Snapshot<'_> {
     fn profile(&self, level: usize) -> Option<Profile> {
         let site = self.site_of(level)?;
         let centre = self.grid.cell().point(self.texture.sites[site].place);
-        if self.pressure_squared(centre) <= 0.0 {
+        if self.boundaries[site].is_none() && self.pressure_squared(centre) <= 0.0 {
             return None;
         }
         let (direction, [left, right]) = match &self.boundaries[site] {

@@ -85,7 +85,7 @@ impl Snapshot<'_> {
                     let cell = self.grid.cell();
                     let (s, t) = (cell.fractions(place), self.texture.sites[site].place);
                     let [x, y] = cell.reduced().nearest([s[0] - t[0], s[1] - t[1]]);
-                    x.hypot(y) < boundary.radius(y.atan2(x))
+                    (boundary.hole_radius(y.atan2(x))..boundary.radius(y.atan2(x))).contains(&x.hypot(y))
                 }
                 _ => weight >= 0.5,
             };

@@ -33,6 +33,7 @@ mod random;
 mod report;
 mod sinusoidal_stresses;
 mod steps;
+mod thin_coatings;
 mod wavy;
 mod westergaard;
 
@@ -55,7 +56,7 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 22] = [
+pub const STUDIES: [Study; 23] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -63,6 +64,7 @@ pub const STUDIES: [Study; 22] = [
     westergaard::STUDY,
     wavy::STUDY,
     isolated::STUDY,
+    thin_coatings::STUDY,
     hertz_stresses::STUDY,
     sinusoidal_stresses::STUDY,
     convergence::STUDY,

@@ -150,11 +150,11 @@ pub fn one_neighbour(model: &Model, found: &Observables) -> Result<f64, StudyErr
 pub fn localized(model: &Model, mean_pressure: f64) -> Result<Data, StudyError> {
     let mut data = Data::new("localized", &["indenters", "level_1", "level_2", "level_3"]);
     for indenters in [7, 13, 37] {
-        let (system, solution) = model.localized_solution(mean_pressure, indenters, 48)?;
+        let (_, solution) = model.localized_solution(mean_pressure, indenters, 48)?;
         let mut row = vec![indenters as f64];
         for spot in &solution.spots {
-            let boundary = spot.boundary(system.contact_modulus()).ok_or("a spot of too few elements")?;
-            row.push(spot::asymmetry(&boundary.radii)[0]);
+            let outline = spot.outline().ok_or("a spot of too few elements")?;
+            row.push(spot::asymmetry(&outline.radii)[0]);
         }
         data.rows.push(row);
     }
@@ -166,7 +166,7 @@ pub fn localized(model: &Model, mean_pressure: f64) -> Result<Data, StudyError> 
 pub fn localized_elements(model: &Model, mean_pressure: f64) -> Result<Data, StudyError> {
     let mut data = Data::new("localized-elements", &["elements_across_level_1", "level_1", "level_2", "level_3"]);
     let (system, start) = model.localized_solution(mean_pressure, 7, 24)?;
-    let diameter = 2.0 * start.spots[0].contact_radius(system.contact_modulus());
+    let diameter = 2.0 * start.spots[0].contact_radius();
     for across in [11.0, 15.0, 19.0, 23.0, 25.0, 27.0, 31.0, 39.0] {
         const WINDOW: usize = 6;
         let counted = (0..WINDOW).into_par_iter().map(|k| {

@@ -1,0 +1,52 @@
+//! A closed line around an axis, given by its distances at equally spaced angles from θ = 0, and Fourier series in the
+//! angle.
+
+use std::f64::consts::TAU;
+
+/// Angles at which lines are given.
+pub const ANGLES: usize = 360;
+
+/// The angle of an index, radians.
+pub fn angle(index: usize) -> f64 {
+    TAU * index as f64 / ANGLES as f64
+}
+
+/// Distance at an angle, linear between those given.
+pub fn radius(radii: &[f64], theta: f64) -> f64 {
+    let count = radii.len();
+    let place = theta.rem_euclid(TAU) / TAU * count as f64;
+    let (before, rest) = (place as usize % count, place.fract());
+    (1.0 - rest) * radii[before] + rest * radii[(before + 1) % count]
+}
+
+/// √(enclosed area/π); 0 for no line.
+pub fn mean_radius(radii: &[f64]) -> f64 {
+    (radii.iter().map(|r| r * r).sum::<f64>() / radii.len().max(1) as f64).sqrt()
+}
+
+/// 1, cos θ, sin θ, … of the harmonics up to `highest`.
+pub fn waves(theta: f64, highest: usize) -> Vec<f64> {
+    let pair = |k: usize| {
+        let (sine, cosine) = (k as f64 * theta).sin_cos();
+        [cosine, sine]
+    };
+    std::iter::once(1.0).chain((1..=highest).flat_map(pair)).collect()
+}
+
+/// Sum of a series of [`waves`] with the coefficients.
+pub fn series(coefficients: &[f64], theta: f64) -> f64 {
+    waves(theta, coefficients.len() / 2).iter().zip(coefficients).map(|(wave, c)| wave * c).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn a_line_of_two_lobes_has_its_radii_and_its_area() {
+        let radii: Vec<f64> = (0..ANGLES).map(|index| series(&[1.0, 0.0, 0.0, 0.1, 0.0], angle(index))).collect();
+        assert!((radius(&radii, -PI) - 1.1).abs() < 1e-12 && (radius(&radii, 2.5 * PI) - 0.9).abs() < 1e-12);
+        assert!((mean_radius(&radii) - 1.005f64.sqrt()).abs() < 1e-12 && mean_radius(&[]) == 0.0);
+    }
+}

@@ -1,0 +1,172 @@
+//! The contact spots of a grid: whose they are, whether they have merged, where they are open, and their boundaries.
+
+use super::components::{Component, components};
+use crate::boundary::{Boundary, Polar, Scale};
+use crate::hierarchy::Contact;
+use std::f64::consts::PI;
+
+/// Contact spot of one site.
+#[derive(Debug, Clone, Default)]
+pub struct Spot {
+    pub load: f64,
+    /// Area of its samples; one that several sites own together counts in parts.
+    pub counted: f64,
+    pub peak: Option<usize>,
+    pub merged: bool,
+    /// Whether it encloses open samples.
+    pub ring: bool,
+    pub boundary: Option<Boundary>,
+}
+
+/// The contacts of all sites; none for a topography.
+pub fn spots(contact: &Contact<'_>, scale: &Scale<'_>) -> Vec<Spot> {
+    let Contact { grid, texture, pressure, .. } = *contact;
+    let (reduced, [n1, n2]) = (grid.cell().reduced(), grid.points());
+    let mut spots = vec![Spot::default(); texture.sites.len()];
+    if texture.owner.is_empty() {
+        return spots;
+    }
+    let offset = |index: usize| texture.offset(grid, &reduced, texture.owner[index], index);
+    // The way to the next sample along a₁ and a₂, in a skewed cell by its shortest equivalent.
+    let steps = [reduced.nearest([1.0 / n1 as f64, 0.0]), reduced.nearest([0.0, 1.0 / n2 as f64])];
+    let tolerance = 1e-6 * grid.spacing();
+    for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
+        let owner = texture.owner[index];
+        let owners = match texture.ties.binary_search_by_key(&index, |(sample, _)| *sample) {
+            Ok(tie) => &texture.ties[tie].1[..],
+            Err(_) => std::slice::from_ref(&owner),
+        };
+        let part = grid.sample_area() / owners.len() as f64;
+        for &site in owners {
+            let spot = &mut spots[site as usize];
+            spot.load += part * p;
+            spot.counted += part;
+            if spot.peak.is_none_or(|peak| p > pressure[peak]) {
+                spot.peak = Some(index);
+            }
+        }
+        // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
+        let (row, column) = (index / n2, index % n2);
+        let neighbours = [(row + 1) % n1 * n2 + column, row * n2 + (column + 1) % n2];
+        for (neighbour, step) in neighbours.into_iter().zip(steps) {
+            if pressure[neighbour] <= 0.0 {
+                continue;
+            }
+            let (here, there) = (offset(index), offset(neighbour));
+            let apart = [0, 1].map(|k| (there[k] - here[k] - step[k]).abs());
+            let other = texture.owner[neighbour];
+            if other != owner || apart[0].max(apart[1]) > tolerance {
+                spots[owner as usize].merged = true;
+                spots[other as usize].merged = true;
+            }
+        }
+    }
+    locate(contact, scale, &mut spots);
+    spots
+}
+
+/// Open samples that one contact encloses: `label` tells contacts apart.
+fn holes(contact: &Contact<'_>, label: impl Fn(usize) -> u32) -> Vec<(u32, Component)> {
+    let Contact { grid, pressure, .. } = *contact;
+    let [n1, n2] = grid.points();
+    let enclosed = |open: Component| {
+        let mut around = open.samples.iter().flat_map(|&(index, _)| {
+            let (row, column) = (index / n2, index % n2);
+            let rows = [(row + 1) % n1, (row + n1 - 1) % n1].map(|row| row * n2 + column);
+            let columns = [(column + 1) % n2, (column + n2 - 1) % n2].map(|column| row * n2 + column);
+            rows.into_iter().chain(columns).filter(|&index| pressure[index] > 0.0)
+        });
+        let owner = label(around.next()?);
+        (!open.wraps && around.all(|index| label(index) == owner)).then_some((owner, open))
+    };
+    let mut open: Vec<Component> = components(grid, |index| pressure[index] <= 0.0);
+    // The largest of them is what lies outside.
+    open.sort_by_key(|open| open.samples.len());
+    open.pop();
+    open.into_iter().filter_map(enclosed).collect()
+}
+
+/// Finds the holes and the boundaries of the spots that stand alone.
+fn locate(contact: &Contact<'_>, scale: &Scale<'_>, spots: &mut [Spot]) {
+    let Contact { grid, texture, pressure, gap, .. } = *contact;
+    let reduced = grid.cell().reduced();
+    let mut hole = vec![false; grid.len()];
+    for (owner, open) in holes(contact, |index| texture.owner[index]) {
+        let spot = &mut spots[owner as usize];
+        // Between merged contacts lies what is outside all of them.
+        if !spot.merged {
+            spot.ring = true;
+            open.samples.iter().for_each(|&(index, _)| hole[index] = true);
+        }
+    }
+    // Samples that a fit can reach: out to twice the radius of all that is enclosed.
+    let mut enclosed = vec![0.0; spots.len()];
+    for (index, &owner) in texture.owner.iter().enumerate() {
+        if pressure[index] > 0.0 || hole[index] {
+            enclosed[owner as usize] += grid.sample_area();
+        }
+    }
+    let mut samples: Vec<Vec<Polar>> = vec![Vec::new(); spots.len()];
+    for (index, &owner) in texture.owner.iter().enumerate() {
+        if spots[owner as usize].merged || enclosed[owner as usize] == 0.0 {
+            continue;
+        }
+        let [x, y] = texture.offset(grid, &reduced, owner, index);
+        let (r, p) = (x.hypot(y), pressure[index]);
+        if r < 2.0 * (enclosed[owner as usize] / PI).sqrt() || p > 0.0 {
+            let opening = 0.75 * contact.contact_modulus * gap[index];
+            samples[owner as usize].push(Polar { r, theta: y.atan2(x), p, opening, hole: hole[index] });
+        }
+    }
+    for (spot, samples) in spots.iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()) {
+        spot.boundary = Boundary::locate(samples, scale);
+    }
+}
+
+/// Which samples belong to spots with a boundary.
+pub fn samples(contact: &Contact<'_>, spots: &[Spot]) -> (Vec<Boundary>, Vec<bool>) {
+    let located = |&owner: &u32| spots[owner as usize].boundary.is_some();
+    (Vec::new(), contact.texture.owner.iter().map(located).collect())
+}
+
+/// Boundaries of a topography's contacts around their own centres, where these are simple, and the samples of all that
+/// have one.
+pub fn of_topography(contact: &Contact<'_>, scale: &Scale<'_>) -> (Vec<Boundary>, Vec<bool>) {
+    let Contact { grid, pressure, gap, .. } = *contact;
+    let contacts = components(grid, |index| pressure[index] > 0.0);
+    let mut label = vec![u32::MAX; grid.len()];
+    for (own, contact) in (0..).zip(&contacts) {
+        contact.samples.iter().for_each(|&(index, _)| label[index] = own);
+    }
+    let mut hole = vec![false; grid.len()];
+    for (_, open) in holes(contact, |index| label[index]) {
+        open.samples.iter().for_each(|&(index, _)| hole[index] = true);
+    }
+    let (mut boundaries, mut located) = (Vec::new(), vec![false; grid.len()]);
+    for (own, spot) in (0..).zip(&contacts).filter(|(_, spot)| !spot.wraps) {
+        let centre = spot.centre();
+        let farthest = spot.samples.iter().map(|(_, [x, y])| (x - centre[0]).hypot(y - centre[1])).fold(0.0, f64::max);
+        let around: Vec<(usize, Polar)> = spot
+            .around(grid, centre, 2.0 * farthest)
+            .into_iter()
+            .filter(|(index, _)| label[*index] == own || label[*index] == u32::MAX)
+            .map(|(index, [x, y])| {
+                let opening = 0.75 * contact.contact_modulus * gap[index];
+                let (p, hole) = (pressure[index], hole[index]);
+                (index, Polar { r: x.hypot(y), theta: y.atan2(x), p, opening, hole })
+            })
+            .collect();
+        let samples: Vec<Polar> = around.iter().map(|(_, sample)| *sample).collect();
+        let Some(boundary) = Boundary::locate(&samples, scale) else { continue };
+        // A boundary with samples on its wrong side is none.
+        let astray = |sample: &Polar| {
+            let beyond = sample.r - boundary.radius(sample.theta);
+            if sample.p > 0.0 { beyond > scale.spacing } else { beyond < -scale.spacing && !sample.hole }
+        };
+        if !samples.iter().any(astray) {
+            spot.samples.iter().for_each(|&(index, _)| located[index] = true);
+            boundaries.push(boundary);
+        }
+    }
+    (boundaries, located)
+}
