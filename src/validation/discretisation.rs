@@ -13,7 +13,7 @@ pub const STUDY: Study =
 
 /// Cases of the study; the laws were read off others.
 const CASES: usize = 100;
-const SEED: u64 = 2028;
+const SEED: u64 = 2040;
 /// Points of the grids, even.
 const POINTS: [f64; 2] = [48.0, 80.0];
 /// Points of the reference over those of the case.
@@ -45,7 +45,8 @@ fn run() -> Result<Outcome, StudyError> {
     }
     let mut checks = Vec::new();
     for (number, name) in (0..).zip(QUANTITIES) {
-        let own = || data.rows.iter().filter(|row| row[1] == f64::from(number));
+        // What is prescribed, and the share of a single level, is exact and said to be.
+        let own = || data.rows.iter().filter(|row| row[1] == f64::from(number) && row[3].max(row[4]) > 0.0);
         let held = own().filter(|row| row[4] <= row[3]).count() as f64 / own().count() as f64;
         checks.push(Check::at_least(
             format!("{name}: part of the cases whose error is below the stated one"),
@@ -123,7 +124,7 @@ fn figure(data: &Data) -> Figure {
     let mut curves: Vec<_> = (0..)
         .zip(QUANTITIES)
         .map(|(number, name)| {
-            let own = data.rows.iter().filter(|row| row[1] == f64::from(number) && row[3] > 0.0);
+            let own = data.rows.iter().filter(|row| row[1] == f64::from(number) && row[3].max(row[4]) > 0.0);
             let relative = own.map(|row| [row[3] / row[2], (row[4] / row[2]).max(least)]);
             curve(name, Style::Markers, number as usize + 1, relative.filter(|[x, _]| *x > least))
         })
