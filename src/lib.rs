@@ -64,6 +64,7 @@ pub mod boundary;
 pub mod case;
 mod closed_line;
 pub mod comparison;
+mod components;
 pub mod edge;
 pub mod exact;
 pub mod field;

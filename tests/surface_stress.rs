@@ -1,6 +1,7 @@
 //! How accurate the stresses at the surface are, by samples per contact radius.
 //!
-//! The pressure's square-root edge makes the series of the surface stresses converge slowly. A paraboloid on a bare
+//! The pressure's square-root edge makes the series of the surface stresses converge slowly; the largest tension is read
+//! without it, and states its error. A paraboloid on a bare
 //! hexagonal system with a/l = 0.1 is Hertzian there to 10⁻⁴ p₀ once the first effects of the neighbours are taken
 //! into account: Σ 1/|w|³ over the lattice raises the curvature of the gap and presses sideways at a depth.
 //!
@@ -8,13 +9,14 @@
 
 mod common;
 
-use common::{coated, paraboloid, solve};
+use common::{Random, coated, paraboloid, solve};
 use percoat::exact::hertz::{Stresses, edge_tension, largest_shear};
 use percoat::exact::lattice_sums::TRIANGULAR;
+use percoat::indenter::{Level, Shape};
 use percoat::lattice::{Cell, Lattice};
 use percoat::material::{HalfSpace, Interface, Material};
 use percoat::solver::Control;
-use percoat::stress::{Depth, Field, MeanStress, Plane};
+use percoat::stress::{Depth, Field, Line, MeanStress, Plane};
 use percoat::texture::Surface;
 use std::f64::consts::PI;
 
@@ -124,11 +126,11 @@ fn coated_tension(points: usize, shift: [f64; 2], chi: f64) -> (f64, f64, f64) {
 
 /// Bound on the relative error of the largest tension on the surface.
 ///
-/// Up to some 40 samples it is too low: no sample stands at the edge itself, and stresses fall at once on both sides of
-/// it. Then it is too high by the overshoot of the series just outside, 0.24/√n − 1.3/n with its top of 1 % near n =
-/// 120.
+/// What is left beside the square root falls inward as the distance to the power 3/2: from the tension at an edge
+/// σ_r ∝ 1 − (2d/a)^{3/2}, the mean over a width d of two samples gives up to n^{−3/2}, of which the smoothing's fourth
+/// order leaves a part. The width grows as n^{2/5} from n = 12 on; the steps of the edge on the grid add their noise.
 fn tension_bound(n: f64) -> f64 {
-    (1.2 * n.powf(-1.2)).max(0.012)
+    0.4 * ((n / 12.0).max(1.0).powf(0.4) / n).powf(1.5) + 0.04 / n
 }
 
 /// Bounds on |error of σ_r|/p₀ at the surface, regions as in [`Measured::radial`].
@@ -187,7 +189,7 @@ fn surface_stresses_of_hertz_converge_as_slowly_as_they_are_said_to() {
     let tension = order(first.tension, last.tension);
     let edge = order(first.radial[0][2], last.radial[0][2]);
     println!("orders: tension {tension:.2}, edge {edge:.2}");
-    assert!((1.0..1.6).contains(&tension) && (0.4..0.65).contains(&edge), "orders {tension}, {edge}");
+    assert!((0.9..2.0).contains(&tension) && (0.4..0.65).contains(&edge), "orders {tension}, {edge}");
 }
 
 /// A hard thin coating bends: its largest tension stands off the edge, where nothing is steep.
@@ -210,4 +212,136 @@ fn the_largest_tension_on_a_hard_thin_coating_is_better_than_the_bound() {
 fn full_table() {
     table(&[320, 384, 512, 768], &SHIFTS).iter().for_each(assert_bounds);
     table(&[1024, 1536], &SHIFTS[2..5]).iter().for_each(assert_bounds);
+}
+
+/// A contact whose largest tension is read on `points` and on finer grids.
+struct Contact {
+    surface: Surface,
+    half_space: HalfSpace,
+    pressure: f64,
+    points: usize,
+    words: String,
+}
+
+impl Contact {
+    /// Any shape on any coating, or a topography; 3 to 40 samples along the contact radius, the site anywhere.
+    fn random(random: &mut Random, sizes: &[usize]) -> Self {
+        let points = random.pick(sizes);
+        let nu = random.pick(&[0.2, 0.3, 0.4]);
+        let radius = (random.log(3.0, 40.0) * 0.75f64.powf(0.25) / points as f64).min(0.4);
+        let coating = random.pick(&["bare", "soft", "hard"]);
+        let thickness = radius * random.log(0.1, 2.0);
+        let young = match coating {
+            "soft" => random.log(0.1, 0.7),
+            "hard" => random.log(1.4, 10.0),
+            _ => 1.0,
+        };
+        let half_space = match coating {
+            "bare" => HalfSpace::new(vec![], Material::from_young(1.0, nu).unwrap()),
+            _ => coated(young, thickness, [nu, nu], Interface::Bonded),
+        };
+        // The load of a sphere of radius 1 on something between coating and substrate.
+        let modulus = if thickness > radius { young } else { 0.5 * (1.0 + young) } / (1.0 - nu * nu);
+        let pressure = 4.0 / 3.0 * radius.powi(3) * modulus / 0.75f64.sqrt();
+        let name = random.pick(&["paraboloid", "sphere", "cone", "power 1.5", "power 3", "topography"]);
+        let shape = match name {
+            "paraboloid" => Shape::Paraboloid { radius: 1.0 },
+            "sphere" => Shape::Sphere { radius: 1.0 },
+            // Slopes like those of a sphere at the edge of its contact.
+            "cone" => Shape::Cone { slope: 0.8 * radius },
+            "power 1.5" => Shape::Power { coefficient: 0.6 * radius.sqrt(), exponent: 1.5 },
+            _ => Shape::Power { coefficient: 0.4 / radius, exponent: 3.0 },
+        };
+        let cell = Cell::hexagonal(1.0).unwrap();
+        let surface = if name == "topography" {
+            Surface::Heights { cell, points: [4 * points; 2], heights: hills(random, 4 * points) }
+        } else {
+            let site = [0, 1].map(|_| random.unit());
+            let levels = vec![Level::new(shape, 0.0).unwrap()];
+            Surface::Indenters { lattice: Lattice::new(cell, vec![vec![site]]).unwrap(), levels }
+        };
+        let words = format!("{name}, {coating}, E {young:.2}, h {thickness:.3}, a {radius:.3}, {points} points");
+        Self { surface, half_space, pressure, points, words }
+    }
+
+    /// Largest tension on the surface and its stated relative error, on a grid `factor` times as fine; `None` for complete
+    /// contact, which has no edge.
+    fn read(&self, factor: usize) -> Option<(f64, f64)> {
+        let points = [factor * self.points; 2];
+        let (hierarchy, solution, _) =
+            solve(&self.surface, &self.half_space, points, Control::MeanPressure(self.pressure));
+        assert!(solution.report.stop.solved(), "{}: {}", self.words, solution.report);
+        let field = Field::new(hierarchy.grid(), &solution.pressure, &self.half_space, MeanStress::HalfSpace);
+        let crest = field.crest()?;
+        let coarser = hierarchy.coarser().next();
+        let coarser = coarser.and_then(|contact| field.under(contact.grid, contact.pressure).crest());
+        Some((crest.peak.value, crest.error(coarser.as_ref())))
+    }
+}
+
+/// Waves of one to three per period with random phases, n² heights.
+fn hills(random: &mut Random, n: usize) -> Vec<f64> {
+    let waves: Vec<[f64; 4]> = (0..8)
+        .map(|_| {
+            let [k1, k2] = [0, 1].map(|_| (7.0 * random.unit()).floor() - 3.0);
+            [k1, k2, random.unit(), 0.02 / (1.0 + k1 * k1 + k2 * k2)]
+        })
+        .collect();
+    let height = |index: usize| {
+        let (s, t) = ((index / n) as f64 / n as f64, (index % n) as f64 / n as f64);
+        waves.iter().map(|[k1, k2, phase, size]| size * (2.0 * PI * (k1 * s + k2 * t + phase)).cos()).sum()
+    };
+    (0..n * n).map(height).collect()
+}
+
+/// How many of `count` random contacts err by more than they state, against a grid four times as fine.
+fn misjudged(count: usize, sizes: &[usize]) -> usize {
+    let mut random = Random(0x5eed);
+    let (mut judged, mut exceeding) = (0, 0);
+    while judged < count {
+        let contact = Contact::random(&mut random, sizes);
+        let Some(((found, stated), (truth, _))) = contact.read(1).zip(contact.read(4)) else { continue };
+        let error = ((found - truth) / found).abs();
+        println!("{error:.1e} stated {stated:.1e}, {found:.3e} {truth:.3e}: {}", contact.words);
+        judged += 1;
+        exceeding += usize::from(error > stated);
+    }
+    exceeding
+}
+
+#[test]
+fn the_largest_tension_on_the_surface_errs_by_less_than_it_states() {
+    assert!(misjudged(10, &[32, 48]) == 0);
+}
+
+#[test]
+#[ignore = "minutes: fifty contacts, grids up to 384²"]
+fn of_fifty_largest_tensions_two_err_by_more_than_they_state_at_most() {
+    assert!(misjudged(50, &[32, 48, 64, 96]) <= 2);
+}
+
+/// A line through the axis that meets the edge between samples: the series would overshoot there.
+#[test]
+fn the_largest_stress_on_a_line_through_the_edge_is_the_largest_of_the_surface() {
+    for (points, shift) in [(64, SHIFTS[4]), (96, SHIFTS[0])] {
+        let half_space = HalfSpace::new(vec![], Material::from_young(1.0, NU).unwrap());
+        let cell = Cell::hexagonal(1.0).unwrap();
+        let control = Control::MeanPressure(bare_load() / cell.area());
+        let (hierarchy, solution, _) = solve(&surface(points, shift), &half_space, [points; 2], control);
+        let field = Field::new(hierarchy.grid(), &solution.pressure, &half_space, MeanStress::HalfSpace);
+        let crest = field.crest().unwrap();
+        // From the axis through the place of the largest tension: radially, as it acts.
+        let origin = cell.point(shift.map(|s| s / points as f64));
+        let [x, y, _] = crest.peak.position;
+        let reach = cell.reduced().nearest(cell.fractions([x - origin[0], y - origin[1]]));
+        let line = Line { origin, direction: reach, span: [0.0, 0.4], points: 161 };
+        let states = &field.section(&line, &[Depth { z: 0.0, side: 1 }])[0];
+        let [s, value] = field.highest_along(&line, states).unwrap();
+        println!("{value} against {} at {s}", crest.peak.value);
+        // The search ends 0.4/160/512 from the edge; the tension is continuous outside.
+        assert!((value / crest.peak.value - 1.0).abs() < 3e-3, "{points}: {value} {}", crest.peak.value);
+        assert!((s / reach[0].hypot(reach[1]) - 1.0).abs() < 0.02);
+        let points_of_line = states.iter().map(|state| state.along(reach)).fold(f64::NEG_INFINITY, f64::max);
+        assert!(points_of_line <= value);
+    }
 }

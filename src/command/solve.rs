@@ -106,7 +106,7 @@ impl Run<'_> {
         if let (Some(solution), Some(observables), true) = (last, solved.observables.last(), self.pictures.wanted()) {
             let (surface, half_space) = (self.case.surface(), self.case.half_space());
             let snapshot = Snapshot::new(&self.case.title, surface, half_space, &hierarchy, &solution, observables);
-            let cut = cut.map(|(Section { line, depths }, states)| Cut { line, depths, states });
+            let cut = cut.map(|(Section { line, depths }, states, highest)| Cut { line, depths, states, highest });
             let spinner = self.spinner("drawing pictures");
             self.pictures.draw(&self.staging, &snapshot, cut.as_ref(), &solved.steps)?;
             spinner.finish_and_clear();

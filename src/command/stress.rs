@@ -5,7 +5,7 @@ use percoat::hierarchy::Hierarchy;
 use percoat::observables::Observables;
 use percoat::output::summary::{Step, Stress};
 use percoat::output::{Section, Volume, Wanted};
-use percoat::stress::{Field, Line, surface_error};
+use percoat::stress::{Field, Line};
 use percoat::texture::Surface;
 use std::f64::consts::PI;
 
@@ -44,9 +44,13 @@ fn line(case: &Case, cut: &Cut) -> Option<Line> {
 
 /// The largest stresses of a step that has contact.
 pub fn largest(field: &Field, hierarchy: &Hierarchy, observables: &Observables) -> Stress {
-    let radii = contact_radii(hierarchy, observables);
-    let samples = radii[0] / hierarchy.grid().sample_area().sqrt();
-    Stress::new(&field.maxima(radii), surface_error(samples), tip(hierarchy, observables, field))
+    let maxima = field.maxima(contact_radii(hierarchy, observables));
+    let error = maxima.crest.map_or(0.0, |crest| {
+        let coarser = hierarchy.coarser().next();
+        let coarser = coarser.and_then(|contact| field.under(contact.grid, contact.pressure).crest());
+        crest.error(coarser.as_ref())
+    });
+    Stress::new(&maxima, error, tip(hierarchy, observables, field))
 }
 
 /// Where τ₁ is infinite: at a tip in contact, unless the surface material is incompressible, as σ_z and σ_r are then

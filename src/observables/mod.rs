@@ -6,7 +6,6 @@
 //! error.
 
 pub mod area;
-mod components;
 pub mod error;
 pub mod peak;
 mod spots;

@@ -1,7 +1,7 @@
 //! The contact spots of a grid: whose they are, whether they have merged, where they are open, and their boundaries.
 
-use super::components::{Component, components};
 use crate::boundary::{Boundary, Polar, Scale};
+use crate::components::{Component, around, components};
 use crate::hierarchy::Contact;
 use std::f64::consts::PI;
 
@@ -70,20 +70,23 @@ fn holes(contact: &Contact<'_>, label: impl Fn(usize) -> u32) -> Vec<(u32, Compo
     let Contact { grid, pressure, .. } = *contact;
     let [n1, n2] = grid.points();
     let enclosed = |open: Component| {
-        let mut around = open.samples.iter().flat_map(|&(index, _)| {
+        let mut beside = open.indices(grid).flat_map(|index| {
             let (row, column) = (index / n2, index % n2);
             let rows = [(row + 1) % n1, (row + n1 - 1) % n1].map(|row| row * n2 + column);
             let columns = [(column + 1) % n2, (column + n2 - 1) % n2].map(|column| row * n2 + column);
             rows.into_iter().chain(columns).filter(|&index| pressure[index] > 0.0)
         });
-        let owner = label(around.next()?);
-        (!open.wraps && around.all(|index| label(index) == owner)).then_some((owner, open))
+        let owner = label(beside.next()?);
+        let alone = beside.all(|index| label(index) == owner);
+        drop(beside);
+        alone.then_some((owner, open))
     };
-    let mut open: Vec<Component> = components(grid, |index| pressure[index] <= 0.0);
-    // The largest of them is what lies outside.
-    open.sort_by_key(|open| open.samples.len());
-    open.pop();
-    open.into_iter().filter_map(enclosed).collect()
+    // What lies outside meets its own images, or several contacts.
+    components(grid, |index| pressure[index] <= 0.0)
+        .into_iter()
+        .filter(|open| !open.wraps)
+        .filter_map(enclosed)
+        .collect()
 }
 
 /// Finds the holes and the boundaries of the spots that stand alone.
@@ -96,7 +99,7 @@ fn locate(contact: &Contact<'_>, scale: &Scale<'_>, spots: &mut [Spot]) {
         // Between merged contacts lies what is outside all of them.
         if !spot.merged {
             spot.ring = true;
-            open.samples.iter().for_each(|&(index, _)| hole[index] = true);
+            open.indices(grid).for_each(|index| hole[index] = true);
         }
     }
     // Samples that a fit can reach: out to twice the radius of all that is enclosed.
@@ -136,18 +139,16 @@ pub fn of_topography(contact: &Contact<'_>, scale: &Scale<'_>) -> (Vec<Boundary>
     let contacts = components(grid, |index| pressure[index] > 0.0);
     let mut label = vec![u32::MAX; grid.len()];
     for (own, contact) in (0..).zip(&contacts) {
-        contact.samples.iter().for_each(|&(index, _)| label[index] = own);
+        contact.indices(grid).for_each(|index| label[index] = own);
     }
     let mut hole = vec![false; grid.len()];
     for (_, open) in holes(contact, |index| label[index]) {
-        open.samples.iter().for_each(|&(index, _)| hole[index] = true);
+        open.indices(grid).for_each(|index| hole[index] = true);
     }
     let (mut boundaries, mut located) = (Vec::new(), vec![false; grid.len()]);
     for (own, spot) in (0..).zip(&contacts).filter(|(_, spot)| !spot.wraps) {
-        let centre = spot.centre();
-        let farthest = spot.samples.iter().map(|(_, [x, y])| (x - centre[0]).hypot(y - centre[1])).fold(0.0, f64::max);
-        let around: Vec<(usize, Polar)> = spot
-            .around(grid, centre, 2.0 * farthest)
+        let centre = spot.centre(grid);
+        let around: Vec<(usize, Polar)> = around(grid, centre, 2.0 * spot.farthest(grid, centre))
             .into_iter()
             .filter(|(index, _)| label[*index] == own || label[*index] == u32::MAX)
             .map(|(index, [x, y])| {
@@ -164,7 +165,7 @@ pub fn of_topography(contact: &Contact<'_>, scale: &Scale<'_>) -> (Vec<Boundary>
             if sample.p > 0.0 { beyond > scale.spacing } else { beyond < -scale.spacing && !sample.hole }
         };
         if !samples.iter().any(astray) {
-            spot.samples.iter().for_each(|&(index, _)| located[index] = true);
+            spot.indices(grid).for_each(|index| located[index] = true);
             boundaries.push(boundary);
         }
     }

@@ -47,6 +47,8 @@ pub struct Stresses {
     wanted: Wanted,
     /// States of the last step on the section.
     section: Vec<Vec<State>>,
+    /// Where on the surface the stress along the section is largest in the last step, see [`Field::highest_along`].
+    highest: Option<[f64; 2]>,
 }
 
 impl Stresses {
@@ -55,7 +57,8 @@ impl Stresses {
     /// # Errors
     /// [`OutputError`] when there are stresses already, or no room for them.
     pub fn new(folder: &Path, wanted: Wanted) -> Result<Self, OutputError> {
-        Ok(Self { folder: folder.to_owned(), arrays: StepArrays::new(folder, "stress")?, wanted, section: Vec::new() })
+        let arrays = StepArrays::new(folder, "stress")?;
+        Ok(Self { folder: folder.to_owned(), arrays, wanted, section: Vec::new(), highest: None })
     }
 
     /// Puts the stresses of the next step on disk, one plane at a time.
@@ -75,6 +78,7 @@ impl Stresses {
         }
         if let Some(Section { line, depths }) = &self.wanted.section {
             self.section = field.section(line, depths);
+            self.highest = self.section.first().and_then(|surface| field.highest_along(line, surface));
             for (c, name) in COMPONENTS.iter().enumerate() {
                 let values = self.section.iter().flatten().map(|state| component(state, c));
                 self.arrays.add(&format!("section_{name}"), &[depths.len(), line.points], values)?;
@@ -95,10 +99,11 @@ impl Stresses {
         Ok(())
     }
 
-    /// Takes the section with the states of the last step: for each depth those at the points of the line.
-    pub fn take_section(&mut self) -> Option<(Section, Vec<Vec<State>>)> {
+    /// Takes the section with the states of the last step, for each depth those at the points of the line, and where on
+    /// the surface the stress along it is largest.
+    pub fn take_section(&mut self) -> Option<(Section, Vec<Vec<State>>, Option<[f64; 2]>)> {
         let section = self.wanted.section.clone()?;
-        (!self.section.is_empty()).then(|| (section, std::mem::take(&mut self.section)))
+        (!self.section.is_empty()).then(|| (section, std::mem::take(&mut self.section), self.highest))
     }
 
     /// Gathers all steps in `stress.npz`.

@@ -11,6 +11,8 @@ pub struct Cut {
     pub depths: Vec<Depth>,
     /// Per row, the states at the points of the line.
     pub states: Vec<Vec<State>>,
+    /// Where on the surface the stress along the line is largest, between the points of the line: s and the stress.
+    pub highest: Option<[f64; 2]>,
 }
 
 /// A stress that the pictures show.
@@ -37,10 +39,7 @@ impl Cut {
     /// The stress of a state.
     pub fn stress(&self, quantity: Quantity, state: &State) -> f64 {
         match quantity {
-            Quantity::Along => {
-                let [dx, dy] = self.line.direction;
-                (dx * dx * state.xx + 2.0 * dx * dy * state.xy + dy * dy * state.yy) / (dx * dx + dy * dy)
-            }
+            Quantity::Along => state.along(self.line.direction),
             Quantity::Tau1 => state.tau1(),
         }
     }
@@ -66,10 +65,11 @@ impl Cut {
         Some((1.0 - t) * at(before) + t * at(after))
     }
 
-    /// The largest of the values.
-    pub fn largest(&self, values: &[Vec<f64>]) -> Option<Largest> {
-        let distances = self.line.distances();
-        let mut best: Option<Largest> = None;
+    /// The largest of a stress.
+    pub fn largest(&self, quantity: Quantity) -> Option<Largest> {
+        let (distances, values) = (self.line.distances(), self.values(quantity));
+        let surface = self.depths.first().filter(|_| quantity == Quantity::Along).zip(self.highest);
+        let mut best = surface.map(|(&depth, [s, value])| Largest { value, s, depth });
         for (row, &depth) in values.iter().zip(&self.depths) {
             for (&value, &s) in row.iter().zip(&distances) {
                 if best.is_none_or(|best| value > best.value) {
@@ -103,13 +103,16 @@ mod tests {
         let line = Line { origin: [0.0; 2], direction: [2.0, 0.0], span: [0.0, 1.0], points: 3 };
         let rows = [1.0, 3.0, -2.0, -1.0];
         let states = rows.map(|xx| vec![State { xx, ..State::default() }; 3]).to_vec();
-        let cut = Cut { line, depths, states };
+        let cut = Cut { line, depths, states, highest: None };
         let values = cut.values(Quantity::Along);
-        assert_eq!(cut.at(&values, 0.3, 0.5), Some(2.0));
+        assert!((cut.at(&values, 0.3, 0.5).unwrap() - 2.0).abs() < 1e-12);
         assert_eq!(cut.at(&values, 0.3, 0.999).map(f64::round), Some(3.0));
         assert_eq!(cut.at(&values, 0.3, 1.001).map(f64::round), Some(-2.0));
         assert_eq!(cut.interfaces(), [1.0]);
         assert_eq!(cut.face_rows(), [0, 1, 2]);
-        assert_eq!(cut.largest(&values).unwrap().value, 3.0);
+        assert_eq!(cut.largest(Quantity::Along).unwrap().value, 3.0);
+        let sharp = Cut { highest: Some([0.3, 3.2]), ..cut };
+        assert_eq!(sharp.largest(Quantity::Along).map(|largest| (largest.s, largest.value)), Some((0.3, 3.2)));
+        assert!((sharp.largest(Quantity::Tau1).unwrap().value - 1.5).abs() < 1e-12);
     }
 }

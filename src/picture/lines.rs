@@ -22,6 +22,15 @@ pub fn lines(snapshot: &Snapshot, cut: &Cut) -> Canvas {
             (_, _, false) => format!("interface {}, below", depth.side - 1),
         }
     };
+    let points = |row: usize, quantity: Quantity| {
+        let states = distances.iter().zip(&cut.states[row]);
+        let mut points: Vec<[f64; 2]> = states.map(|(&s, state)| [s, cut.stress(quantity, state)]).collect();
+        // An edge of contact between two points is the top of the surface's curve.
+        if let Some(highest) = cut.highest.filter(|_| quantity == Quantity::Along && cut.depths[row].z == 0.0) {
+            points.insert(points.partition_point(|[s, _]| *s <= highest[0]), highest);
+        }
+        points
+    };
     let chart = |title: &str, quantity: Quantity, y: Axis| Chart {
         title: title.to_owned(),
         caption: Vec::new(),
@@ -31,11 +40,7 @@ pub fn lines(snapshot: &Snapshot, cut: &Cut) -> Canvas {
             .zip(cut.face_rows())
             .map(|(colour, row)| Curve {
                 label: name(row),
-                points: distances
-                    .iter()
-                    .zip(&cut.states[row])
-                    .map(|(&s, state)| [s, cut.stress(quantity, state)])
-                    .collect(),
+                points: points(row, quantity),
                 style: if colour % 3 == 0 { Style::Dashed } else { Style::Line },
                 colour,
             })

@@ -43,7 +43,7 @@ pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
             move |z: f64| Over::Line { points: vec![[first, z], [last, z]], width: 0.9, dash: Dash::Dashed, colour };
         cut.interfaces().into_iter().map(line)
     };
-    let places = [0, 1].map(|k| cut.largest(&values[k]));
+    let places = [Quantity::Along, Quantity::Tau1].map(|quantity| cut.largest(quantity));
     let mark = |largest: Option<Largest>, colour: Colour| {
         largest.map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour })
     };

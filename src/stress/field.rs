@@ -2,6 +2,7 @@
 
 use super::mean::MeanStress;
 use super::spectrum::{Spectrum, Wave};
+use super::spots::Spots;
 use super::tensor::State;
 use crate::fourier::Fourier;
 use crate::grid::Grid;
@@ -15,7 +16,7 @@ use std::fmt;
 /// Largest qz of a wave that still counts: its stresses are below e^{−60} of the pressure.
 pub(super) const REACH: f64 = 60.0;
 /// Waves summed at a time; fixed, so that sums do not depend on the number of threads.
-const BLOCK: usize = 4096;
+pub(super) const BLOCK: usize = 4096;
 
 /// A depth in one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +38,8 @@ pub struct Field {
     tops: Vec<f64>,
     /// State under the mean pressure at the upper face of each material, and the slope of u_z there.
     mean: Vec<(State, f64)>,
+    mean_stress: MeanStress,
+    pub(super) spots: Spots,
 }
 
 /// The states on a plane of constant depth.
@@ -63,12 +66,25 @@ impl Field {
         let spectrum = Spectrum::new(grid, pressure);
         let faces = half_space.interface_depths();
         let tops = std::iter::once(0.0).chain(faces).collect();
-        let mean = mean_states(half_space, mean, spectrum.mean);
-        let transfer = TransferFunction::new(half_space);
-        Self { spectrum, grid: grid.clone(), half_space: half_space.clone(), transfer, tops, mean }
+        let states = mean_states(half_space, mean, spectrum.mean);
+        Self {
+            spectrum,
+            grid: grid.clone(),
+            half_space: half_space.clone(),
+            transfer: TransferFunction::new(half_space),
+            tops,
+            mean: states,
+            mean_stress: mean,
+            spots: Spots::new(grid, pressure),
+        }
     }
 
-    /// Poisson's ratio of the material at the surface.
+    /// The field under another pressure, on the same half-space.
+    pub fn under(&self, grid: &Grid, pressure: &[f64]) -> Self {
+        Self::new(grid, pressure, &self.half_space, self.mean_stress)
+    }
+
+    /// Poisson's ratio ν of the material at the surface.
     pub fn surface_poisson(&self) -> f64 {
         self.half_space.surface_material().poisson()
     }
@@ -160,29 +176,40 @@ impl Field {
             .iter()
             .filter(|wave| !coarser || (0..2).all(|k| 2 * wave.index[k].unsigned_abs() < points[k] as u32))
             .collect();
-        let fourier = Fourier::new(points);
         let mean = self.mean(depth).components();
+        let component = |c: usize| {
+            let value = |wave: &Wave| components(wave, &amplitudes[wave.shell as usize], wave.coefficient)[c];
+            self.synthesised(&waves, points, mean[c], value)
+        };
+        Plane { depth, points, components: std::array::from_fn(component) }
+    }
+
+    /// mean + Re Σ value(wave) e^{iq·x} at [n₁, n₂] `points` of the cell, a₂ fastest.
+    pub(super) fn synthesised(
+        &self,
+        waves: &[&Wave],
+        points: [usize; 2],
+        mean: f64,
+        value: impl Fn(&Wave) -> Complex64,
+    ) -> Vec<f64> {
         let [n1, n2] = points.map(|n| n as i32);
         let place = |[k1, k2]: [i32; 2]| {
             let (k1, k2) = (k1.rem_euclid(n1), k2.rem_euclid(n2));
             (2 * k2 <= n2).then_some((k2 * n1 + k1) as usize)
         };
-        let component = |c: usize| {
-            let mut spectrum = vec![Complex64::default(); (points[1] / 2 + 1) * points[0]];
-            for wave in &waves {
-                let half = 0.5 * components(wave, &amplitudes[wave.shell as usize], wave.coefficient)[c];
-                // Re C e^{iq·x} is half the wave and half its conjugate.
-                if let Some(index) = place(wave.index) {
-                    spectrum[index] += half;
-                }
-                if let Some(index) = place(wave.index.map(|k| -k)) {
-                    spectrum[index] += half.conj();
-                }
+        let mut spectrum = vec![Complex64::default(); (points[1] / 2 + 1) * points[0]];
+        for wave in waves {
+            let half = 0.5 * value(wave);
+            // Re C e^{iq·x} is half the wave and half its conjugate.
+            if let Some(index) = place(wave.index) {
+                spectrum[index] += half;
             }
-            spectrum[0] += mean[c];
-            fourier.synthesise(spectrum)
-        };
-        Plane { depth, points, components: std::array::from_fn(component) }
+            if let Some(index) = place(wave.index.map(|k| -k)) {
+                spectrum[index] += half.conj();
+            }
+        }
+        spectrum[0] += mean;
+        Fourier::new(points).synthesise(spectrum)
     }
 }
 

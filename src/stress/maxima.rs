@@ -6,10 +6,11 @@
 //! 2. **Refinement** of the best candidate of a material: parabolas through neighbouring points horizontally and golden
 //!    sections in depth, in turn, on the exact sum over waves, until nothing moves. On a face the depth stays.
 //!
-//! On the surface itself, and within two samples of it, the series converges slowly (see [`super::surface_error`]) and
-//! the samples of the pressure's own grid are taken as they are.
+//! On the surface itself, and within two samples of it, the series converges slowly. There the samples of the pressure's
+//! own grid are taken as they are, but the largest tension on the surface is that of its [`Crest`].
 
 use super::field::{Depth, Field, Plane};
+use super::surface::Crest;
 use super::tensor::State;
 use crate::fourier::fast_points;
 
@@ -42,6 +43,8 @@ pub struct Maxima {
     pub materials: Vec<Extremes>,
     /// Over each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
+    /// The largest tension on the surface with its uncertainty; `None` where contact has no edge.
+    pub crest: Option<Crest>,
 }
 
 impl Maxima {
@@ -103,10 +106,15 @@ impl Field {
     pub fn maxima(&self, radii: [f64; 2]) -> Maxima {
         let mut faces = Vec::new();
         let mut materials = Vec::new();
+        let crest = self.crest();
         for side in 1..=self.materials() {
             let depths = self.search_depths(side, radii);
-            let candidates: Vec<[Candidate; 2]> =
+            let mut candidates: Vec<[Candidate; 2]> =
                 depths.iter().map(|&z| self.candidates(Depth { z, side }, radii[0])).collect();
+            let crest = crest.filter(|_| side == 1);
+            if let Some(crest) = crest {
+                candidates[0][Quantity::Tension as usize].value = crest.peak.value;
+            }
             let (top, bottom) = self.faces(side);
             let peaks =
                 |index: usize, quantity: Quantity| self.face_peak(&candidates[index][quantity as usize], quantity);
@@ -115,6 +123,9 @@ impl Field {
                 tension: peaks(index, Quantity::Tension),
             };
             let mut own = vec![face(0)];
+            if let Some(crest) = crest {
+                own[0].tension = crest.peak;
+            }
             if bottom.is_finite() {
                 own.push(face(depths.len() - 1));
             }
@@ -124,8 +135,10 @@ impl Field {
                         candidates[a][quantity as usize].value.total_cmp(&candidates[b][quantity as usize].value)
                     })
                     .unwrap_or(0);
-                let inside =
-                    self.refined(&candidates[index][quantity as usize], quantity, &depths, index, [top, bottom]);
+                let inside = match crest {
+                    Some(crest) if index == 0 && quantity == Quantity::Tension => crest.peak,
+                    _ => self.refined(&candidates[index][quantity as usize], quantity, &depths, index, [top, bottom]),
+                };
                 let on_faces = own.iter().map(|extremes| match quantity {
                     Quantity::Tau1 => extremes.tau1,
                     Quantity::Tension => extremes.tension,
@@ -135,7 +148,7 @@ impl Field {
             materials.push(Extremes { tau1: best(Quantity::Tau1), tension: best(Quantity::Tension) });
             faces.extend(own);
         }
-        Maxima { materials, faces }
+        Maxima { materials, faces, crest }
     }
 
     /// Depths at which planes are searched, ascending, faces first and last.

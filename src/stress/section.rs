@@ -4,8 +4,13 @@
 //! Waves with the same κ are added up first, depth by depth: along a lattice direction N² waves collapse onto a few N
 //! wavenumbers κ. Along a direction that is incommensurate with the lattice nothing collapses and the same sum takes
 //! longer.
+//!
+//! On the surface the stresses are those of [`super::surface`]: a line meets edges between the samples, where the series
+//! itself overshoots. Just below it, where the series still does, stresses are interpolated in depth.
 
 use super::field::{Depth, Field, REACH, components};
+use super::spectrum::Wave;
+use super::surface::{OPEN, Skin};
 use super::tensor::State;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -92,32 +97,94 @@ impl Field {
     /// States on a vertical section: for each depth those at the points of the line.
     pub fn section(&self, line: &Line, depths: &[Depth]) -> Vec<Vec<State>> {
         let collapsed = Collapsed::new(self, line);
-        depths.par_iter().map(|&depth| self.line_at(line, depth, &collapsed)).collect()
+        let shallow = self.shallow();
+        let between = |depth: &Depth| depth.side == 1 && depth.z > 0.0 && depth.z < shallow;
+        let ends = depths.iter().any(between).then(|| [0.0, shallow].map(|z| Depth { z, side: 1 }));
+        let ends = ends.map(|ends| ends.map(|depth| self.line_at(line, depth, &collapsed)));
+        let row = |depth: &Depth| {
+            let own = self.line_at(line, *depth, &collapsed);
+            match &ends {
+                Some([surface, below]) if between(depth) => {
+                    let part = depth.z / shallow;
+                    let pairs = surface.iter().zip(below).zip(own);
+                    pairs.map(|((a, b), own)| State { displacement: own.displacement, ..a.toward(b, part) }).collect()
+                }
+                _ => own,
+            }
+        };
+        depths.par_iter().map(row).collect()
     }
 
     fn line_at(&self, line: &Line, depth: Depth, collapsed: &Collapsed) -> Vec<State> {
         let amplitudes = self.amplitudes(depth, REACH);
         let waves = self.waves(amplitudes.len());
-        let mut sums = vec![[Complex64::default(); 9]; collapsed.wavenumbers.len()];
-        for (wave, &(index, coefficient)) in waves.iter().zip(&collapsed.waves) {
-            let terms = components(wave, &amplitudes[wave.shell as usize], coefficient);
-            sums[index as usize].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+        let term = |wave: &Wave, value: Complex64| components(wave, &amplitudes[wave.shell as usize], value);
+        let states = along(line, collapsed, waves, self.mean(depth).components(), term);
+        let states = states.into_iter().map(State::from_components);
+        if depth.z > 0.0 || !self.spots.have_edges() {
+            return states.collect();
         }
-        let mut states = vec![self.mean(depth).components(); line.points];
-        for (&kappa, sum) in collapsed.wavenumbers.iter().zip(&sums) {
-            if sum.iter().all(|value| value.norm_sqr() == 0.0) {
-                continue;
-            }
-            let mut phase = Complex64::cis(kappa * line.span[0]);
-            let turn = Complex64::cis(kappa * line.step());
-            for state in &mut states {
-                state
-                    .iter_mut()
-                    .zip(sum)
-                    .for_each(|(total, value)| *total += value.re * phase.re - value.im * phase.im);
-                phase *= turn;
-            }
-        }
-        states.into_iter().map(State::from_components).collect()
+        let skin = Skin::new(self, 1.0);
+        let smooth = along(line, collapsed, waves, skin.mean(), |wave, value| skin.terms(wave, value));
+        let on_surface = smooth.iter().zip(states);
+        on_surface.map(|(smooth, state)| State { displacement: state.displacement, ..skin.state(smooth) }).collect()
     }
+
+    /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
+    /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
+    fn shallow(&self) -> f64 {
+        let depth = if self.spots.have_edges() { 0.5 * OPEN * OPEN / self.least_aliased() } else { 0.0 };
+        depth.min(self.faces(1).1)
+    }
+
+    /// Where on the surface the normal stress along a line is largest, between its points: s and the stress. `surface`
+    /// holds the states at the points.
+    pub fn highest_along(&self, line: &Line, surface: &[State]) -> Option<[f64; 2]> {
+        let stress = |state: &State| state.along(line.direction);
+        let best = (0..surface.len()).max_by(|&a, &b| stress(&surface[a]).total_cmp(&stress(&surface[b])))?;
+        let mut highest = [line.distances()[best], stress(&surface[best])];
+        let mut half = line.step();
+        // The stress drops at once at an edge: a search without slopes, to 1/512 of the distance of two points.
+        for _ in 0..if self.spots.have_edges() { 3 } else { 0 } {
+            let [s, _] = highest;
+            let span = [(s - half).max(line.span[0]), (s + half).min(line.span[1])];
+            let finer = Line { span, points: 17, ..*line };
+            let [states] = <[Vec<State>; 1]>::try_from(self.section(&finer, &[Depth { z: 0.0, side: 1 }])).ok()?;
+            for (s, state) in finer.distances().into_iter().zip(&states) {
+                if stress(state) > highest[1] {
+                    highest = [s, stress(state)];
+                }
+            }
+            half /= 8.0;
+        }
+        Some(highest)
+    }
+}
+
+/// Sums over waves at the points of a line; `term` gives the components of a wave whose pressure is the real part of the
+/// value.
+fn along<const N: usize>(
+    line: &Line,
+    collapsed: &Collapsed,
+    waves: &[Wave],
+    mean: [f64; N],
+    term: impl Fn(&Wave, Complex64) -> [Complex64; N],
+) -> Vec<[f64; N]> {
+    let mut sums = vec![[Complex64::default(); N]; collapsed.wavenumbers.len()];
+    for (wave, &(index, coefficient)) in waves.iter().zip(&collapsed.waves) {
+        sums[index as usize].iter_mut().zip(term(wave, coefficient)).for_each(|(sum, term)| *sum += term);
+    }
+    let mut values = vec![mean; line.points];
+    for (&kappa, sum) in collapsed.wavenumbers.iter().zip(&sums) {
+        if sum.iter().all(|value| value.norm_sqr() == 0.0) {
+            continue;
+        }
+        let mut phase = Complex64::cis(kappa * line.span[0]);
+        let turn = Complex64::cis(kappa * line.step());
+        for value in &mut values {
+            value.iter_mut().zip(sum).for_each(|(total, wave)| *total += wave.re * phase.re - wave.im * phase.im);
+            phase *= turn;
+        }
+    }
+    values
 }

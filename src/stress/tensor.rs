@@ -33,6 +33,17 @@ impl State {
         [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz, ux, uy, uz]
     }
 
+    /// The state a `part` of the way toward another.
+    pub fn toward(&self, other: &Self, part: f64) -> Self {
+        let (here, there) = (self.components(), other.components());
+        Self::from_components(std::array::from_fn(|c| (1.0 - part) * here[c] + part * there[c]))
+    }
+
+    /// Normal stress along a direction on the surface, of any length.
+    pub fn along(&self, [dx, dy]: [f64; 2]) -> f64 {
+        (dx * dx * self.xx + 2.0 * dx * dy * self.xy + dy * dy * self.yy) / (dx * dx + dy * dy)
+    }
+
     /// Principal stresses σ₁ ≥ σ₂ ≥ σ₃.
     ///
     /// Eigenvalues of the deviator by the trigonometric solution of its characteristic equation

@@ -3,8 +3,8 @@
 //! The pressure ends like a square root at the edge of a disc; its transform falls as q⁻² there, and so do the errors of
 //! sums over a grid: stresses inside are of second order, and the radius by the interpolation on both sides of the edge.
 //! Peak pressure and penetration feel the errors of the whole edge together, whose sign changes with where the edge
-//! cuts the samples: of O(N) of them O(√N) is left, and the order is 2.5. At the edge itself the largest tension falls
-//! as N^−1.5, within the bound of [`crate::stress::surface_error`].
+//! cuts the samples: of O(N) of them O(√N) is left, and the order is 2.5. The largest tension on the surface stands at
+//! the edge itself; it is read without the square root ([`crate::stress::Crest`]).
 //!
 //! A paraboloid with a/l = 0.1 on the hexagonal lattice: what the series of its images leaves out is of the order
 //! (a/l)⁷, below every error measured here. Each error is the worst of several places of the site on the grid, so that

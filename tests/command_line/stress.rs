@@ -38,7 +38,9 @@ fn stresses_have_their_shapes_and_agree_with_each_other() {
     // The section starts at the indenter of level 1, which is sample (0, 0): σ_zz = −p there.
     let pressure = Archive::open(&folder.0.join("contact.npz")).field("pressure").values;
     let (planes, section) = (stress.field("planes_zz").values, stress.field("section_zz").values);
-    assert!((planes[0] + pressure[0]).abs() < 1e-12 && (section[0] + pressure[0]).abs() < 1e-9);
+    // The section smooths what the grid cannot hold: a pressure like √(1 − r²/a²) by (1.24/n)⁴ of its peak at most, with
+    // n ≥ 4 samples along the radius.
+    assert!((planes[0] + pressure[0]).abs() < 1e-12 && (section[0] / pressure[0] + 1.0).abs() < 1e-2);
     // The largest values stand in the summary, and are not below those of any plane or of the section.
     let summary: Value = serde_json::from_str(&fs::read_to_string(folder.0.join("summary.json")).unwrap()).unwrap();
     for (step, name) in [(0, "tau1"), (1, "tau1"), (0, "s1"), (1, "s1")] {
