@@ -77,10 +77,15 @@ struct Fit {
     inside: f64,
     /// Powers of d that modify φ and γ.
     powers: usize,
+    /// Highest harmonic.
+    harmonics: usize,
+    /// How far samples lie open beside the rim in each of equal sectors, lengths.
+    room: [f64; SECTORS],
 }
 
-/// Highest harmonic of the boundary, and of the counted boundary from which the fits start.
-const HARMONICS: usize = 6;
+/// Highest harmonics of the boundary: the first that leave no sample on its wrong side. Contacts about to merge are
+/// polygons. And those of the counted boundary from which the fits start.
+const HARMONICS: [usize; 2] = [6, 12];
 const FIRST_HARMONICS: usize = 3;
 /// Fewest samples per radius for a fit.
 const FEWEST: f64 = 3.0;
@@ -92,6 +97,10 @@ const NEAREST: f64 = 0.3;
 const BELIEF: f64 = 2.0;
 /// Weight of the pressure's samples beside the gap's where both are fitted.
 const PRESSURE: f64 = 0.1;
+/// Sectors in which neighbours stand nearer or farther, and the part of the way to the middle between the contacts over
+/// which the gap is that of one edge.
+const SECTORS: usize = 24;
+const OWN: f64 = 0.4;
 /// Part of the samples outside the edge that must be there for a fit of the gap alone.
 const ROOM: f64 = 0.6;
 /// Fits, each from the boundary of the last.
@@ -166,6 +175,10 @@ impl Boundary {
     }
 }
 
+fn sector(theta: f64) -> usize {
+    (theta.rem_euclid(TAU) / TAU * SECTORS as f64) as usize % SECTORS
+}
+
 /// Boundary of low harmonics that encloses the samples as they are counted, and √(area/π): ρ² has the moments
 /// ½∮ρ² cos kθ dθ = ∫ cos kθ d²x.
 fn counted(samples: &[Polar], sample_area: f64, rim: Rim) -> (Vec<f64>, f64) {
@@ -188,26 +201,47 @@ fn located(samples: &[Polar], scale: &Scale<'_>, rim: Rim) -> Option<(Vec<f64>, 
         return None;
     }
     let reach = scale.reach(radius);
-    let whole = Fit { rim, reach, inside: 0.0, powers: 2 };
-    let half = Fit { reach: (0.5 * (reach + RISE * scale.spacing)).min(reach), powers: 1, ..whole };
-    let both = Fit { inside: PRESSURE, ..whole }.stands(samples, scale, &start);
-    let gap = |fit: Fit| fit.has_room(samples, scale, &start).then(|| fit.stands(samples, scale, &start)).flatten();
-    let (best, others) = match (gap(whole), gap(half)) {
-        (Some(whole), half) => (whole, vec![half, both]),
-        (None, half) => {
-            let short = Fit { inside: PRESSURE, powers: 1, ..whole }.stands(samples, scale, &start);
-            (both.or_else(|| short.clone())?, vec![half, short])
-        }
-    };
-    let mean = mean_radius(&best);
-    // A reading that fails says no more than counting does.
-    let difference =
-        |other: Option<Vec<f64>>| other.map_or(COUNTED * scale.spacing, |o| (mean_radius(&o) - mean).abs());
-    let spread = others.into_iter().map(difference).fold(0.0, f64::max);
-    Some((best, 1.5 * spread + FLOOR * scale.spacing))
+    let fit = Fit { rim, reach, inside: 0.0, powers: 2, harmonics: 0, room: [0.0; SECTORS] }.with_room(samples, &start);
+    HARMONICS.into_iter().find_map(|harmonics| {
+        let (radii, error) = Fit { harmonics, ..fit }.read(samples, scale, &start)?;
+        let astray = |sample: &Polar| fit.astray(sample, &radii) > scale.spacing;
+        (!samples.iter().any(astray)).then_some((radii, error))
+    })
 }
 
 impl Fit {
+    /// The best of three readings and its error.
+    fn read(self, samples: &[Polar], scale: &Scale<'_>, start: &[f64]) -> Option<(Vec<f64>, f64)> {
+        let half = Self { reach: (0.5 * (self.reach + RISE * scale.spacing)).min(self.reach), powers: 1, ..self };
+        let both = Self { inside: PRESSURE, ..self }.stands(samples, scale, start);
+        let gap = |fit: Self| fit.has_room(samples, scale, start).then(|| fit.stands(samples, scale, start)).flatten();
+        let (best, others) = match (gap(self), gap(half)) {
+            (Some(whole), half) => (whole, vec![half, both]),
+            (None, half) => {
+                let short = Self { inside: PRESSURE, powers: 1, ..self }.stands(samples, scale, start);
+                (both.or_else(|| short.clone())?, vec![half, short])
+            }
+        };
+        let mean = mean_radius(&best);
+        // A reading that fails says no more than counting does.
+        let difference =
+            |other: Option<Vec<f64>>| other.map_or(COUNTED * scale.spacing, |o| (mean_radius(&o) - mean).abs());
+        let spread = others.into_iter().map(difference).fold(0.0, f64::max);
+        Some((best, 1.5 * spread + FLOOR * scale.spacing))
+    }
+
+    /// How far a sample lies on the wrong side of a rim, a length; negative on the right one.
+    fn astray(&self, sample: &Polar, radii: &[f64]) -> f64 {
+        let outside = self.distance(sample, radii);
+        if self.open(sample) {
+            -outside
+        } else if sample.p > 0.0 {
+            outside
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
     /// The boundary at which the fit stands, from `start`; `None` if it goes far from it.
     fn stands(&self, samples: &[Polar], scale: &Scale<'_>, start: &[f64]) -> Option<Vec<f64>> {
         let mut radii = start.to_vec();
@@ -234,9 +268,27 @@ impl Fit {
         sample.p <= 0.0 && sample.hole == (self.rim == Rim::Hole)
     }
 
+    /// With the room that there is around the boundary `radii`; samples are there out to twice its radius.
+    fn with_room(self, samples: &[Polar], radii: &[f64]) -> Self {
+        let mut room = [0.0f64; SECTORS];
+        for sample in samples.iter().filter(|sample| self.open(sample)) {
+            let own = &mut room[sector(sample.theta)];
+            *own = own.max(self.distance(sample, radii));
+        }
+        let far = 0.9 * mean_radius(radii);
+        let unbounded = |room: f64| self.rim == Rim::Outer && room > far;
+        Self { room: room.map(|room| if unbounded(room) { f64::INFINITY } else { room }), ..self }
+    }
+
+    /// Whether a sample at a distance outside the edge shows the gap of this edge.
+    fn sees(&self, sample: &Polar, distance: f64) -> bool {
+        let most = self.reach.min(OWN * self.room[sector(sample.theta)]);
+        self.open(sample) && (0.0..most).contains(&distance)
+    }
+
     /// Whether most of the samples that could be outside the edge within reach are there and open.
     fn has_room(&self, samples: &[Polar], scale: &Scale<'_>, radii: &[f64]) -> bool {
-        let near = |sample: &&Polar| self.open(sample) && (0.0..self.reach).contains(&self.distance(sample, radii));
+        let near = |sample: &&Polar| self.sees(sample, self.distance(sample, radii));
         let (mean, sign) = (mean_radius(radii), if self.rim == Rim::Outer { 1.0 } else { -1.0 });
         let whole = sign * PI * ((mean + sign * self.reach).powi(2) - mean * mean);
         samples.iter().filter(near).count() as f64 * scale.sample_area > ROOM * whole
@@ -259,7 +311,7 @@ impl Fit {
             .filter_map(|sample| {
                 let d = self.distance(sample, radii);
                 let (open, part) = (self.open(sample), d.abs() / reach);
-                let wanted = if open { d > 0.0 } else { sample.p > 0.0 && d < 0.0 && self.inside > 0.0 };
+                let wanted = self.sees(sample, d) || sample.p > 0.0 && d < 0.0 && self.inside > 0.0;
                 if !wanted || part >= 1.0 || d.abs() < NEAREST * scale.spacing {
                     return None;
                 }
@@ -275,7 +327,7 @@ impl Fit {
                 Some((sample.theta, part, side, y / unit, value / unit, slope * reach / unit, weight))
             })
             .collect();
-        let harmonics = HARMONICS.min(near.len() / 16);
+        let harmonics = self.harmonics.min(near.len() / 24);
         let count = 1 + 2 * harmonics;
         if amplitude.is_empty() {
             let sum = |term: fn(f64, f64) -> f64| -> f64 { near.iter().map(|s| s.6 * s.6 * term(s.3, s.4)).sum() };
@@ -286,13 +338,16 @@ impl Fit {
         let rows = near.iter().map(|&(theta, part, side, y, value, slope, weight)| {
             let waves = waves(theta, harmonics);
             let shift = series(amplitude, theta) / unit * slope;
+            // What modifies each side: κ, which varies around the spot as its neighbours do, then κ′.
             let ways = sides.clone().flat_map(|own| {
-                (1..=powers as i32).map(move |power| if own == side { value * part.powi(power) } else { 0.0 })
+                let modified = if own == side { value * part } else { 0.0 };
+                let higher = (1..powers as i32).map(move |power| modified * part.powi(power));
+                waves.iter().map(move |wave| modified * wave).chain(higher)
             });
             let row = waves.iter().map(|wave| value * wave).chain(waves.iter().map(|wave| shift * wave)).chain(ways);
             (row.map(|x| weight * x).collect(), weight * y / unit)
         });
-        let c = least_squares::fit(2 * count + powers * sides.len(), rows)?;
+        let c = least_squares::fit(2 * count + (count + powers - 1) * sides.len(), rows)?;
         *amplitude = c[..count].iter().map(|c| c * unit).collect();
         if !(amplitude[0] > 0.0) {
             return None;

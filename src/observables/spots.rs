@@ -159,15 +159,8 @@ pub fn of_topography(contact: &Contact<'_>, scale: &Scale<'_>) -> (Vec<Boundary>
             .collect();
         let samples: Vec<Polar> = around.iter().map(|(_, sample)| *sample).collect();
         let Some(boundary) = Boundary::locate(&samples, scale) else { continue };
-        // A boundary with samples on its wrong side is none.
-        let astray = |sample: &Polar| {
-            let beyond = sample.r - boundary.radius(sample.theta);
-            if sample.p > 0.0 { beyond > scale.spacing } else { beyond < -scale.spacing && !sample.hole }
-        };
-        if !samples.iter().any(astray) {
-            spot.indices(grid).for_each(|index| located[index] = true);
-            boundaries.push(boundary);
-        }
+        spot.indices(grid).for_each(|index| located[index] = true);
+        boundaries.push(boundary);
     }
     (boundaries, located)
 }
