@@ -5,11 +5,14 @@
 //!
 //! 3E*g/4 ≈ A(θ) [γ(d) + γ′(d) u(θ)] + (κ d + κ′ d²) γ(d)
 //!
-//! is fitted by least squares, A and the shift u as short Fourier series, and ρ moves by u until it stands. The gap is
-//! smoother than the pressure and errs less; where neighbours leave no room for it the pressure inside, p ≈ A φ(d), joins
-//! with the same A. The samples next to the edge carry the discretisation error, which alternates from ring to ring:
-//! their weight rises smoothly with the distance. The fit reaches a number of spacings that grows with the square root
-//! of the resolution, so that the radius converges faster than the spacing.
+//! is fitted by least squares, A and the shift u (among near neighbours κ too) as short Fourier series, and ρ moves by u
+//! until it stands. The gap is smoother than the pressure and errs less; where neighbours leave no room for it the
+//! pressure inside, p ≈ A φ(d), joins with the same A. Neighbours nearer than the radius make a channel, whose gap is
+//! that of one edge over a part of the way to its middle only.
+//!
+//! The samples next to the edge carry the discretisation error, which alternates from ring to ring: their weight rises
+//! smoothly with the distance. The fit reaches a number of spacings that grows with the square root of the resolution,
+//! so that the radius converges faster than the spacing.
 //!
 //! **Error.** Three readings of one edge, the fit, one of half the reach without κ′ and one with the pressure, differ by
 //! about as much as the first one errs.
@@ -101,6 +104,8 @@ const PRESSURE: f64 = 0.1;
 /// which the gap is that of one edge.
 const SECTORS: usize = 24;
 const OWN: f64 = 0.4;
+/// Room over the radius from which on no neighbour is felt.
+const FAR: f64 = 0.7;
 /// Part of the samples outside the edge that must be there for a fit of the gap alone.
 const ROOM: f64 = 0.6;
 /// Fits, each from the boundary of the last.
@@ -275,7 +280,7 @@ impl Fit {
             let own = &mut room[sector(sample.theta)];
             *own = own.max(self.distance(sample, radii));
         }
-        let far = 0.9 * mean_radius(radii);
+        let far = FAR * mean_radius(radii);
         let unbounded = |room: f64| self.rim == Rim::Outer && room > far;
         Self { room: room.map(|room| if unbounded(room) { f64::INFINITY } else { room }), ..self }
     }
@@ -329,6 +334,7 @@ impl Fit {
             .collect();
         let harmonics = self.harmonics.min(near.len() / 24);
         let count = 1 + 2 * harmonics;
+        let varying = if self.room.iter().all(|room| room.is_infinite()) { 1 } else { count };
         if amplitude.is_empty() {
             let sum = |term: fn(f64, f64) -> f64| -> f64 { near.iter().map(|s| s.6 * s.6 * term(s.3, s.4)).sum() };
             amplitude.push(sum(|y, value| y * value) / sum(|_, value| value * value));
@@ -338,16 +344,16 @@ impl Fit {
         let rows = near.iter().map(|&(theta, part, side, y, value, slope, weight)| {
             let waves = waves(theta, harmonics);
             let shift = series(amplitude, theta) / unit * slope;
-            // What modifies each side: κ, which varies around the spot as its neighbours do, then κ′.
+            // What modifies each side: κ, which varies around the spot as near neighbours do, then κ′.
             let ways = sides.clone().flat_map(|own| {
                 let modified = if own == side { value * part } else { 0.0 };
                 let higher = (1..powers as i32).map(move |power| modified * part.powi(power));
-                waves.iter().map(move |wave| modified * wave).chain(higher)
+                waves[..varying].iter().map(move |wave| modified * wave).chain(higher)
             });
             let row = waves.iter().map(|wave| value * wave).chain(waves.iter().map(|wave| shift * wave)).chain(ways);
             (row.map(|x| weight * x).collect(), weight * y / unit)
         });
-        let c = least_squares::fit(2 * count + (count + powers - 1) * sides.len(), rows)?;
+        let c = least_squares::fit(2 * count + (varying + powers - 1) * sides.len(), rows)?;
         *amplitude = c[..count].iter().map(|c| c * unit).collect();
         if !(amplitude[0] > 0.0) {
             return None;

@@ -40,7 +40,7 @@ const QUANTITIES: [(&str, f64, f64, f64); 5] = [
     ("contact radius", 2.0, 0.4, 2e-4),
     ("penetration", 2.5, 0.3, 2e-5),
     ("stress on the axis", 2.0, 0.3, 5e-5),
-    ("surface tension", 1.5, 0.3, 3e-2),
+    ("surface tension", 1.2, 0.3, 1e-2),
 ];
 
 fn run() -> Result<Outcome, StudyError> {
