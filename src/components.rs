@@ -1,6 +1,7 @@
 //! Connected sets of samples of a periodic grid: contact spots, and what is open between or inside them.
 
 use crate::grid::Grid;
+use std::f64::consts::PI;
 
 /// Samples joined along the grid's lines.
 #[derive(Debug, Clone)]
@@ -104,6 +105,22 @@ pub fn around(grid: &Grid, centre: [f64; 2], reach: f64) -> Vec<(usize, [f64; 2]
     found
 }
 
+/// Number of contact spots, and the samples along the radius of the disc as large as the one up to which, from the
+/// smallest on, half of the load is carried; `None` without contact.
+pub fn spots(grid: &Grid, pressure: &[f64]) -> Option<(usize, f64)> {
+    let mut spots: Vec<(usize, f64)> = components(grid, |index| pressure[index] > 0.0)
+        .iter()
+        .map(|spot| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum()))
+        .collect();
+    spots.sort_by_key(|(size, _)| *size);
+    let mut rest: f64 = 0.5 * spots.iter().map(|(_, load)| load).sum::<f64>();
+    let middle = spots.iter().find(|(_, load)| {
+        rest -= load;
+        rest <= 0.0
+    })?;
+    Some((spots.len(), (middle.0 as f64 / PI).sqrt()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -125,6 +142,21 @@ mod tests {
     }
 
     #[test]
+    fn half_of_the_load_decides_which_spot_counts() {
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
+        let mut pressure = [0.0; 64];
+        assert_eq!(spots(&grid, &pressure), None);
+        // One sample of load 1, two of 1 each, four of 2 each.
+        pressure[0] = 1.0;
+        pressure[16..18].fill(1.0);
+        pressure[36..40].fill(2.0);
+        let disc = |samples: f64| (samples / PI).sqrt();
+        assert_eq!(spots(&grid, &pressure), Some((3, disc(4.0))));
+        pressure[0] = 20.0;
+        assert_eq!(spots(&grid, &pressure), Some((3, disc(1.0))));
+    }
+
+    #[test]
     fn what_is_near_is_counted_once_in_a_skewed_cell_too() {
         let grid = Grid::new(Cell::new([1.0, 0.0], [0.7, 0.6]).unwrap(), [30, 21]).unwrap();
         for reach in [0.02, 0.11, 0.29, 5.0] {
@@ -135,7 +167,7 @@ mod tests {
             assert_eq!(indices.len(), near.len());
             // A disc that fits into the cell has as many samples as its area, up to its rim.
             if reach < 0.3 {
-                let expected = std::f64::consts::PI * reach * reach / grid.sample_area();
+                let expected = PI * reach * reach / grid.sample_area();
                 assert!(
                     (near.len() as f64 - expected).abs() < 3.0 * expected.sqrt() + 2.0,
                     "{} {expected}",

@@ -14,6 +14,7 @@
 
 pub mod embedded;
 mod error;
+mod foreseen;
 mod grid;
 mod lattice;
 mod layers;
@@ -37,6 +38,7 @@ mod surface;
 mod tests;
 
 pub use error::CaseError;
+pub use foreseen::foreseen;
 pub use grid::GridSection;
 pub use lattice::LatticeSection;
 pub use layers::{LayerSection, Modulus, SubstrateSection};

@@ -14,7 +14,7 @@ use crate::stress::MeanStress;
 use crate::texture::Surface;
 
 /// Slope of a flank beyond which strains are not small.
-const STEEP: f64 = 0.5;
+pub(super) const STEEP: f64 = 0.5;
 /// Lengths of one case that differ by more than this are hardly in one unit.
 const APART: f64 = 1e4;
 /// Peak pressure over E* beyond which strains are not small.
@@ -69,28 +69,8 @@ pub fn of_steps(case: &Case, steps: &[Step]) -> Vec<String> {
     doubts
 }
 
-/// What an estimate by Hertz's formulas foresees of the last step, for those who have not solved it.
-pub fn foreseen(case: &Case) -> Vec<String> {
-    let (Surface::Indenters { lattice, levels }, LoadSection::MeanPressure(loads)) = (case.surface(), &case.load)
-    else {
-        return Vec::new();
-    };
-    let load = loads.iter().copied().fold(0.0, f64::max);
-    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
-    let force = load * lattice.cell().area() / sites as f64;
-    let modulus =
-        case.half_space().substrate().contact_modulus().max(case.half_space().surface_material().contact_modulus());
-    let estimates = (1..).zip(levels).filter_map(|(number, level)| {
-        let (Shape::Paraboloid { radius } | Shape::Sphere { radius }) = level.shape() else { return None };
-        Some((number, level.shape(), (0.75 * force * radius / modulus).cbrt()))
-    });
-    let steep = estimates.filter(|&(_, shape, radius)| slope(shape, radius) > STEEP);
-    let first = steep.take(1).map(|(number, shape, radius)| flank("by Hertz's formulas", number, shape, radius));
-    first.collect()
-}
-
 /// Slope f′(a) of a flank at the edge of contact.
-fn slope(shape: Shape, a: f64) -> f64 {
+pub(super) fn slope(shape: Shape, a: f64) -> f64 {
     match shape {
         Shape::Paraboloid { radius } => a / radius,
         Shape::Sphere { radius } if a < radius => a / ((radius - a) * (radius + a)).sqrt(),
@@ -100,7 +80,7 @@ fn slope(shape: Shape, a: f64) -> f64 {
     }
 }
 
-fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
+pub(super) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
     let told = match shape {
         Shape::Paraboloid { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
         Shape::Sphere { radius } if a >= radius => {
@@ -240,15 +220,14 @@ fn part(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Source, embedded};
+    use super::super::embedded;
     use super::*;
     use std::f64::consts::PI;
-    use std::path::PathBuf;
 
     fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let case = Case::read(&embedded::source(name).unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"));
-        [of_case(&case), foreseen(&case)].concat()
+        of_case(&case)
     }
 
     #[test]
@@ -300,9 +279,5 @@ mod tests {
     fn contact_beyond_the_equator_is_told() {
         assert!(slope(Shape::Sphere { radius: 1.0 }, 1.5).is_infinite());
         assert!(flank("step 1", 1, Shape::Sphere { radius: 1.0 }, 1.5).contains("equator"));
-        let text = "lattice={kind=\"square\",period=10}\nlevels=[{shape=\"sphere\",radius=1}]\n\
-                    substrate={young=1,poisson=0.3}\nload={mean_pressure=0.05}";
-        let source = Source { name: "case".to_owned(), text: text.to_owned(), folder: PathBuf::new() };
-        assert!(foreseen(&Case::read(&source, &[]).unwrap()).join("").contains("equator"));
     }
 }

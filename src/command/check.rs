@@ -3,7 +3,7 @@
 use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
 use super::{Failure, Outcome, read_changed};
 use percoat::case::resources::{Needs, bytes, finest_points, needs};
-use percoat::case::{Case, GridSection, available_memory, plausibility};
+use percoat::case::{Case, GridSection, available_memory, foreseen, plausibility};
 use percoat::grid::Grid;
 use percoat::hierarchy::Hierarchy;
 use percoat::number::number;
@@ -34,8 +34,8 @@ pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
         1 => writeln!(out, "load: {name} {first}")?,
         count => writeln!(out, "load: {name} {first} … {last}, {count} steps")?,
     }
-    write_touches(&mut out, &case)?;
-    for doubt in [plausibility::of_case(&case), plausibility::foreseen(&case)].concat() {
+    let touches = write_touches(&mut out, &case)?;
+    for doubt in [plausibility::of_case(&case), foreseen(&case, &touches)].concat() {
         eprintln!("warning: {doubt}");
     }
     Ok(Outcome::Done)
@@ -60,17 +60,19 @@ fn write_needs(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
 /// Points along the shorter cell vector on which the first touches are looked for.
 const POINTS: usize = 192;
 
-fn write_touches(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
-    let Surface::Indenters { .. } = case.surface() else { return Ok(()) };
+/// The mean pressures at which the levels first touch, also as lines; none for a topography.
+fn write_touches(out: &mut impl Write, case: &Case) -> Result<Vec<Option<f64>>, Failure> {
+    let Surface::Indenters { .. } = case.surface() else { return Ok(Vec::new()) };
     let points = balanced_points(&case.surface().cell(), POINTS);
     let mut hierarchy = Hierarchy::new(case.surface(), case.half_space(), points, case.solver)
         .map_err(|error| Failure::Refused(error.to_string()))?;
     writeln!(out, "first touch, on {} × {} samples:", points[0], points[1])?;
-    for (level, touch) in (1..).zip(first_touches(&mut hierarchy)) {
+    let touches = first_touches(&mut hierarchy);
+    for (level, touch) in (1..).zip(&touches) {
         match touch {
-            Some(pressure) => writeln!(out, "  level {level}: mean pressure {}", number(pressure))?,
+            Some(pressure) => writeln!(out, "  level {level}: mean pressure {}", number(*pressure))?,
             None => writeln!(out, "  level {level}: never, it is hidden behind the others")?,
         }
     }
-    Ok(())
+    Ok(touches)
 }

@@ -2,13 +2,14 @@
 
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
-use super::solve::{FEW_SAMPLES, refuse_beyond_full_contact, refuse_beyond_memory};
+use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
 use percoat::comparison::{Comparison, Task};
 use percoat::localized::{CircleRadius, Setup, Stop};
 use percoat::number::number;
+use percoat::observables::FEW_SAMPLES;
 use percoat::output::{CompareFile, Plan, RunFolder, Writer, table, write_text};
 use percoat::picture;
 use percoat::refinement::sufficient_points;

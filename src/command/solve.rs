@@ -10,7 +10,7 @@ use percoat::case::{Case, GridSection, LoadSection, available_memory, plausibili
 use percoat::grid::Grid;
 use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
-use percoat::observables::{Observables, errors, observe};
+use percoat::observables::{FEW_SAMPLES, Observables, errors, observe};
 use percoat::output::summary::{Step, Summary, curve};
 use percoat::output::{Fields, RunFolder, Section, Stresses, table, write_text};
 use percoat::picture::{Cut, Snapshot};
@@ -23,8 +23,6 @@ use std::time::Instant;
 
 /// A larger error of the stresses on the surface than this is worth a warning.
 const WORTH_SAYING: f64 = 0.02;
-/// Fewer samples along a contact radius than this are worth a warning.
-pub const FEW_SAMPLES: f64 = 10.0;
 
 pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Outcome, Failure> {
     let (case, name) = read_case(case, common)?;
@@ -264,6 +262,16 @@ impl Run<'_> {
                 "a contact radius has less than {FEW_SAMPLES} samples in step {}: its radius and peak pressure are rough; \
                  raise grid.points",
                 list(&coarse)
+            ));
+        }
+        let rough =
+            |step: &Step| step.levels.is_empty() && step.contact_spots > 0 && step.spot_resolution < FEW_SAMPLES;
+        let rough: Vec<usize> = steps().filter(|(_, step)| rough(step)).map(|(number, _)| number).collect();
+        if !rough.is_empty() {
+            warnings.push(format!(
+                "half of the load lies on contact spots of less than {FEW_SAMPLES} samples to the radius in step {}: contact \
+                 area and pressures are rough; give the topography on more points",
+                list(&rough)
             ));
         }
         if !solved.is_accurate(self.case) {

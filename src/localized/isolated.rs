@@ -2,6 +2,7 @@
 
 use super::circle::CircleRadius;
 use super::solver::{Solution, Stop};
+use super::spot::Spot;
 use super::system::{Localized, Setup};
 use crate::indenter::Level;
 use crate::lattice::{Lattice, LatticeError};
@@ -16,13 +17,15 @@ const APART: f64 = 6.0;
 const ALONE: Setup =
     Setup { indenters: 1, elements: ELEMENTS, radius: CircleRadius::LoadBalanced, mutual_effect: false };
 
-/// Contact radius of each level (0: it does not touch) when all have one penetration and carry the prescribed load
+/// Outer contact radius of each level (0: it does not touch) when all have one penetration and carry the prescribed load
 /// together but do not feel each other (Figs 2b, 4b and Table 1). `None` where contacts would meet.
 pub fn radii(lattice: &Lattice, levels: &[Level], half_space: &HalfSpace, control: Control) -> Option<Vec<f64>> {
     let system = Localized::new(lattice, levels, half_space, 1);
     let solution = system.solve(control, &ALONE);
-    let radius = |reading: super::LevelReading| if reading.load > 0.0 { reading.contact_radius } else { 0.0 };
-    (solution.stop == Stop::Converged).then(|| system.observe(&solution).into_iter().map(radius).collect())
+    // All indenters of a level are alike.
+    let own = |level: usize| solution.spots.iter().find(|spot| spot.level == level && spot.touches());
+    let radii = (1..=levels.len()).map(|level| own(level).map_or(0.0, Spot::outer_radius)).collect();
+    (solution.stop == Stop::Converged).then_some(radii)
 }
 
 /// Pressure of a single indenter of `level` under `load`: points (distance from the axis, pressure) from the axis to
@@ -44,7 +47,7 @@ pub fn profile(
     let Solution { spots, stop, .. } = system.solve(Control::MeanPressure(load / system.cell_area()), &ALONE);
     let spot = &spots[0];
     let middle = spot.mesh.width / 2;
-    let edge = spot.contact_radius();
+    let edge = spot.outer_radius();
     let row = (middle..spot.mesh.width).map(|j| middle * spot.mesh.width + j);
     let points = row.map(|index| [spot.mesh.place(index)[1], spot.pressure[index]]);
     let inside = points.filter(|[r, p]| *p > 0.0 && *r < edge).chain([[edge, 0.0]]);

@@ -71,9 +71,11 @@ impl Outline {
             (count as f64 / PI).sqrt() * mesh.size
         };
         let whole = counted(&|index| pressure[index] > 0.0 || enclosed[index]);
-        let radii = rim(&places(false), mesh.size, whole, 1.0)?;
         let open = counted(&|index| enclosed[index]);
-        let hole = if open > 0.0 { rim(&places(true), mesh.size, open, -1.0) } else { None };
+        // Each edge of a ring has its own half of it, a disc as much as the fit reaches.
+        let deep = if open > 0.0 { 0.5 * (whole - open) } else { whole };
+        let radii = rim(&places(false), mesh.size, [whole, deep], 1.0)?;
+        let hole = if open > 0.0 { rim(&places(true), mesh.size, [open, deep], -1.0) } else { None };
         Some(Self { radii, hole: hole.map_or(open, |radii| mean_radius(&radii)) })
     }
 
@@ -103,8 +105,9 @@ fn enclosed(mesh: &Mesh, pressure: &[f64]) -> Vec<bool> {
     enclosed
 }
 
-/// The line between contact and what is open beside it, outwards (`sign` 1) or inwards (−1), from a circle.
-fn rim(places: &[Place], size: f64, counted: f64, sign: f64) -> Option<Vec<f64>> {
+/// The line between contact, `deep` as far as it is this line's, and what is open beside it, outwards (`sign` 1) or
+/// inwards (−1), from a circle.
+fn rim(places: &[Place], size: f64, [counted, deep]: [f64; 2], sign: f64) -> Option<Vec<f64>> {
     let resolution = counted / size;
     if resolution < FEWEST {
         return None;
@@ -112,7 +115,7 @@ fn rim(places: &[Place], size: f64, counted: f64, sign: f64) -> Option<Vec<f64>>
     let reach = (RISE + resolution.sqrt()).min(0.6 * resolution) * size;
     let mut radii = vec![counted; ANGLES];
     for _ in 0..ROUNDS {
-        radii = moved(&radii, places, size, reach, sign)?;
+        radii = moved(&radii, places, size, [reach, deep], sign)?;
         if radii.iter().any(|r| (r - counted).abs() > BELIEF * size + 0.3 * counted) {
             return None;
         }
@@ -121,11 +124,11 @@ fn rim(places: &[Place], size: f64, counted: f64, sign: f64) -> Option<Vec<f64>>
 }
 
 /// The line through the root of ψ, fitted to the places within `reach` of the line `radii`.
-fn moved(radii: &[f64], places: &[Place], size: f64, reach: f64, sign: f64) -> Option<Vec<f64>> {
+fn moved(radii: &[f64], places: &[Place], size: f64, [reach, deep]: [f64; 2], sign: f64) -> Option<Vec<f64>> {
     let near: Vec<(&Place, f64)> = places
         .iter()
         .map(|place| (place, sign * (place.r - radius(radii, place.theta)) / reach))
-        .filter(|(_, d)| d.abs() < 1.0)
+        .filter(|(place, d)| d.abs() < 1.0 && (place.open || -d * reach < deep))
         .collect();
     // Four elements per unknown at least.
     let harmonics = HARMONICS.min(near.len() / 16);

@@ -3,6 +3,7 @@
 use super::circle::Circle;
 use super::mesh::Mesh;
 use super::outline::Outline;
+use crate::closed_line::mean_radius;
 use crate::least_squares;
 use std::f64::consts::PI;
 
@@ -80,6 +81,11 @@ impl Spot {
     /// Contact radius √(A/π), from the outline, or from the number of elements where it is not found.
     pub fn contact_radius(&self) -> f64 {
         self.outline().map_or(self.counted_radius(), |outline| (outline.area() / PI).sqrt())
+    }
+
+    /// √(area within the outer line/π): larger than the contact radius where the spot is a ring.
+    pub fn outer_radius(&self) -> f64 {
+        self.outline().map_or(self.counted_radius(), |outline| mean_radius(&outline.radii))
     }
 
     /// √(A/π) of the elements in contact.

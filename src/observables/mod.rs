@@ -14,6 +14,7 @@ pub use crate::boundary::Boundary;
 pub use error::{Errors, LevelErrors, errors};
 
 use crate::boundary::Scale;
+use crate::components;
 use crate::edge::Edge;
 use crate::field;
 use crate::hierarchy::{Contact, Hierarchy, Solution};
@@ -35,6 +36,11 @@ pub struct Observables {
     pub contact_fraction_error: f64,
     /// Largest pressure, between the samples.
     pub max_pressure: f64,
+    /// Number of contact spots in the cell; merged contacts are one.
+    pub contact_spots: usize,
+    /// Samples along the radius of a disc as large as the typical spot: the one up to which, from the smallest on, half
+    /// of the load is carried. 0 without contact.
+    pub spot_resolution: f64,
     /// Per level; empty for a topography.
     pub levels: Vec<LevelObservables>,
     /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
@@ -78,6 +84,9 @@ pub struct LevelObservables {
     /// Samples along the contact radius: below some ten the radii are rough.
     pub resolution: f64,
 }
+
+/// Fewest samples along a contact radius from which on radii and peak pressures are more than rough.
+pub const FEW_SAMPLES: f64 = 10.0;
 
 impl Observables {
     /// Whether the largest pressure is infinite: that of a level is.
@@ -163,6 +172,7 @@ pub fn read(contact: &Contact<'_>) -> Observables {
             }
         })
         .collect();
+    let (contact_spots, spot_resolution) = components::spots(grid, pressure).unwrap_or_default();
     let contact_fraction = contact_area / cell;
     let contact_fraction_error = located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error;
     let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
@@ -172,6 +182,8 @@ pub fn read(contact: &Contact<'_>) -> Observables {
         contact_fraction,
         contact_fraction_error,
         max_pressure,
+        contact_spots,
+        spot_resolution,
         levels,
         boundaries,
     }

@@ -39,6 +39,10 @@ pub struct Step {
     pub certificate: Certificate,
     /// Grid points along a₁ and a₂.
     pub points: [usize; 2],
+    /// Number of contact spots in the cell.
+    pub contact_spots: usize,
+    /// Samples along the radius of the typical one, see [`Observables::spot_resolution`].
+    pub spot_resolution: f64,
     /// Per level.
     pub levels: Vec<Level>,
     /// Largest stresses, where the case asks for stresses and there is contact.
@@ -196,6 +200,8 @@ impl Step {
                 load: certificate.load,
             },
             points,
+            contact_spots: observables.contact_spots,
+            spot_resolution: observables.spot_resolution,
             stress: None,
             levels: observables
                 .levels

@@ -97,3 +97,17 @@ fn kernel_refuses_wavenumbers_that_are_not_positive() {
     desk.percoat(&["kernel"]).complains(2, &["--wavenumber"]);
     desk.percoat(&["kernel", "--wavenumber=1", "--depth=-1"]).complains(2, &["--depth", "not less than 0"]);
 }
+
+/// a/l = 0.03 at the first load of Fig. 5: six samples of a grid of 48, sixty of 512.
+#[test]
+fn check_foresees_the_samples_at_the_lowest_load() {
+    let desk = Desk::new();
+    let few = desk.percoat(&["check", "fig5", "--set", "grid.points=48"]);
+    assert!(few.code == 0 && few.err.contains("samples, by the formulas"), "{}", few.err);
+    // The smallest load decides, wherever it stands.
+    let loads = "load.mean_pressure=[0.05, 1e-6, 0.06]";
+    let tiny = desk.percoat(&["check", "fig5", "--set", loads]);
+    assert!(tiny.err.contains("at load.mean_pressure = 1.0000e-6"), "{}", tiny.err);
+    let enough = desk.percoat(&["check", "fig2"]);
+    assert!(enough.code == 0 && !enough.err.contains("samples"), "{}", enough.err);
+}

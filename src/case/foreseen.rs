@@ -1,0 +1,127 @@
+//! What estimates by the formulas of single contacts foresee of a case, for those who have not solved it.
+
+use super::plausibility::{STEEP, flank, slope};
+use super::{Case, GridSection, LoadSection};
+use crate::grid::Grid;
+use crate::indenter::Shape;
+use crate::number::number;
+use crate::observables::FEW_SAMPLES;
+use crate::texture::Surface;
+use std::f64::consts::FRAC_PI_2;
+
+/// Doubts: steep flanks at the highest load, few samples at the lowest. `touches` are the mean pressures at which the
+/// levels first touch, where they are known.
+pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
+    steep_flank(case).into_iter().chain(few_samples(case, touches)).collect()
+}
+
+/// A flank that is steep at the highest load, by Hertz's formulas.
+fn steep_flank(case: &Case) -> Option<String> {
+    let (Surface::Indenters { lattice, levels }, LoadSection::MeanPressure(loads)) = (case.surface(), &case.load)
+    else {
+        return None;
+    };
+    let load = loads.iter().copied().fold(0.0, f64::max);
+    let sites: usize = lattice.sites().iter().map(Vec::len).sum();
+    let force = load * lattice.cell().area() / sites as f64;
+    let modulus =
+        case.half_space().substrate().contact_modulus().max(case.half_space().surface_material().contact_modulus());
+    let estimates = (1..).zip(levels).filter_map(|(number, level)| {
+        let (Shape::Paraboloid { radius } | Shape::Sphere { radius }) = level.shape() else { return None };
+        Some((number, level.shape(), (0.75 * force * radius / modulus).cbrt()))
+    });
+    let mut steep = estimates.filter(|&(_, shape, radius)| slope(shape, radius) > STEEP);
+    steep.next().map(|(number, shape, radius)| flank("by Hertz's formulas", number, shape, radius))
+}
+
+/// Few samples along the contact radius of the highest level at the lowest load on the grid of the case.
+///
+/// The load lies on the levels that touch; each contact is that of a single power-law indenter c rⁿ on a half-space,
+/// δ = κ_n c aⁿ, P = 2E* δ a n/(n + 1), with the larger E* of surface and substrate: the smaller radius.
+fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
+    let (Surface::Indenters { lattice, levels }, GridSection::Points(points)) = (case.surface(), &case.grid) else {
+        return None;
+    };
+    let grid = Grid::new(lattice.cell(), *points).ok()?;
+    let (number_of_highest, highest) = (1..).zip(levels).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
+    // A sphere is a paraboloid where its contact is small.
+    let (c, n) = match highest.shape() {
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => (0.5 / radius, 2.0),
+        Shape::Cone { slope } => (slope, 1.0),
+        Shape::Power { coefficient, exponent } => (coefficient, exponent),
+    };
+    let lowest = |values: &[f64]| values.iter().copied().filter(|load| *load > 0.0).reduce(f64::min);
+    let body = case.half_space();
+    let modulus = body.substrate().contact_modulus().max(body.surface_material().contact_modulus());
+    let (load, radius) = match &case.load {
+        LoadSection::MeanPressure(loads) => {
+            let load = lowest(loads)?;
+            let touching =
+                |level: usize| touches.get(level).is_none_or(|touch| touch.is_some_and(|touch| touch <= load));
+            let sites = lattice.sites().iter().enumerate().filter(|(level, _)| touching(*level));
+            let sites = sites.map(|(_, sites)| sites.len()).sum::<usize>().max(1);
+            let force = load * lattice.cell().area() / sites as f64;
+            (load, (force * (n + 1.0) / (2.0 * n * modulus * kappa(n) * c)).powf(1.0 / (n + 1.0)))
+        }
+        LoadSection::Penetration(depths) => {
+            let depth = lowest(depths)?;
+            (depth, (depth / (kappa(n) * c)).powf(1.0 / n))
+        }
+    };
+    let samples = radius / grid.sample_area().sqrt();
+    (samples < FEW_SAMPLES).then(|| {
+        format!(
+            "at load.{} = {} the contact radius of level {number_of_highest} will have about {samples:.1} samples, by the \
+             formulas of a single contact: radii and peak pressures are rough below {FEW_SAMPLES}; raise grid.points",
+            case.load.quantity(),
+            number(load)
+        )
+    })
+}
+
+/// κ_n = √π Γ(n/2+1)/Γ((n+1)/2) = n ∫₀^{π/2} sinⁿ⁻¹θ dθ, to a thousandth.
+fn kappa(n: f64) -> f64 {
+    const STEPS: usize = 400;
+    let step = FRAC_PI_2 / STEPS as f64;
+    n * step * (0..STEPS).map(|k| ((k as f64 + 0.5) * step).sin().powf(n - 1.0)).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Source;
+    use std::path::PathBuf;
+
+    fn case(text: &str) -> Case {
+        let source = Source { name: "case".to_owned(), text: text.to_owned(), folder: PathBuf::new() };
+        Case::read(&source, &[]).unwrap()
+    }
+
+    #[test]
+    fn contact_beyond_the_equator_is_foreseen() {
+        let text = "lattice={kind=\"square\",period=10}\nlevels=[{shape=\"sphere\",radius=1}]\n\
+                    substrate={young=1,poisson=0.3}\nload={mean_pressure=0.05}";
+        assert!(foreseen(&case(text), &[]).join("").contains("equator"));
+    }
+
+    #[test]
+    fn few_samples_are_foreseen_by_hertz_and_by_the_cone() {
+        // κ of cone, paraboloid and r⁴: π/2, 2, 8/3.
+        for (n, expected) in [(1.0, FRAC_PI_2), (2.0, 2.0), (4.0, 8.0 / 3.0)] {
+            assert!((kappa(n) / expected - 1.0).abs() < 1e-3);
+        }
+        // a = √(Rδ) = 0.1: 5 and 20 samples of 1/50 and 1/200.
+        let of = |points: usize, load: &str| {
+            case(&format!(
+                "lattice={{kind=\"square\",period=1}}\nlevels=[{{shape=\"paraboloid\",radius=1}}]\n\
+                 substrate={{young=1,poisson=0.3}}\nload={{{load}}}\ngrid={{points={points}}}"
+            ))
+        };
+        let told = foreseen(&of(50, "penetration=[0.01,0.02]"), &[]).join("");
+        assert!(told.contains("level 1") && told.contains("about 5.0 samples"), "{told}");
+        assert!(foreseen(&of(200, "penetration=[0.01,0.02]"), &[]).is_empty());
+        // P = 4/3 E* a³: p̄ = 0.0014652 for a = 0.1; a level that touches later takes nothing.
+        let told = foreseen(&of(50, "mean_pressure=0.0014652"), &[Some(0.0)]).join("");
+        assert!(told.contains("about 5.0 samples"), "{told}");
+    }
+}

@@ -1,0 +1,91 @@
+//! Contacts that are open in the middle: `cases/ring.toml`, read in every way.
+//!
+//! The two methods share neither kernel nor reading; the same heights as a topography have no axis to be read around.
+
+mod common;
+
+use common::solve;
+use percoat::case::{Case, embedded};
+use percoat::grid::Grid;
+use percoat::localized::{CircleRadius, Localized, Setup, Stop};
+use percoat::observables::Observables;
+use percoat::solver::Control;
+use percoat::texture::Surface;
+use std::f64::consts::PI;
+
+const LOAD: Control = Control::MeanPressure(0.01);
+
+fn case() -> Case {
+    Case::read(&embedded::source("ring").unwrap(), &[]).unwrap()
+}
+
+fn read(surface: &Surface, case: &Case, points: usize) -> Observables {
+    let (_, solution, observables) = solve(surface, case.half_space(), [points; 2], LOAD);
+    assert!(solution.report.stop.solved(), "{}", solution.report);
+    observables
+}
+
+/// 17, 25 and 50 samples to the outer radius, 6 to 18 across the ring: radii within a tenth of a spacing, areas within
+/// what they say.
+#[test]
+fn both_radii_of_a_ring_and_its_area_are_read() {
+    let case = case();
+    let fine = read(case.surface(), &case, 512);
+    let [exact] = &fine.levels[..] else { panic!("one level") };
+    let (inner, outer) = exact.ring_radii.expect("a ring");
+    assert!(
+        exact.ring && !exact.merged && (exact.contact_area / (PI * (outer * outer - inner * inner)) - 1.0).abs() < 1e-9
+    );
+    // The disc that it was once taken for.
+    assert!(inner > 0.7 * outer && fine.contact_spots == 1);
+    for points in [88, 128, 256] {
+        let observables = read(case.surface(), &case, points);
+        let found = &observables.levels[0];
+        let (own_inner, own_outer) = found.ring_radii.expect("a ring");
+        println!("{points}: {own_inner} {own_outer}, area {} ± {}", found.contact_area, found.contact_area_error);
+        let spacing = 1.0 / points as f64;
+        assert!((own_inner - inner).abs() < 0.1 * spacing && (own_outer - outer).abs() < 0.1 * spacing);
+        assert!((found.contact_area - exact.contact_area).abs() < found.contact_area_error);
+        assert!(observables.to_string().contains("a ring"), "{observables}");
+    }
+}
+
+/// The same heights sampled: area to what both say.
+#[test]
+fn a_ring_of_a_topography_has_the_area_of_that_of_the_indenter() {
+    let case = case();
+    let Surface::Indenters { lattice, levels } = case.surface() else { panic!("indenters") };
+    let points = [192; 2];
+    let (cell, shape) = (lattice.cell(), levels[0].shape());
+    let grid = Grid::new(cell, points).unwrap();
+    let reduced = cell.reduced();
+    let height = |index: usize| {
+        let [x, y] = reduced.nearest(grid.fractions(index));
+        -shape.profile(x.hypot(y))
+    };
+    let surface = Surface::Heights { cell, points, heights: (0..grid.len()).map(height).collect() };
+    let (indenter, topography) = (read(case.surface(), &case, 192), read(&surface, &case, 192));
+    assert!(indenter.levels[0].ring && topography.levels.is_empty());
+    let errors = indenter.contact_fraction_error + topography.contact_fraction_error;
+    let difference = (indenter.contact_fraction - topography.contact_fraction).abs();
+    println!("{} {} ± {errors}", indenter.contact_fraction, topography.contact_fraction);
+    assert!(difference < errors && difference < 2e-3 * indenter.contact_fraction);
+}
+
+/// Two methods, two kernels, two readings: 25 elements to the radius, 8 across the ring; each edge to a tenth of them.
+#[test]
+fn the_localized_method_sees_the_ring_by_itself() {
+    let case = case();
+    let Surface::Indenters { lattice, levels } = case.surface() else { panic!("indenters") };
+    let system = Localized::new(lattice, levels, case.half_space(), 37);
+    let setup = Setup { indenters: 37, elements: 50, radius: CircleRadius::LoadBalanced, mutual_effect: true };
+    let solution = system.solve(LOAD, &setup);
+    assert_eq!(solution.stop, Stop::Converged);
+    let outline = solution.spots[0].outline().expect("an outline");
+    let (inner, outer) = read(case.surface(), &case, 256).levels[0].ring_radii.unwrap();
+    let own_outer = solution.spots[0].outer_radius();
+    println!("{} {own_outer} against {inner} {outer}", outline.hole);
+    let element = solution.spots[0].mesh.size;
+    assert!((outline.hole - inner).abs() < 0.1 * element + 0.01 * inner, "{}", outline.hole);
+    assert!((own_outer - outer).abs() < 0.1 * element + 0.01 * outer, "{own_outer}");
+}
