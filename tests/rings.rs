@@ -86,6 +86,6 @@ fn the_localized_method_sees_the_ring_by_itself() {
     let own_outer = solution.spots[0].outer_radius();
     println!("{} {own_outer} against {inner} {outer}", outline.hole);
     let element = solution.spots[0].mesh.size;
-    assert!((outline.hole - inner).abs() < 0.1 * element + 0.01 * inner, "{}", outline.hole);
-    assert!((own_outer - outer).abs() < 0.1 * element + 0.01 * outer, "{own_outer}");
+    assert!((outline.hole - inner).abs() < 0.1 * element, "{}", outline.hole);
+    assert!((own_outer - outer).abs() < 0.1 * element, "{own_outer}");
 }

@@ -190,9 +190,9 @@ mod tests {
         for stiff in [0.1, 1.0, 10.0] {
             let [pressure, gap] = elements(&mesh, 0.4, stiff);
             let ring = Outline::new(&mesh, &pressure, &gap).unwrap();
-            // A tenth of an element.
+            // The inner edge to a tenth of an element, the area to as much.
             assert!((ring.hole - 0.4).abs() < 4e-3, "{}", ring.hole);
-            assert!((ring.area() / PI / 0.84 - 1.0).abs() < 2e-3, "{}", ring.area() / PI);
+            assert!((ring.area() / PI / 0.84 - 1.0).abs() < 5e-3, "{}", ring.area() / PI);
         }
         let r = |index: usize| mesh.place(index)[0].hypot(mesh.place(index)[1]);
         let pressure: Vec<f64> = (0..mesh.elements()).map(|i| (1.0 - r(i).powi(2)).max(0.0).sqrt()).collect();

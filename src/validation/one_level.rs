@@ -51,13 +51,13 @@ pub fn one_level(outcome: &mut Outcome) -> Result<Vec<Curve>, StudyError> {
         outcome.checks.push(Check::worst(name, pairs, Tolerance::Absolute(1e-4)));
     }
     for (key, name, whole, change) in
-        [("penetration", "penetration", 1e-4, 5e-7), ("radius", "contact radius", 3e-4, 5e-6)]
+        [("penetration", "penetration", 1e-4, 5e-7), ("radius", "contact radius", 3e-4, 2e-3 * mesh.size)]
     {
         let (found, expected) = (data.column(key), data.column(&format!("{key}_sums")));
         let pairs = || found.iter().copied().zip(expected.iter().copied());
         let check = format!("one level: {name}, 0 to 54 neighbours, lattice sums");
         outcome.checks.push(Check::worst(check, pairs(), Tolerance::Relative(whole)));
-        // The mesh errs alike for all circles.
+        // The mesh errs alike for all circles; of the outline of each some thousandth of an element is its own.
         let last = found.len() - 1;
         let changes = pairs().map(|(a, b)| (a - found[last], b - expected[last]));
         let check = format!("one level: {name} less that with 54 neighbours, lattice sums");

@@ -6,7 +6,7 @@ use super::spot::{self, Raster, asymmetries};
 use crate::least_squares;
 use crate::localized::mesh::Mesh;
 use crate::localized::{CircleRadius, Coupled};
-use crate::observables::Observables;
+use crate::observables::{LevelObservables, Observables};
 use crate::solver::Control;
 use crate::touch::first_touches;
 use crate::validation::{Data, StudyError};
@@ -24,9 +24,12 @@ pub const ROWS: [&str; 4] = [
 
 /// Samples along the cell of the three-fold arrangement.
 const POINTS: usize = 192;
-/// Ratio of load steps from the first touch of level 3 on, and the one within which the load of merging is enclosed.
+/// Ratio of load steps from the first touch of level 3 on, and the one within which the last load is enclosed.
 const RATIO: f64 = 1.8;
-const MERGING: f64 = 1.02;
+const LAST: f64 = 1.02;
+/// Contact diameter over the distance of the indenters up to which boundaries are read. Beyond, contacts become the cells
+/// around the indenters; their asymmetry tends to 1 − √3/2 for every level.
+const APART: f64 = 0.8;
 /// Samples per contact radius from which an asymmetry of a thousandth is more than noise.
 const RESOLVED: f64 = 12.0;
 
@@ -36,7 +39,7 @@ const AROUND: f64 = 0.06;
 
 /// One arrangement and parameter set over all loads at which the third level's contact is resolved.
 pub struct Course {
-    /// Mean pressure, asymmetries of levels 1, 2, 3; until contacts merge.
+    /// Mean pressure, asymmetries of levels 1, 2, 3; while contacts stand apart.
     pub rows: Vec<[f64; 4]>,
 }
 
@@ -46,10 +49,12 @@ impl Course {
         let mut steps = model.steps_as_dense(POINTS)?;
         let mut rows: Vec<[f64; 4]> = Vec::new();
         let (mut load, mut ratio) = (first, RATIO);
-        while ratio > MERGING {
+        while ratio > LAST {
             let found = steps.loaded(load)?;
-            if found.levels.iter().any(|level| level.merged) {
-                // Back to the last load with separate contacts, and on by smaller steps.
+            let far =
+                |level: &LevelObservables| level.contact_radius.is_some_and(|a| 2.0 * a < APART * model.distance());
+            if !found.levels.iter().all(far) {
+                // Back to the last load with contacts apart, and on by smaller steps.
                 load /= ratio;
                 ratio = ratio.sqrt();
             } else {
