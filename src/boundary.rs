@@ -254,8 +254,9 @@ impl Fit {
         let bound = BELIEF * scale.spacing + 0.1 * mean_radius(start);
         for _ in 0..ROUNDS {
             radii = self.refined(samples, scale, &radii, &mut amplitude)?;
-            let far = |(radius, start): (&f64, &f64)| !((radius - start).abs() < bound);
-            if radii.iter().zip(start).any(far) {
+            // What is not a number is far, too.
+            let near = |(radius, start): (&f64, &f64)| (radius - start).abs() < bound;
+            if !radii.iter().zip(start).all(near) {
                 return None;
             }
         }
@@ -355,7 +356,7 @@ impl Fit {
         });
         let c = least_squares::fit(2 * count + (varying + powers - 1) * sides.len(), rows)?;
         *amplitude = c[..count].iter().map(|c| c * unit).collect();
-        if !(amplitude[0] > 0.0) {
+        if amplitude[0].is_nan() || amplitude[0] <= 0.0 {
             return None;
         }
         // A larger contact moves its outer rim out and that of a hole in.

@@ -80,29 +80,25 @@ pub fn components(grid: &Grid, members: impl Fn(usize) -> bool) -> Vec<Component
 }
 
 /// Samples closer than `reach` to `centre`, each once, with their places relative to it.
-pub fn around(grid: &Grid, centre: [f64; 2], reach: f64) -> Vec<(usize, [f64; 2])> {
+pub fn around(grid: &Grid, centre: [f64; 2], reach: f64) -> impl Iterator<Item = (usize, [f64; 2])> {
     let n = grid.points().map(|n| n as f64);
     let middle = grid.cell().fractions(centre);
     // The height of the cell over a side bounds the fractions of a place at that distance.
     let steps = grid.steps();
-    let extent = [0, 1].map(|k| {
+    let range = [0, 1].map(|k| {
         let [x, y] = steps[1 - k];
         // Half a row more, by which the middle is rounded; no sample twice.
         let rows = (reach * x.hypot(y) / grid.sample_area() + 0.5).ceil();
-        rows.min((0.5 * (n[k] - 1.0)).floor()) as i32
+        let rows = rows.min((0.5 * (n[k] - 1.0)).floor()) as i32;
+        let first = (middle[k] * n[k]).round() as i32;
+        first - rows..=first + rows
     });
-    let first = [0, 1].map(|k| (middle[k] * n[k]).round() as i32);
-    let mut found = Vec::new();
-    for i in first[0] - extent[0]..=first[0] + extent[0] {
-        for j in first[1] - extent[1]..=first[1] + extent[1] {
-            let [x, y] = place(grid, [i, j]);
-            let offset = [x - centre[0], y - centre[1]];
-            if offset[0].hypot(offset[1]) < reach {
-                found.push((index(grid.points(), [i, j]), offset));
-            }
-        }
-    }
-    found
+    let [rows, columns] = range;
+    rows.flat_map(move |i| columns.clone().map(move |j| [i, j])).filter_map(move |sample| {
+        let [x, y] = place(grid, sample);
+        let offset = [x - centre[0], y - centre[1]];
+        (offset[0].hypot(offset[1]) < reach).then(|| (index(grid.points(), sample), offset))
+    })
 }
 
 /// Number of contact spots, and the samples along the radius of the disc as large as the one up to which, from the
@@ -136,7 +132,7 @@ mod tests {
         let [x, y] = centre.map(|x| (x + 0.5).rem_euclid(1.0) - 0.5);
         assert!((x + 0.0625).abs() < 1e-12 && (y + 0.0625).abs() < 1e-12, "{x} {y}");
         assert!((found[0].farthest(&grid, centre) - 0.0625 * 2f64.sqrt()).abs() < 1e-12);
-        let near = around(&grid, centre, 0.1);
+        let near: Vec<_> = around(&grid, centre, 0.1).collect();
         assert!(near.len() == 4 && near.iter().all(|&(index, _)| corner(index)));
         assert!(components(&grid, |index| index / 8 == 3)[0].wraps);
     }
@@ -160,7 +156,7 @@ mod tests {
     fn what_is_near_is_counted_once_in_a_skewed_cell_too() {
         let grid = Grid::new(Cell::new([1.0, 0.0], [0.7, 0.6]).unwrap(), [30, 21]).unwrap();
         for reach in [0.02, 0.11, 0.29, 5.0] {
-            let near = around(&grid, [0.3, -0.2], reach);
+            let near: Vec<_> = around(&grid, [0.3, -0.2], reach).collect();
             let mut indices: Vec<usize> = near.iter().map(|(index, _)| *index).collect();
             indices.sort_unstable();
             indices.dedup();

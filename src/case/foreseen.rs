@@ -79,11 +79,15 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
     })
 }
 
-/// κ_n = √π Γ(n/2+1)/Γ((n+1)/2) = n ∫₀^{π/2} sinⁿ⁻¹θ dθ, to a thousandth.
+/// κ_n = √π Γ(n/2+1)/Γ((n+1)/2) = n ∫₀^{π/2} sinⁿ⁻¹θ dθ = ∫ (sin θ/θ)ⁿ⁻¹ dt over t = θⁿ, to a thousandth.
 fn kappa(n: f64) -> f64 {
     const STEPS: usize = 400;
-    let step = FRAC_PI_2 / STEPS as f64;
-    n * step * (0..STEPS).map(|k| ((k as f64 + 0.5) * step).sin().powf(n - 1.0)).sum::<f64>()
+    let step = FRAC_PI_2.powf(n) / STEPS as f64;
+    let term = |k: usize| {
+        let theta = ((k as f64 + 0.5) * step).powf(1.0 / n);
+        (theta.sin() / theta).powf(n - 1.0)
+    };
+    step * (0..STEPS).map(term).sum::<f64>()
 }
 
 #[cfg(test)]
@@ -106,8 +110,8 @@ mod tests {
 
     #[test]
     fn few_samples_are_foreseen_by_hertz_and_by_the_cone() {
-        // κ of cone, paraboloid and r⁴: π/2, 2, 8/3.
-        for (n, expected) in [(1.0, FRAC_PI_2), (2.0, 2.0), (4.0, 8.0 / 3.0)] {
+        // κ of cone, paraboloid and r⁴: π/2, 2, 8/3; of √r: √π Γ(5/4)/Γ(3/4).
+        for (n, expected) in [(0.5, 1.311_028_777), (1.0, FRAC_PI_2), (2.0, 2.0), (4.0, 8.0 / 3.0)] {
             assert!((kappa(n) / expected - 1.0).abs() < 1e-3);
         }
         // a = √(Rδ) = 0.1: 5 and 20 samples of 1/50 and 1/200.
@@ -120,8 +124,19 @@ mod tests {
         let told = foreseen(&of(50, "penetration=[0.01,0.02]"), &[]).join("");
         assert!(told.contains("level 1") && told.contains("about 5.0 samples"), "{told}");
         assert!(foreseen(&of(200, "penetration=[0.01,0.02]"), &[]).is_empty());
-        // P = 4/3 E* a³: p̄ = 0.0014652 for a = 0.1; a level that touches later takes nothing.
+        // P = 4/3 E* a³: p̄ = 0.0014652 for a = 0.1.
         let told = foreseen(&of(50, "mean_pressure=0.0014652"), &[Some(0.0)]).join("");
         assert!(told.contains("about 5.0 samples"), "{told}");
+        // Of two levels the lower one takes half, nothing before it touches, and nothing where it is hidden.
+        let two = case(
+            "lattice={kind=\"square\",period=1}\n\
+             levels=[{shape=\"paraboloid\",radius=1,sites=[[0,0]]},\
+             {shape=\"paraboloid\",radius=1,height=-0.01,sites=[[0.5,0.5]]}]\n\
+             substrate={young=1,poisson=0.3}\nload={mean_pressure=0.0014652}\ngrid={points=50}",
+        );
+        for (second, samples) in [(Some(0.001), "4.0"), (Some(0.01), "5.0"), (None, "5.0")] {
+            let told = foreseen(&two, &[Some(0.0), second]).join("");
+            assert!(told.contains(&format!("about {samples} samples")), "{second:?}: {told}");
+        }
     }
 }

@@ -227,7 +227,7 @@ mod tests {
     fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let case = Case::read(&embedded::source(name).unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"));
-        of_case(&case)
+        [of_case(&case), super::super::foreseen(&case, &[])].concat()
     }
 
     #[test]

@@ -12,7 +12,7 @@ use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
 use percoat::observables::{FEW_SAMPLES, Observables, errors, observe};
 use percoat::output::summary::{Step, Summary, curve};
-use percoat::output::{Fields, RunFolder, Section, Stresses, table, write_text};
+use percoat::output::{Fields, RunFolder, Section, Seen, Stresses, table, write_text};
 use percoat::picture::{Cut, Snapshot};
 use percoat::refinement::{self, FIRST_POINTS, Refinement, balanced_points, change};
 use percoat::solver::{Control, StopReason};
@@ -104,7 +104,12 @@ impl Run<'_> {
         if let (Some(solution), Some(observables), true) = (last, solved.observables.last(), self.pictures.wanted()) {
             let (surface, half_space) = (self.case.surface(), self.case.half_space());
             let snapshot = Snapshot::new(&self.case.title, surface, half_space, &hierarchy, &solution, observables);
-            let cut = cut.map(|(Section { line, depths }, states, highest)| Cut { line, depths, states, highest });
+            let cut = cut.map(|Seen { section: Section { line, depths }, states, highest }| Cut {
+                line,
+                depths,
+                states,
+                highest,
+            });
             let spinner = self.spinner("drawing pictures");
             self.pictures.draw(&self.staging, &snapshot, cut.as_ref(), &solved.steps)?;
             spinner.finish_and_clear();

@@ -12,7 +12,7 @@
 //!
 //! It shares nothing with the spectral solver but the indenters' shapes, the transfer function and general numerics (least
 //! squares, FFT), so that each checks the other; also the boundary of a contact is read in its own way ([`outline`], from
-//! pressures, where the spectral reading rests on gaps). In the order of building:
+//! pressures and gaps with slopes of their own, where the spectral reading knows how a gap opens). In the order of building:
 //!
 //! - [`quadrature`], [`point`]: K by adaptive quadrature of the layer correction, tabulated;
 //! - [`square`], [`disc`]: influence coefficients, Eq. (7), and the far field;

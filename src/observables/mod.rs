@@ -44,7 +44,7 @@ pub struct Observables {
     /// Per level; empty for a topography.
     pub levels: Vec<LevelObservables>,
     /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
-    /// samples. Empty for a topography.
+    /// samples or no smooth boundary. Empty for a topography.
     pub boundaries: Vec<Option<Boundary>>,
 }
 
@@ -74,10 +74,10 @@ pub struct LevelObservables {
     /// Whether the contact of an indenter of this level is open in the middle.
     pub ring: bool,
     /// Inner and outer radius of a ring: √(area/π) of the hole and of all inside the outer boundary, lengths. `None`
-    /// without a hole, for merged contacts and for spots of too few samples.
+    /// without a hole, for merged contacts and for spots of too few samples or no smooth boundary.
     pub ring_radii: Option<(f64, f64)>,
     /// Smallest and largest distance of the boundary from the axis; `None` for merged contacts and for spots of too few
-    /// samples.
+    /// samples or no smooth boundary.
     pub radius_extremes: Option<(f64, f64)>,
     /// Whether the contact of an indenter of this level touches that of a neighbour.
     pub merged: bool,
@@ -114,8 +114,8 @@ pub fn read(contact: &Contact<'_>) -> Observables {
     let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
     let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
 
-    let count = pressure.iter().filter(|p| **p > 0.0).count() as f64;
-    let [shortest, longest] = Scale::distances((count / PI).sqrt()).map(|distance| distance * grid.spacing());
+    let most = grid.len() as f64;
+    let [shortest, longest] = Scale::distances((most / PI).sqrt()).map(|distance| distance * grid.spacing());
     let edge = Edge::new(contact.transfer, shortest, longest);
     let scale = Scale { sample_area: grid.sample_area(), spacing: grid.spacing(), edge: &edge };
     let spots = spots::spots(contact, &scale);

@@ -5,6 +5,9 @@ use crate::components::{Component, around, components};
 use crate::hierarchy::Contact;
 use std::f64::consts::PI;
 
+/// Label of a sample that belongs to no contact, or to no contact's hole.
+const NOBODY: u32 = u32::MAX;
+
 /// Contact spot of one site.
 #[derive(Debug, Clone, Default)]
 pub struct Spot {
@@ -93,34 +96,43 @@ fn holes(contact: &Contact<'_>, label: impl Fn(usize) -> u32) -> Vec<(u32, Compo
 fn locate(contact: &Contact<'_>, scale: &Scale<'_>, spots: &mut [Spot]) {
     let Contact { grid, texture, pressure, gap, .. } = *contact;
     let reduced = grid.cell().reduced();
+    // Whose a sample is: in a hole that of the contact around it.
+    let mut owner = texture.owner.clone();
     let mut hole = vec![false; grid.len()];
-    for (owner, open) in holes(contact, |index| texture.owner[index]) {
-        let spot = &mut spots[owner as usize];
+    for (own, open) in holes(contact, |index| texture.owner[index]) {
+        let spot = &mut spots[own as usize];
         // Between merged contacts lies what is outside all of them.
         if !spot.merged {
             spot.ring = true;
-            open.indices(grid).for_each(|index| hole[index] = true);
+            for index in open.indices(grid) {
+                (owner[index], hole[index]) = (own, true);
+            }
         }
     }
     // Samples that a fit can reach: out to twice the radius of all that is enclosed.
     let mut enclosed = vec![0.0; spots.len()];
-    for (index, &owner) in texture.owner.iter().enumerate() {
+    for (index, &own) in owner.iter().enumerate() {
         if pressure[index] > 0.0 || hole[index] {
-            enclosed[owner as usize] += grid.sample_area();
+            enclosed[own as usize] += grid.sample_area();
         }
     }
-    let mut samples: Vec<Vec<Polar>> = vec![Vec::new(); spots.len()];
-    for (index, &owner) in texture.owner.iter().enumerate() {
-        if spots[owner as usize].merged || enclosed[owner as usize] == 0.0 {
-            continue;
+    let polar = |index: usize| {
+        let own = owner[index];
+        let area = enclosed[own as usize];
+        if spots[own as usize].merged || area == 0.0 {
+            return None;
         }
-        let [x, y] = texture.offset(grid, &reduced, owner, index);
+        let [x, y] = texture.offset(grid, &reduced, own, index);
         let (r, p) = (x.hypot(y), pressure[index]);
-        if r < 2.0 * (enclosed[owner as usize] / PI).sqrt() || p > 0.0 {
-            let opening = 0.75 * contact.contact_modulus * gap[index];
-            samples[owner as usize].push(Polar { r, theta: y.atan2(x), p, opening, hole: hole[index] });
-        }
-    }
+        let opening = 0.75 * contact.contact_modulus * gap[index];
+        let sample = Polar { r, theta: y.atan2(x), p, opening, hole: hole[index] };
+        (r < 2.0 * (area / PI).sqrt() || p > 0.0).then_some((own as usize, sample))
+    };
+    // Counted first, so that they take no more room than they need.
+    let mut counts = vec![0; spots.len()];
+    (0..grid.len()).filter_map(polar).for_each(|(own, _)| counts[own] += 1);
+    let mut samples: Vec<Vec<Polar>> = counts.into_iter().map(Vec::with_capacity).collect();
+    (0..grid.len()).filter_map(polar).for_each(|(own, sample)| samples[own].push(sample));
     for (spot, samples) in spots.iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()) {
         spot.boundary = Boundary::locate(samples, scale);
     }
@@ -137,27 +149,27 @@ pub fn samples(contact: &Contact<'_>, spots: &[Spot]) -> (Vec<Boundary>, Vec<boo
 pub fn of_topography(contact: &Contact<'_>, scale: &Scale<'_>) -> (Vec<Boundary>, Vec<bool>) {
     let Contact { grid, pressure, gap, .. } = *contact;
     let contacts = components(grid, |index| pressure[index] > 0.0);
-    let mut label = vec![u32::MAX; grid.len()];
+    let mut label = vec![NOBODY; grid.len()];
     for (own, contact) in (0..).zip(&contacts) {
         contact.indices(grid).for_each(|index| label[index] = own);
     }
-    let mut hole = vec![false; grid.len()];
-    for (_, open) in holes(contact, |index| label[index]) {
-        open.indices(grid).for_each(|index| hole[index] = true);
+    let mut hole_of = vec![NOBODY; grid.len()];
+    for (own, open) in holes(contact, |index| label[index]) {
+        open.indices(grid).for_each(|index| hole_of[index] = own);
     }
     let (mut boundaries, mut located) = (Vec::new(), vec![false; grid.len()]);
     for (own, spot) in (0..).zip(&contacts).filter(|(_, spot)| !spot.wraps) {
         let centre = spot.centre(grid);
-        let around: Vec<(usize, Polar)> = around(grid, centre, 2.0 * spot.farthest(grid, centre))
-            .into_iter()
-            .filter(|(index, _)| label[*index] == own || label[*index] == u32::MAX)
+        // What is nobody's or its own, in contact and in holes.
+        let ours = |whose: u32| whose == own || whose == NOBODY;
+        let samples: Vec<Polar> = around(grid, centre, 2.0 * spot.farthest(grid, centre))
+            .filter(|(index, _)| ours(label[*index]) && ours(hole_of[*index]))
             .map(|(index, [x, y])| {
                 let opening = 0.75 * contact.contact_modulus * gap[index];
-                let (p, hole) = (pressure[index], hole[index]);
-                (index, Polar { r: x.hypot(y), theta: y.atan2(x), p, opening, hole })
+                let (p, hole) = (pressure[index], hole_of[index] == own);
+                Polar { r: x.hypot(y), theta: y.atan2(x), p, opening, hole }
             })
             .collect();
-        let samples: Vec<Polar> = around.iter().map(|(_, sample)| *sample).collect();
         let Some(boundary) = Boundary::locate(&samples, scale) else { continue };
         spot.indices(grid).for_each(|index| located[index] = true);
         boundaries.push(boundary);

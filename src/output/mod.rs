@@ -38,7 +38,7 @@ pub use fields::Fields;
 pub use folder::{FolderError, Plan, RunFolder};
 pub use manifest::Writer;
 pub use steps::StepArrays;
-pub use stress::{Section, Stresses, Volume, Wanted};
+pub use stress::{Section, Seen, Stresses, Volume, Wanted};
 pub use volume::write_volume;
 
 use std::fs;

@@ -39,6 +39,17 @@ pub struct Volume {
     pub points: [usize; 2],
 }
 
+/// What a section shows of a load step.
+#[derive(Debug, Clone)]
+pub struct Seen {
+    /// Where.
+    pub section: Section,
+    /// For each depth the states at the points of the line.
+    pub states: Vec<Vec<State>>,
+    /// Where on the surface the stress along the line is largest, and the stress, see [`Field::highest_along`].
+    pub highest: Option<[f64; 2]>,
+}
+
 /// Stresses of the load steps so far, kept on disk.
 #[derive(Debug)]
 pub struct Stresses {
@@ -99,11 +110,14 @@ impl Stresses {
         Ok(())
     }
 
-    /// Takes the section with the states of the last step, for each depth those at the points of the line, and where on
-    /// the surface the stress along it is largest.
-    pub fn take_section(&mut self) -> Option<(Section, Vec<Vec<State>>, Option<[f64; 2]>)> {
+    /// Takes what the last step's section shows.
+    pub fn take_section(&mut self) -> Option<Seen> {
         let section = self.wanted.section.clone()?;
-        (!self.section.is_empty()).then(|| (section, std::mem::take(&mut self.section), self.highest))
+        (!self.section.is_empty()).then(|| Seen {
+            section,
+            states: std::mem::take(&mut self.section),
+            highest: self.highest,
+        })
     }
 
     /// Gathers all steps in `stress.npz`.

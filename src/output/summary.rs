@@ -61,7 +61,7 @@ pub struct Stress {
     pub materials: Vec<Extremes>,
     /// On each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
-    /// Estimated relative error of the largest tension on the surface, see [`crate::stress::surface_error`].
+    /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`].
     pub surface_error: f64,
 }
 
@@ -154,11 +154,12 @@ pub struct Level {
     pub contact_radius: Option<f64>,
     /// Whether a contact of this level is open in the middle.
     pub ring: bool,
-    /// √(area/π) of a ring's hole; null without one, for merged contacts and spots of too few samples.
+    /// √(area/π) of a ring's hole; null without one, for merged contacts, spots of too few
+    /// samples and polygons.
     pub radius_inner: Option<f64>,
     /// √(area/π) of all inside a ring's outer boundary; see `radius_inner`.
     pub radius_outer: Option<f64>,
-    /// Smallest boundary radius; null for merged contacts and spots of too few samples.
+    /// Smallest boundary radius; null for merged contacts, spots of too few samples and polygons.
     pub radius_min: Option<f64>,
     /// Largest boundary radius.
     pub radius_max: Option<f64>,

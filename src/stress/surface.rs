@@ -66,13 +66,16 @@ pub struct Crest {
     pub peak: Peak,
     /// How uncertain its value is by what this grid alone tells, a pressure.
     pub uncertainty: f64,
+    /// What errors are relative to: the tension itself, or the usual one under the largest pressure, 0.13 of it, where
+    /// that is more (as on incompressible materials, which have no tension at the edge).
+    pub scale: f64,
 }
 
 impl Crest {
     /// Estimated relative error, also from the crest of the next coarser grid where there is one.
     pub fn error(&self, coarser: Option<&Self>) -> f64 {
         let change = coarser.map_or(0.0, |coarser| (coarser.peak.value - self.peak.value).abs());
-        SAFETY * (self.uncertainty + change / FALL) / self.peak.value.abs()
+        SAFETY * (self.uncertainty + change / FALL) / self.scale
     }
 }
 
@@ -277,18 +280,19 @@ impl Field {
         finalists.extend(edges.iter().take(FINALISTS).map(|&(_, place, _)| (Place::Edge, place)));
         let (kind, place, state) = skin.largest(&finalists)?;
         let value = state.s1();
+        // How far the tension at an edge that few samples see may reach above the largest one; at least so far at it all.
+        let usual = TENSION * everywhere[10].iter().copied().fold(0.0, f64::max);
+        drop(everywhere);
         let spread = OTHER.iter().filter_map(|&scale| Skin::new(self, scale).largest(&finalists));
         let spread: f64 = spread.map(|(.., other)| (other.s1() - value).abs()).sum();
         let unlike = if kind == Place::Edge { skin.at(place)[6].abs() * skin.unlike() } else { 0.0 };
-        // How far the tension at an edge that few samples see may reach above the largest one; at least so far at it all.
-        let usual = TENSION * everywhere[10].iter().copied().fold(0.0, f64::max);
         let few = |&(tension, _, resolution): &(f64, [f64; 2], f64)| {
             tension + FEW / (resolution * resolution) * usual.max(tension.abs()) - value
         };
         let few = edges.iter().map(few).fold(0.0, f64::max);
         let direction = state.s1_direction();
         let peak = Peak { value, position: [place[0], place[1], 0.0], side: 1, direction };
-        Some(Crest { peak, uncertainty: spread + unlike + few })
+        Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })
     }
 }
 

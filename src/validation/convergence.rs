@@ -1,7 +1,7 @@
 //! Orders of convergence with the number of points N, against a closed form.
 //!
 //! The pressure ends like a square root at the edge of a disc; its transform falls as q⁻² there, and so do the errors of
-//! sums over a grid: stresses inside are of second order, and the radius by the interpolation on both sides of the edge.
+//! sums over a grid: stresses inside are of second order, and the radius, read from the gap outside.
 //! Peak pressure and penetration feel the errors of the whole edge together, whose sign changes with where the edge
 //! cuts the samples: of O(N) of them O(√N) is left, and the order is 2.5. The largest tension on the surface stands at
 //! the edge itself; it is read without the square root ([`crate::stress::Crest`]).
