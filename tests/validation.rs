@@ -42,6 +42,7 @@ studies! {
     wavy = "wavy",
     isolated = "isolated",
     thin_coatings = "thin-coatings",
+    rings = "rings",
     hertz_stresses = "hertz-stresses",
     sinusoidal_stresses = "sinusoidal-stresses",
     convergence = "convergence",

@@ -227,7 +227,9 @@ mod tests {
     fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let case = Case::read(&embedded::source(name).unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"));
-        [of_case(&case), super::super::foreseen(&case, &[])].concat()
+        // That a grid is coarse at the lowest load says nothing of the case's sense.
+        let foreseen = super::super::foreseen(&case, &[]).into_iter().filter(|doubt| !doubt.contains("grid.points"));
+        of_case(&case).into_iter().chain(foreseen).collect()
     }
 
     #[test]

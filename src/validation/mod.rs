@@ -31,6 +31,7 @@ mod peer;
 mod periodic_hertz;
 mod random;
 mod report;
+mod rings;
 mod sinusoidal_stresses;
 mod steps;
 mod thin_coatings;
@@ -56,7 +57,7 @@ pub struct Study {
 }
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 23] = [
+pub const STUDIES: [Study; 24] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -65,6 +66,7 @@ pub const STUDIES: [Study; 23] = [
     wavy::STUDY,
     isolated::STUDY,
     thin_coatings::STUDY,
+    rings::STUDY,
     hertz_stresses::STUDY,
     sinusoidal_stresses::STUDY,
     convergence::STUDY,
