@@ -30,6 +30,8 @@ const EDGE: f64 = 0.2;
 /// One ring of the reference.
 struct Ring {
     half_space: HalfSpace,
+    young: f64,
+    thickness: f64,
     load: f64,
     inner: f64,
     outer: f64,
@@ -41,7 +43,7 @@ impl Ring {
         let &[young, thickness, load, inner, outer, peak] = row else { return Err("a row too short".into()) };
         let coating = Layer::new(Material::from_young(young, 0.3)?, thickness, Interface::Frictionless)?;
         let half_space = HalfSpace::new(vec![coating], Material::from_young(1.0, 0.3)?);
-        Ok(Self { half_space, load, inner, outer, peak })
+        Ok(Self { half_space, young, thickness, load, inner, outer, peak })
     }
 
     /// Inner and outer radius, peak pressure and its stated error, radius √(area/π) and its stated error; the pressure along
@@ -111,12 +113,10 @@ fn run() -> Result<Outcome, StudyError> {
             held[0] += u8::from((radius - exact).abs() <= stated);
             held[1] += u8::from((peak - ring.peak).abs() <= peak_stated);
             if samples == SAMPLES[1] {
-                curves.push(curve(
-                    "",
-                    Style::Line,
-                    colour,
-                    along.into_iter().map(|[r, p]| [r / ring.outer, p / ring.peak]),
-                ));
+                let scaled = along.into_iter().map(|[r, p]| [r / ring.outer, p / ring.peak]);
+                let near = scaled.filter(|[r, _]| (0.65..1.1).contains(r));
+                let label = format!("E₁/E₂ = {}, h = {}, P = {}", ring.young, ring.thickness, ring.load);
+                curves.push(curve(label, Style::Line, colour, near));
                 let ratio = ring.inner / ring.outer;
                 curves.push(curve("", Style::Dotted, colour, [[ratio, 0.0], [ratio, 1.0]]));
             }
@@ -130,7 +130,6 @@ fn run() -> Result<Outcome, StudyError> {
             outcome.checks.push(Check::at_least(name, f64::from(held), rings.len() as f64));
         }
     }
-    curves.push(curve("pressure", Style::Line, 0, []));
     curves.push(curve("inner radius, integral equation", Style::Dotted, 0, []));
     outcome.figures.push(("figure", figure(curves)));
     outcome.data.push(data);
