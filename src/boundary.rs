@@ -110,6 +110,8 @@ const FAR: f64 = 0.7;
 const ROOM: f64 = 0.6;
 /// Fits, each from the boundary of the last.
 const ROUNDS: usize = 8;
+/// Change of a boundary, in spacings, below which it stands.
+const STANDS: f64 = 1e-7;
 /// What an error estimate adds to the differences of readings, in spacings; the error of a counted radius.
 const FLOOR: f64 = 0.01;
 const COUNTED: f64 = 0.5;
@@ -253,11 +255,15 @@ impl Fit {
         let mut amplitude = Vec::new();
         let bound = BELIEF * scale.spacing + 0.1 * mean_radius(start);
         for _ in 0..ROUNDS {
-            radii = self.refined(samples, scale, &radii, &mut amplitude)?;
+            let before = std::mem::take(&mut radii);
+            radii = self.refined(samples, scale, &before, &mut amplitude)?;
             // What is not a number is far, too.
             let near = |(radius, start): (&f64, &f64)| (radius - start).abs() < bound;
             if !radii.iter().zip(start).all(near) {
                 return None;
+            }
+            if radii.iter().zip(&before).all(|(now, before)| (now - before).abs() < STANDS * scale.spacing) {
+                break;
             }
         }
         Some(radii)

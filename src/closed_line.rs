@@ -26,11 +26,15 @@ pub fn mean_radius(radii: &[f64]) -> f64 {
 
 /// 1, cos θ, sin θ, … of the harmonics up to `highest`.
 pub fn waves(theta: f64, highest: usize) -> Vec<f64> {
-    let pair = |k: usize| {
-        let (sine, cosine) = (k as f64 * theta).sin_cos();
-        [cosine, sine]
-    };
-    std::iter::once(1.0).chain((1..=highest).flat_map(pair)).collect()
+    let (sine, cosine) = theta.sin_cos();
+    let (mut c, mut s) = (1.0, 0.0);
+    let mut waves = Vec::with_capacity(1 + 2 * highest);
+    waves.push(1.0);
+    for _ in 0..highest {
+        (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
+        waves.extend([c, s]);
+    }
+    waves
 }
 
 /// Sum of a series of [`waves`] with the coefficients.
@@ -46,6 +50,8 @@ mod tests {
     #[test]
     fn a_line_of_two_lobes_has_its_radii_and_its_area() {
         let radii: Vec<f64> = (0..ANGLES).map(|index| series(&[1.0, 0.0, 0.0, 0.1, 0.0], angle(index))).collect();
+        let [.., c, s] = waves(0.7, 12)[..] else { panic!("twelve harmonics") };
+        assert!((c - 8.4f64.cos()).abs() < 1e-14 && (s - 8.4f64.sin()).abs() < 1e-14);
         assert!((radius(&radii, -PI) - 1.1).abs() < 1e-12 && (radius(&radii, 2.5 * PI) - 0.9).abs() < 1e-12);
         assert!((mean_radius(&radii) - 1.005f64.sqrt()).abs() < 1e-12 && mean_radius(&[]) == 0.0);
     }
