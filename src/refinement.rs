@@ -7,6 +7,7 @@ use crate::material::HalfSpace;
 use crate::observables::{Observables, observe};
 use crate::solver::{Control, Settings};
 use crate::texture::Surface;
+use std::fmt;
 
 /// Points along the shorter cell vector at which a refinement starts.
 pub const FIRST_POINTS: usize = 96;
@@ -38,10 +39,32 @@ pub fn change(coarse: &[Observables], fine: &[Observables]) -> f64 {
 )]
 pub struct TooOblong(f64);
 
-/// Finer and finer grids until results change by less than an accuracy.
-///
-/// It ends when a change is below the accuracy, when the next grid would be too fine, and when changes **stagnate**:
-/// two in a row that are not below 0.8 of the one before (order ⅓), so that no grid in reach would help.
+/// Why a refinement ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The last change is below the accuracy.
+    Reached,
+    /// Changes **stagnate**: two in a row are not below 0.8 of the one before (order ⅓), so that no grid in reach would
+    /// help.
+    Stagnates,
+    /// The next grid would have more than 4096 points along a side.
+    Finest,
+    /// There is no room for the next grid, in memory or on disk.
+    Room,
+}
+
+impl fmt::Display for End {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reached => f.write_str("it is reached"),
+            Self::Stagnates => f.write_str("changes have stopped to fall"),
+            Self::Finest => write!(f, "the next grid would have more than {MOST_POINTS} points along a side"),
+            Self::Room => f.write_str("there is no room for the next grid, in memory or on disk"),
+        }
+    }
+}
+
+/// Finer and finer grids until results change by less than an accuracy, or for another reason to [`End`].
 #[derive(Debug, Clone)]
 pub struct Refinement {
     cell: Cell,
@@ -70,36 +93,34 @@ impl Refinement {
         balanced_points(&self.cell, self.points)
     }
 
-    /// Goes on to the next grid, after the change that the present one brought (none on the first); false when it ends.
-    pub fn refine(&mut self, change: Option<f64>) -> bool {
+    /// Goes on to the next grid, after the change that the present one brought (none on the first), unless it ends.
+    /// `fits` tells whether there is room for a grid.
+    pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<End> {
         self.changes.extend(change);
         let finer = balanced_points(&self.cell, 2 * self.points);
-        if self.reached() || self.stagnates() || finer.iter().any(|&n| n > MOST_POINTS) {
-            return false;
-        }
-        self.points *= 2;
-        true
+        let end = if self.changes.last().is_some_and(|&change| change < self.accuracy) {
+            End::Reached
+        } else if self.stagnates() {
+            End::Stagnates
+        } else if finer.iter().any(|&n| n > MOST_POINTS) {
+            End::Finest
+        } else if !fits(finer) {
+            End::Room
+        } else {
+            self.points *= 2;
+            return None;
+        };
+        Some(end)
     }
 
-    /// The last change.
-    pub fn change(&self) -> Option<f64> {
-        self.changes.last().copied()
-    }
-
-    /// Whether the accuracy is reached.
-    pub fn reached(&self) -> bool {
-        self.change().is_some_and(|change| change < self.accuracy)
-    }
-
-    /// Whether finer grids have stopped to help.
-    pub fn stagnates(&self) -> bool {
+    fn stagnates(&self) -> bool {
         let slow = |pair: &[f64]| pair[1].partial_cmp(&(STAGNATION * pair[0])) != Some(std::cmp::Ordering::Less);
         self.changes.len() >= 3 && self.changes[self.changes.len() - 3..].windows(2).all(slow)
     }
 }
 
 /// Points of the first grid from which one load step changes by less than `accuracy` to the next; the last grid tried
-/// where none does.
+/// where none does. `fits` tells whether there is room for a grid.
 ///
 /// # Errors
 /// When the cell has no grid.
@@ -109,6 +130,7 @@ pub fn sufficient_points(
     settings: Settings,
     control: Control,
     accuracy: f64,
+    fits: impl Fn([usize; 2]) -> bool,
 ) -> Result<[usize; 2], Box<dyn std::error::Error + Send + Sync>> {
     let mut refinement = Refinement::new(surface.cell(), accuracy)?;
     let mut coarse: Option<[Observables; 1]> = None;
@@ -118,7 +140,7 @@ pub fn sufficient_points(
         let solution = hierarchy.solve(control, &mut |_| ());
         let fine = [observe(&hierarchy, &solution)];
         let change = coarse.as_ref().map(|coarse| change(coarse, &fine));
-        if !refinement.refine(change) {
+        if refinement.refine(change, &fits).is_some() {
             return Ok(points);
         }
         coarse = Some(fine);
@@ -154,21 +176,24 @@ mod tests {
     }
 
     #[test]
-    fn a_refinement_ends_where_changes_stagnate_and_says_whether_it_is_there() {
+    fn a_refinement_says_why_it_ends() {
         let square = Cell::square(1.0).unwrap();
-        let run = |changes: &[f64]| {
+        let run = |changes: &[f64], most: usize| {
             let mut refinement = Refinement::new(square, 1e-3).unwrap();
             let mut rest = changes.iter().copied();
             let mut change = None;
-            while refinement.refine(change) {
-                change = rest.next();
+            loop {
+                match refinement.refine(change, |[n, _]| n <= most) {
+                    Some(end) => return (refinement.points()[0], end),
+                    None => change = rest.next(),
+                }
             }
-            (refinement.points()[0], refinement.reached())
         };
-        assert_eq!(run(&[1e-2, 3e-3, 9e-4, 1e-9]), (768, true));
+        assert_eq!(run(&[1e-2, 3e-3, 9e-4, 1e-9], 8192), (768, End::Reached));
         // A logarithm changes as much from grid to grid.
-        assert_eq!(run(&[1e-2, 9.9e-3, 9.8e-3, 9.7e-3]), (768, false));
-        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3]), (3072, false));
+        assert_eq!(run(&[1e-2, 9.9e-3, 9.8e-3, 9.7e-3], 8192), (768, End::Stagnates));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 8192), (3072, End::Finest));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 1000), (768, End::Room));
     }
 
     #[test]

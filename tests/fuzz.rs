@@ -10,7 +10,8 @@
 mod common;
 
 use common::Random;
-use percoat::case::{Case, GridSection, Source, embedded, foreseen, plausibility, resources};
+use percoat::case::resources::Job;
+use percoat::case::{Case, GridSection, Room, Source, embedded, foreseen, plausibility, resources};
 use percoat::grid::Grid;
 use percoat::layered::{Interior, TransferFunction};
 use percoat::stress::MeanStress;
@@ -286,11 +287,17 @@ fn holds_together(case: &Case) {
         assert!(!text.is_empty() && !text.to_lowercase().contains("nan"), "{text}");
     }
     let points = resources::finest_points(case);
-    let needs = resources::needs(case, points, true);
-    assert!(needs.memory > 0 && resources::bytes(needs.memory).contains('B'));
-    // What fits the machine at hand is not what is tested: half of what is needed never fits.
-    if let Some(said) = resources::refusal(case, needs.memory / 2, true) {
-        assert!(said.contains("take about"), "{said}");
+    for job in [Job::Solve { pictures: true }, Job::Compare { pictures: true }] {
+        let needs = resources::needs(case, points, job);
+        assert!(needs.memory > 0 && resources::bytes(needs.memory).contains('B'));
+        assert!(0 < needs.disk && needs.disk <= needs.disk_while_running);
+        // What fits the machine at hand is not what is tested: half of what is needed never fits.
+        let [memory, disk] = [needs.memory / 2, needs.disk_while_running / 2];
+        for room in [Room { memory, disk: u64::MAX }, Room { memory: u64::MAX, disk }] {
+            if let Some(said) = resources::refusal(case, room, job) {
+                assert!(said.contains("take about"), "{said}");
+            }
+        }
     }
     let grid = match case.grid {
         GridSection::Points(points) => Grid::new(cell, points).expect("a cell has a grid"),

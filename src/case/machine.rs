@@ -1,10 +1,28 @@
-//! What the machine has left: memory that a run may still take.
+//! What the machine has left for a run: memory and disk.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Memory taken for granted where the system says nothing, bytes.
 const UNKNOWN: u64 = 64 << 30;
+
+/// What a run may still take, bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Room {
+    /// Memory, see [`available_memory`].
+    pub memory: u64,
+    /// Disk under the output folder; all there could be where the system does not say.
+    pub disk: u64,
+}
+
+impl Room {
+    /// What there is for a run that writes into `folder`, which need not exist yet.
+    pub fn on_this_machine(folder: &Path) -> Self {
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        let disk = folder.ancestors().find_map(|folder| fs4::available_space(folder).ok());
+        Self { memory: available_memory(), disk: disk.unwrap_or(u64::MAX) }
+    }
+}
 
 /// Bytes that this process may still take without being killed or swapped out: the least of what is free, what its
 /// control groups allow and what its address space may still grow. Where none of them can be read, 64 GiB.
@@ -97,6 +115,16 @@ mod tests {
         write("memory.usage_in_bytes", "3000\n");
         write("memory.stat", "inactive_file 1\ntotal_inactive_file 500\n");
         assert_eq!(left_in(folder.path()), Some(2500));
+    }
+
+    #[test]
+    fn the_disk_of_a_folder_that_is_not_there_yet_is_that_of_the_one_above() {
+        let folder = tempfile::tempdir().unwrap();
+        let (there, not_yet) = (Room::on_this_machine(folder.path()), folder.path().join("a/b/c"));
+        let below = Room::on_this_machine(&not_yet);
+        assert!(below.disk > 0 && below.disk < u64::MAX && !not_yet.exists());
+        // Others write meanwhile.
+        assert!((below.disk as f64 / there.disk as f64 - 1.0).abs() < 0.5);
     }
 
     #[test]

@@ -46,7 +46,7 @@ pub use levels::LevelSection;
 pub use limits::CARRIED;
 pub use load::LoadSection;
 pub use localized::LocalizedSection;
-pub use machine::available_memory;
+pub use machine::{Room, available_memory};
 pub use model::Case;
 pub use source::Source;
 pub use stress::{Cut, StressSection, Toward, Volume};

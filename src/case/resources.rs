@@ -4,18 +4,24 @@
 //! pictures (`tests/command_line/refusals.rs` measures two of them again). An estimate lies above the peak by some tenth:
 //! below a quarter in all that were measured.
 
-use super::{Case, GridSection, StressSection};
+use super::{Case, GridSection, Room, StressSection};
 use crate::fourier::fast_points;
 use crate::hierarchy;
+use crate::localized::Setup;
 use crate::material::HalfSpace;
 use crate::number::number;
 use crate::refinement::{MOST_POINTS, balanced_points};
+use crate::texture::Surface;
 
 const MEBIBYTE: u64 = 1 << 20;
 /// What the program takes before it solves anything.
 const PROGRAM: u64 = 9 * MEBIBYTE;
 /// Per sample: waves, shells, amplitudes and one plane of a stress field.
 const STRESS: u64 = 168;
+/// Per sample: a stress field that is asked at single points only.
+const FIELD: u64 = 64;
+/// Fields that the localized method keeps of each spot.
+const SPOT_FIELDS: u64 = 10;
 /// Per sample: what stays of a solved problem while pictures are drawn.
 const KEPT: u64 = 137;
 /// Per point of a volume: the states of all its planes, kept until they are written.
@@ -27,39 +33,89 @@ const VTK_NUMBERS: u64 = 16;
 const MAPS: u64 = 90 * MEBIBYTE;
 const CUTS: u64 = 46 * MEBIBYTE;
 const CURVES: u64 = 84 * MEBIBYTE;
+/// `compare.json` with many levels and circles.
+const COMPARISON: u64 = MEBIBYTE;
 /// A picture on disk.
 const PICTURE: u64 = MEBIBYTE / 5;
 /// Rows and columns of a vertical section.
 const SECTION: u64 = 200 * 401;
+
+/// What is done with a case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Job {
+    /// `percoat solve`, with its pictures or without.
+    Solve {
+        /// Whether they are drawn.
+        pictures: bool,
+    },
+    /// `percoat compare`, with its picture or without.
+    Compare {
+        /// Whether it is drawn.
+        pictures: bool,
+    },
+}
 
 /// What a run takes at most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Needs {
     /// Peak of the memory, bytes.
     pub memory: u64,
-    /// Files of the finished result, bytes; while a run gathers its fields it takes twice as much.
+    /// Files of the finished result, bytes.
     pub disk: u64,
+    /// The most that its files take while it runs: what every step left is gathered into archives, one after the other.
+    pub disk_while_running: u64,
 }
 
-/// What solving `case` on a grid of `points` takes, with its pictures or without.
-pub fn needs(case: &Case, points: [usize; 2], pictures: bool) -> Needs {
-    let [n1, n2] = points.map(|n| n as u64);
-    let samples = n1 * n2;
-    let steps = case.load.values().len() as u64;
-    let (stress, written) = case.stress.as_ref().map_or((0, 0), |stress| of_stress(stress, case.half_space(), samples));
-    let drawn = if pictures { of_pictures(case) } else { 0 };
+impl Needs {
+    fn fit(&self, room: Room) -> bool {
+        self.memory <= room.memory && self.disk_while_running <= room.disk
+    }
+}
+
+/// What a job on `case` takes on a grid of `points`.
+pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
+    let samples = points[0] as u64 * points[1] as u64;
     let heights = case.surface.as_ref().map_or(0, |_| 8 * samples);
-    let solving = hierarchy::memory(points, case.solver.method) as u64 + stress + heights;
-    let drawing = KEPT * samples + heights + drawn;
-    let peak = PROGRAM + solving.max(drawing);
+    let solver = PROGRAM + hierarchy::memory(points, case.solver.method) as u64 + heights;
+    let (peak, needs) = match job {
+        Job::Solve { pictures } => of_solving(case, samples, solver, heights, pictures),
+        Job::Compare { pictures } => of_comparing(case, samples, solver, pictures),
+    };
+    Needs { memory: peak + peak / 10, ..needs }
+}
+
+fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bool) -> (u64, Needs) {
+    let steps = case.load.values().len() as u64;
+    let (stress, written, volume) =
+        case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
+    let drawn = if pictures { of_pictures(case) } else { 0 };
+    let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
     let fields = steps * 24 * samples + 20 * samples;
     let pages = if pictures { PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1)) } else { 0 };
-    Needs { memory: peak + peak / 10, disk: fields + steps * written + summary + pages }
+    let disk = fields + steps * (written + volume) + summary + pages;
+    // A refinement keeps the steps of the last grid, a quarter, until those of the next are all there.
+    let coarser = if matches!(case.grid, GridSection::Accuracy(_)) { disk / 4 } else { 0 };
+    let disk_while_running = disk + fields.max(steps * written) + coarser;
+    ((solver + stress).max(drawing), Needs { memory: 0, disk, disk_while_running })
 }
 
-/// Memory of a stress field, and bytes written a step.
-fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u64, u64) {
+/// The localized method's influence coefficients: of every pair of indenters, inside circles and of the whole lattice,
+/// on the mesh and on one of half as many elements; its spots; and a field for the stresses compared.
+fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> (u64, Needs) {
+    let sites = match case.surface() {
+        Surface::Indenters { lattice, .. } => lattice.sites().concat().len() as u64,
+        Surface::Heights { .. } => 0,
+    };
+    let width = Setup::width(case.localized.elements) as u64;
+    let side = 2 * width - 1;
+    let tables = 8 * (sites * sites * side * side * 5 / 2 + SPOT_FIELDS * sites * width * width);
+    let disk = COMPARISON + if pictures { PICTURE } else { 0 };
+    (solver + FIELD * samples + tables, Needs { memory: 0, disk, disk_while_running: disk })
+}
+
+/// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.
+fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u64, u64, u64) {
     let sides = |z: &f64| half_space.sides(*z).count() as u64;
     let planes: u64 = stress.planes.iter().map(sides).sum();
     let section = if stress.section.is_some() { SECTION } else { 0 };
@@ -69,7 +125,7 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
     });
     let stored = planes * samples + section + stress.points.len() as u64;
     let memory = (STRESS * samples).max(STATE * volume + 64 * samples) + STATE * section;
-    (memory, 8 * (COMPONENTS * stored + VTK_NUMBERS * volume))
+    (memory, 8 * COMPONENTS * stored, 8 * VTK_NUMBERS * volume)
 }
 
 fn of_pictures(case: &Case) -> u64 {
@@ -81,12 +137,12 @@ fn has_cut(case: &Case) -> bool {
     case.stress.as_ref().is_some_and(|stress| stress.section.is_some())
 }
 
-/// The largest grid of `case`, shaped like `points`, on which it takes at most `memory` bytes; `None` if none does.
-pub fn largest_points(case: &Case, points: [usize; 2], memory: u64, pictures: bool) -> Option<[usize; 2]> {
+/// The largest grid of `case`, shaped like `points`, on which a job finds room; `None` if none does.
+pub fn largest_points(case: &Case, points: [usize; 2], room: Room, job: Job) -> Option<[usize; 2]> {
     let most = points[0].max(points[1]);
     let shaped =
         |n: usize| points.map(|own| fast_points((own as f64 * n as f64 / most as f64).round().max(4.0) as usize));
-    let fits = |n: usize| needs(case, shaped(n), pictures).memory <= memory;
+    let fits = |n: usize| needs(case, shaped(n), job).fit(room);
     // Needs grow with the grid.
     let (mut low, mut high) = (4, 32_768);
     if !fits(low) {
@@ -96,7 +152,7 @@ pub fn largest_points(case: &Case, points: [usize; 2], memory: u64, pictures: bo
         let middle = low + (high - low) / 2;
         if fits(middle) { low = middle } else { high = middle }
     }
-    Some(shaped(low)).filter(|&points| needs(case, points, pictures).memory <= memory)
+    Some(shaped(low)).filter(|&points| needs(case, points, job).fit(room))
 }
 
 /// The largest grid that `case` may be solved on: its own, or the last one of a refinement.
@@ -115,31 +171,40 @@ pub fn finest_points(case: &Case) -> [usize; 2] {
     }
 }
 
-/// Why `case` cannot be solved with the memory `available`, bytes, and what would fit; `None` if it can. A refinement
-/// is held to its first grid: its later ones are bounded as they come ([`largest_points`]).
-pub fn refusal(case: &Case, available: u64, pictures: bool) -> Option<String> {
+/// Whether a job on `case` finds room on a grid of `points`.
+pub fn fits(case: &Case, points: [usize; 2], room: Room, job: Job) -> bool {
+    needs(case, points, job).fit(room)
+}
+
+/// Why there is no room for a job on `case`, and what would fit; `None` if there is. A refinement is held to its first
+/// grid: its later ones are judged as they come ([`fits`]).
+pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
     let (points, key) = match case.grid {
         GridSection::Points(points) => (points, "grid.points"),
         GridSection::Accuracy(_) => {
             (balanced_points(&case.surface().cell(), crate::refinement::FIRST_POINTS), "grid.accuracy")
         }
     };
-    let Needs { memory, .. } = needs(case, points, pictures);
-    if memory <= available {
+    let needs = needs(case, points, job);
+    let what = if needs.memory > room.memory {
+        format!("about {} of memory, and {} are available", bytes(needs.memory), bytes(room.memory))
+    } else if needs.disk_while_running > room.disk {
+        let (most, end) = (bytes(needs.disk_while_running), bytes(needs.disk));
+        format!("about {most} of disk ({end} when done), and {} are free", bytes(room.disk))
+    } else {
         return None;
-    }
+    };
     let [n1, n2] = points;
-    let what =
-        format!("{key}: {n1} × {n2} samples take about {}, and {} are available", bytes(memory), bytes(available));
-    let advice = match largest_points(case, points, available, pictures) {
+    let advice = match largest_points(case, points, room, job) {
         _ if case.surface.is_some() => "resample the topography, or use a larger machine".to_owned(),
         Some([m1, m2]) if m1 * m2 < n1 * n2 => format!("the largest grid that fits is grid.points = [{m1}, {m2}]"),
+        _ if matches!(job, Job::Compare { .. }) => "no grid fits: ask for fewer localized.elements".to_owned(),
         _ if case.stress.as_ref().is_some_and(|stress| stress.volume.is_some()) => {
             "no grid fits: ask for fewer rows or points in stress.volume".to_owned()
         }
-        _ => "no grid fits".to_owned(),
+        _ => "no grid fits: ask for fewer load steps".to_owned(),
     };
-    Some(format!("{what}; {advice}"))
+    Some(format!("{key}: {n1} × {n2} samples take {what}; {advice}"))
 }
 
 /// A size for a person: "132 MiB", "1.5 GiB".
@@ -158,6 +223,8 @@ mod tests {
     use super::super::embedded;
     use super::*;
 
+    const SOLVE: Job = Job::Solve { pictures: false };
+
     fn case(overrides: &[&str]) -> Case {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         Case::read(&embedded::source("fig2").unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"))
@@ -167,7 +234,8 @@ mod tests {
     #[test]
     fn estimates_lie_above_the_measured_peaks_by_less_than_a_quarter() {
         const CUT: &str = "stress={section={from=\"level 1\",toward=\"level 2\",length=1.0,depth=1.0}}";
-        let measured: [(usize, &[&str], bool, f64); 14] = [
+        const AWRY: &str = "stress={section={from=\"level 1\",toward=[1.0,0.7312],length=1.0,depth=1.0}}";
+        let measured: [(usize, &[&str], bool, f64); 16] = [
             (128, &[], false, 11.8),
             (256, &[], false, 20.5),
             (512, &[], false, 55.4),
@@ -182,40 +250,78 @@ mod tests {
             (512, &[], true, 132.2),
             (1024, &[], true, 242.3),
             (512, &[CUT], true, 193.8),
+            (512, &[AWRY], false, 98.0),
+            (1024, &[AWRY], false, 360.8),
         ];
         for (points, overrides, pictures, peak) in measured {
-            let estimate = needs(&case(overrides), [points; 2], pictures).memory as f64 / MEBIBYTE as f64;
+            let estimate = needs(&case(overrides), [points; 2], Job::Solve { pictures }).memory as f64 / MEBIBYTE as f64;
             println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
+            assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
+        }
+        // Its picture is drawn when the fields have gone.
+        let compared: [(usize, &[&str], f64); 4] = [
+            (128, &["localized.elements=12"], 13.7),
+            (512, &["localized.elements=12"], 70.2),
+            (1024, &["localized.elements=12"], 248.1),
+            (64, &["localized.elements=120", "layers=[]"], 31.0),
+        ];
+        for (points, overrides, peak) in compared {
+            let job = Job::Compare { pictures: true };
+            let estimate = needs(&case(overrides), [points; 2], job).memory as f64 / MEBIBYTE as f64;
+            println!("compare {points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
             assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
         }
     }
 
     #[test]
     fn disk_is_that_of_the_files() {
-        let of = |overrides: &[&str]| needs(&case(overrides), [512; 2], false).disk as f64;
+        let of = |overrides: &[&str]| needs(&case(overrides), [512; 2], SOLVE).disk as f64;
         assert!((of(&[]) / 11_546_733.0 - 1.0).abs() < 0.01);
         assert!((of(&["stress={planes=[0,0.5]}"]) / 87_057_440.0 - 1.0).abs() < 0.01);
-        let volume = needs(&case(&["stress={volume={depth=1.0,rows=100,points=200}}"]), [256; 2], false);
+        let volume = needs(&case(&["stress={volume={depth=1.0,rows=100,points=200}}"]), [256; 2], SOLVE);
         assert!((volume.disk as f64 / 530_383_216.0 - 1.0).abs() < 0.02);
     }
 
     #[test]
     fn the_largest_grid_fits_and_the_next_does_not() {
-        let (case, memory) = (case(&[]), 500 * MEBIBYTE);
-        let points = largest_points(&case, [1024, 512], memory, false).unwrap();
-        assert_eq!(points[0], 2 * points[1]);
-        assert!(needs(&case, points, false).memory <= memory);
-        let larger = points.map(|n| fast_points(n + n / 20));
-        assert!(needs(&case, larger, false).memory > memory, "{points:?} is not the largest");
-        assert_eq!(largest_points(&case, [64, 64], MEBIBYTE, false), None);
+        let (case, room) = (case(&[]), Room { memory: 500 * MEBIBYTE, disk: u64::MAX });
+        for room in [room, Room { memory: u64::MAX, disk: 500 * MEBIBYTE }] {
+            let points = largest_points(&case, [1024, 512], room, SOLVE).unwrap();
+            assert_eq!(points[0], 2 * points[1]);
+            assert!(fits(&case, points, room, SOLVE));
+            let larger = points.map(|n| fast_points(n + n / 20));
+            assert!(!fits(&case, larger, room, SOLVE), "{points:?} is not the largest");
+        }
+        assert_eq!(largest_points(&case, [64, 64], Room { memory: MEBIBYTE, ..room }, SOLVE), None);
     }
 
     #[test]
     fn a_refusal_names_what_is_needed_and_what_fits() {
-        let case = case(&["grid.points=16384"]);
-        let said = refusal(&case, 1000 * MEBIBYTE, true).unwrap();
+        let wide = case(&["grid.points=16384"]);
+        let room = Room { memory: 1000 * MEBIBYTE, disk: u64::MAX };
+        let drawn = Job::Solve { pictures: true };
+        let said = refusal(&wide, room, drawn).unwrap();
         assert!(said.contains("16384 × 16384") && said.contains("1000 MiB are available"), "{said}");
         assert!(said.contains("the largest grid that fits is grid.points = ["), "{said}");
-        assert_eq!(refusal(&case, 1 << 50, true), None);
+        let said = refusal(&wide, Room { memory: u64::MAX, disk: 2000 * MEBIBYTE }, drawn).unwrap();
+        assert!(said.contains("of disk") && said.contains("2000 MiB are free"), "{said}");
+        assert_eq!(refusal(&wide, Room { memory: 1 << 50, disk: 1 << 50 }, drawn), None);
+
+        let many = case(&["grid.points=4", "load.mean_pressure={from=0.01,to=0.06,steps=1000}"]);
+        let said = refusal(&many, Room { disk: MEBIBYTE, ..room }, SOLVE).unwrap();
+        assert!(said.contains("fewer load steps"), "{said}");
+    }
+
+    /// Three sites, 961 elements along a mesh: nine pairs of 1921² coefficients, two and a half times, and fields.
+    #[test]
+    fn a_comparison_takes_its_influence_coefficients_too() {
+        let case = case(&["localized.elements=720", "grid.points=64"]);
+        let room = Room { memory: 600 * MEBIBYTE, disk: u64::MAX };
+        assert_eq!(refusal(&case, room, SOLVE), None);
+        let said = refusal(&case, room, Job::Compare { pictures: false }).unwrap();
+        let tables = 8.0 * (9.0 * 1921.0 * 1921.0 * 2.5 + 30.0 * 961.0 * 961.0);
+        let stated = needs(&case, [64, 64], Job::Compare { pictures: false }).memory as f64;
+        assert!((tables..1.25 * tables).contains(&stated), "{stated} for {tables}");
+        assert!(said.contains("fewer localized.elements"), "{said}");
     }
 }

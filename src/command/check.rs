@@ -1,9 +1,9 @@
 //! `percoat check`: what a case means, without solving it.
 
-use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
+use super::solve::{refuse_beyond_full_contact, room_or_refusal};
 use super::{Failure, Outcome, read_changed};
-use percoat::case::resources::{Needs, bytes, finest_points, needs};
-use percoat::case::{Case, GridSection, available_memory, foreseen, plausibility};
+use percoat::case::resources::{Job, Needs, bytes, finest_points, needs};
+use percoat::case::{Case, GridSection, Room, foreseen, plausibility};
 use percoat::grid::Grid;
 use percoat::hierarchy::Hierarchy;
 use percoat::number::number;
@@ -15,7 +15,8 @@ use std::path::Path;
 
 pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
     let (case, name) = read_changed(Some(path), set)?;
-    refuse_beyond_memory(&case, true)?;
+    let job = Job::Solve { pictures: true };
+    let room = room_or_refusal(&case, &Path::new("out").join(&name), job)?;
     refuse_beyond_full_contact(&case, &case.load.controls())?;
     let mut out = std::io::stdout().lock();
     let title = if case.title.is_empty() { &name } else { &case.title };
@@ -27,7 +28,7 @@ pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
         }
         GridSection::Accuracy(accuracy) => writeln!(out, "grid: refined until results change by less than {accuracy}")?,
     }
-    write_needs(&mut out, &case)?;
+    write_needs(&mut out, &case, room)?;
     let (name, values) = (case.load.quantity(), case.load.values());
     let [first, last] = [values[0], values[values.len() - 1]].map(number);
     match values.len() {
@@ -42,18 +43,19 @@ pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
 }
 
 /// Memory and disk that solving the case takes, with pictures and without.
-fn write_needs(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
+fn write_needs(out: &mut impl Write, case: &Case, room: Room) -> Result<(), Failure> {
     let points = finest_points(case);
-    let Needs { memory, disk } = needs(case, points, true);
+    let Needs { memory, disk, disk_while_running } = needs(case, points, Job::Solve { pictures: true });
+    let free = if room.disk == u64::MAX { String::new() } else { format!(", {} free", bytes(room.disk)) };
     let most = if matches!(case.grid, GridSection::Accuracy(_)) { "at most " } else { "" };
     writeln!(
         out,
         "memory: about {most}{} ({} without pictures), {} available",
         bytes(memory),
-        bytes(needs(case, points, false).memory),
-        bytes(available_memory())
+        bytes(needs(case, points, Job::Solve { pictures: false }).memory),
+        bytes(room.memory)
     )?;
-    writeln!(out, "disk: about {most}{}, twice as much while it runs", bytes(disk))?;
+    writeln!(out, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;
     Ok(())
 }
 

@@ -2,10 +2,11 @@
 
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
-use super::solve::{refuse_beyond_full_contact, refuse_beyond_memory};
+use super::solve::{refuse_beyond_full_contact, room_or_refusal};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
+use percoat::case::resources::{Job, fits};
 use percoat::comparison::{Comparison, Task};
 use percoat::localized::{CircleRadius, Setup, Stop};
 use percoat::number::number;
@@ -31,7 +32,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let started = Instant::now();
     let controls = case.load.controls();
     let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
-    refuse_beyond_memory(&case, pictures.wanted())?;
+    let job = Job::Compare { pictures: pictures.wanted() };
+    let room = room_or_refusal(&case, &folder, job)?;
     refuse_beyond_full_contact(&case, &[control])?;
     interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
@@ -57,7 +59,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let points = match case.grid {
         GridSection::Points(points) => points,
         GridSection::Accuracy(accuracy) => {
-            sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy)
+            let fits = |points| fits(&case, points, room, job);
+            sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy, fits)
                 .map_err(|error| Failure::Refused(error.to_string()))?
         }
     };

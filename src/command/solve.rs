@@ -6,7 +6,8 @@ use super::plan::plan;
 use super::stress::{largest, stress_change, wanted};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
-use percoat::case::{Case, GridSection, LoadSection, available_memory, plausibility, resources};
+use percoat::case::resources::{Job, fits, refusal};
+use percoat::case::{Case, GridSection, LoadSection, Room, plausibility};
 use percoat::grid::Grid;
 use percoat::hierarchy::{Hierarchy, Solution};
 use percoat::number::number;
@@ -14,7 +15,7 @@ use percoat::observables::{FEW_SAMPLES, Observables, errors, observe};
 use percoat::output::summary::{Step, Summary, curve};
 use percoat::output::{Fields, RunFolder, Section, Seen, Stresses, table, write_text};
 use percoat::picture::{Cut, Snapshot};
-use percoat::refinement::{self, FIRST_POINTS, Refinement, balanced_points, change};
+use percoat::refinement::{self, End, FIRST_POINTS, Refinement, balanced_points, change};
 use percoat::solver::{Control, StopReason};
 use percoat::stress::Field;
 use std::io::Write;
@@ -29,14 +30,15 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
     let controls = case.load.controls();
-    refuse_beyond_memory(&case, pictures.wanted())?;
+    let job = Job::Solve { pictures: pictures.wanted() };
+    let room = room_or_refusal(&case, &folder, job)?;
     refuse_beyond_full_contact(&case, &controls)?;
     interruption::watch();
     let claim = RunFolder::claim(&folder, &plan(&case, controls.len(), pictures))?;
     if let (Some(aside), false) = (claim.set_aside(), common.quiet) {
         eprintln!("note: an earlier run was interrupted; the steps it had finished are now in {}", aside.display());
     }
-    let run = Run { case: &case, controls, staging: claim.staging(), claim, pictures, common };
+    let run = Run { case: &case, controls, staging: claim.staging(), claim, room, job, pictures, common };
     let result = match case.grid {
         GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
         GridSection::Accuracy(accuracy) => run.refined(accuracy)?,
@@ -51,7 +53,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
             eprintln!("warning: {warning}");
         }
     }
-    let converged = result.steps.iter().all(|step| step.converged) && result.is_accurate(&case);
+    let converged = result.steps.iter().all(|step| step.converged) && result.is_accurate();
     Ok(if converged { Outcome::Done } else { Outcome::NotConverged })
 }
 
@@ -62,6 +64,9 @@ struct Run<'a> {
     claim: RunFolder,
     /// Where the result is gathered.
     staging: PathBuf,
+    /// What there is for all of it.
+    room: Room,
+    job: Job,
     pictures: &'a PictureOptions,
     common: &'a Common,
 }
@@ -81,14 +86,13 @@ struct Solved {
     observables: Vec<Observables>,
     /// Change against the next coarser grid, where an accuracy was asked for.
     accuracy: Option<f64>,
+    /// Why the refinement ended, where there was one.
+    end: Option<End>,
 }
 
 impl Solved {
-    fn is_accurate(&self, case: &Case) -> bool {
-        match case.grid {
-            GridSection::Accuracy(asked) => self.accuracy.is_some_and(|reached| reached < asked),
-            GridSection::Points(_) => true,
-        }
+    fn is_accurate(&self) -> bool {
+        self.end.is_none_or(|end| end == End::Reached)
     }
 }
 
@@ -133,7 +137,8 @@ impl Run<'_> {
             if let (Some(change), true) = (change, self.common.verbose) {
                 eprintln!("{points:?} points: change {change:.2e}");
             }
-            if !refinement.refine(change) {
+            gridded.solved.end = refinement.refine(change, |finer| fits(self.case, finer, self.room, self.job));
+            if gridded.solved.end.is_some() {
                 return self.finished(gridded);
             }
             before = Some(gridded.solved);
@@ -154,7 +159,7 @@ impl Run<'_> {
         let mut stresses = None;
         let mut last = None;
         let progress = self.progress();
-        let mut solved = Solved { steps: Vec::new(), observables: Vec::new(), accuracy: None };
+        let mut solved = Solved { steps: Vec::new(), observables: Vec::new(), accuracy: None, end: None };
         for &control in &self.controls {
             // Its memory goes before the next one takes as much.
             drop(last.take());
@@ -279,11 +284,12 @@ impl Run<'_> {
                 list(&rough)
             ));
         }
-        if !solved.is_accurate(self.case) {
-            warnings.push(format!(
-                "grid.accuracy is not reached: the last change was {:.1e} at the finest grid tried",
-                solved.accuracy.unwrap_or(f64::INFINITY)
-            ));
+        if let Some(end) = solved.end.filter(|_| !solved.is_accurate()) {
+            let reached = match solved.accuracy {
+                Some(change) => format!("the last change was {change:.1e}"),
+                None => "there is one grid only".to_owned(),
+            };
+            warnings.push(format!("grid.accuracy is not reached: {reached}, and {end}"));
         }
         let rough = |step: &&Step| step.stress.as_ref().is_some_and(|stress| stress.surface_error > WORTH_SAYING);
         let worst = solved.steps.iter().filter(rough).filter_map(|step| step.stress.as_ref());
@@ -330,9 +336,10 @@ fn print(case: &Case, solved: &Solved, folder: &Path, started: Instant) -> Resul
     Ok(())
 }
 
-/// A grid that memory does not hold is refused before any of it is taken.
-pub fn refuse_beyond_memory(case: &Case, pictures: bool) -> Result<(), Failure> {
-    resources::refusal(case, available_memory(), pictures).map_or(Ok(()), |why| Err(Failure::Refused(why)))
+/// The room there is for a job that writes into `folder`; what does not find enough is refused before any is taken.
+pub fn room_or_refusal(case: &Case, folder: &Path, job: Job) -> Result<Room, Failure> {
+    let room = Room::on_this_machine(folder);
+    refusal(case, room, job).map_or(Ok(room), |why| Err(Failure::Refused(why)))
 }
 
 /// No load reaches a penetration at which contact is complete: refused before anything is written.

@@ -35,6 +35,13 @@ pub struct Setup {
     pub mutual_effect: bool,
 }
 
+impl Setup {
+    /// Elements along the side of a mesh with so many across the largest contact.
+    pub fn width(elements: usize) -> usize {
+        (elements as f64 / FILLING).ceil() as usize / 2 * 2 + 1
+    }
+}
+
 /// One indenter of the cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Site {
@@ -168,7 +175,7 @@ impl Localized {
             // Loads that did not come to rest tell nothing of the contact's size.
             let radius = if solution.stop == Stop::Stalled { FILLING * mesh.half() } else { radius };
             let fine = Mesh {
-                width: (setup.elements as f64 / FILLING).ceil() as usize / 2 * 2 + 1,
+                width: Setup::width(setup.elements),
                 size: 2.0 * radius.max(0.5 * mesh.size) / setup.elements as f64,
             };
             return (fine, solution);

@@ -46,7 +46,7 @@ pub struct Seen {
     pub section: Section,
     /// For each depth the states at the points of the line.
     pub states: Vec<Vec<State>>,
-    /// Where on the surface the stress along the line is largest, and the stress, see [`Field::highest_along`].
+    /// Where on the surface the stress along the line is largest, and the stress, see [`crate::stress::Trace::highest`].
     pub highest: Option<[f64; 2]>,
 }
 
@@ -58,7 +58,7 @@ pub struct Stresses {
     wanted: Wanted,
     /// States of the last step on the section.
     section: Vec<Vec<State>>,
-    /// Where on the surface the stress along the section is largest in the last step, see [`Field::highest_along`].
+    /// Where on the surface the stress along the section is largest in the last step, see [`crate::stress::Trace::highest`].
     highest: Option<[f64; 2]>,
 }
 
@@ -88,8 +88,9 @@ impl Stresses {
             }
         }
         if let Some(Section { line, depths }) = &self.wanted.section {
-            self.section = field.section(line, depths);
-            self.highest = self.section.first().and_then(|surface| field.highest_along(line, surface));
+            let trace = field.trace(line);
+            self.section = trace.section(depths);
+            self.highest = self.section.first().and_then(|surface| trace.highest(surface));
             for (c, name) in COMPONENTS.iter().enumerate() {
                 let values = self.section.iter().flatten().map(|state| component(state, c));
                 self.arrays.add(&format!("section_{name}"), &[depths.len(), line.points], values)?;

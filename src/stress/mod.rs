@@ -26,6 +26,6 @@ mod tensor;
 
 pub use field::{Depth, Field, Plane};
 pub use mean::MeanStress;
-pub use section::Line;
+pub use section::{Line, Trace};
 pub use surface::Crest;
 pub use tensor::State;

@@ -2,8 +2,8 @@
 //!
 //! On a line **x** = **x**₀ + s**d** a wave c e^{i**q**·**x**} is c e^{i**q**·**x**₀} e^{iκs} with κ = **q**·**d**.
 //! Waves with the same κ are added up first, depth by depth: along a lattice direction N² waves collapse onto a few N
-//! wavenumbers κ. Along a direction that is incommensurate with the lattice nothing collapses and the same sum takes
-//! longer.
+//! wavenumbers κ. Along a direction that is incommensurate with the lattice nothing collapses: each wave is a sum of
+//! its own, and a section takes longer.
 //!
 //! On the surface the stresses are those of [`super::surface`]: a line meets edges between the samples, where the series
 //! itself overshoots. Just below it, where the series still does, stresses are interpolated in depth.
@@ -50,16 +50,55 @@ impl Line {
     }
 }
 
-/// The waves of a field as seen along a line.
-struct Collapsed {
+/// Where fewer than this many waves share a wavenumber on average, none are added up: sums would take more memory than
+/// the waves.
+const FEW_SHARE: usize = 4;
+
+/// A field along a line: its waves by their wavenumbers there. Sections and the highest place are read off it.
+#[derive(Debug)]
+pub struct Trace<'a> {
+    field: &'a Field,
+    line: Line,
     /// Wavenumbers κ along the line, ascending.
     wavenumbers: Vec<f64>,
     /// Per wave: index of its κ, and its coefficient at the origin of the line.
     waves: Vec<(u32, Complex64)>,
+    /// The surface, where contact has edges.
+    skin: Option<Skin<'a>>,
 }
 
-impl Collapsed {
-    fn new(field: &Field, line: &Line) -> Self {
+impl Field {
+    /// The field along a line, for one section or several.
+    pub fn trace(&self, line: &Line) -> Trace<'_> {
+        Trace::new(self, *line)
+    }
+
+    /// States on a vertical section: for each depth those at the points of the line.
+    pub fn section(&self, line: &Line, depths: &[Depth]) -> Vec<Vec<State>> {
+        self.trace(line).section(depths)
+    }
+
+    /// Rows of a section down to `depth`, `rows` equal intervals of it; both sides of each interface are among them.
+    pub fn section_depths(&self, depth: f64, rows: usize) -> Vec<Depth> {
+        let mut depths: Vec<f64> = (0..=rows).map(|row| row as f64 * depth / rows as f64).collect();
+        let faces = (2..=self.materials()).map(|side| self.faces(side).0);
+        depths.extend(faces.filter(|&face| face <= depth));
+        depths.sort_by(f64::total_cmp);
+        // A row that is an interface but for rounding is that interface.
+        depths.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * depth);
+        depths.into_iter().flat_map(|z| self.depths(z)).collect()
+    }
+
+    /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
+    /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
+    fn shallow(&self) -> f64 {
+        let depth = if self.spots.have_edges() { 0.5 * OPEN * OPEN / self.least_aliased() } else { 0.0 };
+        depth.min(self.faces(1).1)
+    }
+}
+
+impl<'a> Trace<'a> {
+    fn new(field: &'a Field, line: Line) -> Self {
         let [dx, dy] = line.unit();
         let all = &field.spectrum.waves;
         let along: Vec<f64> = all.iter().map(|wave| wave.q[0] * dx + wave.q[1] * dy).collect();
@@ -78,31 +117,17 @@ impl Collapsed {
             let coefficient = wave.coefficient * Complex64::cis(phase);
             waves[number as usize] = (wavenumbers.len() as u32 - 1, coefficient);
         }
-        Self { wavenumbers, waves }
-    }
-}
-
-impl Field {
-    /// Rows of a section down to `depth`, `rows` equal intervals of it; both sides of each interface are among them.
-    pub fn section_depths(&self, depth: f64, rows: usize) -> Vec<Depth> {
-        let mut depths: Vec<f64> = (0..=rows).map(|row| row as f64 * depth / rows as f64).collect();
-        let faces = (2..=self.materials()).map(|side| self.faces(side).0);
-        depths.extend(faces.filter(|&face| face <= depth));
-        depths.sort_by(f64::total_cmp);
-        // A row that is an interface but for rounding is that interface.
-        depths.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * depth);
-        depths.into_iter().flat_map(|z| self.depths(z)).collect()
+        let skin = field.spots.have_edges().then(|| Skin::new(field, 1.0));
+        Self { field, line, wavenumbers, waves, skin }
     }
 
-    /// States on a vertical section: for each depth those at the points of the line.
-    pub fn section(&self, line: &Line, depths: &[Depth]) -> Vec<Vec<State>> {
-        let collapsed = Collapsed::new(self, line);
-        let shallow = self.shallow();
+    /// States on the vertical section below the line: for each depth those at its points.
+    pub fn section(&self, depths: &[Depth]) -> Vec<Vec<State>> {
+        let shallow = self.field.shallow();
         let between = |depth: &Depth| depth.side == 1 && depth.z > 0.0 && depth.z < shallow;
-        let ends = depths.iter().any(between).then(|| [0.0, shallow].map(|z| Depth { z, side: 1 }));
-        let ends = ends.map(|ends| ends.map(|depth| self.line_at(line, depth, &collapsed)));
+        let ends = depths.iter().any(between).then(|| [0.0, shallow].map(|z| self.row(&self.line, Depth { z, side: 1 })));
         let row = |depth: &Depth| {
-            let own = self.line_at(line, *depth, &collapsed);
+            let own = self.row(&self.line, *depth);
             match &ends {
                 Some([surface, below]) if between(depth) => {
                     let part = depth.z / shallow;
@@ -115,41 +140,20 @@ impl Field {
         depths.par_iter().map(row).collect()
     }
 
-    fn line_at(&self, line: &Line, depth: Depth, collapsed: &Collapsed) -> Vec<State> {
-        let amplitudes = self.amplitudes(depth, REACH);
-        let waves = self.waves(amplitudes.len());
-        let term = |wave: &Wave, value: Complex64| components(wave, &amplitudes[wave.shell as usize], value);
-        let states = along(line, collapsed, waves, self.mean(depth).components(), term);
-        let states = states.into_iter().map(State::from_components);
-        if depth.z > 0.0 || !self.spots.have_edges() {
-            return states.collect();
-        }
-        let skin = Skin::new(self, 1.0);
-        let smooth = along(line, collapsed, waves, skin.mean(), |wave, value| skin.terms(wave, value));
-        let on_surface = smooth.iter().zip(states);
-        on_surface.map(|(smooth, state)| State { displacement: state.displacement, ..skin.state(smooth) }).collect()
-    }
-
-    /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
-    /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
-    fn shallow(&self) -> f64 {
-        let depth = if self.spots.have_edges() { 0.5 * OPEN * OPEN / self.least_aliased() } else { 0.0 };
-        depth.min(self.faces(1).1)
-    }
-
-    /// Where on the surface the normal stress along a line is largest, between its points: s and the stress. `surface`
-    /// holds the states at the points.
-    pub fn highest_along(&self, line: &Line, surface: &[State]) -> Option<[f64; 2]> {
+    /// Where on the surface the normal stress along the line is largest, between its points: s and the stress.
+    /// `surface` holds the states at the points.
+    pub fn highest(&self, surface: &[State]) -> Option<[f64; 2]> {
+        let line = self.line;
         let stress = |state: &State| state.along(line.direction);
         let best = (0..surface.len()).max_by(|&a, &b| stress(&surface[a]).total_cmp(&stress(&surface[b])))?;
         let mut highest = [line.distances()[best], stress(&surface[best])];
         let mut half = line.step();
         // The stress drops at once at an edge: a search without slopes, to 1/512 of the distance of two points.
-        for _ in 0..if self.spots.have_edges() { 3 } else { 0 } {
+        for _ in 0..if self.skin.is_some() { 3 } else { 0 } {
             let [s, _] = highest;
             let span = [(s - half).max(line.span[0]), (s + half).min(line.span[1])];
-            let finer = Line { span, points: 17, ..*line };
-            let [states] = <[Vec<State>; 1]>::try_from(self.section(&finer, &[Depth { z: 0.0, side: 1 }])).ok()?;
+            let finer = Line { span, points: 17, ..line };
+            let states = self.row(&finer, Depth { z: 0.0, side: 1 });
             for (s, state) in finer.distances().into_iter().zip(&states) {
                 if stress(state) > highest[1] {
                     highest = [s, stress(state)];
@@ -159,32 +163,53 @@ impl Field {
         }
         Some(highest)
     }
-}
 
-/// Sums over waves at the points of a line; `term` gives the components of a wave whose pressure is the real part of the
-/// value.
-fn along<const N: usize>(
-    line: &Line,
-    collapsed: &Collapsed,
-    waves: &[Wave],
-    mean: [f64; N],
-    term: impl Fn(&Wave, Complex64) -> [Complex64; N],
-) -> Vec<[f64; N]> {
-    let mut sums = vec![[Complex64::default(); N]; collapsed.wavenumbers.len()];
-    for (wave, &(index, coefficient)) in waves.iter().zip(&collapsed.waves) {
-        sums[index as usize].iter_mut().zip(term(wave, coefficient)).for_each(|(sum, term)| *sum += term);
+    /// States at a depth, at the points of `line`: of the trace's own or a part of it.
+    fn row(&self, line: &Line, depth: Depth) -> Vec<State> {
+        let field = self.field;
+        let amplitudes = field.amplitudes(depth, REACH);
+        let waves = field.waves(amplitudes.len());
+        let term = |wave: &Wave, value: Complex64| components(wave, &amplitudes[wave.shell as usize], value);
+        let states = self.sums(line, waves, field.mean(depth).components(), term);
+        let states = states.into_iter().map(State::from_components);
+        let Some(skin) = self.skin.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
+        let smooth = self.sums(line, waves, skin.mean(), |wave, value| skin.terms(wave, value));
+        let on_surface = smooth.iter().zip(states);
+        on_surface.map(|(smooth, state)| State { displacement: state.displacement, ..skin.state(smooth) }).collect()
     }
-    let mut values = vec![mean; line.points];
-    for (&kappa, sum) in collapsed.wavenumbers.iter().zip(&sums) {
-        if sum.iter().all(|value| value.norm_sqr() == 0.0) {
-            continue;
+
+    /// Sums over `waves` at the points of `line`; `term` gives the components of a wave whose pressure is the real part
+    /// of the value.
+    fn sums<const N: usize>(
+        &self,
+        line: &Line,
+        waves: &[Wave],
+        mean: [f64; N],
+        term: impl Fn(&Wave, Complex64) -> [Complex64; N],
+    ) -> Vec<[f64; N]> {
+        let mut values = vec![mean; line.points];
+        let step = line.step();
+        let mut add = |kappa: f64, sum: &[Complex64; N]| {
+            if sum.iter().all(|value| value.norm_sqr() == 0.0) {
+                return;
+            }
+            let mut phase = Complex64::cis(kappa * line.span[0]);
+            let turn = Complex64::cis(kappa * step);
+            for value in &mut values {
+                value.iter_mut().zip(sum).for_each(|(total, wave)| *total += wave.re * phase.re - wave.im * phase.im);
+                phase *= turn;
+            }
+        };
+        let terms = waves.iter().zip(&self.waves).map(|(wave, &(index, value))| (index as usize, term(wave, value)));
+        if FEW_SHARE * self.wavenumbers.len() > self.waves.len() {
+            terms.for_each(|(index, term)| add(self.wavenumbers[index], &term));
+        } else {
+            let mut sums = vec![[Complex64::default(); N]; self.wavenumbers.len()];
+            for (index, term) in terms {
+                sums[index].iter_mut().zip(term).for_each(|(sum, term)| *sum += term);
+            }
+            self.wavenumbers.iter().zip(&sums).for_each(|(&kappa, sum)| add(kappa, sum));
         }
-        let mut phase = Complex64::cis(kappa * line.span[0]);
-        let turn = Complex64::cis(kappa * line.step());
-        for value in &mut values {
-            value.iter_mut().zip(sum).for_each(|(total, wave)| *total += wave.re * phase.re - wave.im * phase.im);
-            phase *= turn;
-        }
+        values
     }
-    values
 }

@@ -139,6 +139,24 @@ fn a_grid_that_memory_does_not_hold_is_refused_with_the_largest_that_fits() {
     assert!(desk.names().is_empty());
 }
 
+/// Four hundred terabytes of stresses: no disk of ours has them.
+#[test]
+fn a_result_that_the_disk_does_not_hold_is_refused_before_anything_is_written() {
+    let desk = Desk::new();
+    let planes: Vec<String> = (0..400).map(|plane| format!("{}", f64::from(plane) / 400.0)).collect();
+    let case = [
+        "--set=grid.points=1024".to_owned(),
+        "--set=load.mean_pressure={from=0.001,to=0.06,steps=10000}".to_owned(),
+        format!("--set=stress={{planes=[{}]}}", planes.join(",")),
+    ];
+    let case: Vec<&str> = case.iter().map(String::as_str).collect();
+    for command in ["solve", "check"] {
+        let refused = desk.percoat(&[&[command, "fig2"], &case[..]].concat());
+        refused.complains(2, &["1024 × 1024 samples take about", "of disk", "are free", "the largest grid that fits"]);
+    }
+    assert!(desk.names().is_empty());
+}
+
 /// The estimate holds for this build and this machine too: −0/+25 % of the peak that the system saw.
 #[cfg(target_os = "linux")]
 #[test]
