@@ -7,6 +7,7 @@ mod common;
 use common::solve;
 use percoat::case::{Case, embedded};
 use percoat::grid::Grid;
+use percoat::lattice::{Cell, Lattice};
 use percoat::localized::{CircleRadius, Localized, Setup, Stop};
 use percoat::observables::Observables;
 use percoat::solver::Control;
@@ -19,7 +20,11 @@ fn case() -> Case {
 }
 
 fn read(surface: &Surface, case: &Case, points: usize) -> Observables {
-    let (_, solution, observables) = solve(surface, case.half_space(), [points; 2], LOAD);
+    read_at(LOAD, surface, case, [points; 2])
+}
+
+fn read_at(load: Control, surface: &Surface, case: &Case, points: [usize; 2]) -> Observables {
+    let (_, solution, observables) = solve(surface, case.half_space(), points, load);
     assert!(solution.report.stop.solved(), "{}", solution.report);
     observables
 }
@@ -47,11 +52,11 @@ fn both_radii_of_a_ring_and_its_area_are_read() {
     }
 }
 
-/// The surface's own heights on `points` samples along each side.
-fn sampled(surface: &Surface, points: usize) -> Surface {
+/// The surface's own heights on `points` samples.
+fn sampled(surface: &Surface, points: [usize; 2]) -> Surface {
     let Surface::Indenters { lattice, levels } = surface else { panic!("indenters") };
     let cell = lattice.cell();
-    let grid = Grid::new(cell, [points; 2]).unwrap();
+    let grid = Grid::new(cell, points).unwrap();
     let reduced = cell.reduced();
     let height = |index: usize| {
         let [s, t] = grid.fractions(index);
@@ -62,19 +67,41 @@ fn sampled(surface: &Surface, points: usize) -> Surface {
         let sites = lattice.sites().iter().enumerate();
         sites.flat_map(|(level, sites)| sites.iter().map(move |site| of(level, site))).fold(f64::NEG_INFINITY, f64::max)
     };
-    Surface::Heights { cell, points: [points; 2], heights: (0..grid.len()).map(height).collect() }
+    Surface::Heights { cell, points, heights: (0..grid.len()).map(height).collect() }
 }
 
 /// Area to what both say.
 #[test]
 fn a_ring_of_a_topography_has_the_area_of_that_of_the_indenter() {
     let case = case();
-    let (indenter, topography) = (read(case.surface(), &case, 192), read(&sampled(case.surface(), 192), &case, 192));
+    let (indenter, topography) =
+        (read(case.surface(), &case, 192), read(&sampled(case.surface(), [192; 2]), &case, 192));
     assert!(indenter.levels[0].ring && topography.levels.is_empty());
     let errors = indenter.contact_fraction_error + topography.contact_fraction_error;
     let difference = (indenter.contact_fraction - topography.contact_fraction).abs();
     println!("{indenter}\n{} ± {errors}", topography.contact_fraction);
     assert!(difference < errors && difference < 2e-3 * indenter.contact_fraction);
+}
+
+/// Both stand far enough apart not to break the ring open: its hole is its own, and the disc has none.
+#[test]
+fn a_topography_with_a_disc_beside_a_ring_has_the_area_of_both() {
+    let case = case();
+    let Surface::Indenters { levels, .. } = case.surface() else { panic!("indenters") };
+    let cell = Cell::new([1.0, 0.0], [0.0, 3.0]).unwrap();
+    let lattice = Lattice::new(cell, vec![vec![[0.5, 0.25]], vec![[0.5, 0.75]]]).unwrap();
+    let levels = vec![levels[0], common::paraboloid(0.5, -0.005)];
+    let beside = Surface::Indenters { lattice, levels };
+    let load = Control::MeanPressure(0.005);
+    let indenters = read_at(load, &beside, &case, [160, 480]);
+    let topography = read_at(load, &sampled(&beside, [160, 480]), &case, [160, 480]);
+    println!("{indenters}\n{topography}");
+    let [ring, disc] = &indenters.levels[..] else { panic!("two levels") };
+    assert!(ring.ring && !disc.ring && disc.load > 0.0, "{indenters}");
+    assert_eq!((indenters.contact_spots, topography.contact_spots), (2, 2));
+    let errors = indenters.contact_fraction_error + topography.contact_fraction_error;
+    let difference = (indenters.contact_fraction - topography.contact_fraction).abs();
+    assert!(difference < errors && difference < 2e-3 * indenters.contact_fraction, "{difference} {errors}");
 }
 
 /// Two methods, two kernels, two readings: each edge to a tenth of an element.

@@ -254,7 +254,8 @@ mod tests {
             (1024, &[AWRY], false, 360.8),
         ];
         for (points, overrides, pictures, peak) in measured {
-            let estimate = needs(&case(overrides), [points; 2], Job::Solve { pictures }).memory as f64 / MEBIBYTE as f64;
+            let estimate =
+                needs(&case(overrides), [points; 2], Job::Solve { pictures }).memory as f64 / MEBIBYTE as f64;
             println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
             assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
         }

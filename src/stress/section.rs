@@ -125,7 +125,8 @@ impl<'a> Trace<'a> {
     pub fn section(&self, depths: &[Depth]) -> Vec<Vec<State>> {
         let shallow = self.field.shallow();
         let between = |depth: &Depth| depth.side == 1 && depth.z > 0.0 && depth.z < shallow;
-        let ends = depths.iter().any(between).then(|| [0.0, shallow].map(|z| self.row(&self.line, Depth { z, side: 1 })));
+        let ends =
+            depths.iter().any(between).then(|| [0.0, shallow].map(|z| self.row(&self.line, Depth { z, side: 1 })));
         let row = |depth: &Depth| {
             let own = self.row(&self.line, *depth);
             match &ends {

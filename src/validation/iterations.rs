@@ -1,12 +1,16 @@
 //! Iterations and convolutions of the default method and of the baseline against the number of points, on the cases of
-//! the paper's figures.
+//! the paper's figures and on stiff plates.
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use crate::case::{Case, embedded};
-use crate::hierarchy::Hierarchy;
+use crate::hierarchy::{Hierarchy, Solution};
+use crate::indenter::{Level, Shape};
+use crate::lattice::Lattice;
+use crate::material::{HalfSpace, Interface, Layer, Material};
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::{Control, Method, Settings};
+use crate::texture::Surface;
 
 pub const STUDY: Study = Study { name: "iterations", title: "Iterations against the number of points", run };
 
@@ -32,13 +36,16 @@ fn run() -> Result<Outcome, StudyError> {
         let work = |data: &Data| data.column(&format!("{name} convolutions"))[2];
         saving.push((work(&baseline) / work(&preconditioned), 2.0));
     }
+    let plates = plates()?;
+    let ratios: Vec<(f64, f64)> = plates.rows.iter().map(|row| (row[4] / row[3], 1.0)).collect();
     let checks = vec![
         Check::worst("preconditioned: iterations, 5 cases, N = 128 to 1024", most, Tolerance::AtMost),
         Check::worst("preconditioned: iterations over those at N = 256, finer grids", growth, Tolerance::AtMost),
         Check::worst("convolutions of Polonsky–Keer over preconditioned, N = 512", saving, Tolerance::AtLeast),
+        Check::worst("the same on plates, E₁/E₂ = 1000, N = 144 and 288", ratios, Tolerance::AtLeast),
     ];
     let figures = vec![("figure", figure(&preconditioned, &baseline))];
-    Ok(Outcome { checks, figures, data: vec![preconditioned, baseline], ..Outcome::default() })
+    Ok(Outcome { checks, figures, data: vec![preconditioned, baseline, plates], ..Outcome::default() })
 }
 
 fn iterations_at_256(data: &Data, name: &str) -> f64 {
@@ -66,6 +73,35 @@ fn table(method: Method, sizes: &[usize]) -> Result<Data, StudyError> {
             convolutions.push(solution.convolutions);
         }
         data.rows.push([vec![points as f64], iterations, convolutions].concat());
+    }
+    Ok(data)
+}
+
+/// Both methods on bonded plates of thickness h, E₁/E₂ = 1000, under hexagonal paraboloids, R = 0.8 l, p̄/E₂ = 0.06.
+fn plates() -> Result<Data, StudyError> {
+    let mut data =
+        Data::new("plates", &["points", "thickness", "iterations", "convolutions", "polonsky-keer convolutions"]);
+    let substrate = Material::from_young(1.0, 0.3)?;
+    let surface = Surface::Indenters {
+        lattice: Lattice::hexagonal(1.0, 1)?,
+        levels: vec![Level::new(Shape::Paraboloid { radius: 0.8 }, 0.0)?],
+    };
+    for (points, thickness) in [(144, 0.001), (144, 0.01), (288, 0.001)] {
+        let coating = Layer::new(Material::from_young(1000.0, 0.3)?, thickness, Interface::Bonded)?;
+        let half_space = HalfSpace::new(vec![coating], substrate);
+        let solved = |method| -> Result<Solution, StudyError> {
+            let settings = Settings { method, ..Settings::default() };
+            let mut hierarchy = Hierarchy::new(&surface, &half_space, [points; 2], settings)?;
+            let solution = hierarchy.solve(Control::MeanPressure(0.06), &mut |_| ());
+            if solution.report.stop.solved() && !solution.report.fell_back {
+                Ok(solution)
+            } else {
+                Err(format!("plate of {thickness} at N = {points}: {}", solution.report).into())
+            }
+        };
+        let (own, baseline) = (solved(Method::Preconditioned)?, solved(Method::PolonskyKeer)?);
+        let iterations = own.report.iterations as f64;
+        data.rows.push(vec![points as f64, thickness, iterations, own.convolutions, baseline.convolutions]);
     }
     Ok(data)
 }
