@@ -7,11 +7,10 @@ pub fn fit(unknowns: usize, rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Opti
     let mut matrix = vec![vec![0.0; unknowns]; unknowns];
     let mut right = vec![0.0; unknowns];
     for (row, value) in rows {
-        for i in 0..unknowns {
-            right[i] += row[i] * value;
-            for j in 0..=i {
-                matrix[i][j] += row[i] * row[j];
-            }
+        for ((line, right), own) in matrix.iter_mut().zip(&mut right).zip(&row) {
+            *right += own * value;
+            // The lower triangle is needed; whole rows are summed faster.
+            line.iter_mut().zip(&row).for_each(|(sum, other)| *sum += own * other);
         }
     }
     // Cholesky: matrix = L Lᵀ, in place.

@@ -192,11 +192,15 @@ impl Fit {
         amplitude: &mut Vec<f64>,
     ) -> Option<Vec<f64>> {
         let Self { reach, powers, .. } = *self;
+        // Most samples lie beyond the reach wherever the rim is.
+        let band = radii.iter().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &r| [a.min(r), b.max(r)]);
+        let in_band = |sample: &&Polar| band[0] - reach < sample.r && sample.r < band[1] + reach;
         let range = [scale.edge.pressure(reach)[0].abs(), scale.edge.opening(reach)[0]];
         // Per sample: angle, distance over the reach, side, value, φ or γ, its change with the boundary, weight; the
         // last four over the side's value at the reach.
         let near: Vec<_> = samples
             .iter()
+            .filter(in_band)
             .filter_map(|sample| {
                 let d = self.distance(sample, radii);
                 let (open, part) = (self.open(sample), d.abs() / reach);

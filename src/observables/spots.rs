@@ -3,6 +3,7 @@
 use crate::boundary::{Boundary, Polar, Scale};
 use crate::components::{Component, around, components};
 use crate::hierarchy::Contact;
+use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Label of a sample that belongs to no contact, or to no contact's hole.
@@ -133,9 +134,9 @@ fn locate(contact: &Contact<'_>, scale: &Scale<'_>, spots: &mut [Spot]) {
     (0..grid.len()).filter_map(polar).for_each(|(own, _)| counts[own] += 1);
     let mut samples: Vec<Vec<Polar>> = counts.into_iter().map(Vec::with_capacity).collect();
     (0..grid.len()).filter_map(polar).for_each(|(own, sample)| samples[own].push(sample));
-    for (spot, samples) in spots.iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()) {
+    spots.par_iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()).for_each(|(spot, samples)| {
         spot.boundary = Boundary::locate(samples, scale);
-    }
+    });
 }
 
 /// Which samples belong to spots with a boundary.
@@ -157,8 +158,8 @@ pub fn of_topography(contact: &Contact<'_>, scale: &Scale<'_>) -> (Vec<Boundary>
     for (own, open) in holes(contact, |index| label[index]) {
         open.indices(grid).for_each(|index| hole_of[index] = own);
     }
-    let (mut boundaries, mut located) = (Vec::new(), vec![false; grid.len()]);
-    for (own, spot) in (0..).zip(&contacts).filter(|(_, spot)| !spot.wraps) {
+    let boundary = |(own, spot): (usize, &Component)| {
+        let own = own as u32;
         let centre = spot.centre(grid);
         // What is nobody's or its own, in contact and in holes.
         let ours = |whose: u32| whose == own || whose == NOBODY;
@@ -170,9 +171,13 @@ pub fn of_topography(contact: &Contact<'_>, scale: &Scale<'_>) -> (Vec<Boundary>
                 Polar { r: x.hypot(y), theta: y.atan2(x), p, opening, hole }
             })
             .collect();
-        let Some(boundary) = Boundary::locate(&samples, scale) else { continue };
+        Boundary::locate(&samples, scale)
+    };
+    let found: Vec<Option<Boundary>> =
+        contacts.par_iter().enumerate().map(|each| (!each.1.wraps).then(|| boundary(each)).flatten()).collect();
+    let mut located = vec![false; grid.len()];
+    for (spot, _) in contacts.iter().zip(&found).filter(|(_, boundary)| boundary.is_some()) {
         spot.indices(grid).for_each(|index| located[index] = true);
-        boundaries.push(boundary);
     }
-    (boundaries, located)
+    (found.into_iter().flatten().collect(), located)
 }

@@ -163,13 +163,18 @@ impl fmt::Display for Evidence {
 impl fmt::Display for Tolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Relative(tolerance) => write!(f, "{tolerance:e} relative"),
-            Self::Absolute(tolerance) => write!(f, "{tolerance:e}"),
+            Self::Relative(tolerance) => write!(f, "{:e} relative", without_rounding(*tolerance)),
+            Self::Absolute(tolerance) => write!(f, "{:e}", without_rounding(*tolerance)),
             Self::Order(slack) => write!(f, "order, ±{slack}"),
             Self::AtMost => write!(f, "at most"),
             Self::AtLeast => write!(f, "at least"),
         }
     }
+}
+
+/// A number without the rounding of the product that made it: to twelve digits.
+fn without_rounding(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
 }
 
 #[cfg(test)]
@@ -192,6 +197,7 @@ mod tests {
     fn tolerances_are_printed_as_they_are() {
         let printed = [Tolerance::Relative(1.5e-2), Tolerance::Absolute(2.5e-7), Tolerance::Order(0.25)];
         assert_eq!(printed.map(|tolerance| tolerance.to_string()), ["1.5e-2 relative", "2.5e-7", "order, ±0.25"]);
+        assert_eq!(Tolerance::Absolute(0.06 * 1.48).to_string(), "8.88e-2");
     }
 
     #[test]
