@@ -13,10 +13,14 @@ pub fn number(x: f64) -> String {
     }
 }
 
+/// Errors below this part of a number are those of its arithmetic.
+pub const ROUNDING: f64 = 1e-12;
+
 /// A number with its error, both to the digit of the error, of which one counts: 0.4217 ± 0.0001. An error below the
-/// fifth digit is shown as one of it, none at all is left out.
+/// fifth digit is shown as one of it, one of rounding or none at all is left out; of a number below its error one digit
+/// more than of the error is shown at most.
 pub fn with_error(x: f64, error: Option<f64>) -> String {
-    let Some(error) = error.filter(|error| error.is_finite() && *error > 0.0 && x.is_finite()) else {
+    let Some(error) = error.filter(|error| error.is_finite() && *error > ROUNDING * x.abs() && x.is_finite()) else {
         return number(x);
     };
     let exponent = |x: f64| x.abs().max(f64::MIN_POSITIVE).log10().floor() as i32;
@@ -26,12 +30,14 @@ pub fn with_error(x: f64, error: Option<f64>) -> String {
     // Nine and a bit is ten: one digit further left.
     let (digit, counted) = if counted > 9.0 { (digit + 1, 1.0) } else { (digit, counted) };
     let lead = exponent(x).max(digit);
+    let error = counted * 10f64.powi(digit);
+    let digit = if x == 0.0 { digit } else { digit.min(exponent(x)).max(digit - 1) };
     if (-3..6).contains(&lead) && digit < 6 {
         let decimals = usize::try_from(-digit).unwrap_or(0);
-        format!("{x:.decimals$} ± {:.decimals$}", counted * 10f64.powi(digit))
+        format!("{x:.decimals$} ± {error:.decimals$}")
     } else {
         let (scale, decimals) = (10f64.powi(-lead), usize::try_from(lead - digit).unwrap_or(0));
-        format!("{:.decimals$}e{lead} ± {:.decimals$}e{lead}", x * scale, counted * 10f64.powi(digit - lead))
+        format!("{:.decimals$}e{lead} ± {:.decimals$}e{lead}", x * scale, error * scale)
     }
 }
 
@@ -52,6 +58,9 @@ mod tests {
             (0.421_690_1, Some(1e-9)),
             (0.055_395, Some(0.004)),
             (0.0553, Some(0.7)),
+            (0.39, Some(5.3)),
+            (0.0007, Some(8.0)),
+            (0.25, Some(1e-16)),
             (210e9, Some(3e6)),
             (1.5e-7, Some(2e-9)),
             (12.0, None),
@@ -65,7 +74,10 @@ mod tests {
                 "0.4217 ± 0.0002",
                 "0.42169 ± 0.00001",
                 "0.055 ± 0.004",
-                "0.1 ± 0.7",
+                "0.06 ± 0.70",
+                "0.4 ± 6.0",
+                "0.0 ± 8.0",
+                "0.25000",
                 "2.1000e11 ± 0.0001e11",
                 "1.50e-7 ± 0.02e-7",
                 "12.000",

@@ -15,8 +15,6 @@ pub const FIRST_POINTS: usize = 96;
 pub const MOST_POINTS: usize = 4096;
 /// Points along the shorter cell vector of the first grid, at least.
 const LEAST_POINTS: usize = 12;
-/// A change above this part of the one before is no progress.
-const STAGNATION: f64 = 0.8;
 
 /// `points` along the shorter cell vector, and as dense along the longer one.
 pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
@@ -44,8 +42,8 @@ pub struct TooOblong(f64);
 pub enum End {
     /// The last change is below the accuracy.
     Reached,
-    /// Changes **stagnate**: two in a row are not below 0.8 of the one before (order ⅓), so that no grid in reach would
-    /// help.
+    /// Changes **stagnate**: as fast as they fall, the better of the last two times, no grid in reach gets below the
+    /// accuracy.
     Stagnates,
     /// The next grid would have more than 4096 points along a side.
     Finest,
@@ -57,7 +55,7 @@ impl fmt::Display for End {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Reached => f.write_str("it is reached"),
-            Self::Stagnates => f.write_str("changes have stopped to fall"),
+            Self::Stagnates => f.write_str("changes fall too slowly for any grid in reach"),
             Self::Finest => write!(f, "the next grid would have more than {MOST_POINTS} points along a side"),
             Self::Room => f.write_str("there is no room for the next grid, in memory or on disk"),
         }
@@ -100,10 +98,10 @@ impl Refinement {
         let finer = balanced_points(&self.cell, 2 * self.points);
         let end = if self.changes.last().is_some_and(|&change| change < self.accuracy) {
             End::Reached
-        } else if self.stagnates() {
-            End::Stagnates
         } else if finer.iter().any(|&n| n > MOST_POINTS) {
             End::Finest
+        } else if self.stagnates() {
+            End::Stagnates
         } else if !fits(finer) {
             End::Room
         } else {
@@ -114,13 +112,18 @@ impl Refinement {
     }
 
     fn stagnates(&self) -> bool {
-        let slow = |pair: &[f64]| pair[1].partial_cmp(&(STAGNATION * pair[0])) != Some(std::cmp::Ordering::Less);
-        self.changes.len() >= 3 && self.changes[self.changes.len() - 3..].windows(2).all(slow)
+        let [.., first, second, last] = self.changes[..] else { return false };
+        let fall = (second / first).min(last / second);
+        let grids = (1..).map(|times| balanced_points(&self.cell, self.points << times));
+        let in_reach = grids.take_while(|points| points.iter().all(|&n| n <= MOST_POINTS)).count();
+        let best = last * fall.powi(in_reach as i32);
+        // What is not a number stagnates too.
+        best.partial_cmp(&self.accuracy) != Some(std::cmp::Ordering::Less)
     }
 }
 
-/// Points of the first grid from which one load step changes by less than `accuracy` to the next; the last grid tried
-/// where none does. `fits` tells whether there is room for a grid.
+/// Points of the first grid from which one load step changes by less than `accuracy` to the next, or of the last grid
+/// tried where none does, and why it is the last. `fits` tells whether there is room for a grid.
 ///
 /// # Errors
 /// When the cell has no grid.
@@ -131,7 +134,7 @@ pub fn sufficient_points(
     control: Control,
     accuracy: f64,
     fits: impl Fn([usize; 2]) -> bool,
-) -> Result<[usize; 2], Box<dyn std::error::Error + Send + Sync>> {
+) -> Result<([usize; 2], End), Box<dyn std::error::Error + Send + Sync>> {
     let mut refinement = Refinement::new(surface.cell(), accuracy)?;
     let mut coarse: Option<[Observables; 1]> = None;
     loop {
@@ -140,8 +143,8 @@ pub fn sufficient_points(
         let solution = hierarchy.solve(control, &mut |_| ());
         let fine = [observe(&hierarchy, &solution)];
         let change = coarse.as_ref().map(|coarse| change(coarse, &fine));
-        if refinement.refine(change, &fits).is_some() {
-            return Ok(points);
+        if let Some(end) = refinement.refine(change, &fits) {
+            return Ok((points, end));
         }
         coarse = Some(fine);
     }

@@ -20,6 +20,8 @@ mod numpy;
 mod pictures;
 #[path = "command_line/program.rs"]
 mod program;
+#[path = "command_line/readings.rs"]
+mod readings;
 #[path = "command_line/refusals.rs"]
 mod refusals;
 #[path = "command_line/solve.rs"]

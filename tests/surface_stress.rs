@@ -267,18 +267,26 @@ impl Contact {
         Self { surface, half_space, pressure, points, words }
     }
 
-    /// Largest tension on the surface and its stated error, on a grid `factor` times as fine; `None` for complete
-    /// contact, which has no edge.
-    fn read(&self, factor: usize) -> Option<(f64, f64)> {
+    /// Largest tension on the surface, largest τ₁ and largest tension of all with their stated errors, on a grid `factor`
+    /// times as fine; `None` for complete contact, which has no edge, and τ₁ is `None` under a tip.
+    fn read(&self, factor: usize) -> Option<[Option<(f64, f64)>; 3]> {
         let points = [factor * self.points; 2];
-        let (hierarchy, solution, _) =
+        let (hierarchy, solution, observables) =
             solve(&self.surface, &self.half_space, points, Control::MeanPressure(self.pressure));
         assert!(solution.report.stop.solved(), "{}: {}", self.words, solution.report);
         let field = Field::new(hierarchy.grid(), &solution.pressure, &self.half_space, MeanStress::HalfSpace);
-        let crest = field.crest()?;
-        let coarser = hierarchy.coarser().next();
-        let coarser = coarser.and_then(|contact| field.under(contact.grid, contact.pressure).crest());
-        Some((crest.peak.value, crest.scale * crest.error(coarser.as_ref())))
+        let radius = (observables.contact_fraction * hierarchy.grid().cell().area() / PI).sqrt();
+        let radii = [radius.max(4.0 / self.points as f64); 2];
+        let maxima = field.maxima(radii);
+        let crest = maxima.crest?;
+        let coarser = hierarchy.coarser().next()?;
+        let coarser = field.under(coarser.grid, coarser.pressure).maxima(radii);
+        let [tau1, tension] = maxima.errors(&coarser);
+        Some([
+            Some((crest.peak.value, crest.scale * crest.error(coarser.crest.as_ref()))),
+            Some((maxima.tau1().value, tau1)).filter(|_| !observables.singular_peak()),
+            Some((maxima.tension().value, tension)),
+        ])
     }
 }
 
@@ -297,30 +305,43 @@ fn hills(random: &mut Random, n: usize) -> Vec<f64> {
     (0..n * n).map(height).collect()
 }
 
-/// How many of `count` random contacts err by more than they state, against a grid four times as fine.
-fn misjudged(count: usize, sizes: &[usize]) -> usize {
-    let mut random = Random(0x5eed);
-    let (mut judged, mut exceeding) = (0, 0);
+/// How many of `count` random contacts err by more than they state, against a grid four times as fine, and the median of
+/// stated over true error: for the largest tension on the surface, τ₁ and tension of all.
+fn misjudged(seed: u64, count: usize, sizes: &[usize]) -> [(usize, f64); 3] {
+    let mut random = Random(seed);
+    let mut ratios = [const { Vec::new() }; 3];
+    let mut judged = 0;
     while judged < count {
         let contact = Contact::random(&mut random, sizes);
-        let Some(((found, stated), (truth, _))) = contact.read(1).zip(contact.read(4)) else { continue };
-        let error = (found - truth).abs();
-        println!("{error:.1e} stated {stated:.1e}, {found:.3e} {truth:.3e}: {}", contact.words);
+        let Some((found, truth)) = contact.read(1).zip(contact.read(4)) else { continue };
+        for ((found, truth), ratios) in found.into_iter().zip(truth).zip(&mut ratios) {
+            let Some(((found, stated), (truth, _))) = found.zip(truth) else { continue };
+            let error = (found - truth).abs();
+            print!("{found:.3e} ± {stated:.1e}, error {error:.1e}; ");
+            ratios.push(stated / error);
+        }
+        println!("{}", contact.words);
         judged += 1;
-        exceeding += usize::from(error > stated);
     }
-    exceeding
+    ratios.map(|mut ratios| {
+        ratios.sort_by(f64::total_cmp);
+        (ratios.iter().filter(|&&ratio| ratio < 1.0).count(), ratios[ratios.len() / 2])
+    })
 }
 
 #[test]
-fn the_largest_tension_on_the_surface_errs_by_less_than_it_states() {
-    assert!(misjudged(10, &[32, 48]) == 0);
+fn the_largest_stresses_err_by_less_than_they_state_and_not_by_far_less() {
+    let all = misjudged(0x5eed, 10, &[32, 48]);
+    println!("{all:?}");
+    assert!(all.iter().all(|&(exceeding, median)| exceeding == 0 && median < 50.0), "{all:?}");
 }
 
 #[test]
 #[ignore = "minutes: fifty contacts, grids up to 384²"]
-fn of_fifty_largest_tensions_two_err_by_more_than_they_state_at_most() {
-    assert!(misjudged(50, &[32, 48, 64, 96]) <= 2);
+fn of_fifty_largest_stresses_two_err_by_more_than_they_state_at_most() {
+    let all = misjudged(2041, 50, &[32, 48, 64, 96]);
+    println!("{all:?}");
+    assert!(all.iter().all(|&(exceeding, median)| exceeding <= 2 && median < 50.0), "{all:?}");
 }
 
 /// A line through the axis that meets the edge between samples: the series would overshoot there.

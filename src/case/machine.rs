@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 /// Memory taken for granted where the system says nothing, bytes.
 const UNKNOWN: u64 = 64 << 30;
 
+/// Addresses that a thread reserves beside what it takes: its stack, and what its allocator holds ready.
+const RESERVED: u64 = 72 << 20;
+
 /// What a run may still take, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Room {
@@ -19,8 +22,12 @@ impl Room {
     /// What there is for a run that writes into `folder`, which need not exist yet.
     pub fn on_this_machine(folder: &Path) -> Self {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-        let disk = folder.ancestors().find_map(|folder| fs4::available_space(folder).ok());
-        Self { memory: available_memory(), disk: disk.unwrap_or(u64::MAX) }
+        let space = folder.ancestors().find_map(|folder| fs4::statvfs(folder).ok());
+        // What is no disk has no room at all.
+        let disk = space.filter(|space| space.total_space() > 0).map_or(u64::MAX, |space| space.available_space());
+        let threads = rayon::current_num_threads() as u64 + 1;
+        let addresses = address_space().map_or(u64::MAX, |left| left.saturating_sub(threads * RESERVED));
+        Self { memory: available_memory().min(addresses), disk }
     }
 }
 

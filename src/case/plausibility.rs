@@ -12,6 +12,7 @@ use crate::number::number;
 use crate::output::summary::Step;
 use crate::stress::MeanStress;
 use crate::texture::Surface;
+use std::f64::consts::PI;
 
 /// Slope of a flank beyond which strains are not small.
 pub(super) const STEEP: f64 = 0.5;
@@ -44,7 +45,8 @@ pub fn of_steps(case: &Case, steps: &[Step]) -> Vec<String> {
     if let Surface::Indenters { levels, .. } = case.surface() {
         let flanks = (1..).zip(steps).flat_map(|(number, step)| {
             let touching = step.levels.iter().filter(|level| level.load > 0.0);
-            touching.filter_map(move |level| Some((number, level.level, level.contact_radius?)))
+            // Merged contacts have no radius, but an area.
+            touching.map(move |level| (number, level.level, (level.contact_area / PI).sqrt()))
         });
         let slope = |level: usize, radius: f64| slope(levels[level - 1].shape(), radius);
         let steepest = flanks
@@ -122,8 +124,16 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
     let mut all: Vec<(String, f64)> = Vec::new();
     if let Surface::Indenters { levels, .. } = case.surface() {
         for (number, level) in levels.iter().enumerate() {
-            if let Shape::Paraboloid { radius } | Shape::Sphere { radius } = level.shape() {
-                all.push((format!("levels[{number}].radius"), radius));
+            match level.shape() {
+                Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
+                    all.push((format!("levels[{number}].radius"), radius));
+                }
+                // The length at which its slope is 1.
+                Shape::Power { coefficient, exponent } if exponent > 1.0 => {
+                    let length = (coefficient * exponent).powf(1.0 / (1.0 - exponent));
+                    all.push((format!("levels[{number}]: the distance at which c·rⁿ has the slope 1"), length));
+                }
+                Shape::Power { .. } | Shape::Cone { .. } => {}
             }
         }
     }
@@ -222,7 +232,6 @@ fn part(x: f64) -> String {
 mod tests {
     use super::super::embedded;
     use super::*;
-    use std::f64::consts::PI;
 
     fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
@@ -248,6 +257,10 @@ mod tests {
             (&["levels.0.height=1e9"], &["only differences of heights matter"]),
             (&["levels.0.slope=3", "levels.0.shape=cone"], &["levels[0].slope", "cone"]),
             (&["levels.2.radius=0.05"], &["level 3", "Hertz"]),
+            (
+                &["lattice.period=1e-6", "levels.0.shape=power", "levels.0.coefficient=0.6", "levels.0.exponent=2"],
+                &["levels[0]: the distance at which c·rⁿ has the slope 1 = 0.83333", "metres"],
+            ),
         ] {
             let said = doubts("fig2", overrides).join("\n");
             for word in words {

@@ -202,7 +202,8 @@ pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
         _ if case.stress.as_ref().is_some_and(|stress| stress.volume.is_some()) => {
             "no grid fits: ask for fewer rows or points in stress.volume".to_owned()
         }
-        _ => "no grid fits: ask for fewer load steps".to_owned(),
+        _ if needs.memory > room.memory => "no grid fits".to_owned(),
+        _ => "no grid fits: ask for fewer load steps, or for another folder with -o".to_owned(),
     };
     Some(format!("{key}: {n1} × {n2} samples take {what}; {advice}"))
 }

@@ -1,6 +1,7 @@
 //! `percoat check`: what a case means, without solving it.
 
 use super::solve::{refuse_beyond_full_contact, room_or_refusal};
+use super::terminal::tell;
 use super::{Failure, Outcome, read_changed};
 use percoat::case::resources::{Job, Needs, bytes, finest_points, needs};
 use percoat::case::{Case, GridSection, Room, foreseen, plausibility};
@@ -37,7 +38,7 @@ pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
     }
     let touches = write_touches(&mut out, &case)?;
     for doubt in [plausibility::of_case(&case), foreseen(&case, &touches)].concat() {
-        eprintln!("warning: {doubt}");
+        tell!("warning: {doubt}");
     }
     Ok(Outcome::Done)
 }

@@ -3,6 +3,7 @@
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
 use super::solve::{refuse_beyond_full_contact, room_or_refusal};
+use super::terminal::tell;
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
@@ -13,7 +14,7 @@ use percoat::number::number;
 use percoat::observables::FEW_SAMPLES;
 use percoat::output::{CompareFile, Plan, RunFolder, Writer, table, write_text};
 use percoat::picture;
-use percoat::refinement::sufficient_points;
+use percoat::refinement::{End, sufficient_points};
 use percoat::stress::MeanStress;
 use percoat::texture::Surface;
 use std::io::Write;
@@ -37,7 +38,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     refuse_beyond_full_contact(&case, &[control])?;
     interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
-    let claim = RunFolder::claim(&folder, &Plan { writer: Writer::Compare, names, case: None })?;
+    let plan = Plan { writer: Writer::Compare, names, within: String::new(), case: None };
+    let claim = RunFolder::claim(&folder, &plan)?;
     let localized = &case.localized;
     let setup = Setup {
         indenters: localized.indenters.iter().copied().max().unwrap_or(1),
@@ -56,8 +58,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         mean: case.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean),
     };
     let refused = |error: percoat::lattice::LatticeError| Failure::Refused(error.to_string());
-    let points = match case.grid {
-        GridSection::Points(points) => points,
+    let (points, end) = match case.grid {
+        GridSection::Points(points) => (points, End::Reached),
         GridSection::Accuracy(accuracy) => {
             let fits = |points| fits(&case, points, room, job);
             sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy, fits)
@@ -69,7 +71,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         progress.set_message(what.to_owned());
         progress.tick();
         if common.verbose {
-            eprintln!("{what}");
+            tell!("{what}");
         }
     });
     progress.finish_and_clear();
@@ -99,25 +101,40 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         }
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
     }
+    let doubts = doubts(&comparison, &setup, end);
+    if !common.quiet {
+        doubts.iter().for_each(|doubt| tell!("warning: {doubt}"));
+    }
+    let all_solved = comparison.circles.iter().all(|circle| circle.stop == Stop::Converged);
+    let solved = comparison.solution.report.stop.solved() && all_solved && end == End::Reached;
+    Ok(if solved { Outcome::Done } else { Outcome::NotConverged })
+}
+
+/// What makes the comparison doubtful, a sentence each.
+fn doubts(comparison: &Comparison, setup: &Setup, end: End) -> Vec<String> {
     let (circles, other) = (&comparison.circles[..], &comparison.other_rule[..]);
     let lattice_sum = comparison.lattice_sum.as_slice();
     let rules = [(setup.radius, circles), (setup.radius.other(), other), (CircleRadius::LatticeSum, lattice_sum)];
-    for (rule, circle) in rules.iter().flat_map(|(rule, circles)| circles.iter().map(move |circle| (rule, circle))) {
-        if circle.stop != Stop::Converged {
-            eprintln!("warning: {} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop);
-        }
+    let circles = rules.iter().flat_map(|(rule, circles)| circles.iter().map(move |circle| (rule, circle)));
+    let mut doubts: Vec<String> = circles
+        .filter(|(_, circle)| circle.stop != Stop::Converged)
+        .map(|(rule, circle)| format!("{} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop))
+        .collect();
+    if !comparison.solution.report.stop.solved() {
+        doubts.push(format!("the spectral solution has not converged: {}", comparison.solution.report));
+    }
+    if end != End::Reached {
+        doubts.push(format!("grid.accuracy is not reached: {end}"));
     }
     let samples = comparison.spectral.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
     let fewest = samples.fold(f64::INFINITY, f64::min);
     if fewest < FEW_SAMPLES {
-        eprintln!(
-            "warning: a contact radius has only {fewest:.1} samples in the spectral solution: differences from it are \
-             those of the grid; raise grid.points"
-        );
+        doubts.push(format!(
+            "a contact radius has only {fewest:.1} samples in the spectral solution: differences from it are those of the \
+             grid; raise grid.points"
+        ));
     }
-    let all_solved = comparison.circles.iter().all(|circle| circle.stop == Stop::Converged);
-    let solved = comparison.solution.report.stop.solved() && all_solved;
-    Ok(if solved { Outcome::Done } else { Outcome::NotConverged })
+    doubts
 }
 
 /// How far the stresses agree, in a line.

@@ -1,5 +1,6 @@
 //! Ctrl-C and SIGTERM: the command ends at once and says what it has saved.
 
+use super::terminal::{self, tell};
 use percoat::output::RunFolder;
 use std::fmt;
 use std::io::IsTerminal;
@@ -40,19 +41,38 @@ impl fmt::Display for Saved {
     }
 }
 
-/// From now on a signal to end is answered with what is saved. Where signals are ignored, as under nohup, they stay so
-/// and nothing is answered.
+/// From now on a signal to end is answered with what is saved. A signal that is ignored, as under nohup or behind `&` in
+/// a script, stays so.
 pub fn watch() {
-    let answer = || {
-        let saved = hold();
-        if std::io::stderr().is_terminal() {
-            eprint!("\r\x1b[K");
-        }
-        eprintln!("interrupted: {saved}");
-        exit(INTERRUPTED);
-    };
     // A command that cannot watch ends as any other program does.
-    let _ = ctrlc::try_set_handler(answer);
+    #[cfg(unix)]
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new(watched()) {
+        std::thread::spawn(move || signals.forever().for_each(|_| answer()));
+    }
+    #[cfg(not(unix))]
+    let _ = ctrlc::set_handler(answer);
+}
+
+/// Signals to end that are not ignored. Where the system does not tell which are, a hang-up is left alone.
+#[cfg(unix)]
+fn watched() -> Vec<i32> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    let status = std::fs::read_to_string("/proc/self/status").ok();
+    let ignored = status.as_deref().and_then(|status| {
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"))?;
+        u64::from_str_radix(mask.trim(), 16).ok()
+    });
+    let ignored = ignored.unwrap_or(1 << (SIGHUP - 1));
+    [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0).collect()
+}
+
+fn answer() {
+    let saved = hold();
+    if std::io::stderr().is_terminal() {
+        terminal::clear_line();
+    }
+    tell!("interrupted: {saved}");
+    exit(INTERRUPTED);
 }
 
 /// What is saved; a signal waits as long as it is held.
@@ -69,6 +89,6 @@ pub fn steps(done: usize, of: usize, folder: &Path) {
 pub fn tell_saved() {
     let saved = hold();
     if matches!(*saved, Saved::Steps { done: 1.., .. }) {
-        eprintln!("{saved}");
+        tell!("{saved}");
     }
 }

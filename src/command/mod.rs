@@ -20,6 +20,7 @@ use pictures::PictureOptions;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use terminal::tell;
 
 /// Periodic contact of coated bodies: pressures, contact spots and penetrations of a doubly periodic
 /// system of rigid asperities at several heights on a layered elastic half-space.
@@ -198,7 +199,7 @@ impl Arguments {
             let typed: Vec<String> =
                 std::env::args_os().skip(1).map(|arg| arg.to_string_lossy().into_owned()).collect();
             match without_effect::explained(&error, &typed) {
-                Some(message) => eprintln!("error: {message}"),
+                Some(message) => tell!("error: {message}"),
                 // Help that nobody reads is no fault.
                 None => drop(error.print()),
             }
@@ -221,7 +222,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
     if let Some(threads) = arguments.threads()
         && let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()
     {
-        eprintln!("error: cannot start {threads} threads: {error}");
+        tell!("error: cannot start {threads} threads: {error}");
         return ExitCode::from(4);
     }
     let outcome = match &arguments.command {
@@ -242,8 +243,8 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         Err(Failure::Print(error)) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             match &failure {
-                Failure::Case(_) => eprintln!("{failure}"),
-                _ => eprintln!("error: {failure}"),
+                Failure::Case(_) => tell!("{failure}"),
+                _ => tell!("error: {failure}"),
             }
             interruption::tell_saved();
             ExitCode::from(match failure {

@@ -4,6 +4,7 @@ use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
 use super::plan::plan;
 use super::stress::{largest, stress_change, wanted};
+use super::terminal::tell;
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
 use percoat::case::resources::{Job, fits, refusal};
@@ -36,7 +37,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     interruption::watch();
     let claim = RunFolder::claim(&folder, &plan(&case, controls.len(), pictures))?;
     if let (Some(aside), false) = (claim.set_aside(), common.quiet) {
-        eprintln!("note: an earlier run was interrupted; the steps it had finished are now in {}", aside.display());
+        tell!("note: an earlier run was interrupted; the steps it had finished are now in {}", aside.display());
     }
     let run = Run { case: &case, controls, staging: claim.staging(), claim, room, job, pictures, common };
     let result = match case.grid {
@@ -50,7 +51,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     if !common.quiet {
         print(&case, &result, &folder, started)?;
         for warning in &warnings {
-            eprintln!("warning: {warning}");
+            tell!("warning: {warning}");
         }
     }
     let converged = result.steps.iter().all(|step| step.converged) && result.is_accurate();
@@ -135,7 +136,7 @@ impl Run<'_> {
             });
             gridded.solved.accuracy = change;
             if let (Some(change), true) = (change, self.common.verbose) {
-                eprintln!("{points:?} points: change {change:.2e}");
+                tell!("{points:?} points: change {change:.2e}");
             }
             gridded.solved.end = refinement.refine(change, |finer| fits(self.case, finer, self.room, self.job));
             if gridded.solved.end.is_some() {
@@ -150,7 +151,7 @@ impl Run<'_> {
         let mut hierarchy = Hierarchy::new(self.case.surface(), self.case.half_space(), points, self.case.solver)
             .map_err(|error| Failure::Refused(error.to_string()))?;
         if self.common.verbose {
-            eprintln!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
+            tell!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
         }
         self.claim.begin_finer()?;
         write_text(&self.staging.join("case.toml"), &self.case.to_toml())?;
@@ -168,7 +169,7 @@ impl Run<'_> {
             });
             let observables = observe(&hierarchy, &solution);
             if self.common.verbose {
-                eprintln!("{observables}\n{}\n{}", solution.report, solution.certificate);
+                tell!("{observables}\n{}\n{}", solution.report, solution.certificate);
             }
             fields.add(hierarchy.grid(), observables.mean_pressure, &solution)?;
             let errors = errors(&hierarchy, &observables, control);
@@ -274,8 +275,9 @@ impl Run<'_> {
                 list(&coarse)
             ));
         }
+        // Complete contact has no edge that samples would have to show.
         let rough =
-            |step: &Step| step.levels.is_empty() && step.contact_spots > 0 && step.spot_resolution < FEW_SAMPLES;
+            |step: &Step| step.levels.is_empty() && step.spot_resolution < FEW_SAMPLES && step.contact_fraction < 1.0;
         let rough: Vec<usize> = steps().filter(|(_, step)| rough(step)).map(|(number, _)| number).collect();
         if !rough.is_empty() {
             warnings.push(format!(

@@ -44,13 +44,9 @@ fn line(case: &Case, cut: &Cut) -> Option<Line> {
 
 /// The largest stresses of a step that has contact.
 pub fn largest(field: &Field, hierarchy: &Hierarchy, observables: &Observables) -> Stress {
-    let maxima = field.maxima(contact_radii(hierarchy, observables));
-    let error = maxima.crest.map_or(0.0, |crest| {
-        let coarser = hierarchy.coarser().next();
-        let coarser = coarser.and_then(|contact| field.under(contact.grid, contact.pressure).crest());
-        crest.error(coarser.as_ref())
-    });
-    Stress::new(&maxima, error, tip(hierarchy, observables, field))
+    let radii = contact_radii(hierarchy, observables);
+    let coarser = hierarchy.coarser().next().map(|contact| field.under(contact.grid, contact.pressure).maxima(radii));
+    Stress::new(&field.maxima(radii), coarser.as_ref(), tip(hierarchy, observables, field))
 }
 
 /// Where τ₁ is infinite: at a tip in contact, unless the surface material is incompressible, as σ_z and σ_r are then

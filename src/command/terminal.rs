@@ -2,9 +2,23 @@
 
 use std::env;
 use std::ffi::OsString;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 
 use clap::ColorChoice;
+
+/// A line on standard error. Where nobody can hear it any more, the command goes on.
+macro_rules! tell {
+    ($($message:tt)*) => {{
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), $($message)*);
+    }};
+}
+pub(super) use tell;
+
+/// Empties the line of the terminal.
+pub fn clear_line() {
+    let _ = write!(std::io::stderr(), "\r\x1b[K");
+}
 
 /// Whether messages may be coloured.
 pub fn coloured() -> bool {

@@ -1,14 +1,18 @@
 //! `percoat validate`: the studies, their verdicts, and a report of them.
 
 use super::interruption::{self, Saved};
+use super::terminal::tell;
 use super::{Failure, Outcome, Studies, terminal};
-use percoat::output::{make_folder, write_text};
+use percoat::output::{Plan, RunFolder, Writer, make_folder, write_text};
 use percoat::picture::{Format, write_picture};
 use percoat::validation::paper::table;
 use percoat::validation::{self, Report, STUDIES, Study, differences};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// The paper's page with the statements of the run.
+const PAGE: &str = "paper/README.md";
 
 pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Result<Outcome, Failure> {
     let studies: Vec<&'static Study> = match name {
@@ -23,9 +27,10 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     let expected = expected.transpose()?;
     let folder = options.output.clone().unwrap_or_else(|| PathBuf::from("out/validate"));
     // The report of one study stays in its folder, so that it does not pass for the whole.
-    let path = name.map_or_else(|| folder.clone(), |name| folder.join(name)).join("REPORT.md");
-    refuse_foreign(&folder, &path, &studies)?;
+    let within = name.map_or_else(String::new, |name| format!("{name}/"));
+    let path = format!("{within}REPORT.md");
     interruption::watch();
+    let mut claim = RunFolder::claim(&folder, &plan(&folder, &path, within, &studies))?;
     let progress = !options.quiet && !options.verbose && terminal::moves();
     let started = Instant::now();
     let mut report = Report::default();
@@ -33,40 +38,46 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     for (number, study) in (1..).zip(&studies) {
         let started = Instant::now();
         if progress {
-            eprint!("\r\x1b[Kstudy {number} of {}: {}", studies.len(), study.name);
+            terminal::clear_line();
+            let _ = write!(std::io::stderr(), "study {number} of {}: {}", studies.len(), study.name);
         }
         let result = (study.run)();
         if options.verbose {
-            eprintln!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
+            tell!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
         }
         if let Ok(outcome) = &result {
-            outcomes.push((folder.join(study.name), outcome.clone()));
+            outcomes.push((study.name, outcome.clone()));
         }
         report.add(study, result);
     }
     if progress {
-        eprint!("\r\x1b[K");
+        terminal::clear_line();
     }
     let markdown = report.markdown();
-    // First of all: it marks what follows as percoat's.
-    make_folder(path.parent().unwrap_or(&folder))?;
-    write_text(&path, &markdown)?;
-    for (folder, outcome) in &outcomes {
-        write(folder, outcome)?;
-    }
-    let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let statements = report.statements();
-    write_page(&folder, &statements)?;
-    *interruption::hold() = Saved::Result(folder.clone());
+    let mut result = Gathered { folder: claim.staging(), names: Vec::new() };
+    result.text(path.clone(), &markdown)?;
+    for (study, outcome) in &outcomes {
+        result.study(study, outcome)?;
+    }
+    if !statements.is_empty() {
+        result.text(PAGE.to_owned(), &table::renewed(&statements))?;
+    }
+    claim.adds(result.names);
+    let mut saved = interruption::hold();
+    claim.publish()?;
+    *saved = Saved::Result(folder.clone());
+    drop(saved);
+    let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let differences = expected.map(|expected| {
         let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));
         rows.into_iter().chain(table::differences(&statements)).collect::<Vec<_>>()
     });
     for line in report.errors().iter().chain(differences.iter().flatten()) {
-        eprintln!("error: {line}");
+        tell!("error: {line}");
     }
     if !options.quiet {
-        print(&report, &path, started)?;
+        print(&report, &folder.join(path), started)?;
     }
     let as_expected = differences.is_none_or(|differences| differences.is_empty());
     Ok(if report.holds() && as_expected { Outcome::Done } else { Outcome::Failed })
@@ -77,59 +88,53 @@ fn unknown(name: &str) -> Failure {
     Failure::Refused(format!("there is no study {name}; there are {}", names.join(", ")))
 }
 
-/// Refuses what the studies would overwrite that is not percoat's. A folder is percoat's with all names validate
-/// writes where a report of percoat's stands in it or above it, so that the committed one can be renewed; other names
-/// are left alone.
-fn refuse_foreign(folder: &Path, report: &Path, studies: &[&Study]) -> Result<(), Failure> {
-    let begins = |path: &Path, head: &str| std::fs::read_to_string(path).is_ok_and(|text| text.starts_with(head));
-    let reported = |folder: &Path| begins(&folder.join("REPORT.md"), "# Validation report\n\npercoat ");
-    let title = table::renewed(&[]).lines().next().unwrap_or_default().to_owned();
-    let page = folder.join("paper/README.md");
-    let paper = studies.iter().any(|study| study.name.starts_with("paper/"));
-    let empty = |folder: &Path| std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
-    let foreign = |study: &&Study| {
-        let own = folder.join(study.name);
-        let marked = own.ancestors().take_while(|above| above.starts_with(folder)).any(reported);
-        (own.exists() && !empty(&own) && !marked).then_some(own)
-    };
-    let foreign = if report.exists() && !report.parent().is_some_and(reported) {
-        Some(report.to_owned())
-    } else if paper && page.exists() && !begins(&page, &title) {
-        Some(page)
-    } else {
-        studies.iter().find_map(foreign)
-    };
-    foreign.map_or(Ok(()), |path| {
-        Err(Failure::Refused(format!(
-            "{} is not of a report of percoat, and validate would write over it: choose another folder with -o, or move it \
-             away",
-            path.display()
-        )))
-    })
+/// What the studies may write, as far as it is known before they are run: whatever looks like theirs in their folders
+/// has to be percoat's.
+fn plan(folder: &Path, report: &str, within: String, studies: &[&Study]) -> Plan {
+    let mut names = vec![report.to_owned()];
+    if studies.iter().any(|study| study.name.starts_with("paper/")) {
+        names.push(PAGE.to_owned());
+    }
+    for study in studies {
+        let Ok(entries) = std::fs::read_dir(folder.join(study.name)) else { continue };
+        let there = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        let own = there.filter(|name| [".png", ".data.csv"].iter().any(|ending| name.ends_with(ending)));
+        names.extend(own.map(|name| format!("{}/{name}", study.name)));
+    }
+    Plan { writer: Writer::Validate, names, within, case: None }
 }
 
-/// The figures and data of a study.
-fn write(folder: &Path, outcome: &validation::Outcome) -> Result<(), Failure> {
-    make_folder(folder)?;
-    for (name, figure) in &outcome.figures {
-        write_picture(folder, name, Format::Png, &figure.draw(Format::Png))?;
-    }
-    for data in &outcome.data {
-        write_text(&folder.join(format!("{}.data.csv", data.name)), &data.csv())?;
-    }
-    for data in &outcome.published {
-        write_text(&folder.join(format!("{}.csv", data.name)), &data.rounded().csv())?;
-    }
-    Ok(())
+/// Files of a result where it is gathered.
+struct Gathered {
+    folder: PathBuf,
+    names: Vec<String>,
 }
 
-/// The paper's page with the statements of this run.
-fn write_page(folder: &Path, statements: &[(&str, Vec<String>)]) -> Result<(), Failure> {
-    if statements.is_empty() {
-        return Ok(());
+impl Gathered {
+    fn text(&mut self, name: String, text: &str) -> Result<(), Failure> {
+        let path = self.folder.join(&name);
+        make_folder(path.parent().unwrap_or(&self.folder))?;
+        write_text(&path, text)?;
+        self.names.push(name);
+        Ok(())
     }
-    make_folder(&folder.join("paper"))?;
-    Ok(write_text(&folder.join("paper/README.md"), &table::renewed(statements))?)
+
+    /// The figures and data of a study.
+    fn study(&mut self, study: &str, outcome: &validation::Outcome) -> Result<(), Failure> {
+        let folder = self.folder.join(study);
+        make_folder(&folder)?;
+        for (name, figure) in &outcome.figures {
+            write_picture(&folder, name, Format::Png, &figure.draw(Format::Png))?;
+            self.names.push(format!("{study}/{name}.png"));
+        }
+        for data in &outcome.data {
+            self.text(format!("{study}/{}.data.csv", data.name), &data.csv())?;
+        }
+        for data in &outcome.published {
+            self.text(format!("{study}/{}.csv", data.name), &data.rounded().csv())?;
+        }
+        Ok(())
+    }
 }
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {

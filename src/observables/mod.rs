@@ -76,9 +76,13 @@ pub struct LevelObservables {
     /// Inner and outer radius of a ring: √(area/π) of the hole and of all inside the outer boundary, lengths. `None`
     /// without a hole, for merged contacts and for spots of too few samples or no smooth boundary.
     pub ring_radii: Option<(f64, f64)>,
+    /// Estimated errors of these, lengths.
+    pub ring_errors: Option<(f64, f64)>,
     /// Smallest and largest distance of the boundary from the axis; `None` for merged contacts and for spots of too few
     /// samples or no smooth boundary.
     pub radius_extremes: Option<(f64, f64)>,
+    /// Estimated error of the distances of a boundary, a length.
+    pub boundary_error: Option<f64>,
     /// Whether the contact of an indenter of this level touches that of a neighbour.
     pub merged: bool,
     /// Samples along the contact radius: below some ten the radii are rough.
@@ -153,6 +157,11 @@ pub fn read(contact: &Contact<'_>) -> Observables {
                 let squares: Option<Vec<f64>> = boundaries().map(|b| b.map(|b| radius(b).powi(2))).collect();
                 squares.map(|squares| (squares.iter().sum::<f64>() / indenters).sqrt())
             };
+            // The largest of them.
+            let most = |error: fn(&Boundary) -> f64| {
+                let errors: Option<Vec<f64>> = boundaries().map(|b| b.map(error)).collect();
+                errors.map(|errors| errors.into_iter().fold(0.0, f64::max))
+            };
             LevelObservables {
                 level,
                 load: load / indenters,
@@ -166,6 +175,8 @@ pub fn read(contact: &Contact<'_>) -> Observables {
                 radius_error: (!merged && area > 0.0).then(|| 0.5 * area_error / area * radius),
                 ring,
                 ring_radii: mean(Boundary::mean_hole_radius).zip(mean(Boundary::mean_radius)).filter(|_| ring),
+                ring_errors: most(|b| b.hole_error).zip(most(|b| b.error)).filter(|_| ring),
+                boundary_error: most(|b| b.error),
                 radius_extremes: extremes.reduce(|a, b| a.zip(b).map(|(a, b)| (a.0.min(b.0), a.1.max(b.1)))).flatten(),
                 merged,
                 resolution: (area / PI / grid.sample_area()).sqrt(),

@@ -1,5 +1,6 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
+use super::gathered::{is_partial, remove_own, set_aside};
 use super::manifest::{Manifest, Standing, Writer};
 use super::publication::Publication;
 use super::{OutputError, make_folder, write_text};
@@ -10,9 +11,9 @@ use std::path::{Path, PathBuf};
 /// What percoat keeps for itself in an output folder.
 const OWN: &str = ".percoat";
 /// Marks a folder as one in which a run of percoat gathers its result.
-const MARK: &str = ".percoat";
+pub(super) const MARK: &str = ".percoat";
 /// Where the coarser grid's steps stand while a finer one is solved.
-const COARSER: &str = "coarser";
+pub(super) const COARSER: &str = "coarser";
 
 /// Why a folder cannot be had.
 #[derive(Debug, thiserror::Error)]
@@ -43,8 +44,10 @@ pub enum FolderError {
 pub struct Plan {
     /// Who writes.
     pub writer: Writer,
-    /// Every name that may come, in the folder itself.
+    /// Every name that may come, relative to the folder; what only a run can name is added by [`RunFolder::adds`].
     pub names: Vec<String>,
+    /// The writer's earlier files whose names begin with this are those that the result replaces: all where it is empty.
+    pub within: String,
     /// Content of `case.toml`, if it is among them: the same file there already is no obstacle, and stays its owner's.
     pub case: Option<String>,
 }
@@ -54,6 +57,10 @@ pub struct Plan {
 pub struct RunFolder {
     folder: PathBuf,
     writer: Writer,
+    /// Names that may come.
+    names: Vec<String>,
+    /// See [`Plan::within`].
+    within: String,
     set_aside: Option<PathBuf>,
     _lock: File,
 }
@@ -69,6 +76,7 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
         Writer::Solve => folder.join("unfinished"),
         // Here nothing stands that is worth a look before all of it is there.
         Writer::Compare => own(folder, "compare"),
+        Writer::Validate => own(folder, "validate"),
     }
 }
 
@@ -85,10 +93,11 @@ impl RunFolder {
         }
         make_folder(&folder.join(OWN))?;
         let lock = lock(folder)?;
-        for writer in [Writer::Solve, Writer::Compare] {
+        for writer in Writer::ALL {
             Publication::new(folder, writer).complete()?;
         }
-        let mut claimed = Self { folder: folder.to_owned(), writer: plan.writer, set_aside: None, _lock: lock };
+        let Plan { writer, names, within, .. } = plan.clone();
+        let mut claimed = Self { folder: folder.to_owned(), writer, names, within, set_aside: None, _lock: lock };
         refuse_foreign(folder, &Manifest::read(&own(folder, "written.json")), plan)?;
         claimed.set_aside = claimed.clear_staging()?;
         claimed.make_staging()?;
@@ -98,6 +107,11 @@ impl RunFolder {
     /// Where the result is gathered: every file of it is written here.
     pub fn staging(&self) -> PathBuf {
         staging(&self.folder, self.writer)
+    }
+
+    /// Adds to the names that may come. What belongs to somebody else is noticed when the result is published.
+    pub fn adds(&mut self, names: impl IntoIterator<Item = String>) {
+        self.names.extend(names);
     }
 
     /// Where the finished steps of an earlier run that was killed are now.
@@ -120,9 +134,12 @@ impl RunFolder {
             return Ok(());
         }
         let coarser = staging.join(COARSER);
-        remove_folder(&coarser)?;
+        if !remove_own(&coarser, &|_| false)? {
+            set_aside(&coarser, &self.folder)?;
+        }
         make_folder(&coarser)?;
-        for name in names(&staging)?.iter().filter(|name| !name.starts_with('.') && *name != COARSER) {
+        let of_steps = |name: &&String| self.names.contains(name) || is_partial(name);
+        for name in names(&staging)?.iter().filter(of_steps) {
             let path = staging.join(name);
             fs::rename(&path, coarser.join(name)).map_err(|error| OutputError::new(&path, error))?;
         }
@@ -136,7 +153,8 @@ impl RunFolder {
     /// the result then stays where it was gathered.
     pub fn publish(self) -> Result<(), OutputError> {
         let publication = Publication::new(&self.folder, self.writer);
-        publication.decide().and_then(|()| publication.complete()).map_err(|error| match error {
+        publication.decide(&self.names, &self.within).and_then(|()| publication.complete()).map_err(|error| match error
+        {
             FolderError::Output(error) => error,
             FolderError::Foreign { path, reason } => OutputError::new(&path, io::Error::other(reason)),
             FolderError::Busy { folder, owner } => OutputError::new(&folder, io::Error::other(owner)),
@@ -144,27 +162,19 @@ impl RunFolder {
     }
 
     /// Moves what an earlier run of this writer left unfinished to `interrupted-1/` or the next free number; removes it
-    /// where no step was finished.
+    /// where no step was finished and nobody else has put anything there.
     fn clear_staging(&self) -> Result<Option<PathBuf>, OutputError> {
         let staging = self.staging();
         if !staging.exists() {
             return Ok(None);
         }
-        let worthless = |name: &String| {
-            name.starts_with('.') || ["case.toml", "contact.partial", "stress.partial"].contains(&name.as_str())
-        };
-        if self.writer == Writer::Compare || names(&staging)?.iter().all(worthless) {
-            return remove_folder(&staging).map(|()| None);
+        let has_steps = self.writer == Writer::Solve && staging.join("summary.json").is_file();
+        let own =
+            |name: &str| name == MARK || is_of_a_study(self.writer, name) || self.names.iter().any(|own| own == name);
+        if !has_steps && remove_own(&staging, &own)? {
+            return Ok(None);
         }
-        let free = |number: usize| {
-            let path = self.folder.join(format!("interrupted-{number}"));
-            fs::symlink_metadata(&path).is_err().then_some(path)
-        };
-        let aside = (1..).find_map(free);
-        if let Some(aside) = &aside {
-            fs::rename(&staging, aside).map_err(|error| OutputError::new(aside, error))?;
-        }
-        Ok(aside)
+        set_aside(&staging, &self.folder)
     }
 
     /// An empty place for the result, marked as percoat's from the moment it is there.
@@ -179,9 +189,16 @@ impl RunFolder {
     }
 }
 
+/// Whether a study leaves a file of that name; which ones, only the study can tell.
+fn is_of_a_study(writer: Writer, name: &str) -> bool {
+    let extension = Path::new(name).extension().and_then(|extension| extension.to_str());
+    writer == Writer::Validate && extension.is_some_and(|extension| ["png", "csv", "md"].contains(&extension))
+}
+
 /// Refuses what the plan, or the removal of the writer's earlier files, would take from its owner.
 fn refuse_foreign(folder: &Path, manifest: &Manifest, plan: &Plan) -> Result<(), FolderError> {
-    let earlier = manifest.names(plan.writer).filter(|name| !plan.names.iter().any(|planned| planned == name));
+    let replaced = |name: &&str| name.starts_with(&plan.within) && !plan.names.iter().any(|planned| planned == name);
+    let earlier = manifest.names(plan.writer).filter(replaced);
     for name in plan.names.iter().map(String::as_str).chain(earlier) {
         let path = folder.join(name);
         let standing = manifest.standing(folder, name).map_err(|error| OutputError::new(&path, error))?;

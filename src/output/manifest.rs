@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// A command that leaves a result in an output folder. Each replaces its own files alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,6 +17,13 @@ pub enum Writer {
     Solve,
     /// `percoat compare`.
     Compare,
+    /// `percoat validate`.
+    Validate,
+}
+
+impl Writer {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Solve, Self::Compare, Self::Validate];
 }
 
 /// The list of files, by name.
@@ -58,7 +65,8 @@ impl Manifest {
         let list = fs::read_to_string(path).ok().and_then(|text| serde_json::from_str::<Self>(&text).ok());
         let mut list = list.unwrap_or_else(Self::empty);
         // Nothing outside the folder, whoever wrote the list.
-        list.files.retain(|name, _| Path::new(name).file_name().is_some_and(|plain| plain == name.as_str()));
+        let inside = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+        list.files.retain(|name, _| !name.is_empty() && inside(name));
         list
     }
 
@@ -67,12 +75,11 @@ impl Manifest {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// The files of all other writers.
-    pub fn without(&self, writer: Writer) -> Self {
-        let mut others = Self::empty();
-        others
-            .files
-            .extend(self.files.iter().filter(|(_, file)| file.by != writer).map(|(n, f)| (n.clone(), f.clone())));
+    /// The files of all other writers, and those of this one whose names do not begin with `within`.
+    pub fn without(&self, writer: Writer, within: &str) -> Self {
+        let mut others = self.clone();
+        others.percoat = Self::empty().percoat;
+        others.files.retain(|name, file| file.by != writer || !name.starts_with(within));
         others
     }
 
@@ -183,11 +190,11 @@ mod tests {
         let file = folder.path().join("written.json");
         fs::write(&file, "content").unwrap();
         let mut manifest = Manifest::empty();
-        for name in ["a", "../b", "/c", "d/e", ".."] {
+        for name in ["a", "../b", "/c", "d/e", "d/../../f", "..", ""] {
             manifest.add(name, Written::of(&file, Writer::Compare).unwrap());
         }
         fs::write(&file, manifest.to_json()).unwrap();
-        assert_eq!(Manifest::read(&file).names(Writer::Compare).collect::<Vec<_>>(), ["a"]);
+        assert_eq!(Manifest::read(&file).names(Writer::Compare).collect::<Vec<_>>(), ["a", "d/e"]);
         assert_eq!(Manifest::read(&file).names(Writer::Solve).count(), 0);
         fs::write(&file, &manifest.to_json()[..40]).unwrap();
         assert_eq!(Manifest::read(&file).names(Writer::Compare).count(), 0);

@@ -18,12 +18,15 @@
 //!    `unfinished/` goes in one move. At every moment the old result or the whole new one stands in one place.
 //!
 //! A run that is killed leaves `unfinished/` with all steps it has finished. The next run into the folder completes a
-//! publication that was decided; otherwise it moves the folder to `interrupted-1/` or the next free number. `compare`
-//! gathers in `.percoat/compare/` and replaces its own two files alone: both commands may share a folder.
+//! publication that was decided; otherwise it moves the folder to `interrupted-1/` or the next free number. What somebody
+//! else puts into `unfinished/` is not published and not removed: it is moved aside like an interrupted run. `compare`
+//! gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone, and
+//! a single study those of its own folder.
 
 mod comparison;
 mod fields;
 mod folder;
+mod gathered;
 mod manifest;
 mod npz;
 mod publication;

@@ -4,7 +4,8 @@
 //! this one does not. A file gets a second name in the output folder and keeps the one where it was gathered: until all
 //! are in place and listed the whole new result stands there, and then that folder goes in one move.
 
-use super::folder::{FolderError, foreign, names, own, remove_folder, staging};
+use super::folder::{FolderError, MARK, foreign, own, staging};
+use super::gathered::{remove_own, set_aside};
 use super::manifest::{Manifest, Standing, Writer, Written};
 use super::{OutputError, write_text};
 use std::fs;
@@ -44,14 +45,15 @@ impl<'a> Publication<'a> {
         own(self.folder, "written.json")
     }
 
-    /// Lists the gathered files as the new result.
+    /// Lists the gathered files of the planned names as the new result, in the place of the earlier files whose names
+    /// begin with `within`.
     ///
     /// # Errors
     /// [`FolderError`]; then nothing is decided.
-    pub fn decide(&self) -> Result<(), FolderError> {
+    pub fn decide(&self, planned: &[String], within: &str) -> Result<(), FolderError> {
         let old = Manifest::read(&self.list());
-        let mut new = old.without(self.writer);
-        for name in names(&self.staging)?.iter().filter(|name| !name.starts_with('.')) {
+        let mut new = old.without(self.writer, within);
+        for name in planned {
             let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
             if !gathered.is_file() {
                 continue;
@@ -75,7 +77,17 @@ impl<'a> Publication<'a> {
         for action in self.actions()? {
             self.act(&action)?;
         }
-        Ok(remove_folder(&self.retired())?)
+        Ok(self.sweep()?)
+    }
+
+    /// Removes what is percoat's of a retired folder; anything else there is moved aside.
+    fn sweep(&self) -> Result<(), OutputError> {
+        let (retired, list) = (self.retired(), Manifest::read(&self.list()));
+        let own = |name: &str| [MARK, DECIDED].contains(&name) || list.names(self.writer).any(|listed| listed == name);
+        if !remove_own(&retired, &own)? {
+            set_aside(&retired, self.folder)?;
+        }
+        Ok(())
     }
 
     fn retired(&self) -> PathBuf {
@@ -121,6 +133,7 @@ impl<'a> Publication<'a> {
                 let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
                 let second = own(self.folder, "placing");
                 let place = || {
+                    path.parent().map_or(Ok(()), fs::create_dir_all)?;
                     if second.exists() {
                         fs::remove_file(&second)?;
                     }
@@ -138,8 +151,8 @@ impl<'a> Publication<'a> {
             }
             Action::List => write_text(&self.list(), &Manifest::read(&self.staging.join(DECIDED)).to_json()),
             Action::Retire => {
+                self.sweep()?;
                 let retired = self.retired();
-                remove_folder(&retired)?;
                 fs::rename(&self.staging, &retired).map_err(|error| OutputError::new(&self.staging, error))
             }
         }
@@ -148,6 +161,7 @@ impl<'a> Publication<'a> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::folder::names;
     use super::super::{Plan, RunFolder};
     use super::*;
     use std::collections::BTreeMap;
@@ -156,7 +170,7 @@ mod tests {
 
     fn claim(folder: &Path) -> Result<RunFolder, FolderError> {
         let names = PLAN.map(str::to_owned).to_vec();
-        RunFolder::claim(folder, &Plan { writer: Writer::Solve, names, case: None })
+        RunFolder::claim(folder, &Plan { writer: Writer::Solve, names, within: String::new(), case: None })
     }
 
     /// A run that has gathered some of the files, each with its content.
@@ -188,7 +202,7 @@ mod tests {
             gathered(folder, &old, "old").publish().unwrap();
             let run = gathered(folder, &new, "new");
             let publication = Publication::new(folder, Writer::Solve);
-            publication.decide().unwrap();
+            publication.decide(&PLAN.map(str::to_owned), "").unwrap();
             let actions = publication.actions().unwrap();
             for action in actions.iter().take(moment) {
                 publication.act(action).unwrap();
@@ -231,6 +245,34 @@ mod tests {
         fs::remove_file(folder.join("case.toml")).unwrap();
         let next = claim(folder).unwrap();
         assert_eq!(files(next.set_aside().unwrap()).len(), 2);
+    }
+
+    #[test]
+    fn what_somebody_puts_beside_a_result_that_is_gathered_is_neither_published_nor_lost() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let foreign = |staging: &Path| {
+            for name in ["mine/x.txt", "contact.partial/notes.txt", "notes.txt"] {
+                let path = staging.join(name);
+                fs::create_dir_all(path.parent().unwrap()).unwrap();
+                fs::write(path, "mine").unwrap();
+            }
+        };
+        let run = gathered(folder, &["case.toml", "summary.json"], "new");
+        foreign(&run.staging());
+        run.publish().unwrap();
+        assert_eq!(files(folder).len(), 2);
+        // Killed before its first step.
+        let run = gathered(folder, &["case.toml"], "killed");
+        foreign(&run.staging());
+        drop(run);
+        let next = claim(folder).unwrap();
+        assert!(next.set_aside().unwrap().ends_with("interrupted-2"));
+        for place in ["interrupted-1", "interrupted-2"] {
+            for name in ["mine/x.txt", "contact.partial/notes.txt", "notes.txt"] {
+                assert_eq!(fs::read_to_string(folder.join(place).join(name)).unwrap(), "mine", "{place}/{name}");
+            }
+        }
     }
 
     #[test]

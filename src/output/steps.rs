@@ -2,6 +2,7 @@
 //!
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
+use super::gathered::remove_waiting;
 use super::npz::{Archive, npy};
 use super::{OutputError, make_folder, write_file};
 use std::fs;
@@ -126,8 +127,7 @@ impl StepArrays {
             }
             archive.finish()
         })?;
-        let partial = self.partial();
-        fs::remove_dir_all(&partial).map_err(|error| OutputError::new(&partial, error))
+        remove_waiting(&self.partial()).map(|_| ())
     }
 }
 

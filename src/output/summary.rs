@@ -63,6 +63,17 @@ pub struct Stress {
     pub faces: Vec<Extremes>,
     /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`].
     pub surface_error: f64,
+    /// Estimated discretisation errors of the largest of all, see [`Maxima::errors`].
+    pub errors: StressErrors,
+}
+
+/// Estimated errors of the largest stresses, pressures; null where there is no coarser grid or no number.
+#[derive(Debug, Clone, Serialize)]
+pub struct StressErrors {
+    /// Of the largest principal shear stress.
+    pub max_tau1: Option<f64>,
+    /// Of the largest tension.
+    pub max_tension: Option<f64>,
 }
 
 /// Largest stresses over a material or a face.
@@ -94,9 +105,8 @@ pub struct Peak {
 }
 
 impl Stress {
-    /// From the maxima of a field and the estimated error of the largest tension on the surface. `tip`: a place where
-    /// τ₁ is infinite.
-    pub fn new(maxima: &Maxima, surface_error: f64, tip: Option<[f64; 2]>) -> Self {
+    /// From the maxima of a field and those of the next coarser grid. `tip`: a place where τ₁ is infinite.
+    pub fn new(maxima: &Maxima, coarser: Option<&Maxima>, tip: Option<[f64; 2]>) -> Self {
         let peak = |peak: &maxima::Peak| {
             let [x, y, z] = peak.position;
             Peak { value: Some(peak.value), singular: false, x, y, z, material: peak.side, direction: peak.direction }
@@ -105,12 +115,17 @@ impl Stress {
             max_tau1: peak(&extremes.tau1),
             max_tension: peak(&extremes.tension),
         };
+        let errors = coarser.map(|coarser| maxima.errors(coarser));
         let mut stress = Self {
             max_tau1: peak(&maxima.tau1()),
             max_tension: peak(&maxima.tension()),
             materials: maxima.materials.iter().map(extremes).collect(),
             faces: maxima.faces.iter().map(extremes).collect(),
-            surface_error,
+            surface_error: maxima.crest.map_or(0.0, |crest| crest.error(coarser.and_then(|all| all.crest.as_ref()))),
+            errors: StressErrors {
+                max_tau1: errors.map(|errors| errors[0]).filter(|_| tip.is_none()),
+                max_tension: errors.map(|errors| errors[1]),
+            },
         };
         if let Some([x, y]) = tip {
             // A tip is infinitely stressed, whatever a grid shows of it.

@@ -3,7 +3,7 @@
 use super::summary::{Peak, Step, Stress};
 use crate::comparison::{CircleComparison, Comparison, Deviation, Reading};
 use crate::localized::{CircleRadius, Setup};
-use crate::number::{number, with_error};
+use crate::number::{ROUNDING, number, with_error};
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Up to this many steps every level gets a row of its own.
@@ -39,7 +39,11 @@ fn detailed(steps: &[Step]) -> String {
                 _ if level.load == 0.0 => "–".to_owned(),
                 // The radius of the area says little of a ring.
                 Some(radius) if level.ring => match (level.radius_inner, level.radius_outer) {
-                    (Some(inner), Some(outer)) => format!("ring {}–{}", number(inner), number(outer)),
+                    (Some(inner), Some(outer)) => format!(
+                        "ring {} to {}",
+                        with_error(inner, level.errors.radius_inner),
+                        with_error(outer, level.errors.radius_outer)
+                    ),
                     _ => format!("ring, area of {}", number(radius)),
                 },
                 Some(radius) => with_error(radius, level.errors.contact_radius),
@@ -51,7 +55,7 @@ fn detailed(steps: &[Step]) -> String {
                 percent_with_error(level.load_share, level.errors.load_share),
                 finite(level.max_pressure, level.errors.max_pressure),
                 radius,
-                level.asymmetry.map_or("–".to_owned(), percent),
+                level.asymmetry.map_or("–".to_owned(), |part| percent_with_error(part, level.errors.asymmetry)),
             ];
             rows.push([&lead[..], &cells[..]].concat());
             lead = [const { String::new() }; 3];
@@ -186,7 +190,9 @@ fn finite(x: Option<f64>, error: Option<f64>) -> String {
 /// A part with its error in per cent: two digits behind the point, fewer where the error counts before them.
 fn percent_with_error(x: f64, error: Option<f64>) -> String {
     match error.map(|error| 100.0 * error) {
-        Some(error) if error > 0.0 => format!("{} %", with_error(100.0 * x, Some(error.max(0.01)))),
+        Some(error) if error > ROUNDING * 100.0 * x.abs() => {
+            format!("{} %", with_error(100.0 * x, Some(error.max(0.01))))
+        }
         _ => percent(x),
     }
 }
@@ -214,13 +220,15 @@ pub fn largest_errors(steps: &[Step]) -> Option<String> {
 
 /// The largest stresses of a step in one line.
 pub fn stress(stress: &Stress) -> String {
-    let peak = |name: &str, peak: &Peak| {
+    let peak = |name: &str, peak: &Peak, error: Option<f64>| {
         let Peak { value, x, y, z, material, .. } = *peak;
-        let value = finite(value, None);
+        let value = finite(value, error);
         let [x, y, z] = [x, y, z].map(number);
         format!("{name} {value} in material {material} at ({x}, {y}, {z})")
     };
-    format!("{}; {}", peak("largest τ₁", &stress.max_tau1), peak("largest tension", &stress.max_tension))
+    let [tau1, tension] = [stress.errors.max_tau1, stress.errors.max_tension];
+    let tau1 = peak("largest τ₁", &stress.max_tau1, tau1);
+    format!("{tau1}; {}", peak("largest tension", &stress.max_tension, tension))
 }
 
 #[cfg(test)]

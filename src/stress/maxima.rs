@@ -45,6 +45,10 @@ pub struct Maxima {
     pub faces: Vec<Extremes>,
     /// The largest tension on the surface with its uncertainty; `None` where contact has no edge.
     pub crest: Option<Crest>,
+    /// Samples along the radius of a disc as large as the smallest contact spot.
+    pub resolution: f64,
+    /// Of the samples, a length.
+    pub spacing: f64,
 }
 
 impl Maxima {
@@ -58,6 +62,28 @@ impl Maxima {
         self.largest(|extremes| extremes.tension)
     }
 
+    /// Estimated errors of the largest τ₁ and the largest tension, pressures: twice the change from the next `coarser`
+    /// grid, which at second order is three times the error, and what n samples along the radius of the smallest spot
+    /// leave open: 0.03 n⁻² of τ₁, 0.1 n⁻² of a tension or the usual one, within two samples of the surface 0.2 n⁻¹.
+    /// For a tension on the surface, what its [`Crest`] says of itself. Read off fifty random contacts; that they hold in
+    /// 95 % of fifty others is tested.
+    pub fn errors(&self, coarser: &Self) -> [f64; 2] {
+        let error = |largest: fn(&Self) -> Peak, deep: f64, scale: f64| {
+            let (fine, coarse) = (largest(self), largest(coarser));
+            let open = if fine.position[2] < NEAR * self.spacing {
+                SHALLOW / self.resolution
+            } else {
+                deep / self.resolution.powi(2)
+            };
+            SAFETY * (fine.value - coarse.value).abs() + open * scale.max(fine.value.abs())
+        };
+        let tension = match self.crest {
+            Some(crest) if crest.peak == self.tension() => crest.scale * crest.error(coarser.crest.as_ref()),
+            crest => error(Self::tension, DEEP[1], crest.map_or(0.0, |crest| crest.scale)),
+        };
+        [error(Self::tau1, DEEP[0], 0.0), tension]
+    }
+
     fn largest(&self, quantity: impl Fn(&Extremes) -> Peak) -> Peak {
         let all = self.materials.iter().map(quantity);
         // There is always a substrate.
@@ -67,6 +93,14 @@ impl Maxima {
     }
 }
 
+/// By how much a change from the next coarser grid is multiplied.
+const SAFETY: f64 = 2.0;
+/// Depth in spacings down to which the series converges slowly.
+const NEAR: f64 = 2.0;
+/// The error of a stress under spots of n samples per radius is at least this over n of it near the surface, …
+const SHALLOW: f64 = 0.2;
+/// … and this over n² below: of τ₁ and of tensions.
+const DEEP: [f64; 2] = [0.03, 0.1];
 /// Ratio of successive distances from a face.
 const RATIO: f64 = 1.35;
 /// Waves with qz beyond this are left out of the search: e^{−25} of the pressure.
@@ -148,7 +182,8 @@ impl Field {
             materials.push(Extremes { tau1: best(Quantity::Tau1), tension: best(Quantity::Tension) });
             faces.extend(own);
         }
-        Maxima { materials, faces, crest }
+        let (resolution, spacing) = (self.spots.least_resolution(), self.grid().spacing());
+        Maxima { materials, faces, crest, resolution, spacing }
     }
 
     /// Depths at which planes are searched, ascending, faces first and last.
@@ -194,7 +229,7 @@ impl Field {
     /// The peak on a face: between the samples of the plane by the exact sum, or, where that converges slowly, the
     /// sample itself.
     fn face_peak(&self, candidate: &Candidate, quantity: Quantity) -> Peak {
-        if candidate.depth.z < 2.0 * self.grid().spacing() {
+        if candidate.depth.z < NEAR * self.grid().spacing() {
             return self.peak(candidate);
         }
         self.peak(&self.horizontally(candidate, quantity))
@@ -209,7 +244,7 @@ impl Field {
         index: usize,
         faces: [f64; 2],
     ) -> Peak {
-        if candidate.depth.z < 2.0 * self.grid().spacing() || faces.contains(&candidate.depth.z) {
+        if candidate.depth.z < NEAR * self.grid().spacing() || faces.contains(&candidate.depth.z) {
             return self.face_peak(candidate, quantity);
         }
         let low = depths[index.saturating_sub(1)];

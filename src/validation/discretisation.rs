@@ -22,7 +22,7 @@ const FINER: usize = 4;
 const HELD: f64 = 0.95;
 
 /// What is estimated, in the order of [`quantities`].
-const QUANTITIES: [&str; 8] = [
+const QUANTITIES: [&str; 11] = [
     "mean pressure",
     "penetration",
     "contact fraction",
@@ -31,6 +31,9 @@ const QUANTITIES: [&str; 8] = [
     "share",
     "peak pressure",
     "contact radius",
+    "smallest radius",
+    "largest radius",
+    "asymmetry",
 ];
 
 fn run() -> Result<Outcome, StudyError> {
@@ -105,17 +108,20 @@ fn compared(random: &mut Random) -> Result<Option<Vec<[f64; 4]>>, StudyError> {
 
 fn quantities(step: &Observables) -> Vec<Option<f64>> {
     let whole = [step.mean_pressure, step.penetration, step.contact_fraction, step.max_pressure].map(Some);
-    let levels = step
-        .levels
-        .iter()
-        .flat_map(|level| [Some(level.load), Some(level.load_share), Some(level.max_pressure), level.contact_radius]);
+    let levels = step.levels.iter().flat_map(|level| {
+        let (least, largest) = level.radius_extremes.unzip();
+        let loads = [level.load, level.load_share, level.max_pressure].map(Some);
+        loads.into_iter().chain([level.contact_radius, least, largest, level.asymmetry()])
+    });
     whole.into_iter().chain(levels).collect()
 }
 
 fn stated(errors: &Errors) -> Vec<Option<f64>> {
     let whole = [errors.mean_pressure, errors.penetration, errors.contact_fraction, errors.max_pressure];
-    let levels =
-        errors.levels.iter().flat_map(|level| [level.load, level.load_share, level.max_pressure, level.contact_radius]);
+    let levels = errors.levels.iter().flat_map(|level| {
+        let loads = [level.load, level.load_share, level.max_pressure];
+        loads.into_iter().chain([level.contact_radius, level.radius_min, level.radius_max, level.asymmetry])
+    });
     whole.into_iter().chain(levels).collect()
 }
 

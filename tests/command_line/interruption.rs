@@ -27,8 +27,13 @@ const SECOND: [&str; 6] =
 /// `percoat solve` with `arguments` into `folder`, on its way.
 fn start(folder: &Path, arguments: &[&str]) -> Child {
     // Whoever runs the tests may have signals ignored.
+    start_with(&["--default-signal=HUP,INT,TERM"], folder, arguments)
+}
+
+/// The same with signals treated as `env` is told.
+fn start_with(signals: &[&str], folder: &Path, arguments: &[&str]) -> Child {
     Command::new("env")
-        .arg("--default-signal=HUP,INT,TERM")
+        .args(signals)
         .arg(assert_cmd::cargo::cargo_bin!("percoat"))
         .args(["solve", "--output"])
         .arg(folder)
@@ -41,7 +46,11 @@ fn start(folder: &Path, arguments: &[&str]) -> Child {
 
 /// Starts a run and waits until so many steps stand in its curve.
 fn start_and_wait(steps: usize, folder: &Path, arguments: &[&str]) -> Child {
-    let mut child = start(folder, arguments);
+    wait_for(steps, folder, start(folder, arguments))
+}
+
+/// Waits until so many steps stand in the curve of a run on its way.
+fn wait_for(steps: usize, folder: &Path, mut child: Child) -> Child {
     let started = Instant::now();
     let curve = folder.join("unfinished/curve.csv");
     let done = || fs::read_to_string(&curve).map_or(0, |curve| curve.lines().count());
@@ -130,6 +139,41 @@ fn an_end_that_is_asked_for_is_answered_with_the_steps_that_are_saved() {
         };
         assert!([steps, steps - 1].iter().any(|&steps| said == expected(steps)), "{signal}: {said}, found {steps}");
     }
+}
+
+#[test]
+fn a_signal_that_is_ignored_stays_so_and_the_others_are_answered() {
+    let desk = Desk::new();
+    let folder = desk.path("long");
+    let signals = ["--default-signal=TERM", "--ignore-signal=INT"];
+    let child = wait_for(2, &folder, start_with(&signals, &folder, &LONG));
+    let send = |signal: &str| Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+    send("INT");
+    sleep(Duration::from_millis(50));
+    send("TERM");
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(130) && said.starts_with("interrupted: "), "{said}");
+    // The first of the two would have ended it with as many steps as stood there before.
+    assert!(readable_steps(&folder.join("unfinished")) >= 2);
+}
+
+#[test]
+fn a_run_that_cannot_say_anything_ends_as_it_would_have() {
+    let desk = Desk::new();
+    let run = |arguments: &[&str]| {
+        let full = || fs::OpenOptions::new().write(true).open("/dev/full");
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("percoat"));
+        let command = command.args(arguments).current_dir(desk.path(".")).stdout(Stdio::null());
+        // Where there is no such device the other end of a pipe is closed.
+        let mut child = command.stderr(full().map_or_else(|_| Stdio::piped(), Stdio::from)).spawn().unwrap();
+        drop(child.stderr.take());
+        child.wait().unwrap().code()
+    };
+    assert_eq!(run(&["solve", "fig9"]), Some(2));
+    let short = ["grid.points=48", "solver.max_iterations=2"].map(|set| ["--set", set]).concat();
+    assert_eq!(run(&[&["solve", "-o", "short", "--no-pictures"], &short[..]].concat()), Some(3));
+    assert_eq!(Folder(desk.path("short")).summary()["complete"], true);
 }
 
 #[test]

@@ -68,3 +68,21 @@ fn reports_and_studies_of_somebody_else_are_not_written_over() {
         assert_eq!(Folder(path.parent().unwrap().to_owned()).all_names().len(), 1);
     }
 }
+
+#[test]
+fn a_study_renews_its_own_files_and_what_was_changed_since_stays() {
+    let desk = Desk::new();
+    let validate = |study: &str| desk.percoat(&["validate", study, "-o", "mine", "-q"]);
+    for study in ["kernel", "lattice-sums", "kernel"] {
+        assert_eq!(validate(study).code, 0, "{study}");
+    }
+    let folder = Folder(desk.path("mine"));
+    assert!(["kernel/figure.png", "lattice-sums/figure.png"].iter().all(|name| !folder.bytes(name).is_empty()));
+    // A page of one's own beside them is no obstacle, a figure that was drawn over is.
+    desk.write("mine/kernel/README.md", "# Mine\n");
+    assert_eq!(validate("kernel").code, 0);
+    desk.write("mine/kernel/figure.png", "mine");
+    validate("kernel").complains(2, &["kernel/figure.png", "changed", "-o"]);
+    assert_eq!(["figure.png", "README.md"].map(|name| folder.text(&format!("kernel/{name}"))), ["mine", "# Mine\n"]);
+    assert_eq!(validate("lattice-sums").code, 0, "the other study has nothing to do with it");
+}

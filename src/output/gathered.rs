@@ -1,0 +1,125 @@
+//! What percoat itself puts where a result is gathered, by its names. Whatever else stands there is somebody else's: it
+//! is neither published nor removed.
+
+use super::OutputError;
+use super::folder::COARSER;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Files that steps leave before they are published.
+const STEPS: [&str; 5] = ["case.toml", "summary.json", "curve.csv", "contact.npz", "stress.npz"];
+/// Whether fields of the steps wait in a folder of that name.
+pub(super) fn is_partial(name: &str) -> bool {
+    name.ends_with(".partial")
+}
+
+/// Whether a run leaves a file of that name before it publishes.
+fn is_of_steps(name: &str) -> bool {
+    let is_volume = name.starts_with("stress.") && name.ends_with(".vts");
+    let is_temporary = name.starts_with('.') && name.ends_with(".tmp");
+    STEPS.contains(&name) || is_volume || is_temporary
+}
+
+/// Removes a folder with all that percoat has put into it; `also` are further names of its files. What is somebody
+/// else's stays, and the folder around it; returns whether nothing did.
+///
+/// # Errors
+/// [`OutputError`] with the path that cannot be read or removed.
+pub(super) fn remove_own(folder: &Path, also: &dyn Fn(&str) -> bool) -> Result<bool, OutputError> {
+    remove(folder, &|name| is_of_steps(name) || also(name))
+}
+
+/// The same for a folder in which fields wait.
+///
+/// # Errors
+/// [`OutputError`] with the path that cannot be read or removed.
+pub(super) fn remove_waiting(folder: &Path) -> Result<bool, OutputError> {
+    remove(folder, &|name| name.ends_with(".npy") || is_of_steps(name))
+}
+
+fn remove(folder: &Path, own: &dyn Fn(&str) -> bool) -> Result<bool, OutputError> {
+    let failed = |path: &Path| {
+        let path = path.to_owned();
+        move |error| OutputError::new(&path, error)
+    };
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(true),
+        entries => entries.map_err(failed(folder))?,
+    };
+    let mut gone = true;
+    for entry in entries {
+        let entry = entry.map_err(failed(folder))?;
+        let (path, name) = (entry.path(), entry.file_name());
+        let is_folder = entry.file_type().map_err(failed(&path))?.is_dir();
+        gone &= match name.to_str() {
+            Some(COARSER) if is_folder => remove_own(&path, own)?,
+            Some(name) if is_folder && is_partial(name) => remove_waiting(&path)?,
+            // percoat makes folders for its files alone.
+            Some(name) if is_folder => {
+                fs::read_dir(&path).map_err(failed(&path))?.next().is_some()
+                    && remove(&path, &|inner| own(&format!("{name}/{inner}")))?
+            }
+            Some(name) if own(name) => {
+                fs::remove_file(&path).map_err(failed(&path))?;
+                true
+            }
+            _ => false,
+        };
+    }
+    if gone {
+        fs::remove_dir(folder).map_err(failed(folder))?;
+    }
+    Ok(gone)
+}
+
+/// Moves a folder to `interrupted-1/` in the output folder, or the next free number.
+///
+/// # Errors
+/// [`OutputError`] with the path it cannot take.
+pub(super) fn set_aside(folder: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
+    let free = |number: usize| {
+        let path = output.join(format!("interrupted-{number}"));
+        fs::symlink_metadata(&path).is_err().then_some(path)
+    };
+    let aside = (1..).find_map(free);
+    if let Some(aside) = &aside {
+        fs::rename(folder, aside).map_err(|error| OutputError::new(aside, error))?;
+    }
+    Ok(aside)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_somebody_elses_stays_and_the_folders_around_it() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("unfinished");
+        let (own, foreign) = (
+            [
+                "case.toml",
+                ".curve.csv.17.tmp",
+                "stress.0001.vts",
+                "coarser/curve.csv",
+                "stress.partial/p.0001.npy",
+                "x.png",
+            ],
+            ["notes.txt", "mine/x.txt", "contact.partial/notes.txt"],
+        );
+        for name in own.iter().chain(&foreign) {
+            let path = folder.join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "").unwrap();
+        }
+        assert!(!remove_own(&folder, &|name| name == "x.png").unwrap());
+        assert!(own.iter().all(|name| !folder.join(name).exists()));
+        assert!(foreign.iter().all(|name| folder.join(name).is_file()));
+        assert!(!folder.join("coarser").exists() && !folder.join("stress.partial").exists());
+
+        let aside = set_aside(&folder, place.path()).unwrap().unwrap();
+        assert!(aside.ends_with("interrupted-1") && aside.join("mine/x.txt").is_file() && !folder.exists());
+        assert!(remove_own(&folder, &|_| false).unwrap(), "what is not there is gone");
+    }
+}
