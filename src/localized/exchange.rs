@@ -52,6 +52,8 @@ impl Sweep {
     fn solved(&self, active: &[usize], wanted: Option<f64>) -> Option<(Vec<f64>, f64)> {
         let n = active.len();
         let unknowns = n + usize::from(wanted.is_some());
+        // The penetration as the load under the stiffest spot, so that all unknowns are loads, whatever the units.
+        let stiffest = active.iter().map(|&m| self.stiffness[m]).fold(0.0, f64::max);
         let (mut rows, mut right) = (vec![vec![0.0; unknowns]; unknowns], vec![0.0; unknowns]);
         for (i, &m) in active.iter().enumerate() {
             let (stiffness, coupling) = (self.stiffness[m], &self.coupling[m]);
@@ -61,7 +63,7 @@ impl Sweep {
             let used: f64 = coupling.iter().zip(&self.used).map(|(coupling, load)| coupling * load).sum();
             right[i] = self.found[m] + stiffness * used;
             if let Some(wanted) = wanted {
-                rows[i][n] = -stiffness;
+                rows[i][n] = -stiffness / stiffest;
                 rows[n][i] = 1.0;
                 right[n] = wanted;
             }
@@ -69,7 +71,7 @@ impl Sweep {
         let solution = linear::solve(rows, right)?;
         let mut loads = vec![0.0; self.found.len()];
         active.iter().zip(&solution).for_each(|(&m, &load)| loads[m] = load);
-        Some((loads, if wanted.is_some() { solution[n] } else { 0.0 }))
+        Some((loads, if wanted.is_some() { solution[n] / stiffest } else { 0.0 }))
     }
 }
 
@@ -82,6 +84,17 @@ mod tests {
         let sweep = Sweep { stiffness: vec![2.0, 1.0], found: vec![1.0, 0.2], ..Sweep::new(vec![1.0, 0.2]) };
         let (loads, rise) = sweep.exchanged(Some(1.5));
         assert!((loads[0] - 1.2).abs() < 1e-15 && (loads[1] - 0.3).abs() < 1e-15 && (rise - 0.1).abs() < 1e-15);
+    }
+
+    #[test]
+    fn units_do_not_matter() {
+        for unit in [1e-30, 1e30] {
+            let stiffness = vec![2.0 * unit, unit];
+            let (loads, rise) =
+                Sweep { stiffness, found: vec![1.0, 0.2], ..Sweep::new(vec![1.0, 0.2]) }.exchanged(Some(1.5));
+            assert!((loads[0] - 1.2).abs() < 1e-15 && (loads[1] - 0.3).abs() < 1e-15, "{loads:?}");
+            assert!((rise * unit - 0.1).abs() < 1e-15, "{rise}");
+        }
     }
 
     #[test]

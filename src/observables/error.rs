@@ -74,6 +74,11 @@ struct Resolved {
 }
 
 impl Resolved {
+    /// Below one sample the laws say no more than there.
+    fn new(samples: f64, exponent: f64) -> Self {
+        Self { samples: samples.max(1.0), exponent }
+    }
+
     fn peak(&self) -> f64 {
         if self.exponent >= 2.0 {
             0.1 * self.samples.powi(-2) + self.samples.powi(-4)
@@ -108,17 +113,18 @@ pub fn errors(hierarchy: &Hierarchy, fine: &Observables, control: Control) -> Er
 /// How far the apex of a topography lies above its highest sample, from which the penetration is measured: a length. An
 /// indenter's apex is known.
 fn apex_above_samples(hierarchy: &Hierarchy) -> f64 {
-    let texture = hierarchy.texture();
+    let (grid, texture) = (hierarchy.grid(), hierarchy.texture());
     if !texture.owner.is_empty() {
         return 0.0;
     }
-    let Some(highest) = (0..texture.shape.len()).min_by(|&a, &b| texture.shape[a].total_cmp(&texture.shape[b])) else {
-        return 0.0;
-    };
     // Positive everywhere, as a pressure is.
-    let lowest = texture.shape[highest] + 2.0 * texture.range;
+    let lowest = texture.shape.iter().copied().fold(0.0, f64::max) + texture.range;
     let height: Vec<f64> = texture.shape.iter().map(|depth| lowest - depth).collect();
-    peak::interpolated(hierarchy.grid(), &height, highest) - height[highest]
+    // Another hill than that of the highest sample may rise higher between its own.
+    let summits = (0..grid.len()).filter(|&index| peak::is_summit(grid, &height, index));
+    let apex = summits.map(|index| peak::interpolated(grid, &height, index)).fold(0.0, f64::max);
+    let highest = height.iter().copied().fold(0.0, f64::max);
+    (apex - highest).max(0.0)
 }
 
 /// By how much the largest of all is multiplied, so that the estimates hold in some 97 % of the cases from which these
@@ -128,6 +134,7 @@ const PENETRATION: f64 = 3.2;
 const LOAD: f64 = 3.0;
 const SHARE: f64 = 4.0;
 const PEAK: f64 = 2.2;
+const APEX: f64 = 1.25;
 // Judged by the least resolved of all contacts, and so already wide.
 const HIGHEST: f64 = 1.5;
 const AREA: f64 = 2.0;
@@ -147,22 +154,25 @@ fn between(fine: &Observables, coarser: &[Observables], exponents: &[f64], contr
         let changes = changes.filter_map(|(part, coarse)| Some(part * (of(coarse)? - value).abs()));
         Some(safety * changes.fold(open, f64::max))
     };
-    let touching: Vec<f64> =
+    let mut touching: Vec<f64> =
         fine.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution).collect();
-    // The whole is as good as the largest contact, the highest peak as the least resolved one. A topography has its
-    // grids alone.
+    if fine.levels.is_empty() {
+        touching.push(fine.spot_resolution);
+    }
+    // The whole is as good as the largest contact, the highest peak as the least resolved one; a topography has its
+    // typical spot.
     let largest = touching.iter().copied().fold(0.0, f64::max);
     let smallest = touching.iter().copied().fold(f64::INFINITY, f64::min);
     let law = |of: fn(&Resolved) -> f64, samples: f64| {
         let exponent = exponents.iter().copied().fold(2.0, f64::min);
-        if touching.is_empty() { 0.0 } else { of(&Resolved { samples, exponent }) }
+        of(&Resolved::new(samples, exponent))
     };
     let by_load = matches!(control, Control::MeanPressure(_));
     let level = |(index, (own, &exponent)): (usize, (&LevelObservables, &f64))| -> LevelErrors {
         if own.load <= 0.0 {
             return LevelErrors::default();
         }
-        let resolved = Resolved { samples: own.resolution, exponent };
+        let resolved = Resolved::new(own.resolution, exponent);
         let of = |safety: f64, open: f64, value: fn(&LevelObservables) -> Option<f64>| {
             estimate(safety, open, &|observables| observables.levels.get(index).and_then(value))
         };
@@ -192,11 +202,12 @@ fn between(fine: &Observables, coarser: &[Observables], exponents: &[f64], contr
     let mean_pressure = estimate(MEAN_PRESSURE, load, &|step| Some(step.mean_pressure));
     let penetration = estimate(PENETRATION, depth, &|step| Some(step.penetration));
     let peak = fine.max_pressure * law(Resolved::peak, smallest);
+    let highest = if fine.levels.is_empty() { PEAK } else { HIGHEST };
     Errors {
         mean_pressure: prescribed(mean_pressure, by_load),
-        penetration: prescribed(penetration.map(|error| error + apex), !by_load),
+        penetration: prescribed(penetration.map(|error| error + APEX * apex), !by_load),
         contact_fraction: estimate(AREA, fine.contact_fraction_error, &|step| Some(step.contact_fraction)),
-        max_pressure: estimate(HIGHEST, peak, &|step| (!step.singular_peak()).then_some(step.max_pressure)),
+        max_pressure: estimate(highest, peak, &|step| (!step.singular_peak()).then_some(step.max_pressure)),
         levels: fine.levels.iter().zip(exponents).enumerate().map(level).collect(),
     }
 }

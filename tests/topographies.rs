@@ -1,0 +1,75 @@
+//! Whether the discretisation errors that are stated of a topography hold: a study has those of indenters.
+
+mod common;
+
+use common::{Random, coated, solve};
+use percoat::lattice::Cell;
+use percoat::material::Interface;
+use percoat::observables::errors;
+use percoat::solver::Control;
+use percoat::texture::Surface;
+use std::f64::consts::TAU;
+
+const CASES: usize = 40;
+const POINTS: usize = 64;
+/// Points of the reference over those of the case.
+const FINER: usize = 4;
+const QUANTITIES: [&str; 3] = ["penetration", "contact fraction", "largest pressure"];
+
+/// Smooth hills: ten waves of one to four per period with random phases, so that no apex stands on a sample.
+struct Hills(Vec<[f64; 4]>);
+
+impl Hills {
+    fn random(random: &mut Random) -> Self {
+        let wave = |_| {
+            let [k1, k2] = [0, 1].map(|_| (9.0 * random.unit()).floor() - 4.0);
+            [k1, k2, random.unit(), 0.01 / (1.0 + k1 * k1 + k2 * k2)]
+        };
+        Self((0..10).map(wave).collect())
+    }
+
+    fn surface(&self, n: usize) -> Surface {
+        let height = |index: usize| {
+            let (s, t) = ((index / n) as f64 / n as f64, (index % n) as f64 / n as f64);
+            self.0.iter().map(|[k1, k2, phase, size]| size * (TAU * (k1 * s + k2 * t + phase)).cos()).sum()
+        };
+        let heights = (0..n * n).map(height).collect();
+        Surface::Heights { cell: Cell::hexagonal(1.0).unwrap(), points: [n; 2], heights }
+    }
+}
+
+/// Penetration, contact fraction and largest pressure; stated and true errors, the truth from a topography given on four
+/// times as many points. The penetration is measured from the apex, which the samples miss.
+#[test]
+fn stated_errors_of_topographies_hold_and_say_something() {
+    let mut random = Random(67);
+    let mut ratios = [const { Vec::new() }; 3];
+    for _ in 0..CASES {
+        let hills = Hills::random(&mut random);
+        let interface = random.pick(&[Interface::Bonded, Interface::Frictionless]);
+        let half_space = coated(random.log(0.2, 5.0), random.log(0.03, 0.5), [0.3, 0.3], interface);
+        let control = Control::MeanPressure(random.log(1e-4, 0.02));
+        let read = |points: usize| {
+            let (hierarchy, solution, found) = solve(&hills.surface(points), &half_space, [points; 2], control);
+            assert!(solution.report.stop.solved(), "{}", solution.report);
+            let errors = errors(&hierarchy, &found, control);
+            let stated = [errors.penetration, errors.contact_fraction, errors.max_pressure].map(Option::unwrap);
+            ([found.penetration, found.contact_fraction, found.max_pressure], stated)
+        };
+        let ((found, stated), (exact, _)) = (read(POINTS), read(FINER * POINTS));
+        for k in 0..3 {
+            let error = (found[k] - exact[k]).abs();
+            // Complete contact has no error but rounding.
+            if error > 1e-8 * exact[k] {
+                ratios[k].push(stated[k] / error);
+            }
+        }
+    }
+    for (name, mut ratios) in QUANTITIES.into_iter().zip(ratios) {
+        ratios.sort_by(f64::total_cmp);
+        let held = ratios.iter().filter(|&&ratio| ratio >= 1.0).count() as f64 / ratios.len() as f64;
+        let median = ratios[ratios.len() / 2];
+        println!("{name}: {held:.3} of {}, median of stated over true error {median:.1}", ratios.len());
+        assert!(held >= 0.95 && median < 30.0, "{name}: {held} hold, median {median}");
+    }
+}
