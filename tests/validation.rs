@@ -13,6 +13,11 @@ fn holds(name: &str) {
     assert!(outcome.holds(), "{failing:#?}");
     let numbers = outcome.data.len() + outcome.published.len();
     assert!(!outcome.figures.is_empty() && numbers > 0, "{name} shows nothing");
+    assert_eq!(
+        outcome.files(),
+        find(name).map(|study| study.files).unwrap_or_default(),
+        "files the study does not list"
+    );
     let rows: Vec<String> = outcome.claims.iter().map(|claim| claim.row(name)).collect();
     let page: Vec<(&str, Vec<String>)> = if rows.is_empty() { Vec::new() } else { vec![(name, rows)] };
     assert_eq!(

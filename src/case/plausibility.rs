@@ -128,10 +128,13 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
                 Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
                     all.push((format!("levels[{number}].radius"), radius));
                 }
-                // The length at which its slope is 1.
+                // As of a paraboloid, whose radius this is.
                 Shape::Power { coefficient, exponent } if exponent > 1.0 => {
-                    let length = (coefficient * exponent).powf(1.0 / (1.0 - exponent));
-                    all.push((format!("levels[{number}]: the distance at which c·rⁿ has the slope 1"), length));
+                    let slope = coefficient * exponent * side.powf(exponent - 1.0);
+                    all.push((
+                        format!("levels[{number}]: the side of the cell over the slope of c·rⁿ there"),
+                        side / slope,
+                    ));
                 }
                 Shape::Power { .. } | Shape::Cone { .. } => {}
             }
@@ -259,7 +262,7 @@ mod tests {
             (&["levels.2.radius=0.05"], &["level 3", "Hertz"]),
             (
                 &["lattice.period=1e-6", "levels.0.shape=power", "levels.0.coefficient=0.6", "levels.0.exponent=2"],
-                &["levels[0]: the distance at which c·rⁿ has the slope 1 = 0.83333", "metres"],
+                &["levels[0]: the side of the cell over the slope of c·rⁿ there = 0.83333", "metres"],
             ),
         ] {
             let said = doubts("fig2", overrides).join("\n");

@@ -3,7 +3,7 @@
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
 use super::solve::{refuse_beyond_full_contact, room_or_refusal};
-use super::terminal::tell;
+use super::terminal::{self, tell};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
 use percoat::case::GridSection;
@@ -38,7 +38,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     refuse_beyond_full_contact(&case, &[control])?;
     interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
-    let plan = Plan { writer: Writer::Compare, names, within: String::new(), case: None };
+    let plan = Plan { names, ..Plan::new(Writer::Compare) };
     let claim = RunFolder::claim(&folder, &plan)?;
     let localized = &case.localized;
     let setup = Setup {
@@ -84,7 +84,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         picture::comparison(&case.title, case.surface(), case.half_space(), &comparison, setup.radius)
     })?;
     let mut saved = interruption::hold();
-    claim.publish()?;
+    terminal::tell_aside(claim.publish()?.as_deref());
     *saved = Saved::Result(folder.clone());
     drop(saved);
     if !common.quiet {

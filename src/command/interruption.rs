@@ -1,4 +1,4 @@
-//! Ctrl-C and SIGTERM: the command ends at once and says what it has saved.
+//! Ctrl-C, SIGTERM and a hang-up: the command ends at once and says what it has saved.
 
 use super::terminal::{self, tell};
 use percoat::output::RunFolder;
@@ -42,18 +42,22 @@ impl fmt::Display for Saved {
 }
 
 /// From now on a signal to end is answered with what is saved. A signal that is ignored, as under nohup or behind `&` in
-/// a script, stays so.
+/// a script, stays so, see [`watched`].
 pub fn watch() {
     // A command that cannot watch ends as any other program does.
     #[cfg(unix)]
     if let Ok(mut signals) = signal_hook::iterator::Signals::new(watched()) {
-        std::thread::spawn(move || signals.forever().for_each(|_| answer()));
+        let handle = signals.handle();
+        let waiting = std::thread::Builder::new().spawn(move || signals.forever().for_each(|_| answer()));
+        if waiting.is_err() {
+            handle.close();
+        }
     }
     #[cfg(not(unix))]
     let _ = ctrlc::set_handler(answer);
 }
 
-/// Signals to end that are not ignored. Where the system does not tell which are, a hang-up is left alone.
+/// Signals to end that are not ignored. Where the system does not tell which are, a hang-up alone is taken for ignored.
 #[cfg(unix)]
 fn watched() -> Vec<i32> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

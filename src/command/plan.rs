@@ -21,5 +21,5 @@ pub fn plan(case: &Case, steps: usize, pictures: &PictureOptions) -> Plan {
         drawn.push("curve");
     }
     names.extend(pictures.files(&drawn));
-    Plan { writer: Writer::Solve, names, within: String::new(), case: Some(case.to_toml()) }
+    Plan { names, case: Some(case.to_toml()), ..Plan::new(Writer::Solve) }
 }

@@ -4,7 +4,7 @@ use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
 use super::plan::plan;
 use super::stress::{largest, stress_change, wanted};
-use super::terminal::tell;
+use super::terminal::{self, tell};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::{ProgressBar, ProgressStyle};
 use percoat::case::resources::{Job, fits, refusal};
@@ -153,7 +153,7 @@ impl Run<'_> {
         if self.common.verbose {
             tell!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
         }
-        self.claim.begin_finer()?;
+        terminal::tell_aside(self.claim.begin_finer()?.as_deref());
         write_text(&self.staging.join("case.toml"), &self.case.to_toml())?;
         let mut fields = Fields::new(&self.staging)?;
         interruption::steps(0, self.controls.len(), &self.staging);
@@ -240,8 +240,9 @@ impl Run<'_> {
     /// The result takes the place of the one before.
     fn publish(self, folder: &Path) -> Result<(), Failure> {
         let mut saved = interruption::hold();
-        self.claim.publish()?;
+        let aside = self.claim.publish()?;
         *saved = Saved::Result(folder.to_owned());
+        terminal::tell_aside(aside.as_deref());
         Ok(())
     }
 
@@ -276,8 +277,12 @@ impl Run<'_> {
             ));
         }
         // Complete contact has no edge that samples would have to show.
-        let rough =
-            |step: &Step| step.levels.is_empty() && step.spot_resolution < FEW_SAMPLES && step.contact_fraction < 1.0;
+        let rough = |step: &Step| {
+            step.levels.is_empty()
+                && 0.0 < step.spot_resolution
+                && step.spot_resolution < FEW_SAMPLES
+                && step.contact_fraction < 1.0
+        };
         let rough: Vec<usize> = steps().filter(|(_, step)| rough(step)).map(|(number, _)| number).collect();
         if !rough.is_empty() {
             warnings.push(format!(

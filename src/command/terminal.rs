@@ -3,6 +3,7 @@
 use std::env;
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 
 use clap::ColorChoice;
 
@@ -18,6 +19,16 @@ pub(super) use tell;
 /// Empties the line of the terminal.
 pub fn clear_line() {
     let _ = write!(std::io::stderr(), "\r\x1b[K");
+}
+
+/// Says where files of somebody else have been moved, if any were in the way.
+pub fn tell_aside(place: Option<&Path>) {
+    if let Some(place) = place {
+        tell!(
+            "note: files that are not percoat's stood where its result was gathered; they are now in {}",
+            place.display()
+        );
+    }
 }
 
 /// Whether messages may be coloured.

@@ -3,7 +3,7 @@
 use super::interruption::{self, Saved};
 use super::terminal::tell;
 use super::{Failure, Outcome, Studies, terminal};
-use percoat::output::{Plan, RunFolder, Writer, make_folder, write_text};
+use percoat::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
 use percoat::picture::{Format, write_picture};
 use percoat::validation::paper::table;
 use percoat::validation::{self, Report, STUDIES, Study, differences};
@@ -45,8 +45,10 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
         if options.verbose {
             tell!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
         }
-        if let Ok(outcome) = &result {
-            outcomes.push((study.name, outcome.clone()));
+        match &result {
+            Ok(outcome) => outcomes.push((study.name, outcome.clone())),
+            // What it has shown before stays.
+            Err(_) => claim.keeps(format!("{}/", study.name)),
         }
         report.add(study, result);
     }
@@ -55,19 +57,19 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     }
     let markdown = report.markdown();
     let statements = report.statements();
-    let mut result = Gathered { folder: claim.staging(), names: Vec::new() };
-    result.text(path.clone(), &markdown)?;
+    let result = Gathered(claim.staging());
+    result.text(&path, &markdown)?;
     for (study, outcome) in &outcomes {
         result.study(study, outcome)?;
     }
     if !statements.is_empty() {
-        result.text(PAGE.to_owned(), &table::renewed(&statements))?;
+        result.text(PAGE, &table::renewed(&statements))?;
     }
-    claim.adds(result.names);
     let mut saved = interruption::hold();
-    claim.publish()?;
+    let aside = claim.publish()?;
     *saved = Saved::Result(folder.clone());
     drop(saved);
+    terminal::tell_aside(aside.as_deref());
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let differences = expected.map(|expected| {
         let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));
@@ -88,50 +90,40 @@ fn unknown(name: &str) -> Failure {
     Failure::Refused(format!("there is no study {name}; there are {}", names.join(", ")))
 }
 
-/// What the studies may write, as far as it is known before they are run: whatever looks like theirs in their folders
-/// has to be percoat's.
+/// What the studies may write, known before they are run.
 fn plan(folder: &Path, report: &str, within: String, studies: &[&Study]) -> Plan {
     let mut names = vec![report.to_owned()];
+    let of_study = |study: &&Study| study.files.iter().map(|file| format!("{}/{file}", study.name)).collect::<Vec<_>>();
+    names.extend(studies.iter().flat_map(of_study));
+    let mut adopted = Vec::new();
     if studies.iter().any(|study| study.name.starts_with("paper/")) {
         names.push(PAGE.to_owned());
+        // Who edits the text around the table builds the page into the program before the table is renewed.
+        let page = std::fs::read_to_string(folder.join(PAGE)).unwrap_or_default();
+        adopted.extend(table::is_around(&page).then(|| PAGE.to_owned()));
     }
-    for study in studies {
-        let Ok(entries) = std::fs::read_dir(folder.join(study.name)) else { continue };
-        let there = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-        let own = there.filter(|name| [".png", ".data.csv"].iter().any(|ending| name.ends_with(ending)));
-        names.extend(own.map(|name| format!("{}/{name}", study.name)));
-    }
-    Plan { writer: Writer::Validate, names, within, case: None }
+    Plan { names, adopted, scope: Scope { within, except: Vec::new() }, ..Plan::new(Writer::Validate) }
 }
 
 /// Files of a result where it is gathered.
-struct Gathered {
-    folder: PathBuf,
-    names: Vec<String>,
-}
+struct Gathered(PathBuf);
 
 impl Gathered {
-    fn text(&mut self, name: String, text: &str) -> Result<(), Failure> {
-        let path = self.folder.join(&name);
-        make_folder(path.parent().unwrap_or(&self.folder))?;
-        write_text(&path, text)?;
-        self.names.push(name);
-        Ok(())
+    fn text(&self, name: &str, text: &str) -> Result<(), Failure> {
+        let path = self.0.join(name);
+        make_folder(path.parent().unwrap_or(&self.0))?;
+        Ok(write_text(&path, text)?)
     }
 
     /// The figures and data of a study.
-    fn study(&mut self, study: &str, outcome: &validation::Outcome) -> Result<(), Failure> {
-        let folder = self.folder.join(study);
+    fn study(&self, study: &str, outcome: &validation::Outcome) -> Result<(), Failure> {
+        let folder = self.0.join(study);
         make_folder(&folder)?;
         for (name, figure) in &outcome.figures {
             write_picture(&folder, name, Format::Png, &figure.draw(Format::Png))?;
-            self.names.push(format!("{study}/{name}.png"));
         }
-        for data in &outcome.data {
-            self.text(format!("{study}/{}.data.csv", data.name), &data.csv())?;
-        }
-        for data in &outcome.published {
-            self.text(format!("{study}/{}.csv", data.name), &data.rounded().csv())?;
+        for (name, data) in outcome.tables() {
+            write_text(&folder.join(name), &data.csv())?;
         }
         Ok(())
     }

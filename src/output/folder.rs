@@ -1,7 +1,7 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
-use super::gathered::{is_partial, remove_own, set_aside};
-use super::manifest::{Manifest, Standing, Writer};
+use super::gathered::{is_partial, remove_gathered, remove_own, set_aside};
+use super::manifest::{Manifest, Scope, Standing, Writer, Written};
 use super::publication::Publication;
 use super::{OutputError, make_folder, write_text};
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -44,12 +44,21 @@ pub enum FolderError {
 pub struct Plan {
     /// Who writes.
     pub writer: Writer,
-    /// Every name that may come, relative to the folder; what only a run can name is added by [`RunFolder::adds`].
+    /// Every name that may come, relative to the folder.
     pub names: Vec<String>,
-    /// The writer's earlier files whose names begin with this are those that the result replaces: all where it is empty.
-    pub within: String,
+    /// Which of the writer's earlier files the result replaces.
+    pub scope: Scope,
+    /// Names whose content shows that they are percoat's, whatever stands in its list.
+    pub adopted: Vec<String>,
     /// Content of `case.toml`, if it is among them: the same file there already is no obstacle, and stays its owner's.
     pub case: Option<String>,
+}
+
+impl Plan {
+    /// Of a result without files that replaces the writer's earlier one.
+    pub fn new(writer: Writer) -> Self {
+        Self { writer, names: Vec::new(), scope: Scope::default(), adopted: Vec::new(), case: None }
+    }
 }
 
 /// An output folder of this run alone, until it is dropped or the process ends in whatever way.
@@ -59,8 +68,8 @@ pub struct RunFolder {
     writer: Writer,
     /// Names that may come.
     names: Vec<String>,
-    /// See [`Plan::within`].
-    within: String,
+    /// See [`Plan::scope`].
+    scope: Scope,
     set_aside: Option<PathBuf>,
     _lock: File,
 }
@@ -89,17 +98,20 @@ impl RunFolder {
     /// [`FolderError`]; nothing in the folder has been replaced or removed.
     pub fn claim(folder: &Path, plan: &Plan) -> Result<Self, FolderError> {
         if !folder.join(OWN).is_dir() {
-            refuse_foreign(folder, &Manifest::empty(), plan)?;
+            let adopted = |name: &&String| !plan.adopted.contains(name);
+            let names = plan.names.iter().filter(adopted).cloned().collect();
+            refuse_foreign(folder, &Manifest::empty(), &Plan { names, ..plan.clone() })?;
         }
         make_folder(&folder.join(OWN))?;
         let lock = lock(folder)?;
+        let mut aside = None;
         for writer in Writer::ALL {
-            Publication::new(folder, writer).complete()?;
+            aside = Publication::new(folder, writer).complete()?.or(aside);
         }
-        let Plan { writer, names, within, .. } = plan.clone();
-        let mut claimed = Self { folder: folder.to_owned(), writer, names, within, set_aside: None, _lock: lock };
-        refuse_foreign(folder, &Manifest::read(&own(folder, "written.json")), plan)?;
-        claimed.set_aside = claimed.clear_staging()?;
+        let Plan { writer, names, scope, .. } = plan.clone();
+        let mut claimed = Self { folder: folder.to_owned(), writer, names, scope, set_aside: None, _lock: lock };
+        refuse_foreign(folder, &adopting(folder, plan)?, plan)?;
+        claimed.set_aside = claimed.clear_staging()?.or(aside);
         claimed.make_staging()?;
         Ok(claimed)
     }
@@ -109,9 +121,9 @@ impl RunFolder {
         staging(&self.folder, self.writer)
     }
 
-    /// Adds to the names that may come. What belongs to somebody else is noticed when the result is published.
-    pub fn adds(&mut self, names: impl IntoIterator<Item = String>) {
-        self.names.extend(names);
+    /// The writer's earlier files whose names begin like this stay as they are.
+    pub fn keeps(&mut self, beginning: String) {
+        self.scope.except.push(beginning);
     }
 
     /// Where the finished steps of an earlier run that was killed are now.
@@ -125,40 +137,41 @@ impl RunFolder {
     }
 
     /// Begins again on a finer grid. The steps of the coarser one stand in `coarser/` until the result is published.
+    /// What somebody else has put there before is moved aside: where to.
     ///
     /// # Errors
     /// [`OutputError`] with the path that cannot be moved.
-    pub fn begin_finer(&self) -> Result<(), OutputError> {
+    pub fn begin_finer(&self) -> Result<Option<PathBuf>, OutputError> {
         let staging = self.staging();
         if !staging.join("summary.json").is_file() {
-            return Ok(());
+            return Ok(None);
         }
         let coarser = staging.join(COARSER);
-        if !remove_own(&coarser, &|_| false)? {
-            set_aside(&coarser, &self.folder)?;
-        }
+        let aside = if remove_own(&coarser, &|_| false)? { None } else { set_aside(&coarser, &self.folder)? };
         make_folder(&coarser)?;
         let of_steps = |name: &&String| self.names.contains(name) || is_partial(name);
         for name in names(&staging)?.iter().filter(of_steps) {
             let path = staging.join(name);
             fs::rename(&path, coarser.join(name)).map_err(|error| OutputError::new(&path, error))?;
         }
-        Ok(())
+        Ok(aside)
     }
 
-    /// Puts the result in the place of the one before, and ends the run's hold of the folder.
+    /// Puts the result in the place of the one before, and ends the run's hold of the folder. What somebody else has put
+    /// beside the gathered result is moved aside: where to.
     ///
     /// # Errors
     /// [`OutputError`], also when something that is not percoat's has come into the way since the folder was claimed;
     /// the result then stays where it was gathered.
-    pub fn publish(self) -> Result<(), OutputError> {
+    pub fn publish(self) -> Result<Option<PathBuf>, OutputError> {
         let publication = Publication::new(&self.folder, self.writer);
-        publication.decide(&self.names, &self.within).and_then(|()| publication.complete()).map_err(|error| match error
-        {
-            FolderError::Output(error) => error,
-            FolderError::Foreign { path, reason } => OutputError::new(&path, io::Error::other(reason)),
-            FolderError::Busy { folder, owner } => OutputError::new(&folder, io::Error::other(owner)),
-        })
+        publication.decide(&self.names, &self.scope).and_then(|()| publication.complete()).map_err(
+            |error| match error {
+                FolderError::Output(error) => error,
+                FolderError::Foreign { path, reason } => OutputError::new(&path, io::Error::other(reason)),
+                FolderError::Busy { folder, owner } => OutputError::new(&folder, io::Error::other(owner)),
+            },
+        )
     }
 
     /// Moves what an earlier run of this writer left unfinished to `interrupted-1/` or the next free number; removes it
@@ -169,9 +182,7 @@ impl RunFolder {
             return Ok(None);
         }
         let has_steps = self.writer == Writer::Solve && staging.join("summary.json").is_file();
-        let own =
-            |name: &str| name == MARK || is_of_a_study(self.writer, name) || self.names.iter().any(|own| own == name);
-        if !has_steps && remove_own(&staging, &own)? {
+        if !has_steps && remove_gathered(&staging, self.writer, &|name| self.names.iter().any(|own| own == name))? {
             return Ok(None);
         }
         set_aside(&staging, &self.folder)
@@ -189,15 +200,24 @@ impl RunFolder {
     }
 }
 
-/// Whether a study leaves a file of that name; which ones, only the study can tell.
-fn is_of_a_study(writer: Writer, name: &str) -> bool {
-    let extension = Path::new(name).extension().and_then(|extension| extension.to_str());
-    writer == Writer::Validate && extension.is_some_and(|extension| ["png", "csv", "md"].contains(&extension))
+/// The list of a folder, with the adopted names on it.
+fn adopting(folder: &Path, plan: &Plan) -> Result<Manifest, OutputError> {
+    let list = own(folder, "written.json");
+    let mut manifest = Manifest::read(&list);
+    let there: Vec<&String> = plan.adopted.iter().filter(|name| folder.join(name).is_file()).collect();
+    for name in &there {
+        let path = folder.join(name);
+        manifest.add(name, Written::of(&path, plan.writer).map_err(|error| OutputError::new(&path, error))?);
+    }
+    if !there.is_empty() {
+        write_text(&list, &manifest.to_json())?;
+    }
+    Ok(manifest)
 }
 
 /// Refuses what the plan, or the removal of the writer's earlier files, would take from its owner.
 fn refuse_foreign(folder: &Path, manifest: &Manifest, plan: &Plan) -> Result<(), FolderError> {
-    let replaced = |name: &&str| name.starts_with(&plan.within) && !plan.names.iter().any(|planned| planned == name);
+    let replaced = |name: &&str| plan.scope.contains(name) && !plan.names.iter().any(|planned| planned == name);
     let earlier = manifest.names(plan.writer).filter(replaced);
     for name in plan.names.iter().map(String::as_str).chain(earlier) {
         let path = folder.join(name);
@@ -208,7 +228,8 @@ fn refuse_foreign(folder: &Path, manifest: &Manifest, plan: &Plan) -> Result<(),
         }
     }
     let staging = staging(folder, plan.writer);
-    if staging.exists() && !staging.join(MARK).is_file() {
+    let unmarked = || !staging.join(MARK).is_file() && !names(&staging).is_ok_and(|names| names.is_empty());
+    if plan.writer == Writer::Solve && staging.exists() && unmarked() {
         return Err(FolderError::Foreign { path: staging, reason: "is not of percoat" });
     }
     Ok(())
@@ -219,7 +240,7 @@ pub(super) fn foreign(standing: Standing) -> Option<&'static str> {
     match standing {
         Standing::Absent | Standing::Written => None,
         Standing::Changed => Some("was changed since percoat wrote it"),
-        Standing::Foreign => Some("is not listed there as a result of percoat"),
+        Standing::Foreign => Some("is not listed as a result of percoat (in .percoat/written.json)"),
     }
 }
 

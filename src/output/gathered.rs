@@ -2,13 +2,15 @@
 //! is neither published nor removed.
 
 use super::OutputError;
-use super::folder::COARSER;
+use super::folder::{COARSER, MARK, remove_folder};
+use super::manifest::Writer;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Files that steps leave before they are published.
 const STEPS: [&str; 5] = ["case.toml", "summary.json", "curve.csv", "contact.npz", "stress.npz"];
+
 /// Whether fields of the steps wait in a folder of that name.
 pub(super) fn is_partial(name: &str) -> bool {
     name.ends_with(".partial")
@@ -19,6 +21,19 @@ fn is_of_steps(name: &str) -> bool {
     let is_volume = name.starts_with("stress.") && name.ends_with(".vts");
     let is_temporary = name.starts_with('.') && name.ends_with(".tmp");
     STEPS.contains(&name) || is_volume || is_temporary
+}
+
+/// Removes where a writer has gathered its result; `also` are further names of its files. What is somebody else's in the
+/// place that everybody sees stays, and the folder around it; returns whether nothing did.
+///
+/// # Errors
+/// [`OutputError`] with the path that cannot be read or removed.
+pub(super) fn remove_gathered(folder: &Path, writer: Writer, also: &dyn Fn(&str) -> bool) -> Result<bool, OutputError> {
+    match writer {
+        Writer::Solve => remove_own(folder, also),
+        // They gather where percoat keeps what is its own.
+        Writer::Compare | Writer::Validate => remove_folder(folder).map(|()| true),
+    }
 }
 
 /// Removes a folder with all that percoat has put into it; `also` are further names of its files. What is somebody
@@ -55,12 +70,9 @@ fn remove(folder: &Path, own: &dyn Fn(&str) -> bool) -> Result<bool, OutputError
         gone &= match name.to_str() {
             Some(COARSER) if is_folder => remove_own(&path, own)?,
             Some(name) if is_folder && is_partial(name) => remove_waiting(&path)?,
-            // percoat makes folders for its files alone.
-            Some(name) if is_folder => {
-                fs::read_dir(&path).map_err(failed(&path))?.next().is_some()
-                    && remove(&path, &|inner| own(&format!("{name}/{inner}")))?
-            }
-            Some(name) if own(name) => {
+            // It goes last, so that a folder that is cleared halfway stays percoat's.
+            Some(MARK) if !is_folder => true,
+            Some(name) if !is_folder && own(name) => {
                 fs::remove_file(&path).map_err(failed(&path))?;
                 true
             }
@@ -68,6 +80,10 @@ fn remove(folder: &Path, own: &dyn Fn(&str) -> bool) -> Result<bool, OutputError
         };
     }
     if gone {
+        let mark = folder.join(MARK);
+        if mark.is_file() {
+            fs::remove_file(&mark).map_err(failed(&mark))?;
+        }
         fs::remove_dir(folder).map_err(failed(folder))?;
     }
     Ok(gone)

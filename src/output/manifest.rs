@@ -41,6 +41,21 @@ pub(super) struct Written {
     checksum: String,
 }
 
+/// Earlier files of a writer that its new result replaces, by the beginnings of their names.
+#[derive(Debug, Clone, Default)]
+pub struct Scope {
+    /// How all of them begin; every name does where it is empty.
+    pub within: String,
+    /// How those begin that stay as they are.
+    pub except: Vec<String>,
+}
+
+impl Scope {
+    pub(super) fn contains(&self, name: &str) -> bool {
+        name.starts_with(&self.within) && !self.except.iter().any(|kept| name.starts_with(kept))
+    }
+}
+
 /// Whose a name in the folder is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Standing {
@@ -75,11 +90,11 @@ impl Manifest {
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// The files of all other writers, and those of this one whose names do not begin with `within`.
-    pub fn without(&self, writer: Writer, within: &str) -> Self {
+    /// The files of all other writers, and those of this one whose names are not in `scope`.
+    pub fn without(&self, writer: Writer, scope: &Scope) -> Self {
         let mut others = self.clone();
         others.percoat = Self::empty().percoat;
-        others.files.retain(|name, file| file.by != writer || !name.starts_with(within));
+        others.files.retain(|name, file| file.by != writer || !scope.contains(name));
         others
     }
 
@@ -96,16 +111,29 @@ impl Manifest {
     /// Whose the name is in `folder`.
     pub fn standing(&self, folder: &Path, name: &str) -> io::Result<Standing> {
         let path = folder.join(name);
-        let found = match fs::symlink_metadata(&path) {
-            Ok(found) => found,
-            Err(error) if matches!(error.kind(), io::ErrorKind::NotFound | io::ErrorKind::NotADirectory) => {
-                return Ok(Standing::Absent);
+        // Folders that lead to it, outermost first; a link or a file in the place of one is somebody else's.
+        let mut above: Vec<&Path> = Path::new(name).ancestors().skip(1).filter(|part| *part != Path::new("")).collect();
+        above.reverse();
+        for part in above {
+            match found(&folder.join(part))? {
+                None => return Ok(Standing::Absent),
+                Some(part) if !part.is_dir() => return Ok(Standing::Foreign),
+                Some(_) => {}
             }
-            Err(error) => return Err(error),
-        };
+        }
+        let Some(found) = found(&path)? else { return Ok(Standing::Absent) };
         let Some(listed) = self.files.get(name) else { return Ok(Standing::Foreign) };
         let same = found.is_file() && found.len() == listed.bytes && Written::of(&path, listed.by)? == *listed;
         Ok(if same { Standing::Written } else { Standing::Changed })
+    }
+}
+
+/// What stands at `path` itself, if anything does.
+fn found(path: &Path) -> io::Result<Option<fs::Metadata>> {
+    match fs::symlink_metadata(path) {
+        Ok(found) => Ok(Some(found)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
     }
 }
 
@@ -178,10 +206,20 @@ mod tests {
         fs::create_dir(path("replaced")).unwrap();
         fs::remove_file(path("gone")).unwrap();
         fs::write(path("mine"), "content").unwrap();
+        for name in ["mine/below", "linked/below", "folder/below"] {
+            manifest.add(name, Written::of(&path("kept"), Writer::Solve).unwrap());
+        }
+        fs::create_dir(path("folder")).unwrap();
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(path("folder"), path("linked")).unwrap();
+        #[cfg(not(unix))]
+        fs::write(path("linked"), "").unwrap();
         let standing = |name: &str| manifest.standing(folder.path(), name).unwrap();
         let found = ["kept", "changed", "replaced", "gone", "mine"].map(standing);
+        let below = ["mine/below", "linked/below", "folder/below"].map(standing);
         use Standing::{Absent, Changed, Foreign, Written as AsWritten};
         assert_eq!(found, [AsWritten, Changed, Changed, Absent, Foreign]);
+        assert_eq!(below, [Foreign, Foreign, Absent], "below a file, a link and a folder");
     }
 
     #[test]

@@ -21,7 +21,7 @@
 //! publication that was decided; otherwise it moves the folder to `interrupted-1/` or the next free number. What somebody
 //! else puts into `unfinished/` is not published and not removed: it is moved aside like an interrupted run. `compare`
 //! gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone, and
-//! a single study those of its own folder.
+//! a single study those of its own folder ([`Scope`]).
 
 mod comparison;
 mod fields;
@@ -39,7 +39,7 @@ mod volume;
 pub use comparison::CompareFile;
 pub use fields::Fields;
 pub use folder::{FolderError, Plan, RunFolder};
-pub use manifest::Writer;
+pub use manifest::{Scope, Writer};
 pub use steps::StepArrays;
 pub use stress::{Section, Seen, Stresses, Volume, Wanted};
 pub use volume::write_volume;

@@ -4,9 +4,9 @@
 //! this one does not. A file gets a second name in the output folder and keeps the one where it was gathered: until all
 //! are in place and listed the whole new result stands there, and then that folder goes in one move.
 
-use super::folder::{FolderError, MARK, foreign, own, staging};
-use super::gathered::{remove_own, set_aside};
-use super::manifest::{Manifest, Standing, Writer, Written};
+use super::folder::{FolderError, foreign, own, staging};
+use super::gathered::{remove_gathered, set_aside};
+use super::manifest::{Manifest, Scope, Standing, Writer, Written};
 use super::{OutputError, write_text};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -45,14 +45,13 @@ impl<'a> Publication<'a> {
         own(self.folder, "written.json")
     }
 
-    /// Lists the gathered files of the planned names as the new result, in the place of the earlier files whose names
-    /// begin with `within`.
+    /// Lists the gathered files of the planned names as the new result, in the place of the earlier files in `scope`.
     ///
     /// # Errors
     /// [`FolderError`]; then nothing is decided.
-    pub fn decide(&self, planned: &[String], within: &str) -> Result<(), FolderError> {
+    pub fn decide(&self, planned: &[String], scope: &Scope) -> Result<(), FolderError> {
         let old = Manifest::read(&self.list());
-        let mut new = old.without(self.writer, within);
+        let mut new = old.without(self.writer, scope);
         for name in planned {
             let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
             if !gathered.is_file() {
@@ -69,29 +68,36 @@ impl<'a> Publication<'a> {
         Ok(write_text(&self.staging.join(DECIDED), &new.to_json())?)
     }
 
-    /// Does what is left of a decided publication, and sweeps up after a retired one.
+    /// Does what is left of a decided publication, and sweeps up after a retired one; where what is not percoat's there
+    /// has been moved.
     ///
     /// # Errors
     /// [`FolderError`]; the next call goes on from there.
-    pub fn complete(&self) -> Result<(), FolderError> {
+    pub fn complete(&self) -> Result<Option<PathBuf>, FolderError> {
+        let mut aside = None;
         for action in self.actions()? {
+            if action == Action::Retire {
+                aside = self.sweep()?;
+            }
             self.act(&action)?;
         }
-        Ok(self.sweep()?)
+        Ok(self.sweep()?.or(aside))
     }
 
     /// Removes what is percoat's of a retired folder; anything else there is moved aside.
-    fn sweep(&self) -> Result<(), OutputError> {
+    fn sweep(&self) -> Result<Option<PathBuf>, OutputError> {
         let (retired, list) = (self.retired(), Manifest::read(&self.list()));
-        let own = |name: &str| [MARK, DECIDED].contains(&name) || list.names(self.writer).any(|listed| listed == name);
-        if !remove_own(&retired, &own)? {
-            set_aside(&retired, self.folder)?;
-        }
-        Ok(())
+        let own = |name: &str| name == DECIDED || list.names(self.writer).any(|listed| listed == name);
+        if remove_gathered(&retired, self.writer, &own)? { Ok(None) } else { set_aside(&retired, self.folder) }
     }
 
     fn retired(&self) -> PathBuf {
-        own(self.folder, "retired")
+        let name = match self.writer {
+            Writer::Solve => "retired",
+            Writer::Compare => "retired-compare",
+            Writer::Validate => "retired-validate",
+        };
+        own(self.folder, name)
     }
 
     fn standing(&self, manifest: &Manifest, name: &str) -> Result<Standing, OutputError> {
@@ -151,7 +157,6 @@ impl<'a> Publication<'a> {
             }
             Action::List => write_text(&self.list(), &Manifest::read(&self.staging.join(DECIDED)).to_json()),
             Action::Retire => {
-                self.sweep()?;
                 let retired = self.retired();
                 fs::rename(&self.staging, &retired).map_err(|error| OutputError::new(&self.staging, error))
             }
@@ -166,64 +171,110 @@ mod tests {
     use super::*;
     use std::collections::BTreeMap;
 
-    const PLAN: [&str; 4] = ["case.toml", "curve.csv", "stress.npz", "summary.json"];
+    const PLAN: [&str; 5] = ["case.toml", "curve.csv", "stress.npz", "study/figure.png", "summary.json"];
+
+    fn claim_for(folder: &Path, writer: Writer) -> Result<RunFolder, FolderError> {
+        let names = PLAN.map(str::to_owned).to_vec();
+        RunFolder::claim(folder, &Plan { names, ..Plan::new(writer) })
+    }
 
     fn claim(folder: &Path) -> Result<RunFolder, FolderError> {
-        let names = PLAN.map(str::to_owned).to_vec();
-        RunFolder::claim(folder, &Plan { writer: Writer::Solve, names, within: String::new(), case: None })
+        claim_for(folder, Writer::Solve)
     }
 
     /// A run that has gathered some of the files, each with its content.
-    fn gathered(folder: &Path, names: &[&str], content: &str) -> RunFolder {
-        let run = claim(folder).unwrap();
+    fn gathered_by(writer: Writer, folder: &Path, names: &[&str], content: &str) -> RunFolder {
+        let run = claim_for(folder, writer).unwrap();
         for name in names {
-            fs::write(run.staging().join(name), format!("{name}: {content}")).unwrap();
+            let path = run.staging().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, format!("{name}: {content}")).unwrap();
         }
         run
     }
 
-    /// Files in a folder but not below it, with their content.
+    fn gathered(folder: &Path, names: &[&str], content: &str) -> RunFolder {
+        gathered_by(Writer::Solve, folder, names, content)
+    }
+
+    /// Files in a folder, and in the folders of its studies, with their content.
     fn files(folder: &Path) -> BTreeMap<String, String> {
-        let names = names(folder).unwrap_or_default().into_iter().filter(|name| !name.starts_with('.'));
+        let within = |place: &str| {
+            let names =
+                names(&folder.join(place)).unwrap_or_default().into_iter().filter(|name| !name.starts_with('.'));
+            names.map(|name| format!("{place}{name}")).collect::<Vec<_>>()
+        };
+        let names = within("").into_iter().chain(within("study/"));
         names.filter_map(|name| Some((name.clone(), fs::read_to_string(folder.join(name)).ok()?))).collect()
     }
 
     #[test]
     fn killed_between_any_two_changes_the_old_or_the_new_result_is_whole_and_the_next_run_ends_it() {
-        let old = ["case.toml", "stress.npz", "summary.json"];
         let new = ["case.toml", "curve.csv", "summary.json"];
         let result = |names: &[&str], content: &str| -> BTreeMap<String, String> {
             names.iter().map(|&name| (name.to_owned(), format!("{name}: {content}"))).collect()
         };
-        let mut moments = 0;
-        for moment in 0.. {
+        for (writer, moment) in Writer::ALL.into_iter().flat_map(|writer| (0..=6).map(move |moment| (writer, moment))) {
             let folder = tempfile::tempdir().unwrap();
             let folder = folder.path();
-            gathered(folder, &old, "old").publish().unwrap();
-            let run = gathered(folder, &new, "new");
-            let publication = Publication::new(folder, Writer::Solve);
-            publication.decide(&PLAN.map(str::to_owned), "").unwrap();
+            // Studies alone have folders.
+            let gone = if writer == Writer::Validate { "study/figure.png" } else { "stress.npz" };
+            let old = ["case.toml", gone, "summary.json"];
+            gathered_by(writer, folder, &old, "old").publish().unwrap();
+            let run = gathered_by(writer, folder, &new, "new");
+            let publication = Publication::new(folder, writer);
+            publication.decide(&PLAN.map(str::to_owned), &Scope::default()).unwrap();
             let actions = publication.actions().unwrap();
+            // Three files to place, one to remove, the list and the folder.
+            assert_eq!(actions.len(), 6);
             for action in actions.iter().take(moment) {
                 publication.act(action).unwrap();
             }
+            let staging = run.staging();
             drop(run);
-            let whole = [files(folder), files(&folder.join("unfinished"))];
-            assert!(whole.contains(&result(&new, "new")), "killed at {moment}: {whole:?}");
+            let whole = [files(folder), files(&staging)];
+            assert!(whole.contains(&result(&new, "new")), "{writer:?} killed at {moment}: {whole:?}");
             assert!(moment > 0 || whole[0] == result(&old, "old"));
 
-            let next = claim(folder).unwrap();
-            assert_eq!(files(folder), result(&new, "new"), "killed at {moment}");
-            assert_eq!((next.set_aside(), files(&next.staging()).len()), (None, 0));
-            next.publish().unwrap();
-            assert!(files(folder).is_empty(), "a run without files removes those of the one before");
-            moments = moment;
-            if moment == actions.len() {
-                break;
+            // Whoever comes next ends it.
+            for next in Writer::ALL {
+                let next = claim_for(folder, next).unwrap();
+                assert_eq!(files(folder), result(&new, "new"), "{writer:?} killed at {moment}");
+                assert_eq!((next.set_aside(), files(&next.staging()).len()), (None, 0));
             }
+            claim_for(folder, writer).unwrap().publish().unwrap();
+            assert!(files(folder).is_empty(), "a run without files removes those of the one before");
+            assert!(names(folder).unwrap().iter().all(|name| !name.starts_with("interrupted")));
         }
-        // Three files to place, one to remove, the list and the folder.
-        assert_eq!(moments, 6);
+    }
+
+    #[test]
+    fn a_result_replaces_the_files_of_its_scope_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        gathered(folder, &["case.toml", "study/figure.png", "summary.json"], "old").publish().unwrap();
+        let scope = Scope { within: "study/".to_owned(), except: Vec::new() };
+        let plan = Plan { scope: scope.clone(), ..Plan::new(Writer::Solve) };
+        let mut failed = RunFolder::claim(folder, &plan).unwrap();
+        failed.keeps("study/fig".to_owned());
+        failed.publish().unwrap();
+        assert_eq!(files(folder).len(), 3, "what is kept stays");
+        RunFolder::claim(folder, &plan).unwrap().publish().unwrap();
+        assert_eq!(files(folder).into_keys().collect::<Vec<_>>(), ["case.toml", "summary.json"]);
+    }
+
+    #[test]
+    fn what_its_content_shows_to_be_percoats_is_adopted() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        fs::write(folder.join("case.toml"), "percoat's by its content").unwrap();
+        assert!(matches!(claim(folder), Err(FolderError::Foreign { .. })));
+        let adopted = vec!["case.toml".to_owned()];
+        let plan = Plan { names: adopted.clone(), adopted, ..Plan::new(Writer::Solve) };
+        let run = RunFolder::claim(folder, &plan).unwrap();
+        fs::write(run.staging().join("case.toml"), "new").unwrap();
+        run.publish().unwrap();
+        assert_eq!(files(folder)["case.toml"], "new");
     }
 
     #[test]
@@ -260,7 +311,7 @@ mod tests {
         };
         let run = gathered(folder, &["case.toml", "summary.json"], "new");
         foreign(&run.staging());
-        run.publish().unwrap();
+        assert_eq!(run.publish().unwrap(), Some(folder.join("interrupted-1")));
         assert_eq!(files(folder).len(), 2);
         // Killed before its first step.
         let run = gathered(folder, &["case.toml"], "killed");

@@ -22,7 +22,12 @@ use crate::solver::Control;
 use crate::stress::{Depth, Field, MeanStress};
 use std::f64::consts::PI;
 
-pub const STUDY: Study = Study { name: "convergence", title: "Orders of convergence with the number of points", run };
+pub const STUDY: Study = Study {
+    name: "convergence",
+    title: "Orders of convergence with the number of points",
+    files: &["errors.data.csv", "figure.png"],
+    run,
+};
 
 const CASE: &str = include_str!("../../validation/convergence/case.toml");
 const NU: f64 = 0.3;

@@ -12,7 +12,12 @@ use crate::material::{HalfSpace, Interface, Layer, Material};
 use crate::picture::{Axis, Chart, Figure, Style};
 use std::f64::consts::PI;
 
-pub const STUDY: Study = Study { name: "disc", title: "Disc on a coating through the localized path", run };
+pub const STUDY: Study = Study {
+    name: "disc",
+    title: "Disc on a coating through the localized path",
+    files: &["disc.data.csv", "figure.png", "squares.data.csv"],
+    run,
+};
 
 const REFERENCE: &str = include_str!("../../validation/disc/reference.csv");
 

@@ -8,8 +8,12 @@ use crate::observables::{Errors, Observables, errors, observe};
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::{Control, Settings, StopReason};
 
-pub const STUDY: Study =
-    Study { name: "discretisation", title: "Estimated discretisation errors on random cases", run };
+pub const STUDY: Study = Study {
+    name: "discretisation",
+    title: "Estimated discretisation errors on random cases",
+    files: &["errors.data.csv", "figure.png"],
+    run,
+};
 
 /// Cases of the study; the laws were read off others.
 const CASES: usize = 100;

@@ -12,8 +12,12 @@ use crate::exact::lattice_sums::TRIANGULAR;
 use crate::exact::{CoatedContact, Coating, Hertz, System};
 use crate::picture::{Axis, Chart, Figure, Style};
 
-pub const STUDY: Study =
-    Study { name: "hertz", title: "Hertz as the limit of wide lattices and of thick and thin coatings", run };
+pub const STUDY: Study = Study {
+    name: "hertz",
+    title: "Hertz as the limit of wide lattices and of thick and thin coatings",
+    files: &["coating.data.csv", "figure.png", "lattice.data.csv"],
+    run,
+};
 
 const CASE: &str = include_str!("../../validation/hertz/case.toml");
 const RADIUS: f64 = 0.8;

@@ -15,8 +15,12 @@ use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::Control;
 use crate::stress::{Depth, Field, MeanStress};
 
-pub const STUDY: Study =
-    Study { name: "hertz-stresses", title: "Stresses under Hertz' contact, inside and on the surface", run };
+pub const STUDY: Study = Study {
+    name: "hertz-stresses",
+    title: "Stresses under Hertz' contact, inside and on the surface",
+    files: &["figure.png", "maxima.data.csv", "stresses.data.csv"],
+    run,
+};
 
 const CASE: &str = include_str!("../../validation/hertz-stresses/case.toml");
 /// Contact radius over period.

@@ -13,8 +13,12 @@ use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::Control;
 use std::f64::consts::PI;
 
-pub const STUDY: Study =
-    Study { name: "isolated", title: "One indenter alone on a coating, a layer and a half-space", run };
+pub const STUDY: Study = Study {
+    name: "isolated",
+    title: "One indenter alone on a coating, a layer and a half-space",
+    files: &["coated.data.csv", "figure.png"],
+    run,
+};
 
 const CASE: &str = include_str!("../../validation/isolated/case.toml");
 const REFERENCE: &str = include_str!("../../validation/isolated/reference.csv");

@@ -12,7 +12,12 @@ use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::{Control, Method, Settings};
 use crate::texture::Surface;
 
-pub const STUDY: Study = Study { name: "iterations", title: "Iterations against the number of points", run };
+pub const STUDY: Study = Study {
+    name: "iterations",
+    title: "Iterations against the number of points",
+    files: &["figure.png", "plates.data.csv", "polonsky-keer.data.csv", "preconditioned.data.csv"],
+    run,
+};
 
 /// Figures of Goryacheva & Torskaya (2019), each at one load p̄/E₂.
 const CASES: [(&str, f64); 5] = [("fig2", 0.06), ("fig3a", 0.008), ("fig3b", 0.008), ("fig4", 0.01), ("fig5", 0.08)];

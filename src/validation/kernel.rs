@@ -7,8 +7,12 @@ use crate::material::{HalfSpace, Interface, Layer, Material};
 use crate::picture::{Axis, Chart, Figure, Style};
 use serde_json::Value;
 
-pub const STUDY: Study =
-    Study { name: "kernel", title: "Layered half-space against multiprecision solutions of 700 stacks", run };
+pub const STUDY: Study = Study {
+    name: "kernel",
+    title: "Layered half-space against multiprecision solutions of 700 stacks",
+    files: &["compliance.data.csv", "figure.png", "interior.data.csv"],
+    run,
+};
 
 struct Reference {
     half_space: HalfSpace,

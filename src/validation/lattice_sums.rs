@@ -20,7 +20,12 @@ use crate::operator::Operator;
 use crate::picture::{Axis, Chart, Figure, Style};
 use std::f64::consts::PI;
 
-pub const STUDY: Study = Study { name: "lattice-sums", title: "What the images of a load do at its place", run };
+pub const STUDY: Study = Study {
+    name: "lattice-sums",
+    title: "What the images of a load do at its place",
+    files: &["figure.png", "sums.data.csv"],
+    run,
+};
 
 const REFERENCE: &str = include_str!("../../validation/lattice-sums/reference.csv");
 

@@ -18,7 +18,23 @@ use crate::picture::{Axis, Chart, Curve, Style};
 use crate::solver::{Control, Settings};
 use crate::stress::MeanStress;
 
-pub const STUDY: Study = Study { name: "localized", title: "Localized against spectral", run };
+pub const STUDY: Study = Study {
+    name: "localized",
+    title: "Localized against spectral",
+    files: &[
+        "figure.png",
+        "hard-shells.data.csv",
+        "hard.data.csv",
+        "one-level.data.csv",
+        "sliding-shells.data.csv",
+        "sliding.data.csv",
+        "soft-shells.data.csv",
+        "soft.data.csv",
+        "two-layers-shells.data.csv",
+        "two-layers.data.csv",
+    ],
+    run,
+};
 
 const RADIUS: f64 = 0.8;
 /// Indenters in the circles of the three levels.

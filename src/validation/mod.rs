@@ -52,6 +52,8 @@ pub struct Study {
     pub name: &'static str,
     /// What it shows, in one line.
     pub title: &'static str,
+    /// Files it leaves in its folder: figures, data of its own and data that are published.
+    pub files: &'static [&'static str],
     /// Computes everything afresh.
     pub run: fn() -> Result<Outcome, StudyError>,
 }

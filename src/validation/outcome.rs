@@ -28,6 +28,20 @@ impl Outcome {
         }
     }
 
+    /// Its tables by the names of their files, those that are published rounded.
+    pub fn tables(&self) -> impl Iterator<Item = (String, Data)> {
+        let data = self.data.iter().map(|data| (format!("{}.data.csv", data.name), data.clone()));
+        data.chain(self.published.iter().map(|data| (format!("{}.csv", data.name), data.rounded())))
+    }
+
+    /// Names of all its files, sorted.
+    pub fn files(&self) -> Vec<String> {
+        let figures = self.figures.iter().map(|(name, _)| format!("{name}.png"));
+        let mut files: Vec<String> = figures.chain(self.tables().map(|(name, _)| name)).collect();
+        files.sort();
+        files
+    }
+
     /// Whether there is a check and all of them hold.
     pub fn holds(&self) -> bool {
         !self.checks.is_empty() && self.checks.iter().all(Check::holds)

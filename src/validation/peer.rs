@@ -14,7 +14,12 @@ use crate::picture::{Axis, Chart, Figure, Style};
 use crate::texture::Surface;
 use std::f64::consts::TAU;
 
-pub const STUDY: Study = Study { name: "peer", title: "Homogeneous half-spaces against Tamaas", run };
+pub const STUDY: Study = Study {
+    name: "peer",
+    title: "Homogeneous half-spaces against Tamaas",
+    files: &["figure.png", "peer.data.csv"],
+    run,
+};
 
 const REFERENCE: &str = include_str!("../../validation/peer/reference.csv");
 const CASES: [&str; 4] = ["hexagonal lattice", "square lattice", "oblong lattice 1 × 2", "egg-box"];

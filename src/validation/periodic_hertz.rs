@@ -14,6 +14,7 @@ use crate::picture::{Axis, Chart, Figure, Style};
 pub const STUDY: Study = Study {
     name: "periodic-hertz",
     title: "Paraboloids among their images, one and three levels, bare and coated",
+    files: &["coated.data.csv", "figure.png", "one-level.data.csv"],
     run,
 };
 

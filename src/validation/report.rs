@@ -189,8 +189,8 @@ fn verdicts(markdown: &str) -> BTreeMap<(String, String), String> {
 mod tests {
     use super::*;
 
-    static ONE: Study = Study { name: "one", title: "One thing", run: || Ok(Outcome::default()) };
-    static TWO: Study = Study { name: "two", title: "Another", run: || Ok(Outcome::default()) };
+    static ONE: Study = Study { name: "one", title: "One thing", files: &[], run: || Ok(Outcome::default()) };
+    static TWO: Study = Study { name: "two", title: "Another", files: &[], run: || Ok(Outcome::default()) };
 
     fn report(values: &[f64]) -> Report {
         let checks = values.iter().map(|&x| Check::relative(format!("quantity {x:.0}"), x, x.round(), 1e-2)).collect();

@@ -15,8 +15,12 @@ use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::Control;
 use crate::texture::Surface;
 
-pub const STUDY: Study =
-    Study { name: "rings", title: "Annular contacts under a blunt indenter on a sliding plate", run };
+pub const STUDY: Study = Study {
+    name: "rings",
+    title: "Annular contacts under a blunt indenter on a sliding plate",
+    files: &["figure.png", "rings.data.csv"],
+    run,
+};
 
 const REFERENCE: &str = include_str!("../../validation/rings/reference.csv");
 

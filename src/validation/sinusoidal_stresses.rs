@@ -12,8 +12,12 @@ use crate::picture::{Axis, Chart, Figure, Style};
 use crate::stress::{Depth, Field, MeanStress, State};
 use std::f64::consts::{E, TAU};
 
-pub const STUDY: Study =
-    Study { name: "sinusoidal-stresses", title: "Stresses and displacements under sinusoidal pressures", run };
+pub const STUDY: Study = Study {
+    name: "sinusoidal-stresses",
+    title: "Stresses and displacements under sinusoidal pressures",
+    files: &["errors.data.csv", "figure.png"],
+    run,
+};
 
 const POINTS: usize = 24;
 const NU: f64 = 0.3;

@@ -17,8 +17,12 @@ use crate::solver::Control;
 use crate::texture::Surface;
 use std::f64::consts::PI;
 
-pub const STUDY: Study =
-    Study { name: "thin-coatings", title: "Contact radius and area on thin coatings, with their errors", run };
+pub const STUDY: Study = Study {
+    name: "thin-coatings",
+    title: "Contact radius and area on thin coatings, with their errors",
+    files: &["figure.png", "thin-coatings.data.csv"],
+    run,
+};
 
 const REFERENCE: &str = include_str!("../../validation/thin-coatings/reference.csv");
 

@@ -10,8 +10,12 @@ use crate::material::{HalfSpace, Material};
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::solver::Control;
 
-pub const STUDY: Study =
-    Study { name: "wavy", title: "Square and hexagonal wavy surfaces from first touch to complete contact", run };
+pub const STUDY: Study = Study {
+    name: "wavy",
+    title: "Square and hexagonal wavy surfaces from first touch to complete contact",
+    files: &["egg_box.data.csv", "figure.png", "holes.data.csv", "peaks.data.csv"],
+    run,
+};
 
 const REFERENCE: &str = include_str!("../../validation/wavy/reference.csv");
 const MERGING: &str = include_str!("../../validation/wavy/merging.csv");

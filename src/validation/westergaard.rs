@@ -10,8 +10,12 @@ use crate::picture::{Axis, Chart, Style};
 use crate::solver::Control;
 use std::f64::consts::TAU;
 
-pub const STUDY: Study =
-    Study { name: "westergaard", title: "A sinusoidal wave from light load to complete contact", run };
+pub const STUDY: Study = Study {
+    name: "westergaard",
+    title: "A sinusoidal wave from light load to complete contact",
+    files: &["figure.png", "loads.data.csv"],
+    run,
+};
 
 const WAVE: Wave = Wave { amplitude: 0.02, wavelength: 1.0, modulus: 1.0 };
 const POINTS: [usize; 2] = [2048, 4];

@@ -146,15 +146,16 @@ fn a_signal_that_is_ignored_stays_so_and_the_others_are_answered() {
     let desk = Desk::new();
     let folder = desk.path("long");
     let signals = ["--default-signal=TERM", "--ignore-signal=INT"];
-    let child = wait_for(2, &folder, start_with(&signals, &folder, &LONG));
-    let send = |signal: &str| Command::new("kill").args(["-s", signal, &child.id().to_string()]).status().unwrap();
+    let mut child = wait_for(2, &folder, start_with(&signals, &folder, &LONG));
+    let id = child.id().to_string();
+    let send = |signal: &str| Command::new("kill").args(["-s", signal, &id]).status().unwrap();
     send("INT");
-    sleep(Duration::from_millis(50));
+    sleep(Duration::from_millis(100));
+    assert!(child.try_wait().unwrap().is_none(), "an ignored signal is answered");
     send("TERM");
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.code() == Some(130) && said.starts_with("interrupted: "), "{said}");
-    // The first of the two would have ended it with as many steps as stood there before.
     assert!(readable_steps(&folder.join("unfinished")) >= 2);
 }
 

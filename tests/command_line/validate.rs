@@ -63,7 +63,7 @@ fn reports_and_studies_of_somebody_else_are_not_written_over() {
         std::fs::write(&path, "# My own\n").unwrap();
         let folder = name.split('/').next().unwrap();
         let study = if folder == "page" { "paper/table1" } else { "kernel" };
-        desk.percoat(&["validate", study, "-o", folder]).complains(2, &[name.rsplit_once('/').unwrap().0, "-o"]);
+        desk.percoat(&["validate", study, "-o", folder]).complains(2, &[name, "-o"]);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "# My own\n");
         assert_eq!(Folder(path.parent().unwrap().to_owned()).all_names().len(), 1);
     }
@@ -85,4 +85,44 @@ fn a_study_renews_its_own_files_and_what_was_changed_since_stays() {
     validate("kernel").complains(2, &["kernel/figure.png", "changed", "-o"]);
     assert_eq!(["figure.png", "README.md"].map(|name| folder.text(&format!("kernel/{name}"))), ["mine", "# Mine\n"]);
     assert_eq!(validate("lattice-sums").code, 0, "the other study has nothing to do with it");
+}
+
+#[test]
+fn what_stands_in_the_place_of_a_study_is_refused_before_it_is_run() {
+    let desk = Desk::new();
+    desk.write("kernel", "mine");
+    desk.percoat(&["validate", "kernel", "-o", "."]).complains(2, &["kernel/", "not listed", "-o"]);
+    assert_eq!(desk.names(), ["kernel".to_owned()].into());
+    // Other pictures beside those of a study are nobody's business.
+    std::fs::create_dir(desk.path("lattice-sums")).unwrap();
+    desk.write("lattice-sums/photo.png", "mine");
+    assert_eq!(desk.percoat(&["validate", "lattice-sums", "-o", ".", "-q"]).code, 0);
+    assert_eq!(Folder(desk.path("lattice-sums")).text("photo.png"), "mine");
+}
+
+/// The studies as they are committed, with their list.
+#[test]
+fn the_committed_studies_can_be_renewed() {
+    let desk = Desk::new();
+    let committed = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("validation");
+    for place in [".percoat", "kernel", "paper", "paper/table1"] {
+        let (from, to) = (committed.join(place), desk.path("validation").join(place));
+        std::fs::create_dir_all(&to).unwrap();
+        for entry in std::fs::read_dir(from).unwrap().map(|entry| entry.unwrap()) {
+            if entry.file_type().unwrap().is_file() && entry.file_name() != "lock" {
+                std::fs::copy(entry.path(), to.join(entry.file_name())).unwrap();
+            }
+        }
+    }
+    for study in ["kernel", "paper/table1"] {
+        let answer = desk.percoat(&["validate", study, "-o", "validation", "-q"]);
+        assert_eq!((answer.code, answer.err.as_str()), (0, ""), "{study}");
+    }
+    // Who edits the page builds it into the program; one of somebody else's is refused.
+    let page = Folder(desk.path("validation")).text("paper/README.md");
+    desk.write("validation/paper/README.md", page.clone() + "Mine.\n");
+    desk.percoat(&["validate", "paper/table1", "-o", "validation"]).complains(2, &["paper/README.md", "changed"]);
+    std::fs::remove_dir_all(desk.path("validation/.percoat")).unwrap();
+    desk.write("validation/paper/README.md", page);
+    desk.percoat(&["validate", "kernel", "-o", "validation"]).complains(2, &["kernel/", "not listed"]);
 }

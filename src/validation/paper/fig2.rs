@@ -10,8 +10,12 @@ use crate::validation::draw::{curve, figure};
 use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use std::f64::consts::PI;
 
-pub const STUDY: Study =
-    Study { name: "paper/fig2", title: "Fig. 2: pressure and contact spot of the third level, hard coating", run };
+pub const STUDY: Study = Study {
+    name: "paper/fig2",
+    title: "Fig. 2: pressure and contact spot of the third level, hard coating",
+    files: &["figure.png", "methods.csv", "outline.csv", "pressure.csv"],
+    run,
+};
 
 const LOAD: f64 = 0.06;
 /// Shortly before the second level touches.

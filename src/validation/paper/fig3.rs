@@ -15,6 +15,20 @@ use rayon::prelude::*;
 pub const STUDY: Study = Study {
     name: "paper/fig3",
     title: "Fig. 3: pressures under three levels, soft coatings; the asymmetry of 12 %",
+    files: &[
+        "asymmetry-a.csv",
+        "asymmetry-b.csv",
+        "asymmetry-fig2.csv",
+        "asymmetry.png",
+        "elements.csv",
+        "figure.png",
+        "localized-elements.csv",
+        "localized.csv",
+        "methods-a.csv",
+        "methods-b.csv",
+        "pressure-a.csv",
+        "pressure-b.csv",
+    ],
     run,
 };
 

@@ -7,8 +7,12 @@ use crate::validation::draw::{curve, figure, linear};
 use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use rayon::prelude::*;
 
-pub const STUDY: Study =
-    Study { name: "paper/fig4", title: "Fig. 4: additional displacement against nominal pressure", run };
+pub const STUDY: Study = Study {
+    name: "paper/fig4",
+    title: "Fig. 4: additional displacement against nominal pressure",
+    files: &["chi-2.csv", "chi-5.csv", "figure.png", "hard.png", "methods.csv", "printed.csv"],
+    run,
+};
 
 const POINTS: usize = 192;
 /// The same for the curves.

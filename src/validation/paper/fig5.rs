@@ -8,7 +8,12 @@ use crate::stress::{Field, MeanStress};
 use crate::validation::draw::{curve, figure, linear};
 use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
 
-pub const STUDY: Study = Study { name: "paper/fig5", title: "Fig. 5: contact radius and stresses against load", run };
+pub const STUDY: Study = Study {
+    name: "paper/fig5",
+    title: "Fig. 5: contact radius and stresses against load",
+    files: &["curves.csv", "figure.png", "methods.csv", "shear.csv"],
+    run,
+};
 
 const POINTS: usize = 192;
 const LOADS: [f64; 2] = [0.0025, 0.1];

@@ -9,8 +9,12 @@ use crate::validation::draw::{curve, figure};
 use crate::validation::{Data, Outcome, Study, StudyError};
 use rayon::prelude::*;
 
-pub const STUDY: Study =
-    Study { name: "paper/fig6", title: "Fig. 6: stresses under an indenter of the first level", run };
+pub const STUDY: Study = Study {
+    name: "paper/fig6",
+    title: "Fig. 6: stresses under an indenter of the first level",
+    files: &["figure.png", "section-a.csv", "section-b.csv"],
+    run,
+};
 
 /// Steps a tenth of the printed ones.
 const STEPS: [&str; 2] = ["levels.0.height=0.0072", "levels.1.height=0.0036"];

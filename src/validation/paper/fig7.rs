@@ -7,8 +7,12 @@ use crate::stress::MeanStress;
 use crate::validation::draw::{curve, figure};
 use crate::validation::{Data, Outcome, Study, StudyError};
 
-pub const STUDY: Study =
-    Study { name: "paper/fig7", title: "Fig. 7: stresses at the surface and on both sides of the interface", run };
+pub const STUDY: Study = Study {
+    name: "paper/fig7",
+    title: "Fig. 7: stresses at the surface and on both sides of the interface",
+    files: &["figure.png", "lines-a.csv", "lines-b.csv"],
+    run,
+};
 
 /// Overrides of (b).
 const B: &str = "lattice.period=0.6";

@@ -13,6 +13,16 @@ pub fn renewed(fresh: &[(&str, Vec<String>)]) -> String {
     renew(PAGE, fresh, &STUDIES.map(|study| study.name))
 }
 
+/// Whether a text is the committed page but for the table's rows.
+pub fn is_around(text: &str) -> bool {
+    let around = |page: &str| {
+        let (before, rest) = page.split_once(HEAD)?;
+        let after: String = rest.split_inclusive('\n').skip_while(|line| line.starts_with('|')).collect();
+        Some((before.to_owned(), after))
+    };
+    around(text).is_some_and(|text| Some(text) == around(PAGE))
+}
+
 /// Rows of the studies in `fresh` that differ from the committed page's.
 pub fn differences(fresh: &[(&str, Vec<String>)]) -> Vec<String> {
     let differ = |(study, rows): &(&str, Vec<String>)| {
@@ -73,6 +83,9 @@ mod tests {
         let table = PAGE.split_once(HEAD).unwrap().1.lines().take_while(|line| line.starts_with('|')).count();
         assert_eq!(table, known);
         assert_eq!(renewed(&[]), PAGE);
+        let other = renewed(&[("paper/fig2", vec!["| other | `percoat validate paper/fig2` |".to_owned()])]);
+        assert!(other != PAGE && is_around(&other) && is_around(PAGE));
+        assert!(!is_around("# Mine\n") && !is_around(&(PAGE.to_owned() + "Mine.\n")));
     }
 
     #[test]

@@ -8,8 +8,12 @@ use crate::picture::{Axis, Chart, Figure, Style};
 use crate::validation::draw::{curve, figure};
 use crate::validation::{Check, Data, Outcome, Study, StudyError};
 
-pub const STUDY: Study =
-    Study { name: "paper/table1", title: "Table 1: largest pressures, and how strong the mutual effect is", run };
+pub const STUDY: Study = Study {
+    name: "paper/table1",
+    title: "Table 1: largest pressures, and how strong the mutual effect is",
+    files: &["figure.png", "table1.csv"],
+    run,
+};
 
 /// As printed, ν₁ = 0.45 and 0.2: with mutual effect, isolated; levels 1 to 3.
 const PRINTED: [[[f64; 3]; 2]; 2] =
