@@ -1,23 +1,20 @@
 //! The studies of `percoat validate`, each as a test, and what stands beside them in `validation/`.
 
 use percoat::validation::paper::table;
-use percoat::validation::{Check, STUDIES, differences, find};
+use percoat::validation::{Check, Report, STUDIES, differences, find};
 use std::fs;
 use std::path::PathBuf;
 
-/// Runs a study: every check holds.
+/// Runs a study: every check holds, and its rows are those of the committed report.
 #[track_caller]
 fn holds(name: &str) {
-    let outcome = (find(name).expect("a study").run)().expect("the study runs");
+    let study = find(name).expect("a study");
+    let outcome = (study.run)().expect("the study runs");
     let failing: Vec<&Check> = outcome.checks.iter().filter(|check| !check.holds()).collect();
     assert!(outcome.holds(), "{failing:#?}");
     let numbers = outcome.data.len() + outcome.published.len();
     assert!(!outcome.figures.is_empty() && numbers > 0, "{name} shows nothing");
-    assert_eq!(
-        outcome.files(),
-        find(name).map(|study| study.files).unwrap_or_default(),
-        "files the study does not list"
-    );
+    assert_eq!(outcome.files(), study.files, "files the study does not list");
     let rows: Vec<String> = outcome.claims.iter().map(|claim| claim.row(name)).collect();
     let page: Vec<(&str, Vec<String>)> = if rows.is_empty() { Vec::new() } else { vec![(name, rows)] };
     assert_eq!(
@@ -25,6 +22,10 @@ fn holds(name: &str) {
         Vec::<String>::new(),
         "validation/paper/README.md is not what this run finds"
     );
+    let mut report = Report::default();
+    report.add(study, Ok(outcome));
+    let committed = fs::read_to_string(folder().join("REPORT.md")).unwrap();
+    assert_eq!(differences(&committed, &report.markdown(), Some(&[name])), Vec::<String>::new());
 }
 
 macro_rules! studies {
