@@ -59,6 +59,13 @@ impl Grid {
         [(index / n2) as f64 / n1 as f64, (index % n2) as f64 / n2 as f64]
     }
 
+    /// Flat indices of the eight samples around one.
+    pub fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> {
+        let [n1, n2] = self.points;
+        let (row, column) = (index / n2, index % n2);
+        (0..9).filter(|&k| k != 4).map(move |k| (row + n1 + k / 3 - 1) % n1 * n2 + (column + n2 + k % 3 - 1) % n2)
+    }
+
     /// The vectors from a sample to the next one along a₁ and along a₂.
     pub fn steps(&self) -> [[f64; 2]; 2] {
         let [a1, a2] = self.cell.vectors();

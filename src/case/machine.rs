@@ -25,9 +25,7 @@ impl Room {
         let space = folder.ancestors().find_map(|folder| fs4::statvfs(folder).ok());
         // What is no disk has no room at all.
         let disk = space.filter(|space| space.total_space() > 0).map_or(u64::MAX, |space| space.available_space());
-        let threads = rayon::current_num_threads() as u64 + 1;
-        let addresses = address_space().map_or(u64::MAX, |left| left.saturating_sub(threads * RESERVED));
-        Self { memory: available_memory().min(addresses), disk }
+        Self { memory: available_memory(), disk }
     }
 }
 
@@ -43,13 +41,14 @@ fn free() -> Option<u64> {
     kibibytes(&fs::read_to_string("/proc/meminfo").ok()?, "MemAvailable:")
 }
 
-/// What the address space may still grow under `ulimit -v`.
+/// What the address space may still grow under `ulimit -v`, less what threads reserve of it.
 fn address_space() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
     let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
     let used = kibibytes(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")?;
-    Some(limit.saturating_sub(used))
+    let threads = rayon::current_num_threads() as u64 + 1;
+    Some(limit.saturating_sub(used + threads * RESERVED))
 }
 
 /// What the control groups of this process, and those they stand in, have left (versions 1 and 2).

@@ -77,14 +77,14 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = case.surface.as_ref().map_or(0, |_| 8 * samples);
     let solver = PROGRAM + hierarchy::memory(points, case.solver.method) as u64 + heights;
-    let (peak, needs) = match job {
+    let needs = match job {
         Job::Solve { pictures } => of_solving(case, samples, solver, heights, pictures),
         Job::Compare { pictures } => of_comparing(case, samples, solver, pictures),
     };
-    Needs { memory: peak + peak / 10, ..needs }
+    Needs { memory: needs.memory + needs.memory / 10, ..needs }
 }
 
-fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bool) -> (u64, Needs) {
+fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bool) -> Needs {
     let steps = case.load.values().len() as u64;
     let (stress, written, volume) =
         case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
@@ -97,12 +97,12 @@ fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bo
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are all there.
     let coarser = if matches!(case.grid, GridSection::Accuracy(_)) { disk / 4 } else { 0 };
     let disk_while_running = disk + fields.max(steps * written) + coarser;
-    ((solver + stress).max(drawing), Needs { memory: 0, disk, disk_while_running })
+    Needs { memory: (solver + stress).max(drawing), disk, disk_while_running }
 }
 
 /// The localized method's influence coefficients: of every pair of indenters, inside circles and of the whole lattice,
 /// on the mesh and on one of half as many elements; its spots; and a field for the stresses compared.
-fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> (u64, Needs) {
+fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs {
     let sites = match case.surface() {
         Surface::Indenters { lattice, .. } => lattice.sites().concat().len() as u64,
         Surface::Heights { .. } => 0,
@@ -111,7 +111,7 @@ fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> (u64,
     let side = 2 * width - 1;
     let tables = 8 * (sites * sites * side * side * 5 / 2 + SPOT_FIELDS * sites * width * width);
     let disk = COMPARISON + if pictures { PICTURE } else { 0 };
-    (solver + FIELD * samples + tables, Needs { memory: 0, disk, disk_while_running: disk })
+    Needs { memory: solver + FIELD * samples + tables, disk, disk_while_running: disk }
 }
 
 /// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.

@@ -40,6 +40,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
     let plan = Plan { names, ..Plan::new(Writer::Compare) };
     let claim = RunFolder::claim(&folder, &plan)?;
+    terminal::tell_aside(claim.set_aside(), common.quiet);
     let localized = &case.localized;
     let setup = Setup {
         indenters: localized.indenters.iter().copied().max().unwrap_or(1),
@@ -84,7 +85,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         picture::comparison(&case.title, case.surface(), case.half_space(), &comparison, setup.radius)
     })?;
     let mut saved = interruption::hold();
-    terminal::tell_aside(claim.publish()?.as_deref());
+    terminal::tell_aside(claim.publish()?.as_deref(), common.quiet);
     *saved = Saved::Result(folder.clone());
     drop(saved);
     if !common.quiet {

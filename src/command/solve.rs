@@ -36,9 +36,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     refuse_beyond_full_contact(&case, &controls)?;
     interruption::watch();
     let claim = RunFolder::claim(&folder, &plan(&case, controls.len(), pictures))?;
-    if let (Some(aside), false) = (claim.set_aside(), common.quiet) {
-        tell!("note: an earlier run was interrupted; the steps it had finished are now in {}", aside.display());
-    }
+    terminal::tell_aside(claim.set_aside(), common.quiet);
     let run = Run { case: &case, controls, staging: claim.staging(), claim, room, job, pictures, common };
     let result = match case.grid {
         GridSection::Points(points) => run.finished(run.on_grid(points)?)?,
@@ -153,7 +151,7 @@ impl Run<'_> {
         if self.common.verbose {
             tell!("{}\n{}\n{hierarchy}", self.case.surface(), self.case.half_space());
         }
-        terminal::tell_aside(self.claim.begin_finer()?.as_deref());
+        terminal::tell_aside(self.claim.begin_finer()?.as_deref(), self.common.quiet);
         write_text(&self.staging.join("case.toml"), &self.case.to_toml())?;
         let mut fields = Fields::new(&self.staging)?;
         interruption::steps(0, self.controls.len(), &self.staging);
@@ -242,7 +240,7 @@ impl Run<'_> {
         let mut saved = interruption::hold();
         let aside = self.claim.publish()?;
         *saved = Saved::Result(folder.to_owned());
-        terminal::tell_aside(aside.as_deref());
+        terminal::tell_aside(aside.as_deref(), self.common.quiet);
         Ok(())
     }
 

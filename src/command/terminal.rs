@@ -21,11 +21,11 @@ pub fn clear_line() {
     let _ = write!(std::io::stderr(), "\r\x1b[K");
 }
 
-/// Says where files of somebody else have been moved, if any were in the way.
-pub fn tell_aside(place: Option<&Path>) {
-    if let Some(place) = place {
+/// Says where the finished steps of an interrupted run, or files of somebody else beside them, have been moved.
+pub fn tell_aside(place: Option<&Path>, quiet: bool) {
+    if let (Some(place), false) = (place, quiet) {
         tell!(
-            "note: files that are not percoat's stood where its result was gathered; they are now in {}",
+            "note: steps of an interrupted run, or files of somebody else, stood where a result is gathered; they are now in {}",
             place.display()
         );
     }

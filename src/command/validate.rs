@@ -31,6 +31,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     let path = format!("{within}REPORT.md");
     interruption::watch();
     let mut claim = RunFolder::claim(&folder, &plan(&folder, &path, within, &studies))?;
+    terminal::tell_aside(claim.set_aside(), options.quiet);
     let progress = !options.quiet && !options.verbose && terminal::moves();
     let started = Instant::now();
     let mut report = Report::default();
@@ -69,7 +70,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     let aside = claim.publish()?;
     *saved = Saved::Result(folder.clone());
     drop(saved);
-    terminal::tell_aside(aside.as_deref());
+    terminal::tell_aside(aside.as_deref(), options.quiet);
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let differences = expected.map(|expected| {
         let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));

@@ -124,7 +124,8 @@ fn apex_above_samples(hierarchy: &Hierarchy) -> f64 {
     let lowest = texture.shape.iter().copied().fold(0.0, f64::max) + texture.range;
     let height: Vec<f64> = texture.shape.iter().map(|depth| lowest - depth).collect();
     // Another hill than that of the highest sample may rise higher between its own.
-    let summits = (0..grid.len()).filter(|&index| peak::is_summit(grid, &height, index));
+    let is_summit = |&index: &usize| grid.neighbours(index).all(|next| height[next] <= height[index]);
+    let summits = (0..grid.len()).filter(is_summit);
     let apex = summits.map(|index| peak::interpolated(grid, &height, index)).fold(0.0, f64::max);
     let highest = height.iter().copied().fold(0.0, f64::max);
     (apex - highest).max(0.0)
@@ -183,7 +184,6 @@ fn between(fine: &Observables, coarser: &[Observables], exponents: &[f64], contr
         let load = own.load * if by_load { share / own.load_share } else { resolved.load() };
         let peak = own.max_pressure * resolved.peak();
         let radius = |error: Option<f64>, value: fn(&LevelObservables) -> Option<f64>| of(AREA, error?, value);
-        let (inner, outer) = own.ring_errors.unzip();
         let relative = own.boundary_error.zip(own.radius_extremes).map(|(error, (_, largest))| error / largest);
         LevelErrors {
             load: of(LOAD, load, |level| Some(level.load)),
@@ -191,8 +191,8 @@ fn between(fine: &Observables, coarser: &[Observables], exponents: &[f64], contr
             max_pressure: of(PEAK, peak, |level| (!level.singular_peak).then_some(level.max_pressure)),
             contact_area: of(AREA, own.contact_area_error, |level| Some(level.contact_area)),
             contact_radius: radius(own.radius_error, |level| level.contact_radius),
-            radius_inner: radius(inner, |level| level.ring_radii.unzip().0),
-            radius_outer: radius(outer, |level| level.ring_radii.unzip().1),
+            radius_inner: radius(own.hole_error, |level| level.ring_radii.unzip().0),
+            radius_outer: radius(own.boundary_error, |level| level.ring_radii.unzip().1),
             radius_min: radius(own.boundary_error, |level| level.radius_extremes.unzip().0),
             radius_max: radius(own.boundary_error, |level| level.radius_extremes.unzip().1),
             asymmetry: radius(relative, LevelObservables::asymmetry),

@@ -76,8 +76,8 @@ pub struct LevelObservables {
     /// Inner and outer radius of a ring: √(area/π) of the hole and of all inside the outer boundary, lengths. `None`
     /// without a hole, for merged contacts and for spots of too few samples or no smooth boundary.
     pub ring_radii: Option<(f64, f64)>,
-    /// Estimated errors of these, lengths.
-    pub ring_errors: Option<(f64, f64)>,
+    /// Estimated error of the inner one, a length; that of the outer one is `boundary_error`.
+    pub hole_error: Option<f64>,
     /// Smallest and largest distance of the boundary from the axis; `None` for merged contacts and for spots of too few
     /// samples or no smooth boundary.
     pub radius_extremes: Option<(f64, f64)>,
@@ -175,7 +175,7 @@ pub fn read(contact: &Contact<'_>) -> Observables {
                 radius_error: (!merged && area > 0.0).then(|| 0.5 * area_error / area * radius),
                 ring,
                 ring_radii: mean(Boundary::mean_hole_radius).zip(mean(Boundary::mean_radius)).filter(|_| ring),
-                ring_errors: most(|b| b.hole_error).zip(most(|b| b.error)).filter(|_| ring),
+                hole_error: most(|b| b.hole_error).filter(|_| ring),
                 boundary_error: most(|b| b.error),
                 radius_extremes: extremes.reduce(|a, b| a.zip(b).map(|(a, b)| (a.0.min(b.0), a.1.max(b.1)))).flatten(),
                 merged,

@@ -8,7 +8,14 @@ use crate::grid::Grid;
 /// In units of the samples' indices i, j ∈ {−1, 0, 1}: p ≈ c₀ + c₁i + c₂j + c₃i² + c₄ij + c₅j², whose error near a
 /// smooth peak falls with the fourth power of the spacing. Next to the contact edge the sample itself is returned.
 pub fn interpolated(grid: &Grid, pressure: &[f64], index: usize) -> f64 {
-    let around = around(grid, pressure, index);
+    let [n1, n2] = grid.points();
+    let (row, column) = (index / n2, index % n2);
+    let mut around = [[0.0; 3]; 3];
+    for (i, line) in around.iter_mut().enumerate() {
+        for (j, value) in line.iter_mut().enumerate() {
+            *value = pressure[(row + n1 + i - 1) % n1 * n2 + (column + n2 + j - 1) % n2];
+        }
+    }
     let sample = pressure[index];
     if around.iter().flatten().any(|&p| p <= 0.0) {
         return sample;
@@ -37,19 +44,6 @@ pub fn interpolated(grid: &Grid, pressure: &[f64], index: usize) -> f64 {
         return sample;
     }
     sample + 0.5 * (c1 * i + c2 * j)
-}
-
-/// Whether none of the samples around is higher.
-pub fn is_summit(grid: &Grid, height: &[f64], index: usize) -> bool {
-    around(grid, height, index).iter().flatten().all(|&around| around <= height[index])
-}
-
-/// The 3 × 3 samples around one.
-fn around(grid: &Grid, values: &[f64], index: usize) -> [[f64; 3]; 3] {
-    let [n1, n2] = grid.points();
-    let (row, column) = (index / n2, index % n2);
-    let at = |i: usize, j: usize| values[(row + n1 + i - 1) % n1 * n2 + (column + n2 + j - 1) % n2];
-    std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)))
 }
 
 #[cfg(test)]

@@ -126,7 +126,7 @@ impl RunFolder {
         self.scope.except.push(beginning);
     }
 
-    /// Where the finished steps of an earlier run that was killed are now.
+    /// Where the finished steps of an earlier run that was killed are now, or what somebody else has put beside them.
     pub fn set_aside(&self) -> Option<&Path> {
         self.set_aside.as_deref()
     }

@@ -259,7 +259,7 @@ impl Field {
         // Edges beside the samples where contact ends: the tension, the place, and the resolution of the less resolved
         // of the spot and the open place beside it.
         let edges = (0..spots.of.len()).filter(|&index| spots.touches(index)).filter_map(|index| {
-            let open = neighbours(points, index).filter(|&next| !spots.touches(next));
+            let open = self.grid().neighbours(index).filter(|&next| !spots.touches(next));
             let resolution = open.map(|next| spots.resolution(next)).reduce(f64::min)?.min(spots.resolution(index));
             let (mut here, mut smooth, mut u) = (place(index), at(index), 0.0);
             for _ in 0..3 {
@@ -316,10 +316,4 @@ fn between(fields: &[Vec<f64>; 11], [n1, n2]: [usize; 2], [s, t]: [f64; 2]) -> S
         total.iter_mut().zip(fields).for_each(|(total, field)| *total += along[i] * across[j] * field[sample]);
     }
     total
-}
-
-/// The eight samples around one.
-fn neighbours([n1, n2]: [usize; 2], index: usize) -> impl Iterator<Item = usize> {
-    let (row, column) = (index / n2, index % n2);
-    (0..9).filter(|&k| k != 4).map(move |k| (row + n1 + k / 3 - 1) % n1 * n2 + (column + n2 + k % 3 - 1) % n2)
 }
