@@ -6,20 +6,34 @@
 //! localization. The circles have both radius rules, on the same elements, and the smallest also the lattice sum of what
 //! is outside it.
 
-use crate::hierarchy::{Hierarchy, Solution};
-use crate::indenter::Level;
-use crate::lattice::{Lattice, LatticeError};
+use crate::body::{Depth, MeanStress};
+use crate::counterbody::Indenters;
+use crate::lattice::LatticeError;
+use crate::load::Load;
 use crate::localized::stress::LocalizedField;
-use crate::localized::{self, CircleRadius, Coupled, LevelReading, Localized, Setup, Stop};
-use crate::material::HalfSpace;
-use crate::observables::{Errors, Observables, errors, observe};
-use crate::solver::{Control, Settings};
-use crate::stress::{Depth, Field, MeanStress, State};
-use crate::texture::Surface;
-use serde::Serialize;
+use crate::localized::{self, CircleRadius, Coupled, Localized, Setup, Stop};
+use crate::numeric::search::largest;
+use crate::problem::Problem;
+use crate::reading::{LevelReading, Reading};
+use crate::spectral::{Settings, Solver, Step};
+use crate::stress::{State, StressField};
+use std::sync::Arc;
+
+/// Why two methods cannot be compared.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ComparisonError {
+    /// The localized method knows indenters only.
+    #[error("the localized method knows indenters on a lattice, not a topography")]
+    Topography,
+    /// There is no such grid.
+    #[error(transparent)]
+    Grid(#[from] LatticeError),
+}
 
 /// Largest deviation of any level in contact from a reference; relative but for the share.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Deviation {
     /// Of the penetration, relative.
     pub penetration: f64,
@@ -33,36 +47,17 @@ pub struct Deviation {
     pub contact_radius: f64,
 }
 
-/// What both methods say of a load step.
+/// What any method says of a load step.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reading {
+pub struct Answer {
     /// Penetration δ, a length.
     pub penetration: f64,
-    /// Level by level; radii of merged contacts are not a number.
+    /// From the highest level down.
     pub levels: Vec<LevelReading>,
 }
 
-impl Reading {
-    /// From the spectral solution.
-    pub fn spectral(observables: &Observables) -> Self {
-        let level = |level: &crate::observables::LevelObservables| LevelReading {
-            level: level.level,
-            load: level.load,
-            load_share: level.load_share,
-            max_pressure: level.max_pressure,
-            contact_radius: level.contact_radius.unwrap_or(f64::NAN),
-            ring: level.ring,
-            radius: f64::INFINITY,
-        };
-        Self { penetration: observables.penetration, levels: observables.levels.iter().map(level).collect() }
-    }
-
-    /// From a localized solution.
-    pub fn localized(system: &Localized, solution: &localized::Solution) -> Self {
-        Self { penetration: solution.penetration, levels: system.observe(solution) }
-    }
-
-    /// Deviation of this reading from `reference`. A level that touches in one of them only deviates by all of it; the
+impl Answer {
+    /// Deviation of this answer from `reference`. A level that touches in one of them only deviates by all of it; the
     /// radius of merged contacts is not a number.
     pub fn deviation(&self, reference: &Self) -> Deviation {
         let relative = |a: f64, b: f64| match (a, b) {
@@ -70,19 +65,30 @@ impl Reading {
             _ if a == 0.0 || b == 0.0 => 1.0,
             _ => (a / b - 1.0).abs(),
         };
-        // Unlike f64::max this keeps what is not a number.
-        let larger = |most: f64, x: f64| if most.is_nan() || x <= most { most } else { x };
-        let largest = |of: &dyn Fn(&LevelReading, &LevelReading) -> f64| {
+        let worst = |of: &dyn Fn(&LevelReading, &LevelReading) -> f64| {
             let pairs = self.levels.iter().zip(&reference.levels);
-            pairs.filter(|(a, b)| a.load > 0.0 || b.load > 0.0).map(|(a, b)| of(a, b)).fold(0.0, larger)
+            largest(pairs.filter(|(a, b)| a.load > 0.0 || b.load > 0.0).map(|(a, b)| of(a, b)))
         };
+        let radius = |level: &LevelReading| level.contact_radius.unwrap_or(f64::NAN);
         Deviation {
             penetration: relative(self.penetration, reference.penetration),
-            load: largest(&|a, b| relative(a.load, b.load)),
-            load_share: largest(&|a, b| (a.load_share - b.load_share).abs()),
-            max_pressure: largest(&|a, b| relative(a.max_pressure, b.max_pressure)),
-            contact_radius: largest(&|a, b| relative(a.contact_radius, b.contact_radius)),
+            load: worst(&|a, b| relative(a.load, b.load)),
+            load_share: worst(&|a, b| (a.load_share - b.load_share).abs()),
+            max_pressure: worst(&|a, b| relative(a.max_pressure, b.max_pressure)),
+            contact_radius: worst(&|a, b| relative(radius(a), radius(b))),
         }
+    }
+}
+
+impl From<&Reading> for Answer {
+    fn from(reading: &Reading) -> Self {
+        Self { penetration: reading.penetration, levels: reading.levels.clone() }
+    }
+}
+
+impl From<&localized::Solution> for Answer {
+    fn from(solution: &localized::Solution) -> Self {
+        Self { penetration: solution.penetration, levels: solution.levels() }
     }
 }
 
@@ -94,7 +100,9 @@ pub struct CircleComparison {
     /// How the solution ended.
     pub stop: Stop,
     /// What it says.
-    pub reading: Reading,
+    pub answer: Answer,
+    /// Radius R of the circle, level by level, a length; infinite without mutual effect.
+    pub radii: Vec<f64>,
     /// Additional displacement w_a, Eq. (8).
     pub additional_displacement: f64,
     /// Deviation from the spectral solution.
@@ -127,14 +135,10 @@ impl StressPair {
 /// Both solutions of a load step.
 #[derive(Debug)]
 pub struct Comparison {
-    /// Spectral solution on its finest grid.
-    pub spectral: Observables,
-    /// Its estimated discretisation errors.
-    pub spectral_errors: Errors,
-    /// The same as a solver sees it.
-    pub solution: Solution,
-    /// Points of the finest grid.
-    pub points: [usize; 2],
+    /// Spectral solution.
+    pub step: Step,
+    /// What is read off it, with its estimated discretisation errors.
+    pub reading: Reading,
     /// Change from half the points.
     pub grid_error: Deviation,
     /// Elements across the largest contact.
@@ -151,85 +155,72 @@ pub struct Comparison {
 
 /// What is compared.
 #[derive(Debug, Clone)]
-pub struct Task<'a> {
-    /// Where the indenters stand.
-    pub lattice: &'a Lattice,
-    /// Their levels.
-    pub levels: &'a [Level],
-    /// What they press into.
-    pub half_space: &'a HalfSpace,
+pub struct Task {
+    /// Indenters on a half-space.
+    pub problem: Arc<Problem>,
     /// The load step.
-    pub control: Control,
+    pub load: Load,
     /// Settings of the spectral solver.
     pub settings: Settings,
     /// Indenters in the circles, elements, rule and mutual effect; one solution for each number of indenters.
     pub setup: Setup,
     /// Numbers of indenters.
-    pub indenters: &'a [usize],
+    pub indenters: Vec<usize>,
     /// Mean lateral stress.
     pub mean: MeanStress,
 }
 
-impl Task<'_> {
-    fn surface(&self) -> Surface {
-        Surface::Indenters { lattice: self.lattice.clone(), levels: self.levels.to_vec() }
-    }
-
+impl Task {
     /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` hears what is begun.
     ///
     /// # Errors
-    /// [`LatticeError`] when a number of points is zero.
-    pub fn compare(&self, points: [usize; 2], progress: &mut dyn FnMut(&str)) -> Result<Comparison, LatticeError> {
+    /// [`ComparisonError`] for a topography, or when a number of points is zero.
+    pub fn compare(&self, points: [usize; 2], progress: &mut dyn FnMut(&str)) -> Result<Comparison, ComparisonError> {
+        let indenters = self.problem.counterbody().indenters().ok_or(ComparisonError::Topography)?;
         progress("spectral solution");
-        let surface = self.surface();
-        let solve = |points: [usize; 2]| -> Result<(Hierarchy, Solution, Observables), LatticeError> {
-            let mut hierarchy = Hierarchy::new(&surface, self.half_space, points, self.settings)?;
-            let solution = hierarchy.solve(self.control, &mut |_| ());
-            let observables = observe(&hierarchy, &solution);
-            Ok((hierarchy, solution, observables))
+        let solve = |points: [usize; 2]| -> Result<Step, LatticeError> {
+            Ok(Solver::new(Arc::clone(&self.problem), points, self.settings)?.solve(self.load))
         };
-        let (_, _, coarse) = solve(points.map(|n| n.div_ceil(2)))?;
-        let (hierarchy, solution, spectral) = solve(points)?;
-        let spectral_errors = errors(&hierarchy, &spectral, self.control);
-        let reference = Reading::spectral(&spectral);
-        let grid_error = reference.deviation(&Reading::spectral(&coarse));
-
+        let coarse = Reading::of(solve(points.map(|n| n.div_ceil(2)))?.finest());
+        let step = solve(points)?;
+        let reading = step.reading();
+        let reference = Answer::from(&reading);
+        let grid_error = reference.deviation(&Answer::from(&coarse));
         let most = self.indenters.iter().copied().max().unwrap_or(1);
-        let system = Localized::new(self.lattice, self.levels, self.half_space, most);
-        let (mesh, start) = system.mesh(self.control, &self.setup);
+        let localized = Localized::new(indenters, self.problem.half_space(), most);
+        let (mesh, start) = localized.mesh(self.load, &self.setup);
         let half = mesh.halved();
         let (mut circles, mut other_rule, mut lattice_sum) = (Vec::new(), Vec::new(), None);
         let mut last = start;
-        let counts: &[usize] = if self.setup.mutual_effect { self.indenters } else { &[1] };
-        for &indenters in counts {
-            progress(&format!("localized solution, {indenters} indenters in the circle"));
-            let [fine, coarse] =
-                [mesh, half].map(|mesh| Coupled::new(&system, mesh, indenters, self.setup.mutual_effect));
+        let counts: &[usize] = if self.setup.mutual_effect { &self.indenters } else { &[1] };
+        for &inside in counts {
+            progress(&format!("localized solution, {inside} indenters in the circle"));
+            let coupled = |mesh| localized.coupled(mesh, inside, self.setup.mutual_effect);
+            let [fine, coarse] = [mesh, half].map(coupled);
             let compared = |rule: CircleRadius| {
-                let widened = |coupled: &Coupled<'_>, start| {
-                    let solution = coupled.solve(self.control, rule, Some(start));
+                let widened = |coupled: &Coupled, start| {
+                    let solution = coupled.solve(self.load, rule, Some(start));
                     if solution.stop != Stop::Rim {
                         return solution;
                     }
-                    system.solve(self.control, &Setup { indenters, radius: rule, ..self.setup })
+                    localized.solve(self.load, &Setup { indenters: inside, radius: rule, ..self.setup })
                 };
                 let found = widened(&fine, &last);
                 let own = found.spots[0].mesh;
                 let rough = if own == mesh {
-                    coarse.solve(self.control, rule, Some(&found))
+                    coarse.solve(self.load, rule, Some(&found))
                 } else {
-                    let coupled = Coupled::new(&system, own.halved(), indenters, self.setup.mutual_effect);
-                    coupled.solve(self.control, rule, Some(&found))
+                    coupled(own.halved()).solve(self.load, rule, Some(&found))
                 };
-                let rough = Reading::localized(&system, &rough);
-                let reading = Reading::localized(&system, &found);
+                let answer = Answer::from(&found);
                 let comparison = CircleComparison {
                     indenters: fine.indenters(),
                     stop: found.stop,
-                    additional_displacement: system.additional_displacement(&found),
-                    difference: reading.deviation(&reference),
-                    mesh_error: reading.deviation(&rough),
-                    reading,
+                    additional_displacement: found.additional_displacement(),
+                    difference: answer.deviation(&reference),
+                    mesh_error: answer.deviation(&Answer::from(&rough)),
+                    radii: found.circle_radii(),
+                    answer,
                 };
                 (comparison, found)
             };
@@ -244,50 +235,32 @@ impl Task<'_> {
             last = found;
         }
         progress("stresses");
-        let stresses = self.stresses(&system, &last, &hierarchy, &solution);
+        let stresses = self.stresses(indenters, &last, &step);
         let elements = self.setup.elements;
-        Ok(Comparison {
-            points,
-            spectral,
-            spectral_errors,
-            solution,
-            grid_error,
-            elements,
-            circles,
-            other_rule,
-            lattice_sum,
-            stresses,
-        })
+        Ok(Comparison { step, reading, grid_error, elements, circles, other_rule, lattice_sum, stresses })
     }
 
     /// Stresses on the axis of the first indenter of the highest level and along a line from it.
-    fn stresses(
-        &self,
-        system: &Localized,
-        localized: &localized::Solution,
-        hierarchy: &Hierarchy,
-        spectral: &Solution,
-    ) -> Vec<StressPair> {
-        let highest = (0..system.sites().len())
-            .min_by(|&a, &b| system.profile(a, 0.0).total_cmp(&system.profile(b, 0.0)))
-            .unwrap_or(0);
+    fn stresses(&self, indenters: &Indenters, localized: &localized::Solution, spectral: &Step) -> Vec<StressPair> {
+        let (lattice, half_space) = (indenters.lattice(), self.problem.half_space());
+        let highest = localized.system().highest();
         let spot = &localized.spots[highest];
         if !spot.touches() || localized.stop != Stop::Converged {
             return Vec::new();
         }
         let radius = spot.contact_radius();
-        let field = LocalizedField::new(localized, self.half_space, self.mean);
-        let whole = Field::new(hierarchy.grid(), &spectral.pressure, self.half_space, self.mean);
-        let faces = self.half_space.interface_depths();
+        let field = LocalizedField::new(localized, half_space, self.mean);
+        let whole = StressField::new(spectral.finest(), self.mean);
+        let faces = half_space.interface_depths();
         let mut depths: Vec<f64> = [0.25, 0.5, 1.0, 2.0].map(|part| part * radius).to_vec();
         depths.extend(faces.into_iter().filter(|&z| z < 3.0 * radius && field.reaches(z)));
         depths.sort_by(f64::total_cmp);
-        let [x, y] = self.lattice.toward(spot.place, spot.level);
+        let [x, y] = lattice.toward(spot.place, spot.level);
         let unit = [x, y].map(|v| v / x.hypot(y));
         let places: Vec<[f64; 2]> = [0.0, 0.5, 1.0, 1.5].map(|part| unit.map(|u| part * radius * u)).to_vec();
-        let origin = self.lattice.cell().point(spot.place);
+        let origin = lattice.cell().point(spot.place);
         let mut pairs = Vec::new();
-        for depth in depths.into_iter().flat_map(|z| whole.depths(z)) {
+        for depth in depths.into_iter().flat_map(|z| half_space.depths(z)) {
             let Some(states) = field.points(highest, depth, &places) else { continue };
             let absolute: Vec<[f64; 2]> = places.iter().map(|p| [origin[0] + p[0], origin[1] + p[1]]).collect();
             for ((&place, localized), spectral) in places.iter().zip(states).zip(whole.points(depth, &absolute)) {

@@ -16,76 +16,69 @@
 //!
 //! # Modules
 //!
-//! Each uses only what stands to its left; problem, grid and solution are built in that order.
+//! Problem → solver on a grid → step → reading, built in that order, none reaching back. Each module uses only what
+//! stands to its left:
 //!
 //! ```text
-//! lattice, indenter ─────────────→ texture ─┐
-//! lattice → grid → fourier ─────────────────┤
-//! material → layered ─────────→ operator ───┴→ solver → hierarchy → observables → refinement, touch
-//! indenter, lattice, layered ────────────────→ localized ────────────┴→ comparison
-//!                                                         case → output → picture → validation → command line
+//! numeric → lattice → body → counterbody → problem → load → spectral → stress → reading → localized → comparison → run
+//! → case → output → picture → validation
 //! ```
 //!
-//! [`field`] (sums that do not depend on the number of threads), [`least_squares`], [`linear`] (small systems),
-//! [`edge`] and [`boundary`] (the outline of a contact between samples) and [`number`] serve all of them.
-//! Nothing left of [`case`] reads a file or prints. [`exact`] holds the closed forms that [`validation`] compares with;
-//! the solver knows nothing of it.
+//! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
+//! - [`problem`], [`load`]: what is solved;
+//! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
+//! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
+//! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
+//!
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `case`, `output`, `picture` and the
+//! command line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! # Example
 //!
 //! ```
-//! use percoat::hierarchy::Hierarchy;
-//! use percoat::indenter::{Level, Shape};
-//! use percoat::lattice::Lattice;
-//! use percoat::material::{HalfSpace, Interface, Layer, Material};
-//! use percoat::observables::observe;
-//! use percoat::solver::{Control, Settings};
-//! use percoat::texture::Surface;
+//! use percoat::*;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height);
-//! let surface = Surface::Indenters {
-//!     lattice: Lattice::hexagonal(1.0, 3)?,
-//!     levels: vec![level(0.02)?, level(0.01)?, level(0.0)?],
-//! };
+//! let indenters = Indenters::new(Lattice::hexagonal(1.0, 3)?, vec![level(0.02)?, level(0.01)?, level(0.0)?])?;
 //! let substrate = Material::from_young(1.0, 0.3)?;
-//! let coating = Material::from_shear(2.0 * substrate.shear(), 0.2)?;
-//! let half_space = HalfSpace::new(vec![Layer::new(coating, 0.5, Interface::Bonded)?], substrate);
-//! let mut hierarchy = Hierarchy::new(&surface, &half_space, [96, 96], Settings::default())?;
-//! let solution = hierarchy.solve(Control::MeanPressure(0.06), &mut |_| ());
-//! let observables = observe(&hierarchy, &solution);
-//! assert!(solution.report.stop.solved());
-//! assert!((observables.penetration - 0.0554).abs() < 1e-4);
+//! let coating = Layer::new(Material::from_shear(2.0 * substrate.shear(), 0.2)?, 0.5, Interface::Bonded)?;
+//! let problem = Problem::new(indenters, HalfSpace::new(vec![coating], substrate));
+//! let step = Solver::new(problem, [96, 96], Settings::default())?.solve(Load::MeanPressure(0.06));
+//! let reading = step.reading();
+//! assert!(step.report.stop.solved());
+//! assert!((reading.penetration - 0.0554).abs() < 1e-4);
 //! # Ok(())
 //! # }
 //! ```
 
-pub mod boundary;
+pub mod body;
+#[cfg(feature = "cli")]
 pub mod case;
-mod closed_line;
 pub mod comparison;
-mod components;
-pub mod edge;
-pub mod exact;
-pub mod field;
-pub mod fourier;
-pub mod grid;
-pub mod hierarchy;
-pub mod indenter;
+pub mod counterbody;
 pub mod lattice;
-pub mod layered;
-pub mod least_squares;
-pub mod linear;
+pub mod load;
 pub mod localized;
-pub mod material;
-pub mod number;
-pub mod observables;
-pub mod operator;
+mod numeric;
+#[cfg(feature = "cli")]
 pub mod output;
+#[cfg(feature = "cli")]
 pub mod picture;
-pub mod refinement;
-pub mod solver;
+pub mod problem;
+pub mod reading;
+pub mod run;
+pub mod spectral;
 pub mod stress;
-pub mod texture;
-pub mod touch;
+#[cfg(feature = "validate")]
+#[path = "../validation/mod.rs"]
 pub mod validation;
+
+pub use body::{Depth, HalfSpace, Interface, Layer, Material, MaterialError, MeanStress};
+pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
+pub use lattice::{Cell, Grid, Lattice, LatticeError, ShapeError};
+pub use load::Load;
+pub use problem::Problem;
+pub use reading::{LevelReading, Reading, StressReading};
+pub use spectral::{Certificate, Contact, Method, Progress, Report, Route, Settings, Solver, Step, Stop};
+pub use stress::{Line, Plane, Section, State, StressField};

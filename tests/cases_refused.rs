@@ -3,6 +3,8 @@
 //! A line `# expect: WORDS` at the top of a file demands that WORDS stand in the error. The last one gives the place,
 //! such as `:12:11`. Lines `# set: KEY=VALUE` are overrides.
 
+#![cfg(feature = "cli")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,7 @@
 //! `percoat` from outside: what a person types, reads and finds in the output folder.
 
+#![cfg(feature = "cli")]
+
 #[path = "command_line/archive.rs"]
 mod archive;
 #[path = "command_line/cases.rs"]

@@ -7,14 +7,16 @@
 //!
 //! `PERCOAT_FUZZ=1000000 cargo test --test fuzz` runs as many instead of 10⁴; `PERCOAT_FUZZ_SEED` gives others.
 
+#![cfg(feature = "cli")]
+
 mod common;
 
 use common::Random;
+use percoat::body::{Interior, TransferFunction};
 use percoat::case::resources::Job;
-use percoat::case::{Case, GridSection, Room, Source, embedded, foreseen, plausibility, resources};
-use percoat::grid::Grid;
-use percoat::layered::{Interior, TransferFunction};
-use percoat::stress::MeanStress;
+use percoat::case::{Case, Room, Source, embedded, foreseen, plausibility, resources};
+use percoat::run::Sampling;
+use percoat::{Depth, Grid, MeanStress};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -282,7 +284,7 @@ fn surface(random: &mut Random) -> Vec<u8> {
 
 /// Whatever hangs on a case that was taken is finite, and it reads back equal.
 fn holds_together(case: &Case) {
-    let (half_space, cell) = (case.half_space(), case.surface().cell());
+    let (half_space, cell) = (case.half_space(), case.problem().cell());
     for text in [plausibility::of_case(case), foreseen(case, &[])].concat() {
         assert!(!text.is_empty() && !text.to_lowercase().contains("nan"), "{text}");
     }
@@ -300,8 +302,8 @@ fn holds_together(case: &Case) {
         }
     }
     let grid = match case.grid {
-        GridSection::Points(points) => Grid::new(cell, points).expect("a cell has a grid"),
-        GridSection::Accuracy(_) => Grid::new(cell, [96, 96]).expect("a cell has a grid"),
+        Sampling::Points(points) => Grid::new(cell, points).expect("a cell has a grid"),
+        Sampling::Accuracy(_) => Grid::new(cell, [96, 96]).expect("a cell has a grid"),
     };
     let transfer = TransferFunction::new(half_space);
     let least = grid.least_wavenumber();
@@ -310,8 +312,12 @@ fn holds_together(case: &Case) {
         let compliance = transfer.compliance(q);
         assert!(compliance.is_finite() && compliance > 0.0, "compliance {compliance} at {q}");
         let interior = Interior::new(&transfer, q);
-        for (side, depth) in (1..=half_space.layers().len() + 1).flat_map(|side| [(side, 0.0), (side, 0.3 / q)]) {
-            let state = interior.at(side, depth);
+        let places = (1..=half_space.layers().len() + 1).flat_map(|material| {
+            let (top, _) = half_space.faces(material);
+            [top, top + 0.3 / q].map(|z| Depth { z, material })
+        });
+        for depth in places {
+            let state = interior.at(depth);
             assert!((state.szz + state.sqz + state.sqq + state.stt).is_finite(), "{state:?} at q = {q}");
         }
     }

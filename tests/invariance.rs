@@ -2,20 +2,19 @@
 
 mod common;
 
-use common::{PAPER, paraboloid, relative_difference, solve};
-use percoat::lattice::{Cell, Lattice};
-use percoat::layered::{Interior, TransferFunction};
-use percoat::material::{HalfSpace, Interface, Layer, Material};
-use percoat::solver::Control;
-use percoat::texture::Surface;
+use common::{PAPER, one_level, paraboloid, relative_difference, solve};
+use ndarray::{Array2, Axis};
+use percoat::body::{Interior, TransferFunction};
+use percoat::{Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, Problem};
 
-const LOAD: Control = Control::MeanPressure(0.06);
+const LOAD: Load = Load::MeanPressure(0.06);
 
-fn three_levels(cell: Cell, shift: [f64; 2]) -> Surface {
+/// The paper's levels on `cell`, on the half-space of Fig. 2.
+fn three_levels(cell: Cell, shift: [f64; 2]) -> Problem {
     let third = 1.0 / 3.0;
     let site = |s: f64| vec![[s + shift[0], s + shift[1]]];
     let lattice = Lattice::new(cell, vec![site(0.0), site(third), site(2.0 * third)]).unwrap();
-    Surface::Indenters { lattice, levels: PAPER[0].levels() }
+    Problem::new(Indenters::new(lattice, PAPER[0].levels()).unwrap(), PAPER[0].half_space())
 }
 
 fn paper_cell() -> Cell {
@@ -25,20 +24,18 @@ fn paper_cell() -> Cell {
 #[test]
 fn a_shift_by_grid_vectors_shifts_the_pressure() {
     let n = 72;
-    let half_space = PAPER[0].half_space();
-    let (_, here, _) = solve(&three_levels(paper_cell(), [0.0; 2]), &half_space, [n, n], LOAD);
+    let (here, _) = solve(&three_levels(paper_cell(), [0.0; 2]), [n, n], LOAD);
     // Even numbers of samples: a grid vector of the coarser grid too.
     let shift = [6.0 / n as f64, 30.0 / n as f64];
-    let (_, there, _) = solve(&three_levels(paper_cell(), shift), &half_space, [n, n], LOAD);
-    let moved: Vec<f64> = (0..n * n).map(|k| here.pressure[(k / n + n - 6) % n * n + (k % n + n - 30) % n]).collect();
-    assert!(relative_difference(&there.pressure, &moved) < 1e-11);
+    let (there, _) = solve(&three_levels(paper_cell(), shift), [n, n], LOAD);
+    let moved = Array2::from_shape_fn([n, n], |(i, j)| here.pressure()[[(i + n - 6) % n, (j + n - 30) % n]]);
+    assert!(relative_difference(there.pressure(), &moved) < 1e-11);
 }
 
 #[test]
 fn a_shift_off_the_grid_changes_nothing_that_is_read_off() {
-    let half_space = PAPER[0].half_space();
-    let (_, _, here) = solve(&three_levels(paper_cell(), [0.0; 2]), &half_space, [256, 256], LOAD);
-    let (_, _, there) = solve(&three_levels(paper_cell(), [0.3 / 256.0, 0.6 / 256.0]), &half_space, [256, 256], LOAD);
+    let (_, here) = solve(&three_levels(paper_cell(), [0.0; 2]), [256, 256], LOAD);
+    let (_, there) = solve(&three_levels(paper_cell(), [0.3 / 256.0, 0.6 / 256.0]), [256, 256], LOAD);
     assert!((there.penetration / here.penetration - 1.0).abs() < 2e-5);
     for (a, b) in here.levels.iter().zip(&there.levels) {
         assert!((a.max_pressure / b.max_pressure - 1.0).abs() < 1e-4);
@@ -51,16 +48,10 @@ fn a_shift_off_the_grid_changes_nothing_that_is_read_off() {
 #[test]
 fn one_level_on_a_hexagonal_lattice_keeps_its_sixfold_symmetry_to_round_off() {
     let n = 60;
-    let surface =
-        Surface::Indenters { lattice: Lattice::hexagonal(1.0, 1).unwrap(), levels: vec![paraboloid(0.8, 0.0)] };
-    let (_, solution, _) = solve(&surface, &PAPER[0].half_space(), [n, n], LOAD);
-    for field in [&solution.pressure, &solution.displacement] {
-        let rotated: Vec<f64> = (0..n * n)
-            .map(|k| {
-                let (i, j) = (k / n, k % n);
-                field[(n - j) % n * n + (i + j) % n]
-            })
-            .collect();
+    let indenters = one_level(Lattice::hexagonal(1.0, 1).unwrap(), paraboloid(0.8, 0.0));
+    let (step, _) = solve(&Problem::new(indenters, PAPER[0].half_space()), [n, n], LOAD);
+    for field in [step.pressure(), step.displacement()] {
+        let rotated = Array2::from_shape_fn([n, n], |(i, j)| field[[(n - j) % n, (i + j) % n]]);
         assert!(relative_difference(&rotated, field) < 1e-11);
     }
 }
@@ -69,49 +60,42 @@ fn one_level_on_a_hexagonal_lattice_keeps_its_sixfold_symmetry_to_round_off() {
 #[test]
 fn three_levels_keep_their_threefold_symmetry_to_round_off() {
     let n = 60;
-    let (_, solution, _) = solve(&three_levels(paper_cell(), [0.0; 2]), &PAPER[0].half_space(), [n, n], LOAD);
-    let rotated: Vec<f64> = (0..n * n)
-        .map(|k| {
-            let (i, j) = (k / n, k % n);
-            solution.pressure[(2 * n - i - j) % n * n + i]
-        })
-        .collect();
-    assert!(relative_difference(&rotated, &solution.pressure) < 1e-11);
+    let (step, _) = solve(&three_levels(paper_cell(), [0.0; 2]), [n, n], LOAD);
+    let rotated = Array2::from_shape_fn([n, n], |(i, j)| step.pressure()[[(2 * n - i - j) % n, i]]);
+    assert!(relative_difference(&rotated, step.pressure()) < 1e-11);
 }
 
 #[test]
 fn swapped_cell_vectors_transpose_the_fields() {
     let (n1, n2) = (60, 48);
     let (a1, a2) = ([1.3, 0.1], [-0.2, 0.9]);
-    let surface = |swap: bool| {
+    let problem = |swap: bool| {
         let order = |s: [f64; 2]| if swap { [s[1], s[0]] } else { s };
         let cell = if swap { Cell::new(a2, a1) } else { Cell::new(a1, a2) }.unwrap();
         let sites = vec![vec![order([0.1, 0.2])], vec![order([0.6, 0.55]), order([0.2, 0.7])]];
         let levels = vec![paraboloid(0.7, 0.01), paraboloid(0.5, 0.0)];
-        Surface::Indenters { lattice: Lattice::new(cell, sites).unwrap(), levels }
+        Problem::new(Indenters::new(Lattice::new(cell, sites).unwrap(), levels).unwrap(), PAPER[0].half_space())
     };
-    let half_space = PAPER[0].half_space();
-    let (_, straight, levels) = solve(&surface(false), &half_space, [n1, n2], LOAD);
-    let (_, swapped, levels_swapped) = solve(&surface(true), &half_space, [n2, n1], LOAD);
-    let transposed: Vec<f64> = (0..n1 * n2).map(|k| swapped.pressure[k % n2 * n1 + k / n2]).collect();
-    assert!(relative_difference(&transposed, &straight.pressure) < 1e-6);
+    let (straight, levels) = solve(&problem(false), [n1, n2], LOAD);
+    let (swapped, levels_swapped) = solve(&problem(true), [n2, n1], LOAD);
+    assert!(relative_difference(swapped.pressure().t(), straight.pressure()) < 1e-6);
     assert!((levels.levels[1].load / levels_swapped.levels[1].load - 1.0).abs() < 1e-7);
 }
 
 #[test]
 fn a_doubled_cell_holds_the_same_contact_twice() {
-    let half_space = PAPER[1].half_space();
-    let load = Control::MeanPressure(PAPER[1].pressure);
+    let load = Load::MeanPressure(PAPER[1].pressure);
     let third = 1.0 / 3.0;
     let [a1, a2] = paper_cell().vectors();
     let doubled = Cell::new(a1.map(|x| 2.0 * x), a2).unwrap();
     let sites = |s: f64| vec![[0.5 * s, s], [0.5 * (s + 1.0), s]];
     let lattice = Lattice::new(doubled, vec![sites(0.0), sites(third), sites(2.0 * third)]).unwrap();
-    let surface = Surface::Indenters { lattice, levels: PAPER[1].levels() };
-    let (_, once, single) = solve(&three_levels(paper_cell(), [0.0; 2]), &half_space, [96, 96], load);
-    let (_, twice, double) = solve(&surface, &half_space, [192, 96], load);
-    assert!(relative_difference(&twice.pressure[..96 * 96], &once.pressure) < 1e-6);
-    assert!(relative_difference(&twice.pressure[96 * 96..], &once.pressure) < 1e-6);
+    let problem = Problem::new(Indenters::new(lattice, PAPER[1].levels()).unwrap(), PAPER[1].half_space());
+    let (once, single) = solve(&PAPER[1].problem(), [96, 96], load);
+    let (twice, double) = solve(&problem, [192, 96], load);
+    let (first, second) = twice.pressure().split_at(Axis(0), 96);
+    assert!(relative_difference(first, once.pressure()) < 1e-6);
+    assert!(relative_difference(second, once.pressure()) < 1e-6);
     for (a, b) in single.levels.iter().zip(&double.levels) {
         assert!((a.load / b.load - 1.0).abs() < 1e-7, "the load is that on one indenter");
         assert!((a.load_share / b.load_share - 1.0).abs() < 1e-7);
@@ -123,15 +107,13 @@ fn a_doubled_cell_holds_the_same_contact_twice() {
 fn units_scale_the_answer_and_leave_the_iteration_alone() {
     let (length, pressure) = (1e-6, 2.1e11);
     let level = |height: f64| paraboloid(0.8 * length, height * length);
-    let small = Surface::Indenters {
-        lattice: Lattice::hexagonal(length, 3).unwrap(),
-        levels: vec![level(0.02), level(0.01), level(0.0)],
-    };
+    let levels = vec![level(0.02), level(0.01), level(0.0)];
+    let small = Indenters::new(Lattice::hexagonal(length, 3).unwrap(), levels).unwrap();
     let substrate = Material::from_young(pressure, 0.3).unwrap();
     let coating = Material::from_shear(2.0 * substrate.shear(), 0.2).unwrap();
     let scaled = HalfSpace::new(vec![Layer::new(coating, 0.5 * length, Interface::Bonded).unwrap()], substrate);
-    let (_, plain, here) = solve(&PAPER[0].surface(), &PAPER[0].half_space(), [96, 96], LOAD);
-    let (_, other, there) = solve(&small, &scaled, [96, 96], Control::MeanPressure(0.06 * pressure));
+    let (plain, here) = solve(&PAPER[0].problem(), [96, 96], LOAD);
+    let (other, there) = solve(&Problem::new(small, scaled), [96, 96], Load::MeanPressure(0.06 * pressure));
     assert_eq!(plain.report.iterations, other.report.iterations);
     assert!((there.penetration / length / here.penetration - 1.0).abs() < 1e-10);
     for (a, b) in here.levels.iter().zip(&there.levels) {
@@ -151,7 +133,8 @@ fn a_layer_counted_as_two_is_the_same_layer() {
     let (whole, split) = (TransferFunction::new(&whole), TransferFunction::new(&split));
     for q in [1e-6, 1e-2, 0.7, 3.0, 40.0, 2000.0] {
         assert!((whole.compliance(q) / split.compliance(q) - 1.0).abs() < 1e-14);
-        let (inside, above) = (Interior::new(&whole, q).at(1, 0.25), Interior::new(&split, q).at(2, 0.15));
+        let inside = Interior::new(&whole, q).at(Depth { z: 0.25, material: 1 });
+        let above = Interior::new(&split, q).at(Depth { z: 0.25, material: 2 });
         for (a, b) in [
             (inside.szz, above.szz),
             (inside.sqz, above.sqz),

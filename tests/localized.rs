@@ -7,13 +7,11 @@ mod contact;
 mod exterior;
 #[path = "localized/kernel.rs"]
 mod kernel;
-#[path = "localized/principle.rs"]
-mod principle;
 #[path = "localized/stress.rs"]
 mod stress;
 
 use percoat::localized::{CircleRadius, Setup};
-use percoat::material::{HalfSpace, Interface, Layer, Material};
+use percoat::{HalfSpace, Interface, Layer, Material};
 
 /// A hard film on a soft interlayer on which it slides.
 fn two_layers() -> HalfSpace {

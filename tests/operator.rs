@@ -3,12 +3,12 @@
 mod common;
 
 use common::Random;
-use percoat::grid::Grid;
-use percoat::lattice::Cell;
-use percoat::layered::TransferFunction;
-use percoat::material::Interface;
-use percoat::operator::Operator;
+use percoat::body::TransferFunction;
+use percoat::spectral::iteration::Compliance;
+use percoat::spectral::operator::Operator;
+use percoat::{Cell, Grid, Interface};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// w(x) = Σ_q C(|q|) p̂(q) e^{iq·x}, each q the shortest alias found among many.
 #[test]
@@ -20,7 +20,7 @@ fn a_displacement_is_the_direct_sum_over_wavevectors() {
         (Cell::square(0.7).unwrap(), [5, 8]),
         (Cell::new([1.0, 0.2], [1.4, 0.9]).unwrap(), [7, 6]),
     ] {
-        let grid = Grid::new(cell, [n1, n2]).unwrap();
+        let grid = Arc::new(Grid::new(cell, [n1, n2]).unwrap());
         let mut random = Random(77);
         let pressure: Vec<f64> = (0..n1 * n2).map(|_| random.unit()).collect();
         let mut displacement = vec![0.0; n1 * n2];
@@ -59,7 +59,7 @@ fn a_displacement_is_the_direct_sum_over_wavevectors() {
 #[test]
 fn the_preconditioner_inverts_the_operator() {
     let half_space = common::coated(0.1, 0.05, [0.5, 0.3], Interface::Frictionless);
-    let grid = Grid::new(Cell::hexagonal(2.0).unwrap(), [20, 18]).unwrap();
+    let grid = Arc::new(Grid::new(Cell::hexagonal(2.0).unwrap(), [20, 18]).unwrap());
     let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
     let mut random = Random(5);
     let mut pressure: Vec<f64> = (0..360).map(|_| random.unit()).collect();
@@ -75,7 +75,7 @@ fn the_preconditioner_inverts_the_operator() {
 #[test]
 fn the_operator_is_symmetric_and_positive() {
     let half_space = common::coated(40.0, 0.01, [0.0, 0.5], Interface::Bonded);
-    let grid = Grid::new(Cell::new([1.0, 0.0], [0.3, 1.1]).unwrap(), [14, 15]).unwrap();
+    let grid = Arc::new(Grid::new(Cell::new([1.0, 0.0], [0.3, 1.1]).unwrap(), [14, 15]).unwrap());
     let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
     let mut random = Random(9);
     let mut field = || -> Vec<f64> { (0..210).map(|_| random.unit() - 0.5).collect() };

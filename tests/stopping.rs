@@ -2,43 +2,42 @@
 
 mod common;
 
-use common::{PAPER, Random, paraboloid};
-use percoat::hierarchy::{Hierarchy, Solution};
-use percoat::lattice::{Cell, Lattice};
-use percoat::material::{HalfSpace, Interface, Layer, Material};
-use percoat::solver::{Control, Method, Settings};
-use percoat::texture::Surface;
+use common::{PAPER, Random, one_level, paraboloid};
+use ndarray::Array2;
+use percoat::{
+    Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, Method, Problem, Route, Settings, Solver,
+    Step, Topography,
+};
 
 fn bare() -> HalfSpace {
     HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap())
 }
 
-fn one_indenter(cell: Cell, place: [f64; 2], radius: f64) -> Surface {
-    let lattice = Lattice::new(cell, vec![vec![place]]).unwrap();
-    Surface::Indenters { lattice, levels: vec![paraboloid(radius, 0.0)] }
+fn one_indenter(cell: Cell, place: [f64; 2], radius: f64) -> Indenters {
+    one_level(Lattice::new(cell, vec![vec![place]]).unwrap(), paraboloid(radius, 0.0))
 }
 
 /// E₁/E₂ = 1000 on a hexagonal lattice of paraboloids, R = 0.8 l.
-fn plate(points: usize, thickness: f64, method: Method) -> Hierarchy {
+fn plate(points: usize, thickness: f64, method: Method) -> Solver {
     let coating = Material::from_young(1000.0, 0.3).unwrap();
     let layer = Layer::new(coating, thickness, Interface::Bonded).unwrap();
     let half_space = HalfSpace::new(vec![layer], Material::from_young(1.0, 0.3).unwrap());
-    let surface = one_indenter(Cell::hexagonal(1.0).unwrap(), [0.0, 0.0], 0.8);
-    Hierarchy::new(&surface, &half_space, [points; 2], Settings { method, ..Settings::default() }).unwrap()
+    let problem = Problem::new(one_indenter(Cell::hexagonal(1.0).unwrap(), [0.0, 0.0], 0.8), half_space);
+    Solver::new(problem, [points; 2], Settings { method, ..Settings::default() }).unwrap()
 }
 
 /// Converged, and certified to the multiples of the tolerance that the settings promise.
 #[track_caller]
-fn assert_certified(solution: &Solution, tolerance: f64, context: &str) {
-    assert_eq!(solution.report.stop.to_string(), "converged", "{context}: {}", solution.report);
-    let certificate = &solution.certificate;
-    assert!(solution.report.residual < tolerance, "{context}: {}", solution.report);
+fn assert_certified(step: &Step, tolerance: f64, context: &str) {
+    assert_eq!(step.report.stop.to_string(), "converged", "{context}: {}", step.report);
+    let certificate = &step.certificate;
+    assert!(step.report.residual < tolerance, "{context}: {}", step.report);
     assert!(certificate.energy_gap < 20.0 * tolerance, "{context}: {certificate}");
     assert!(certificate.penetration < 10.0 * tolerance, "{context}: {certificate}");
     assert!(certificate.load < tolerance, "{context}: {certificate}");
 }
 
-/// Even and odd grids, both controls, load paths up and down, either method.
+/// Even and odd grids, both loads, load paths up and down, either method.
 #[test]
 fn every_converged_step_is_certified_to_the_tolerance() {
     for (case, points) in PAPER.iter().zip([[36, 36], [75, 75], [128, 128], [63, 90], [192, 192]]) {
@@ -46,12 +45,12 @@ fn every_converged_step_is_certified_to_the_tolerance() {
             [(Method::Preconditioned, 1e-8), (Method::Preconditioned, 1e-5), (Method::PolonskyKeer, 1e-8)]
         {
             let settings = Settings { method, tolerance, ..Settings::default() };
-            let mut hierarchy = Hierarchy::new(&case.surface(), &case.half_space(), points, settings).unwrap();
+            let mut solver = Solver::new(case.problem(), points, settings).unwrap();
             for factor in [0.1, 0.5, 1.0, 0.7] {
                 let context = format!("{} on {points:?}, {method:?}, {tolerance:e}, {factor}", case.name);
-                let loaded = hierarchy.solve(Control::MeanPressure(factor * case.pressure), &mut |_| ());
+                let loaded = solver.solve(Load::MeanPressure(factor * case.pressure));
                 assert_certified(&loaded, tolerance, &context);
-                let pushed = hierarchy.solve(Control::Penetration(1.02 * loaded.penetration), &mut |_| ());
+                let pushed = solver.solve(Load::Penetration(1.02 * loaded.penetration()));
                 assert_certified(&pushed, tolerance, &context);
             }
         }
@@ -64,15 +63,15 @@ fn oblique_cells_and_any_coating_are_certified_to_the_tolerance() {
     let mut random = Random(0x2545_f491_4f6c_dd1d);
     for case in 0..40 {
         let cell = Cell::new([1.0, 0.1 * random.unit()], [random.unit() - 0.5, 0.6 + random.unit()]).unwrap();
-        let surface = one_indenter(cell, [random.unit(), random.unit()], random.log(0.3, 3.0));
+        let indenters = one_indenter(cell, [random.unit(), random.unit()], random.log(0.3, 3.0));
         let coating = Material::from_young(random.log(0.1, 10.0), 0.3).unwrap();
         let layer = Layer::new(coating, random.log(0.01, 1.0), Interface::Bonded).unwrap();
         let half_space = HalfSpace::new(vec![layer], Material::from_young(1.0, 0.3).unwrap());
         let points = [random.pick(&[45, 81, 96]), random.pick(&[54, 75, 128])];
         let load = random.log(1e-4, 0.3);
-        let mut hierarchy = Hierarchy::new(&surface, &half_space, points, Settings::default()).unwrap();
-        let solution = hierarchy.solve(Control::MeanPressure(load), &mut |_| ());
-        assert_certified(&solution, 1e-8, &format!("case {case}: load {load:e} on {points:?}"));
+        let mut solver = Solver::new(Problem::new(indenters, half_space), points, Settings::default()).unwrap();
+        let step = solver.solve(Load::MeanPressure(load));
+        assert_certified(&step, 1e-8, &format!("case {case}: load {load:e} on {points:?}"));
     }
 }
 
@@ -82,9 +81,9 @@ fn an_interpolated_start_does_not_pass_for_a_solution() {
     let case = PAPER[0];
     let settings = Settings { tolerance: 1e-5, ..Settings::default() };
     for points in [128, 256, 512] {
-        let mut hierarchy = Hierarchy::new(&case.surface(), &case.half_space(), [points; 2], settings).unwrap();
-        let solution = hierarchy.solve(Control::MeanPressure(case.pressure), &mut |_| ());
-        assert_certified(&solution, 1e-5, &format!("N = {points}"));
+        let mut solver = Solver::new(case.problem(), [points; 2], settings).unwrap();
+        let step = solver.solve(Load::MeanPressure(case.pressure));
+        assert_certified(&step, 1e-5, &format!("N = {points}"));
     }
 }
 
@@ -92,36 +91,36 @@ fn an_interpolated_start_does_not_pass_for_a_solution() {
 #[test]
 fn complete_contact_is_certified_at_any_load() {
     let n = 30;
-    let wave = |k: usize| 0.01 * (std::f64::consts::TAU * (k / n) as f64 / n as f64).cos();
-    let heights = (0..n * n).map(wave).collect();
-    let surface = Surface::Heights { cell: Cell::square(1.0).unwrap(), points: [n, n], heights };
+    let wave = |i: usize| 0.01 * (std::f64::consts::TAU * i as f64 / n as f64).cos();
+    let heights = Array2::from_shape_fn([n, n], |(i, _)| wave(i));
+    let problem = Problem::new(Topography::new(Cell::square(1.0).unwrap(), heights).unwrap(), bare());
     for load in [0.1, 1.0, 1e4] {
-        let mut hierarchy = Hierarchy::new(&surface, &bare(), [n, n], Settings::default()).unwrap();
-        let solution = hierarchy.solve(Control::MeanPressure(load), &mut |_| ());
-        assert_certified(&solution, 1e-8, &format!("load {load}"));
-        assert!(solution.pressure.iter().all(|&p| p > 0.0));
+        let mut solver = Solver::new(problem.clone(), [n, n], Settings::default()).unwrap();
+        let step = solver.solve(Load::MeanPressure(load));
+        assert_certified(&step, 1e-8, &format!("load {load}"));
+        assert!(step.pressure().iter().all(|&p| p > 0.0));
     }
 }
 
 /// 21² samples are no power of two: the transform of a uniform pressure leaves rounding.
 #[test]
 fn a_flat_counterbody_has_no_energy_to_be_wrong_about() {
-    let surface = Surface::Heights { cell: Cell::square(1.0).unwrap(), points: [21, 21], heights: vec![0.3; 441] };
-    let mut hierarchy = Hierarchy::new(&surface, &bare(), [21, 21], Settings::default()).unwrap();
-    assert_certified(&hierarchy.solve(Control::MeanPressure(0.1), &mut |_| ()), 1e-8, "flat");
+    let flat = Topography::new(Cell::square(1.0).unwrap(), Array2::from_elem([21, 21], 0.3)).unwrap();
+    let mut solver = Solver::new(Problem::new(flat, bare()), [21, 21], Settings::default()).unwrap();
+    assert_certified(&solver.solve(Load::MeanPressure(0.1)), 1e-8, "flat");
 }
 
 /// The default converges without the baseline, and in no more than its convolutions.
 #[track_caller]
 fn assert_plate_converges(points: usize, thickness: f64) {
-    let control = Control::MeanPressure(0.06);
-    let solution = plate(points, thickness, Method::Preconditioned).solve(control, &mut |_| ());
-    println!("N = {points}, h = {thickness}: {}; {} convolutions", solution.report, solution.convolutions);
-    assert_certified(&solution, 1e-8, &format!("N = {points}, h = {thickness}"));
-    assert!(!solution.report.fell_back, "{}", solution.report);
-    let base = plate(points, thickness, Method::PolonskyKeer).solve(control, &mut |_| ());
+    let load = Load::MeanPressure(0.06);
+    let step = plate(points, thickness, Method::Preconditioned).solve(load);
+    println!("N = {points}, h = {thickness}: {}; {} convolutions", step.report, step.convolutions);
+    assert_certified(&step, 1e-8, &format!("N = {points}, h = {thickness}"));
+    assert_ne!(step.report.route, Route::BaselineAfterStall, "{}", step.report);
+    let base = plate(points, thickness, Method::PolonskyKeer).solve(load);
     println!("baseline: {}; {} convolutions", base.report, base.convolutions);
-    assert!(solution.convolutions < base.convolutions, "{} / {}", solution.convolutions, base.convolutions);
+    assert!(step.convolutions < base.convolutions, "{} / {}", step.convolutions, base.convolutions);
 }
 
 #[test]
@@ -141,32 +140,30 @@ fn stiff_thin_plates_converge_on_fine_grids() {
 /// The apex lies at (0.26, 0.27) of the cell, 0.28 and 0.64 of a spacing from the samples around it, f ≥ 6.0e-5 R there.
 #[test]
 fn a_penetration_that_no_sample_sees_is_not_solved() {
-    let surface = one_indenter(Cell::square(1.0).unwrap(), [0.26, 0.27], 1.0);
+    let problem = |place| Problem::new(one_indenter(Cell::square(1.0).unwrap(), place, 1.0), bare());
     for method in [Method::Preconditioned, Method::PolonskyKeer] {
         let settings = Settings { method, ..Settings::default() };
-        let mut hierarchy = Hierarchy::new(&surface, &bare(), [64, 64], settings).unwrap();
-        let lowest = hierarchy.texture().shape.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut solver = Solver::new(problem([0.26, 0.27]), [64, 64], settings).unwrap();
+        let lowest = solver.surface().initial_gap().iter().copied().fold(f64::INFINITY, f64::min);
         for penetration in [0.2 * lowest, 1.0001 * lowest] {
-            let solution = hierarchy.solve(Control::Penetration(penetration), &mut |_| ());
-            assert_eq!(solution.report.stop.to_string(), "unresolved", "δ = {penetration}");
-            assert!(!solution.report.stop.solved());
+            let step = solver.solve(Load::Penetration(penetration));
+            assert_eq!(step.report.stop.to_string(), "unresolved", "δ = {penetration}");
+            assert!(!step.report.stop.solved());
         }
         // A contact of five spacings' radius carries what it carries with a sample at the apex, to a few percent.
-        let load = |solution: &Solution| solution.pressure.iter().sum::<f64>();
-        let solution = hierarchy.solve(Control::Penetration(25.0 / 4096.0), &mut |_| ());
-        assert_eq!(solution.report.stop.to_string(), "converged");
-        let centred = one_indenter(Cell::square(1.0).unwrap(), [0.25, 0.25], 1.0);
-        let centred = Hierarchy::new(&centred, &bare(), [64, 64], settings)
-            .unwrap()
-            .solve(Control::Penetration(25.0 / 4096.0), &mut |_| ());
-        assert!((load(&solution) / load(&centred) - 1.0).abs() < 0.05, "{} {}", load(&solution), load(&centred));
+        let load = |step: &Step| step.pressure().sum();
+        let step = solver.solve(Load::Penetration(25.0 / 4096.0));
+        assert_eq!(step.report.stop.to_string(), "converged");
+        let mut centred = Solver::new(problem([0.25, 0.25]), [64, 64], settings).unwrap();
+        let centred = centred.solve(Load::Penetration(25.0 / 4096.0));
+        assert!((load(&step) / load(&centred) - 1.0).abs() < 0.05, "{} {}", load(&step), load(&centred));
     }
     // The highest of 48 samples lies between those of a grid of 40.
     let n = 48;
     let square = |k: usize| (k as f64 - 7.0).powi(2) / (n * n) as f64;
-    let heights = (0..n * n).map(|k| -0.5 * (square(k / n) + square(k % n))).collect();
-    let surface = Surface::Heights { cell: Cell::square(1.0).unwrap(), points: [n, n], heights };
-    let mut hierarchy = Hierarchy::new(&surface, &bare(), [40, 40], Settings::default()).unwrap();
-    let solution = hierarchy.solve(Control::Penetration(1e-6), &mut |_| ());
-    assert_eq!(solution.report.stop.to_string(), "unresolved");
+    let heights = Array2::from_shape_fn([n, n], |(i, j)| -0.5 * (square(i) + square(j)));
+    let topography = Topography::new(Cell::square(1.0).unwrap(), heights).unwrap();
+    let mut solver = Solver::new(Problem::new(topography, bare()), [40, 40], Settings::default()).unwrap();
+    let step = solver.solve(Load::Penetration(1e-6));
+    assert_eq!(step.report.stop.to_string(), "unresolved");
 }

@@ -7,17 +7,18 @@
 //!
 //! `cargo test --test surface_stress -- --include-ignored --nocapture` prints the whole table.
 
+#![cfg(feature = "validate")]
+
 mod common;
 
-use common::{Random, coated, paraboloid, solve};
-use percoat::exact::hertz::{Stresses, edge_tension, largest_shear};
-use percoat::exact::lattice_sums::TRIANGULAR;
-use percoat::indenter::{Level, Shape};
-use percoat::lattice::{Cell, Lattice};
-use percoat::material::{HalfSpace, Interface, Material};
-use percoat::solver::Control;
-use percoat::stress::{Depth, Field, Line, MeanStress, Plane};
-use percoat::texture::Surface;
+use common::{Random, coated, one_level, paraboloid, solve};
+use ndarray::Array2;
+use percoat::validation::exact::hertz::{Stresses, edge_tension, largest_shear};
+use percoat::validation::exact::lattice_sums::TRIANGULAR;
+use percoat::{
+    Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Level, Line, Load, Material, MeanStress, Problem, Shape,
+    StressField, Topography,
+};
 use std::f64::consts::PI;
 
 const NU: f64 = 0.3;
@@ -49,34 +50,35 @@ fn bare_load() -> f64 {
     4.0 / 3.0 * RADIUS.powi(3) / (1.0 - NU * NU) * (1.0 + 2.0 / (3.0 * PI) * LATTICE_SUM * RADIUS.powi(3))
 }
 
-fn surface(points: usize, shift: [f64; 2]) -> Surface {
+fn bare() -> HalfSpace {
+    HalfSpace::new(vec![], Material::from_young(1.0, NU).unwrap())
+}
+
+fn indenters(points: usize, shift: [f64; 2]) -> Indenters {
     let site = shift.map(|s| s / points as f64);
     let lattice = Lattice::new(Cell::hexagonal(1.0).unwrap(), vec![vec![site]]).unwrap();
-    Surface::Indenters { lattice, levels: vec![paraboloid(1.0, 0.0)] }
+    one_level(lattice, paraboloid(1.0, 0.0))
 }
 
 fn measure(points: usize, shift: [f64; 2]) -> Measured {
     let cell = Cell::hexagonal(1.0).unwrap();
     let (reduced, site) = (cell.reduced(), shift.map(|s| s / points as f64));
-    let half_space = HalfSpace::new(vec![], Material::from_young(1.0, NU).unwrap());
-    let load = bare_load();
-    let p0 = 1.5 * load / (PI * RADIUS * RADIUS);
-    let control = Control::MeanPressure(load / cell.area());
-    let (hierarchy, solution, _) = solve(&surface(points, shift), &half_space, [points; 2], control);
-    let grid = hierarchy.grid();
-    let field = Field::new(grid, &solution.pressure, &half_space, MeanStress::HalfSpace);
+    let p0 = 1.5 * bare_load() / (PI * RADIUS * RADIUS);
+    let load = Load::MeanPressure(bare_load() / cell.area());
+    let (step, _) = solve(&Problem::new(indenters(points, shift), bare()), [points; 2], load);
+    let grid = step.grid();
+    let field = StressField::new(step.finest(), MeanStress::HalfSpace);
     let pressed = |z: f64| -RADIUS * RADIUS / 3.0 * (1.0 + NU) * LATTICE_SUM * z;
     let errors = |depth: f64| {
-        let plane: Plane = field.plane(Depth { z: depth * RADIUS, side: 1 }, [points; 2]);
+        let plane = field.plane(Depth { z: depth * RADIUS, material: 1 }, [points; 2]);
         let mut worst = [0.0f64; 4];
-        for index in 0..grid.len() {
+        for (index, state) in plane.states().iter().enumerate() {
             let s = grid.fractions(index);
             let [x, y] = reduced.nearest([s[0] - site[0], s[1] - site[1]]);
             let r = x.hypot(y);
             if r > 2.0 * RADIUS {
                 continue;
             }
-            let state = plane.state(index);
             let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
             let found = (state.xx * c * c + state.yy * s * s + 2.0 * state.xy * c * s) / p0;
             let error = (found - Stresses::at(r / RADIUS, depth, NU).radial - pressed(depth * RADIUS)).abs();
@@ -113,15 +115,15 @@ fn measure(points: usize, shift: [f64; 2]) -> Measured {
 fn coated_tension(points: usize, shift: [f64; 2], chi: f64) -> (f64, f64, f64) {
     let half_space = coated(chi, 0.25 * RADIUS, [NU, NU], Interface::Bonded);
     let cell = Cell::hexagonal(1.0).unwrap();
-    let control = Control::MeanPressure(1.5 * bare_load() / cell.area());
-    let (hierarchy, solution, observables) = solve(&surface(points, shift), &half_space, [points; 2], control);
-    let field = Field::new(hierarchy.grid(), &solution.pressure, &half_space, MeanStress::HalfSpace);
-    let radius = observables.levels[0].contact_radius.unwrap();
+    let load = Load::MeanPressure(1.5 * bare_load() / cell.area());
+    let (step, reading) = solve(&Problem::new(indenters(points, shift), half_space), [points; 2], load);
+    let field = StressField::new(step.finest(), MeanStress::HalfSpace);
+    let radius = reading.levels[0].contact_radius.unwrap();
     let tension = field.maxima([radius; 2]).faces[0].tension;
     let site = shift.map(|s| s / points as f64);
     let s = cell.fractions([tension.position[0], tension.position[1]]);
     let [x, y] = cell.reduced().nearest([s[0] - site[0], s[1] - site[1]]);
-    (observables.levels[0].resolution, tension.value / observables.max_pressure, x.hypot(y) / radius)
+    (reading.levels[0].resolution, tension.value / reading.max_pressure, x.hypot(y) / radius)
 }
 
 /// Bound on the relative error of the largest tension on the surface.
@@ -219,8 +221,7 @@ fn full_table() {
 
 /// A contact whose largest tension is read on `points` and on finer grids.
 struct Contact {
-    surface: Surface,
-    half_space: HalfSpace,
+    problem: Problem,
     pressure: f64,
     points: usize,
     words: String,
@@ -256,53 +257,50 @@ impl Contact {
             _ => Shape::Power { coefficient: 0.4 / radius, exponent: 3.0 },
         };
         let cell = Cell::hexagonal(1.0).unwrap();
-        let surface = if name == "topography" {
-            Surface::Heights { cell, points: [4 * points; 2], heights: hills(random, 4 * points) }
+        let problem = if name == "topography" {
+            Problem::new(Topography::new(cell, hills(random, 4 * points)).unwrap(), half_space)
         } else {
-            let site = [0, 1].map(|_| random.unit());
-            let levels = vec![Level::new(shape, 0.0).unwrap()];
-            Surface::Indenters { lattice: Lattice::new(cell, vec![vec![site]]).unwrap(), levels }
+            let lattice = Lattice::new(cell, vec![vec![[0, 1].map(|_| random.unit())]]).unwrap();
+            Problem::new(one_level(lattice, Level::new(shape, 0.0).unwrap()), half_space)
         };
         let words = format!("{name}, {coating}, E {young:.2}, h {thickness:.3}, a {radius:.3}, {points} points");
-        Self { surface, half_space, pressure, points, words }
+        Self { problem, pressure, points, words }
     }
 
     /// Largest tension on the surface, largest τ₁ and largest tension of all with their stated errors, on a grid `factor`
     /// times as fine; `None` for complete contact, which has no edge, and τ₁ is `None` under a tip.
     fn read(&self, factor: usize) -> Option<[Option<(f64, f64)>; 3]> {
         let points = [factor * self.points; 2];
-        let (hierarchy, solution, observables) =
-            solve(&self.surface, &self.half_space, points, Control::MeanPressure(self.pressure));
-        assert!(solution.report.stop.solved(), "{}: {}", self.words, solution.report);
-        let field = Field::new(hierarchy.grid(), &solution.pressure, &self.half_space, MeanStress::HalfSpace);
-        let radius = (observables.contact_fraction * hierarchy.grid().cell().area() / PI).sqrt();
+        let (step, reading) = solve(&self.problem, points, Load::MeanPressure(self.pressure));
+        assert!(step.report.stop.solved(), "{}: {}", self.words, step.report);
+        let radius = (reading.contact_fraction * step.grid().cell().area() / PI).sqrt();
         let radii = [radius.max(4.0 / self.points as f64); 2];
-        let maxima = field.maxima(radii);
+        let under = |contact| StressField::new(contact, MeanStress::HalfSpace).maxima(radii);
+        let maxima = under(step.finest());
         let crest = maxima.crest?;
-        let coarser = hierarchy.coarser().next()?;
-        let coarser = field.under(coarser.grid, coarser.pressure).maxima(radii);
+        let coarser = under(step.coarser().first()?);
         let [tau1, tension] = maxima.errors(&coarser);
         Some([
             Some((crest.peak.value, crest.scale * crest.error(coarser.crest.as_ref()))),
-            Some((maxima.tau1().value, tau1)).filter(|_| !observables.singular_peak()),
+            Some((maxima.tau1().value, tau1)).filter(|_| !reading.singular()),
             Some((maxima.tension().value, tension)),
         ])
     }
 }
 
 /// Waves of one to three per period with random phases, n² heights.
-fn hills(random: &mut Random, n: usize) -> Vec<f64> {
+fn hills(random: &mut Random, n: usize) -> Array2<f64> {
     let waves: Vec<[f64; 4]> = (0..8)
         .map(|_| {
             let [k1, k2] = [0, 1].map(|_| (7.0 * random.unit()).floor() - 3.0);
             [k1, k2, random.unit(), 0.02 / (1.0 + k1 * k1 + k2 * k2)]
         })
         .collect();
-    let height = |index: usize| {
-        let (s, t) = ((index / n) as f64 / n as f64, (index % n) as f64 / n as f64);
+    let height = |(i, j): (usize, usize)| {
+        let (s, t) = (i as f64 / n as f64, j as f64 / n as f64);
         waves.iter().map(|[k1, k2, phase, size]| size * (2.0 * PI * (k1 * s + k2 * t + phase)).cos()).sum()
     };
-    (0..n * n).map(height).collect()
+    Array2::from_shape_fn([n, n], height)
 }
 
 /// How many of `count` random contacts err by more than they state, against a grid four times as fine, and the median of
@@ -348,20 +346,17 @@ fn of_fifty_largest_stresses_two_err_by_more_than_they_state_at_most() {
 #[test]
 fn the_largest_stress_on_a_line_through_the_edge_is_the_largest_of_the_surface() {
     for (points, shift) in [(64, SHIFTS[4]), (96, SHIFTS[0])] {
-        let half_space = HalfSpace::new(vec![], Material::from_young(1.0, NU).unwrap());
         let cell = Cell::hexagonal(1.0).unwrap();
-        let control = Control::MeanPressure(bare_load() / cell.area());
-        let (hierarchy, solution, _) = solve(&surface(points, shift), &half_space, [points; 2], control);
-        let field = Field::new(hierarchy.grid(), &solution.pressure, &half_space, MeanStress::HalfSpace);
+        let load = Load::MeanPressure(bare_load() / cell.area());
+        let (step, _) = solve(&Problem::new(indenters(points, shift), bare()), [points; 2], load);
+        let field = StressField::new(step.finest(), MeanStress::HalfSpace);
         let crest = field.crest().unwrap();
         // From the axis through the place of the largest tension: radially, as it acts.
         let origin = cell.point(shift.map(|s| s / points as f64));
         let [x, y, _] = crest.peak.position;
         let reach = cell.reduced().nearest(cell.fractions([x - origin[0], y - origin[1]]));
         let line = Line { origin, direction: reach, span: [0.0, 0.4], points: 161 };
-        let trace = field.trace(&line);
-        let states = &trace.section(&[Depth { z: 0.0, side: 1 }])[0];
-        let [s, value] = trace.highest(states).unwrap();
+        let [s, value] = field.section(&line, &[Depth::SURFACE]).highest.unwrap();
         println!("{value} against {} at {s}", crest.peak.value);
         // The search ends 0.4/160/512 from the edge; the tension is continuous outside.
         assert!((value / crest.peak.value - 1.0).abs() < 3e-3, "{points}: {value} {}", crest.peak.value);

@@ -2,12 +2,9 @@
 
 mod common;
 
-use common::{Random, coated, solve};
-use percoat::lattice::Cell;
-use percoat::material::Interface;
-use percoat::observables::errors;
-use percoat::solver::Control;
-use percoat::texture::Surface;
+use common::{Random, coated};
+use ndarray::Array2;
+use percoat::{Cell, Interface, Load, Problem, Settings, Solver, Topography};
 use std::f64::consts::TAU;
 
 const CASES: usize = 40;
@@ -28,20 +25,19 @@ impl Hills {
         Self((0..10).map(wave).collect())
     }
 
-    fn surface(&self, n: usize) -> Surface {
-        let height = |index: usize| {
-            let (s, t) = ((index / n) as f64 / n as f64, (index % n) as f64 / n as f64);
+    fn topography(&self, n: usize) -> Topography {
+        let height = |(i, j): (usize, usize)| {
+            let (s, t) = (i as f64 / n as f64, j as f64 / n as f64);
             self.0.iter().map(|[k1, k2, phase, size]| size * (TAU * (k1 * s + k2 * t + phase)).cos()).sum()
         };
-        let heights = (0..n * n).map(height).collect();
-        Surface::Heights { cell: Cell::hexagonal(1.0).unwrap(), points: [n; 2], heights }
+        Topography::new(Cell::hexagonal(1.0).unwrap(), Array2::from_shape_fn([n; 2], height)).unwrap()
     }
 }
 
 /// The highest sample of a topography.
-fn highest(surface: &Surface) -> f64 {
-    let Surface::Heights { heights, .. } = surface else { unreachable!("no topography") };
-    heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+fn highest(problem: &Problem) -> f64 {
+    let topography = problem.counterbody().topography().expect("a topography");
+    topography.heights().iter().copied().fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Every case is solved under a load and again under the penetration it has found; the truth is that of a topography
@@ -55,22 +51,24 @@ fn stated_errors_of_topographies_hold_and_say_something() {
         let hills = Hills::random(&mut random);
         let interface = random.pick(&[Interface::Bonded, Interface::Frictionless]);
         let half_space = coated(random.log(0.2, 5.0), random.log(0.03, 0.5), [0.3, 0.3], interface);
-        let surfaces = [POINTS, FINER * POINTS].map(|points| hills.surface(points));
-        let read = |points: usize, surface: &Surface, control: Control| {
-            let (hierarchy, solution, found) = solve(surface, &half_space, [points; 2], control);
-            assert!(solution.report.stop.solved(), "{}", solution.report);
-            let errors = errors(&hierarchy, &found, control);
+        let problems =
+            [POINTS, FINER * POINTS].map(|points| Problem::new(hills.topography(points), half_space.clone()));
+        let read = |points: usize, problem: &Problem, load: Load| {
+            let step = Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap().solve(load);
+            assert!(step.report.stop.solved(), "{}", step.report);
+            let found = step.reading();
+            let errors = found.errors;
             let stated = [errors.mean_pressure, errors.penetration, errors.contact_fraction, errors.max_pressure];
             let found = [found.mean_pressure, found.penetration, found.contact_fraction, found.max_pressure];
             (found, stated.map(Option::unwrap))
         };
-        let by_load = Control::MeanPressure(random.log(1e-4, 0.02));
-        let (loaded, _) = read(POINTS, &surfaces[0], by_load);
-        let highest = surfaces.each_ref().map(highest);
+        let by_load = Load::MeanPressure(random.log(1e-4, 0.02));
+        let (loaded, _) = read(POINTS, &problems[0], by_load);
+        let highest = problems.each_ref().map(highest);
         let [coarse, fine] = highest.map(|sample| loaded[1] + sample - highest[0]);
-        for controls in [[by_load; 2], [coarse, fine].map(Control::Penetration)] {
-            let (found, stated) = read(POINTS, &surfaces[0], controls[0]);
-            let (exact, _) = read(FINER * POINTS, &surfaces[1], controls[1]);
+        for loads in [[by_load; 2], [coarse, fine].map(Load::Penetration)] {
+            let (found, stated) = read(POINTS, &problems[0], loads[0]);
+            let (exact, _) = read(FINER * POINTS, &problems[1], loads[1]);
             for k in 0..4 {
                 let error = (found[k] - exact[k]).abs();
                 // What is prescribed, and complete contact, has no error but rounding.

@@ -1,5 +1,7 @@
 //! The studies of `percoat validate`, each as a test, and what stands beside them in `validation/`.
 
+#![cfg(feature = "validate")]
+
 use percoat::validation::paper::table;
 use percoat::validation::{Check, Report, STUDIES, differences, find};
 use std::fs;

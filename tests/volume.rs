@@ -1,30 +1,31 @@
 //! The stress field as a VTK file: what its own bytes, and VTK itself, say.
 
+#![cfg(feature = "cli")]
+
 mod common;
 
 use common::Random;
-use percoat::grid::Grid;
-use percoat::lattice::Cell;
-use percoat::material::{HalfSpace, Interface, Layer, Material};
+use ndarray::Array2;
 use percoat::output::write_volume;
-use percoat::stress::{Depth, Field, MeanStress};
+use percoat::{Cell, Depth, Grid, HalfSpace, Interface, Layer, Material, MeanStress, StressField};
 use std::collections::HashMap;
 use std::env;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::Arc;
 
 const POINTS: [usize; 2] = [12, 8];
 /// Lengths differ in every direction from index to index, so that swapped axes show.
 const SIDE: f64 = 1.5;
 
-fn coated() -> (Field, Vec<Depth>) {
+fn coated() -> (StressField, Vec<Depth>) {
     let coating = Layer::new(Material::from_shear(5.0, 0.2).unwrap(), 0.25, Interface::Bonded).unwrap();
     let half_space = HalfSpace::new(vec![coating], Material::from_shear(1.0, 0.3).unwrap());
-    let grid = Grid::new(Cell::hexagonal(SIDE).unwrap(), POINTS).unwrap();
+    let grid = Arc::new(Grid::new(Cell::hexagonal(SIDE).unwrap(), POINTS).unwrap());
     let mut random = Random(4711);
-    let pressure: Vec<f64> = (0..grid.len()).map(|_| random.unit()).collect();
-    let field = Field::new(&grid, &pressure, &half_space, MeanStress::Confined);
-    let depths = [0.0, 0.1, 0.25, 0.5].iter().flat_map(|&z| field.depths(z)).collect();
+    let pressure = Array2::from_shape_fn(POINTS, |_| random.unit());
+    let field = StressField::under(&grid, pressure.view(), &half_space, MeanStress::Confined).unwrap();
+    let depths = [0.0, 0.1, 0.25, 0.5].iter().flat_map(|&z| half_space.depths(z)).collect();
     (field, depths)
 }
 
@@ -74,7 +75,7 @@ fn every_point_of_the_file_has_the_state_of_its_place() {
             let index = i + (n1 + 1) * (j + (n2 + 1) * k);
             let [x, y] = cell.point([i as f64 / n1 as f64, j as f64 / n2 as f64]);
             assert_eq!(places[3 * index..][..3], [x, y, -depth.z]);
-            assert_eq!(material[index], depth.side as f64);
+            assert_eq!(material[index], depth.material as f64);
             let state = field.points(depth, &[[x, y]])[0];
             let [xx, yy, zz, xy, xz, yz, ux, uy, uz] = state.components();
             // z upwards, as coordinates and displacements.
@@ -94,14 +95,14 @@ fn every_point_of_the_file_has_the_state_of_its_place() {
 #[test]
 fn stresses_displacements_and_coordinates_have_one_set_of_axes() {
     let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
-    let grid = Grid::new(Cell::square(1.0).unwrap(), POINTS).unwrap();
-    let wave = |index: usize| 1.0 + (std::f64::consts::TAU * grid.fractions(index)[0]).cos();
-    let pressure: Vec<f64> = (0..grid.len()).map(wave).collect();
-    let field = Field::new(&grid, &pressure, &half_space, MeanStress::Confined);
+    let grid = Arc::new(Grid::new(Cell::square(1.0).unwrap(), POINTS).unwrap());
+    let wave = |i: usize| 1.0 + (std::f64::consts::TAU * i as f64 / POINTS[0] as f64).cos();
+    let pressure = Array2::from_shape_fn(POINTS, |(i, _)| wave(i));
+    let field = StressField::under(&grid, pressure.view(), &half_space, MeanStress::Confined).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("stress.vts");
     let (z, step) = (0.2, 1e-3);
-    let depths = [z - step, z, z + step].map(|z| Depth { z, side: 1 });
+    let depths = [z - step, z, z + step].map(|z| Depth { z, material: 1 });
     write_volume(&path, &field, &depths, POINTS).unwrap();
     let (_, arrays) = read(&path);
     let [n1, n2] = POINTS;

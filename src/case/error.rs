@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
 
-use super::node::Place;
+use super::place::Place;
 
 /// A refusal while its place is still a span of one of several sources.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,12 +1,12 @@
 //! What estimates by the formulas of single contacts foresee of a case, for those who have not solved it.
 
-use super::plausibility::{STEEP, flank, slope};
-use super::{Case, GridSection, LoadSection};
-use crate::grid::Grid;
-use crate::indenter::Shape;
-use crate::number::number;
-use crate::observables::FEW_SAMPLES;
-use crate::texture::Surface;
+use super::{Case, LoadSection};
+use crate::counterbody::{Level, Shape};
+use crate::lattice::Grid;
+use crate::numeric::number::number;
+use crate::reading::FEW_SAMPLES;
+use crate::run::Sampling;
+use crate::run::warnings::{STEEP, flank};
 use std::f64::consts::FRAC_PI_2;
 
 /// Doubts: steep flanks at the highest load, few samples at the lowest. `touches` are the mean pressures at which the
@@ -17,20 +17,20 @@ pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
 
 /// A flank that is steep at the highest load, by Hertz's formulas.
 fn steep_flank(case: &Case) -> Option<String> {
-    let (Surface::Indenters { lattice, levels }, LoadSection::MeanPressure(loads)) = (case.surface(), &case.load)
-    else {
+    let (Some(indenters), LoadSection::MeanPressure(loads)) = (case.counterbody().indenters(), &case.load) else {
         return None;
     };
+    let lattice = indenters.lattice();
     let load = loads.iter().copied().fold(0.0, f64::max);
     let sites: usize = lattice.sites().iter().map(Vec::len).sum();
     let force = load * lattice.cell().area() / sites as f64;
     let modulus =
         case.half_space().substrate().contact_modulus().max(case.half_space().surface_material().contact_modulus());
-    let estimates = (1..).zip(levels).filter_map(|(number, level)| {
+    let estimates = (1..).zip(indenters.levels()).filter_map(|(number, level): (usize, &Level)| {
         let (Shape::Paraboloid { radius } | Shape::Sphere { radius }) = level.shape() else { return None };
         Some((number, level.shape(), (0.75 * force * radius / modulus).cbrt()))
     });
-    let mut steep = estimates.filter(|&(_, shape, radius)| slope(shape, radius) > STEEP);
+    let mut steep = estimates.filter(|&(_, shape, radius)| shape.slope(radius) > STEEP);
     steep.next().map(|(number, shape, radius)| flank("by Hertz's formulas", number, shape, radius))
 }
 
@@ -39,11 +39,13 @@ fn steep_flank(case: &Case) -> Option<String> {
 /// The load lies on the levels that touch; each contact is that of a single power-law indenter c rⁿ on a half-space,
 /// δ = κ_n c aⁿ, P = 2E* δ a n/(n + 1), with the larger E* of surface and substrate: the smaller radius.
 fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
-    let (Surface::Indenters { lattice, levels }, GridSection::Points(points)) = (case.surface(), &case.grid) else {
+    let (Some(indenters), Sampling::Points(points)) = (case.counterbody().indenters(), &case.grid) else {
         return None;
     };
+    let lattice = indenters.lattice();
     let grid = Grid::new(lattice.cell(), *points).ok()?;
-    let (number_of_highest, highest) = (1..).zip(levels).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
+    let (number_of_highest, highest) =
+        (1..).zip(indenters.levels()).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
     // A sphere is a paraboloid where its contact is small.
     let (c, n) = match highest.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => (0.5 / radius, 2.0),

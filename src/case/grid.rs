@@ -2,81 +2,68 @@
 
 use std::ops::{Bound, RangeInclusive};
 
-use serde::Serialize;
-
 use super::error::Refusal;
 use super::node::Value;
-use super::reader::{Field, Section};
-use crate::fourier::has_fast_factors;
+use super::reader::{TableAt, ValueAt};
+use crate::run::Sampling;
+use crate::spectral::fourier::has_fast_factors;
 
 /// Points along a cell vector when nothing is said.
 const POINTS: usize = 512;
 /// Points along a cell vector that are allowed.
 const ALLOWED: RangeInclusive<usize> = 4..=32768;
 
-/// The section `[grid]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GridSection {
-    /// Samples along a₁ and a₂.
-    Points([usize; 2]),
-    /// Refine until peak pressures, loads and penetration change by less than this, relatively.
-    Accuracy(f64),
-}
-
-impl GridSection {
-    /// Read the section; a surface from a `file` brings its own points.
-    pub(super) fn read(section: Option<&Section<'_>>, file: Option<[usize; 2]>) -> Result<Self, Refusal> {
-        let default = file.unwrap_or([POINTS; 2]);
-        let Some(section) = section else { return Ok(Self::Points(default)) };
-        section.only(&["points", "accuracy"], &[])?;
-        match (section.optional("points"), section.optional("accuracy"), file) {
-            (Some(_), Some(accuracy), _) => Err(section.both(["points", "accuracy"], accuracy.place())),
-            (None, Some(accuracy), Some(_)) => {
-                let message = "`grid.accuracy` has no place beside [surface]: its grid is that of the file";
-                Err(Refusal::new(accuracy.place(), message, "not used here").help("remove it"))
-            }
-            (None, Some(accuracy), None) => {
-                accuracy.number((Bound::Excluded(0.0), Bound::Included(0.1))).map(Self::Accuracy)
-            }
-            (Some(points), None, Some(file)) => same_as(&points, file),
-            (Some(points), None, None) => each(&points, transformable).map(Self::Points),
-            (None, None, _) => Ok(Self::Points(default)),
+/// Read the section `[grid]`; a surface from a `file` brings its own points.
+pub(super) fn read(section: Option<&TableAt<'_>>, file: Option<[usize; 2]>) -> Result<Sampling, Refusal> {
+    let default = file.unwrap_or([POINTS; 2]);
+    let Some(section) = section else { return Ok(Sampling::Points(default)) };
+    section.only()?;
+    match (section.optional("points"), section.optional("accuracy"), file) {
+        (Some(_), Some(accuracy), _) => Err(section.both(["points", "accuracy"], accuracy.place())),
+        (None, Some(accuracy), Some(_)) => {
+            let message = "`grid.accuracy` has no place beside [surface]: its grid is that of the file";
+            Err(Refusal::new(accuracy.place(), message, "not used here").help("remove it"))
         }
+        (None, Some(accuracy), None) => {
+            accuracy.number((Bound::Excluded(0.0), Bound::Included(0.1))).map(Sampling::Accuracy)
+        }
+        (Some(points), None, Some(file)) => same_as(&points, file),
+        (Some(points), None, None) => each(&points, transformable).map(Sampling::Points),
+        (None, None, _) => Ok(Sampling::Points(default)),
     }
 }
 
 /// An integer for both directions, or one for each.
-fn each(field: &Field<'_>, read: fn(&Field<'_>) -> Result<usize, Refusal>) -> Result<[usize; 2], Refusal> {
+fn each(value: &ValueAt<'_>, read: fn(&ValueAt<'_>) -> Result<usize, Refusal>) -> Result<[usize; 2], Refusal> {
     const WANTED: &str = "an integer or [n1, n2]";
-    match field.value() {
-        Value::Integer(_) => read(field).map(|n| [n; 2]),
-        Value::List(_) => match &field.list(WANTED, WANTED)?[..] {
+    match value.bare() {
+        Value::Integer(_) => read(value).map(|n| [n; 2]),
+        Value::List(_) => match &value.list(WANTED, WANTED)?[..] {
             [n1, n2] => Ok([read(n1)?, read(n2)?]),
-            _ => Err(field.refuse(WANTED)),
+            _ => Err(value.refuse(WANTED)),
         },
-        _ => Err(field.refuse(WANTED)),
+        _ => Err(value.refuse(WANTED)),
     }
 }
 
-fn same_as(field: &Field<'_>, file: [usize; 2]) -> Result<GridSection, Refusal> {
-    let points = each(field, |field| field.integer(1..=usize::MAX))?;
+fn same_as(value: &ValueAt<'_>, file: [usize; 2]) -> Result<Sampling, Refusal> {
+    let points = each(value, |value| value.integer(1..=usize::MAX))?;
     if points == file {
-        return Ok(GridSection::Points(points));
+        return Ok(Sampling::Points(points));
     }
     let [n1, n2] = file;
-    Err(field.refuse(format!("[{n1}, {n2}], the shape of the surface's file")).help("remove it, or resample the file"))
+    Err(value.refuse(format!("[{n1}, {n2}], the shape of the surface's file")).help("remove it, or resample the file"))
 }
 
 /// A number of points whose transform is fast: made of the factors 2, 3, 5 and 7.
-fn transformable(field: &Field<'_>) -> Result<usize, Refusal> {
-    let points = field.integer(ALLOWED)?;
+fn transformable(value: &ValueAt<'_>) -> Result<usize, Refusal> {
+    let points = value.integer(ALLOWED)?;
     if has_fast_factors(points) {
         return Ok(points);
     }
     let below = (*ALLOWED.start()..points).rev().find(|n| has_fast_factors(*n)).unwrap_or(*ALLOWED.start());
     let above = (points..=*ALLOWED.end()).find(|n| has_fast_factors(*n)).unwrap_or(*ALLOWED.end());
-    Err(field
+    Err(value
         .refuse("a product of the factors 2, 3, 5 and 7")
         .help(format!("transforms of other lengths are slow; the nearest that are not: {below} and {above}")))
 }

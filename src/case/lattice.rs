@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::error::Refusal;
 use super::levels::LevelSection;
 use super::limits;
-use super::reader::Section;
+use super::reader::TableAt;
 use crate::lattice::{Cell, Lattice, LatticeError};
 
 /// The section `[lattice]`.
@@ -35,25 +35,19 @@ pub enum LatticeSection {
 /// Most indenters a cell can hold.
 const MOST_INDENTERS: usize = 10_000;
 
-const PERIOD: &str = "the distance of neighbouring indenters whatever their level";
+/// The cell's sine, at least: a narrower one is a basis that nobody needs.
+const SINE: f64 = 1e-3;
 
 impl LatticeSection {
-    pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
-        const VECTORS: &str = "the cell of a hexagonal or square lattice follows from `period`";
-        const NO_PERIOD: &str = "the cell of an oblique lattice is given by `a1` and `a2`";
-        let kind = section.required("kind", "\"hexagonal\", \"square\" or \"oblique\"")?;
-        let period = || {
-            section.only(&["kind", "period"], &[("a1", VECTORS), ("a2", VECTORS)])?;
-            limits::size(&section.required("period", PERIOD)?)
-        };
-        match kind.choice(&[("hexagonal", 0), ("square", 1), ("oblique", 2)])? {
+    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
+        let kind = section.required("kind")?.choice(&[("hexagonal", 0), ("square", 1), ("oblique", 2)])?;
+        section.only()?;
+        let period = || limits::size(&section.required("period")?);
+        let vector = |key| limits::pair(&section.required(key)?, "a vector [x, y]");
+        match kind {
             0 => Ok(Self::Hexagonal { period: period()? }),
             1 => Ok(Self::Square { period: period()? }),
-            _ => {
-                section.only(&["kind", "a1", "a2"], &[("period", NO_PERIOD)])?;
-                let vector = |key| section.required(key, "a cell vector [x, y]")?.pair("a vector [x, y]");
-                Ok(Self::Oblique { a1: vector("a1")?, a2: vector("a2")? })
-            }
+            _ => Ok(Self::Oblique { a1: vector("a1")?, a2: vector("a2")? }),
         }
     }
 
@@ -83,9 +77,9 @@ impl LatticeSection {
 /// The lattice of the case, or what is wrong with it at the line where it stands.
 pub(super) fn build(
     lattice: &LatticeSection,
-    section: &Section<'_>,
+    section: &TableAt<'_>,
     levels: &[LevelSection],
-    level_sections: &[Section<'_>],
+    level_sections: &[TableAt<'_>],
 ) -> Result<Lattice, Refusal> {
     let given = levels.iter().position(|level| level.sites.is_some());
     let absent = levels.iter().position(|level| level.sites.is_none());
@@ -103,14 +97,14 @@ pub(super) fn build(
             return Err(Refusal::new(section.place(), message, "too many sites"));
         }
     }
-    limits::cell(lattice, section)?;
+    build_cell(lattice, section)?;
     lattice.build(levels).map_err(|error| match error {
         LatticeError::NoStandardSites { .. } if matches!(lattice, LatticeSection::Oblique { .. }) => {
             Refusal::new(level_sections[0].place(), "`levels[0].sites` is missing", "no `sites` in this level")
                 .help("an oblique cell has no standard sites: give each level its own, in fractions of a1, a2: sites = [[0.0, 0.0]]")
         }
         LatticeError::NoStandardSites { lattice, levels, standard } => {
-            let place = level_sections.last().map_or(section.place(), Section::place);
+            let place = level_sections.last().map_or(section.place(), TableAt::place);
             let message = format!("`levels`: a {lattice} lattice has standard sites for {standard} levels, not {levels}");
             Refusal::new(place, message, format!("received {levels} [[levels]]"))
                 .help("or give every level its own, in fractions of the cell's vectors: sites = [[0.0, 0.0]]")
@@ -125,16 +119,21 @@ pub(super) fn build(
             Refusal::new(place, format!("`levels[{}].sites`: {fault}", level - 1), "these sites")
                 .help("the cell is periodic: fractions that differ by integers are one place")
         }
-        LatticeError::FlatCell(..) => flat(section, &error),
+        LatticeError::FlatCell(..) | LatticeError::NoPoints(..) => flat(section, &error),
     })
 }
 
-/// The cell of a case with a surface, or what is wrong with it.
-pub(super) fn build_cell(lattice: &LatticeSection, section: &Section<'_>) -> Result<Cell, Refusal> {
-    limits::cell(lattice, section)
+/// The cell, whose reduced basis is no more than a few thousand of its own vectors away, or what is wrong with it.
+pub(super) fn build_cell(lattice: &LatticeSection, section: &TableAt<'_>) -> Result<Cell, Refusal> {
+    let cell = lattice.cell().map_err(|error| flat(section, &error))?;
+    let [[x1, y1], [x2, y2]] = cell.vectors();
+    if cell.area() < SINE * x1.hypot(y1) * x2.hypot(y2) {
+        return Err(flat(section, &LatticeError::FlatCell([x1, y1], [x2, y2])));
+    }
+    Ok(cell)
 }
 
-pub(super) fn flat(section: &Section<'_>, error: &LatticeError) -> Refusal {
+fn flat(section: &TableAt<'_>, error: &LatticeError) -> Refusal {
     match section.optional("a2") {
         Some(a2) => Refusal::new(a2.place(), format!("`{}`: {error}", a2.path()), "no cell")
             .help("give two vectors that are not parallel"),

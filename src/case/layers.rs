@@ -6,8 +6,8 @@ use serde::{Serialize, Serializer};
 use super::error::Refusal;
 use super::limits;
 use super::node::Value;
-use super::reader::{Field, Section};
-use crate::material::{HalfSpace, Interface, Layer, Material, MaterialError};
+use super::reader::{TableAt, ValueAt};
+use crate::body::{HalfSpace, Interface, Layer, Material, MaterialError};
 
 /// One section of `[[layers]]`, from the surface down.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -53,16 +53,16 @@ impl Modulus {
 }
 
 impl LayerSection {
-    pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
-        section.only(&["thickness", "shear_ratio", "young", "poisson", "interface"], &[])?;
-        let thickness = limits::size(&section.required("thickness", "the thickness of the layer, a length")?)?;
+    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
+        section.only()?;
+        let thickness = limits::size(&section.required("thickness")?)?;
         let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure)";
         let modulus = match section.one_of(["shear_ratio", "young"], what)? {
             (0, ratio) => Modulus::ShearRatio(limits::size(&ratio)?),
             (_, young) => Modulus::Young(limits::size(&young)?),
         };
         let poisson = poisson(section)?;
-        let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |field| interface(&field))?;
+        let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |value| interface(&value))?;
         Ok(Self { thickness, modulus, poisson, interface })
     }
 
@@ -76,12 +76,9 @@ impl LayerSection {
 }
 
 impl SubstrateSection {
-    pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
-        section.only(
-            &["young", "poisson"],
-            &[("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")],
-        )?;
-        let young = limits::size(&section.required("young", "Young's modulus, a pressure")?)?;
+    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
+        section.only()?;
+        let young = limits::size(&section.required("young")?)?;
         Ok(Self { young, poisson: poisson(section)? })
     }
 }
@@ -89,12 +86,12 @@ impl SubstrateSection {
 /// The half-space of the case, or what is wrong with it at the line where it stands.
 pub(super) fn build(
     layers: &[LayerSection],
-    layer_sections: &[Section<'_>],
+    layer_sections: &[TableAt<'_>],
     substrate: &SubstrateSection,
-    substrate_section: &Section<'_>,
+    substrate_section: &TableAt<'_>,
 ) -> Result<HalfSpace, Refusal> {
-    let refuse = |section: &Section<'_>, key: &str, error: MaterialError| {
-        let place = section.optional(key).map_or(section.place(), |field| field.place());
+    let refuse = |section: &TableAt<'_>, key: &str, error: MaterialError| {
+        let place = section.optional(key).map_or(section.place(), |value| value.place());
         Refusal::new(place, format!("`{}`: {error}", section.path(key)), "this material")
     };
     let base = Material::from_young(substrate.young, substrate.poisson)
@@ -107,28 +104,28 @@ pub(super) fn build(
     Ok(HalfSpace::new(built?, base))
 }
 
-fn poisson(section: &Section<'_>) -> Result<f64, Refusal> {
-    section.required("poisson", "Poisson's ratio, between 0 and 0.5")?.number(0.0..=0.5)
+fn poisson(section: &TableAt<'_>) -> Result<f64, Refusal> {
+    section.required("poisson")?.number(0.0..=0.5)
 }
 
-fn interface(field: &Field<'_>) -> Result<Interface, Refusal> {
+fn interface(value: &ValueAt<'_>) -> Result<Interface, Refusal> {
     const WANTED: &str = "\"bonded\", \"frictionless\" or { tangential_stiffness = …, normal_stiffness = … }";
-    match field.value() {
+    match value.bare() {
         Value::Text(_) => {
             let choices = [("bonded", Interface::Bonded), ("frictionless", Interface::Frictionless)];
-            field.choice(&choices).map_err(|refusal| refusal.or_help(format!("or a spring: {WANTED}")))
+            value.choice(&choices).map_err(|refusal| refusal.or_help(format!("or a spring: {WANTED}")))
         }
         Value::Table(table) if !table.entries.is_empty() => {
-            let section = field.table(WANTED)?;
-            section.only(&["tangential_stiffness", "normal_stiffness"], &[])?;
+            let section = value.table(WANTED)?;
+            section.only()?;
             let stiffness =
-                |key, without| section.optional(key).map_or(Ok(f64::INFINITY), |field| rigidity(&field, without));
+                |key, without| section.optional(key).map_or(Ok(f64::INFINITY), |value| rigidity(&value, without));
             Ok(Interface::Spring {
                 tangential: stiffness("tangential_stiffness", NO_SHEAR)?,
                 normal: stiffness("normal_stiffness", NO_PRESSURE)?,
             })
         }
-        _ => Err(field.refuse(WANTED).help("a spring needs one stiffness at least; the one left out is rigid")),
+        _ => Err(value.refuse(WANTED).help("a spring needs one stiffness at least; the one left out is rigid")),
     }
 }
 
@@ -137,11 +134,13 @@ const NO_PRESSURE: &str =
     "without normal stiffness an interface carries no pressure; leave the key out where the faces do not approach";
 
 /// A stiffness; `without` says what to do instead of 0.
-fn rigidity(field: &Field<'_>, without: &str) -> Result<f64, Refusal> {
-    limits::size(field).map_err(|refusal| match *field.value() {
+fn rigidity(value: &ValueAt<'_>, without: &str) -> Result<f64, Refusal> {
+    limits::size(value).map_err(|refusal| match *value.bare() {
         Value::Integer(0) => refusal.help(without),
         Value::Float(0.0) => refusal.help(without),
-        Value::Float(value) if value.is_infinite() => refusal.help("leave the key out: an absent stiffness is rigid"),
+        Value::Float(stiffness) if stiffness.is_infinite() => {
+            refusal.help("leave the key out: an absent stiffness is rigid")
+        }
         _ => refusal,
     })
 }

@@ -8,67 +8,65 @@ use std::ops::RangeInclusive;
 
 use super::error::Refusal;
 use super::node::plain;
-use super::reader::{Field, POSITIVE, Section};
-use super::{GridSection, LatticeSection, LayerSection};
-use crate::indenter::Level;
-use crate::lattice::{Cell, LatticeError};
-use crate::material::{HalfSpace, Interface};
+use super::reader::{POSITIVE, TableAt, ValueAt};
+use crate::body::{HalfSpace, Interface};
+use crate::counterbody::Level;
+use crate::lattice::Cell;
+use crate::run::Sampling;
 
 /// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
 pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
 /// Ratios of moduli, of thicknesses to the cell, and of springs to what they hold, that still count.
 const RATIO: RangeInclusive<f64> = 1e-12..=1e12;
-/// The cell's sine, at least: a narrower one is a basis that nobody needs.
-const SINE: f64 = 1e-3;
 /// How much denser samples may stand along one cell vector than along the other.
 const DENSER: f64 = 1000.0;
 
 const WHY: &str = "double precision carries the products of five such numbers, no others; choose other units";
 
 /// A length, a modulus or a pressure greater than 0 that double precision carries.
-pub(super) fn size(field: &Field<'_>) -> Result<f64, Refusal> {
-    let value = field.number(POSITIVE)?;
-    if CARRIED.contains(&value) { Ok(value) } else { Err(field.refuse("a number between 1e-60 and 1e60").help(WHY)) }
+pub(super) fn size(value: &ValueAt<'_>) -> Result<f64, Refusal> {
+    let size = value.number(POSITIVE)?;
+    if CARRIED.contains(&size) { Ok(size) } else { Err(value.refuse("a number between 1e-60 and 1e60").help(WHY)) }
 }
 
 /// The same, or 0.
-pub(super) fn size_or_zero(field: &Field<'_>) -> Result<f64, Refusal> {
-    if field.number(0.0..)? == 0.0 { Ok(0.0) } else { size(field) }
+pub(super) fn size_or_zero(value: &ValueAt<'_>) -> Result<f64, Refusal> {
+    if value.number(0.0..)? == 0.0 { Ok(0.0) } else { size(value) }
 }
 
 /// A place along an axis: any number that double precision carries.
-pub(super) fn place(field: &Field<'_>) -> Result<f64, Refusal> {
-    let value = field.number(..)?;
-    if value.abs() <= *CARRIED.end() {
-        Ok(value)
+pub(super) fn place(value: &ValueAt<'_>) -> Result<f64, Refusal> {
+    let place = value.number(..)?;
+    if place.abs() <= *CARRIED.end() {
+        Ok(place)
     } else {
-        Err(field.refuse("a number between -1e60 and 1e60").help(WHY))
+        Err(value.refuse("a number between -1e60 and 1e60").help(WHY))
+    }
+}
+
+/// Two places or the components of a vector, `wanted` such as "a vector [x, y]".
+pub(super) fn pair(value: &ValueAt<'_>, wanted: &str) -> Result<[f64; 2], Refusal> {
+    match &value.list(wanted, "two numbers in brackets")?[..] {
+        [x, y] => Ok([place(x)?, place(y)?]),
+        _ => Err(value.refuse(wanted).help("two numbers in brackets")),
     }
 }
 
 /// Layers and their interfaces beside the cell and the substrate.
-pub(super) fn layers(
-    half_space: &HalfSpace,
-    layers: &[LayerSection],
-    sections: &[Section<'_>],
-    cell: Cell,
-) -> Result<(), Refusal> {
+pub(super) fn layers(half_space: &HalfSpace, sections: &[TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let side = cell.reduced().longer_side();
     let substrate = half_space.substrate().shear();
-    for ((layer, written), section) in half_space.layers().iter().zip(layers).zip(sections) {
+    for (layer, section) in half_space.layers().iter().zip(sections) {
         let refuse = |key: &str, what: String, help: &str| {
-            let place = section.optional(key).map_or(section.place(), |field| field.place());
+            let place = section.optional(key).map_or(section.place(), |value| value.place());
             Refusal::new(place, format!("`{}`: {what}", section.path(key)), "beyond double precision").help(help)
         };
         let shear = layer.material().shear();
         if !RATIO.contains(&(shear / substrate)) {
             let what =
                 format!("the shear modulus {} is {} times the substrate's", plain(shear), short(shear / substrate));
-            return Err(refuse(
-                written.modulus.key(),
-                what,
-                "between 1e-12 and 1e12 times are carried; are both in one unit?",
-            ));
+            let key = if section.optional("young").is_some() { "young" } else { "shear_ratio" };
+            return Err(refuse(key, what, "between 1e-12 and 1e12 times are carried; are both in one unit?"));
         }
         let thickness = layer.thickness();
         if !RATIO.contains(&(thickness / side)) {
@@ -105,7 +103,7 @@ pub(super) fn layers(
 }
 
 /// Profiles of the levels within the cell.
-pub(super) fn profiles(levels: &[Level], sections: &[Section<'_>], cell: Cell) -> Result<(), Refusal> {
+pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let reach = cell.reduced().longer_side();
     for (level, section) in levels.iter().zip(sections) {
         let rise = level.shape().profile(reach);
@@ -119,39 +117,27 @@ pub(super) fn profiles(levels: &[Level], sections: &[Section<'_>], cell: Cell) -
     Ok(())
 }
 
-/// A cell whose reduced basis is no more than a few thousand of its own vectors away.
-pub(super) fn cell(lattice: &LatticeSection, section: &Section<'_>) -> Result<Cell, Refusal> {
-    let cell = lattice.cell().map_err(|error| super::lattice::flat(section, &error))?;
-    let [[x1, y1], [x2, y2]] = cell.vectors();
-    let sine = cell.area() / (x1.hypot(y1) * x2.hypot(y2));
-    if sine < SINE {
-        let error = LatticeError::FlatCell([x1, y1], [x2, y2]);
-        return Err(super::lattice::flat(section, &error));
-    }
-    Ok(cell)
-}
-
 /// Samples as dense along one vector as along the other, to a factor.
 pub(super) fn grid(
-    grid: GridSection,
-    section: Option<&Section<'_>>,
-    lattice: &Section<'_>,
+    grid: Sampling,
+    section: Option<&TableAt<'_>>,
+    lattice: &TableAt<'_>,
     cell: Cell,
 ) -> Result<(), Refusal> {
-    let GridSection::Points([n1, n2]) = grid else { return aspect(lattice, cell) };
+    let Sampling::Points([n1, n2]) = grid else { return aspect(lattice, cell) };
     let [a1, a2] = cell.vectors().map(|[x, y]| x.hypot(y));
     let (first, second) = (a1 / n1 as f64, a2 / n2 as f64);
     if first.max(second) <= DENSER * first.min(second) {
         return Ok(());
     }
     let points = section.and_then(|section| section.optional("points"));
-    let place = points.map_or(lattice.place(), |field| field.place());
+    let place = points.map_or(lattice.place(), |value| value.place());
     let what = format!("samples stand {} apart along a₁ and {} along a₂", short(first), short(second));
     Err(Refusal::new(place, format!("`grid.points`: {what}"), format!("{n1} × {n2} points"))
         .help("at most a factor of 1000 is allowed between them: give each vector its own points = [n1, n2]"))
 }
 
-fn aspect(lattice: &Section<'_>, cell: Cell) -> Result<(), Refusal> {
+fn aspect(lattice: &TableAt<'_>, cell: Cell) -> Result<(), Refusal> {
     let [a1, a2] = cell.vectors().map(|[x, y]| x.hypot(y));
     if a1.max(a2) <= DENSER * a1.min(a2) {
         return Ok(());

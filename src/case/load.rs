@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::error::Refusal;
 use super::limits;
 use super::node::Value;
-use super::reader::{Field, Section};
-use crate::solver::Control;
+use super::reader::{TableAt, ValueAt};
+use crate::load::Load;
 
 /// Most load steps a case can have.
 const MOST: usize = 10_000;
@@ -22,8 +22,8 @@ pub enum LoadSection {
 }
 
 impl LoadSection {
-    pub(super) fn read(section: &Section<'_>) -> Result<Self, Refusal> {
-        section.only(&["mean_pressure", "penetration"], &[])?;
+    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
+        section.only()?;
         match section.one_of(
             ["mean_pressure", "penetration"],
             "`mean_pressure` (load control) or `penetration` (displacement control)",
@@ -49,26 +49,26 @@ impl LoadSection {
     }
 
     /// What each load step prescribes.
-    pub fn controls(&self) -> Vec<Control> {
-        let control = match self {
-            Self::MeanPressure(_) => Control::MeanPressure,
-            Self::Penetration(_) => Control::Penetration,
+    pub fn loads(&self) -> Vec<Load> {
+        let load = match self {
+            Self::MeanPressure(_) => Load::MeanPressure,
+            Self::Penetration(_) => Load::Penetration,
         };
-        self.values().iter().map(|&value| control(value)).collect()
+        self.values().iter().map(|&value| load(value)).collect()
     }
 }
 
-fn steps(field: &Field<'_>) -> Result<Vec<f64>, Refusal> {
+fn steps(value: &ValueAt<'_>) -> Result<Vec<f64>, Refusal> {
     const WANTED: &str = "a number, a list of numbers or { from = …, to = …, steps = … }";
-    match field.value() {
-        Value::Integer(_) | Value::Float(_) => Ok(vec![limits::size_or_zero(field)?]),
+    match value.bare() {
+        Value::Integer(_) | Value::Float(_) => Ok(vec![limits::size_or_zero(value)?]),
         Value::List(items) if (1..=MOST).contains(&items.len()) => {
-            field.list(WANTED, WANTED)?.iter().map(limits::size_or_zero).collect()
+            value.list(WANTED, WANTED)?.iter().map(limits::size_or_zero).collect()
         }
-        Value::List(items) if items.len() > MOST => Err(field.refuse(format!("a list of at most {MOST} numbers"))),
-        Value::List(_) => Err(field.refuse("a list of at least one number")),
-        Value::Table(_) => range(&field.table(WANTED)?),
-        _ => Err(field.refuse(WANTED)),
+        Value::List(items) if items.len() > MOST => Err(value.refuse(format!("a list of at most {MOST} numbers"))),
+        Value::List(_) => Err(value.refuse("a list of at least one number")),
+        Value::Table(_) => range(&value.table(WANTED)?),
+        _ => Err(value.refuse(WANTED)),
     }
 }
 
@@ -78,23 +78,23 @@ enum Spacing {
     Log,
 }
 
-fn range(section: &Section<'_>) -> Result<Vec<f64>, Refusal> {
-    section.only(&["from", "to", "steps", "spacing"], &[])?;
+fn range(section: &TableAt<'_>) -> Result<Vec<f64>, Refusal> {
+    section.only()?;
     let spacing = match section.optional("spacing") {
-        Some(field) => field.choice(&[("linear", Spacing::Linear), ("log", Spacing::Log)])?,
+        Some(spacing) => spacing.choice(&[("linear", Spacing::Linear), ("log", Spacing::Log)])?,
         None => Spacing::Linear,
     };
-    let value = |key, what| {
-        let field = section.required(key, what)?;
+    let value = |key| {
+        let value = section.required(key)?;
         match spacing {
-            Spacing::Linear => limits::size_or_zero(&field),
+            Spacing::Linear => limits::size_or_zero(&value),
             Spacing::Log => {
-                limits::size(&field).map_err(|refusal| refusal.or_help("spacing = \"log\" never reaches 0"))
+                limits::size(&value).map_err(|refusal| refusal.or_help("spacing = \"log\" never reaches 0"))
             }
         }
     };
-    let (from, to) = (value("from", "the first value")?, value("to", "the last value")?);
-    let steps = section.required("steps", "the number of values, both ends counted")?.integer(1..=MOST)?;
+    let (from, to) = (value("from")?, value("to")?);
+    let steps = section.required("steps")?.integer(1..=MOST)?;
     Ok((0..steps)
         .map(|step| match (step, step as f64 / (steps - 1).max(1) as f64, spacing) {
             (0, ..) => from,
@@ -107,12 +107,13 @@ fn range(section: &Section<'_>) -> Result<Vec<f64>, Refusal> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::keys;
     use super::super::node::{Node, Table};
     use super::*;
 
     fn read(value: &str) -> Result<LoadSection, Refusal> {
         let table = Table::parse(&format!("mean_pressure = {value}")).unwrap();
-        LoadSection::read(&Section::root(&table, Node::parse("0", 0, 0).unwrap().place))
+        LoadSection::read(&TableAt::root(&table, &keys::LOAD, Node::parse("0", 0, 0).unwrap().place))
     }
 
     #[test]

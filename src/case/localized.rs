@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::reader::Section;
+use super::reader::TableAt;
 use crate::localized::CircleRadius;
 
 /// The section `[localized]`.
@@ -26,15 +26,15 @@ impl Default for LocalizedSection {
 }
 
 impl LocalizedSection {
-    pub(super) fn read(section: Option<&Section<'_>>) -> Result<Self, Refusal> {
+    pub(super) fn read(section: Option<&TableAt<'_>>) -> Result<Self, Refusal> {
         let mut localized = Self::default();
         let Some(section) = section else { return Ok(localized) };
-        section.only(&["indenters", "elements", "radius", "mutual_effect"], &[])?;
-        if let Some(field) = section.optional("indenters") {
+        section.only()?;
+        if let Some(indenters) = section.optional("indenters") {
             const WANTED: &str = "a list of at least one integer";
-            let circles = field.list(WANTED, "for example indenters = [7, 13]")?;
+            let circles = indenters.list(WANTED, "for example indenters = [7, 13]")?;
             if circles.is_empty() {
-                return Err(field.refuse(WANTED).help("for example indenters = [7, 13]"));
+                return Err(indenters.refuse(WANTED).help("for example indenters = [7, 13]"));
             }
             localized.indenters = circles.iter().map(|circle| circle.integer(1..=10_000)).collect::<Result<_, _>>()?;
         }

@@ -1,9 +1,10 @@
 //! The case file: what a person writes, checked once, with every default resolved.
 //!
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
-//! surface and half-space. What is wrong is refused with its line ([`CaseError`]). One file a section:
-//! lattice, levels, surface, layers (with the substrate), load, grid, solver, stress, localized. `limits` refuses what
-//! double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says what a run takes.
+//! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]). One file a section:
+//! lattice, levels, surface, layers (with the substrate), load, grid, solver, stress, localized; `keys` names every key.
+//! `limits` refuses what double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says
+//! what a run takes.
 //!
 //! ```
 //! use percoat::case::{Case, embedded};
@@ -16,6 +17,7 @@ pub mod embedded;
 mod error;
 mod foreseen;
 mod grid;
+mod keys;
 mod lattice;
 mod layers;
 mod levels;
@@ -27,6 +29,7 @@ mod model;
 mod node;
 mod npy;
 mod overrides;
+mod place;
 pub mod plausibility;
 mod reader;
 pub mod resources;
@@ -39,7 +42,6 @@ mod tests;
 
 pub use error::CaseError;
 pub use foreseen::foreseen;
-pub use grid::GridSection;
 pub use lattice::LatticeSection;
 pub use layers::{LayerSection, Modulus, SubstrateSection};
 pub use levels::LevelSection;
@@ -49,5 +51,5 @@ pub use localized::LocalizedSection;
 pub use machine::{Room, available_memory};
 pub use model::Case;
 pub use source::Source;
-pub use stress::{Cut, StressSection, Toward, Volume};
+pub use stress::{Cut, StressSection, Toward};
 pub use surface::SurfaceSection;

@@ -3,22 +3,23 @@
 use serde::Serialize;
 
 use super::error::{CaseError, Refusal, Sources};
-use super::node::{Place, Table};
+use super::node::Table;
 use super::overrides::Override;
-use super::reader::Section;
+use super::place::Place;
+use super::reader::TableAt;
 use super::surface::Heights;
 use super::{
-    GridSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
-    SubstrateSection, SurfaceSection,
+    LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection,
+    SurfaceSection,
 };
-use super::{lattice, layers, levels, limits, solver};
-use crate::indenter::Level;
-use crate::material::HalfSpace;
-use crate::solver::Settings;
-use crate::texture::Surface;
-
-const SECTIONS: [&str; 11] =
-    ["title", "lattice", "levels", "surface", "layers", "substrate", "load", "grid", "solver", "stress", "localized"];
+use super::{grid, keys, lattice, layers, levels, limits, solver};
+use crate::body::HalfSpace;
+use crate::counterbody::{Counterbody, Indenters, Level, Topography};
+use crate::numeric::array::field;
+use crate::problem::Problem;
+use crate::run::{Run, Sampling};
+use crate::spectral::Settings;
+use std::sync::Arc;
 
 /// A valid case with every default resolved. It is read, never edited: overrides change it while it is read.
 ///
@@ -43,7 +44,7 @@ pub struct Case {
     /// Load steps.
     pub load: LoadSection,
     /// Samples of the cell.
-    pub grid: GridSection,
+    pub grid: Sampling,
     /// Iteration.
     pub solver: Settings,
     /// Stresses wanted; none: no stresses.
@@ -52,14 +53,7 @@ pub struct Case {
     /// Circles of the localized method.
     pub localized: LocalizedSection,
     #[serde(skip)]
-    built: Built,
-}
-
-/// What the sections make, built once.
-#[derive(Debug, Clone, PartialEq)]
-struct Built {
-    surface: Surface,
-    half_space: HalfSpace,
+    problem: Arc<Problem>,
 }
 
 impl Case {
@@ -78,14 +72,30 @@ impl Case {
         text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
     }
 
+    /// What is pressed into what.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
     /// The rigid counterbody: indenters on their lattice, or a topography.
-    pub fn surface(&self) -> &Surface {
-        &self.built.surface
+    pub fn counterbody(&self) -> &Counterbody {
+        self.problem.counterbody()
     }
 
     /// The layers on the substrate.
     pub fn half_space(&self) -> &HalfSpace {
-        &self.built.half_space
+        self.problem.half_space()
+    }
+
+    /// What `percoat solve` does.
+    pub fn run(&self) -> Run {
+        Run {
+            problem: Arc::clone(&self.problem),
+            loads: self.load.loads(),
+            sampling: self.grid,
+            settings: self.solver,
+            stress: self.stress.as_ref().map(|stress| stress.request(self.counterbody())),
+        }
     }
 }
 
@@ -112,8 +122,8 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         Override::parse(text, number)?.apply(&mut root)?;
     }
     let end = source.text.trim_end().len();
-    let root = Section::root(&root, Place::new(0, end..end));
-    root.only(&SECTIONS, &[])?;
+    let root = TableAt::root(&root, &keys::CASE, Place::new(0, end..end));
+    root.only()?;
     let title = match root.optional("title") {
         Some(title) if title.text("a text")?.contains('\n') => return Err(title.refuse("a text of one line")),
         Some(title) => title.text("a text")?.to_owned(),
@@ -135,40 +145,40 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
             return Err(refusal.help(format!("add a level, for example\n{example}")));
         }
     };
-    let (surface, built_surface) = match surface {
+    let (surface, counterbody) = match surface {
         Some((section, Heights { points, values })) => {
             let cell = lattice::build_cell(&lattice, &lattice_section)?;
-            (Some(section), Surface::Heights { cell, points, heights: values })
+            let topography = Topography::new(cell, field(points, values));
+            (Some(section), topography.map(Counterbody::from))
         }
         None => {
             let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
             let lattice = lattice::build(&lattice, &lattice_section, &levels, &level_sections)?;
             let built: Vec<Level> = built.collect::<Result<_, _>>()?;
             limits::profiles(&built, &level_sections, lattice.cell())?;
-            (None, Surface::Indenters { lattice, levels: built })
+            (None, Indenters::new(lattice, built).map(Counterbody::from))
         }
     };
-
+    // Both were checked key by key.
+    let counterbody = counterbody
+        .map_err(|error| Refusal::new(lattice_section.place(), format!("`lattice`: {error}"), "no counterbody"))?;
     let layer_sections = root.sections("layers")?;
     let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
     let substrate_section = root.required_section("substrate", "[substrate]\nyoung = 1.0\npoisson = 0.3")?;
     let substrate = SubstrateSection::read(&substrate_section)?;
     let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
 
-    limits::layers(&half_space, &layers, &layer_sections, built_surface.cell())?;
+    limits::layers(&half_space, &layer_sections, counterbody.cell())?;
 
     let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
-    let file_points = match &built_surface {
-        Surface::Heights { points, .. } => Some(*points),
-        Surface::Indenters { .. } => None,
-    };
+    let file_points = counterbody.topography().map(Topography::points);
     let grid_section = root.section("grid")?;
-    let grid = GridSection::read(grid_section.as_ref(), file_points)?;
-    limits::grid(grid, grid_section.as_ref(), &lattice_section, built_surface.cell())?;
+    let sampling = grid::read(grid_section.as_ref(), file_points)?;
+    limits::grid(sampling, grid_section.as_ref(), &lattice_section, counterbody.cell())?;
     Ok(Case {
         title,
         lattice,
-        grid,
+        grid: sampling,
         solver: solver::read(root.section("solver")?.as_ref())?,
         stress: root.section("stress")?.map(|section| StressSection::read(&section, levels.len())).transpose()?,
         localized: LocalizedSection::read(root.section("localized")?.as_ref())?,
@@ -177,6 +187,6 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         layers,
         substrate,
         load,
-        built: Built { surface: built_surface, half_space },
+        problem: Arc::new(Problem::new(counterbody, half_space)),
     })
 }

@@ -6,21 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::Refusal;
-
-/// Where something was written: a span of bytes in one of the sources (0: the case file, n: the n-th `--set`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Place {
-    pub(super) source: usize,
-    pub(super) start: usize,
-    pub(super) end: usize,
-}
-
-impl Place {
-    /// The span `start..end` of a source.
-    pub(super) fn new(source: usize, span: std::ops::Range<usize>) -> Self {
-        Self { source, start: span.start, end: span.end }
-    }
-}
+use super::place::Place;
 
 /// A value and where it was written.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,17 +3,9 @@
 //! KEY is a dotted path, items of lists counted from 0; VALUE is TOML, a bare word counts as text.
 
 use super::error::Refusal;
-use super::node::{Entry, Node, Place, Table, Value};
-
-/// Alternatives of which a table takes one: setting a key of one removes the keys of the others.
-const EXCLUSIVE: [&[&[&str]]; 6] = [
-    &[&["mean_pressure"], &["penetration"]],
-    &[&["shear_ratio"], &["young"]],
-    &[&["points"], &["accuracy"]],
-    &[&["levels"], &["surface"]],
-    &[&["period"], &["a1", "a2"]],
-    &[&["radius"], &["slope"], &["coefficient", "exponent"]],
-];
+use super::keys;
+use super::node::{Entry, Node, Table, Value};
+use super::place::Place;
 
 /// Parts of the longest path; the longest of a case has four.
 const DEEPEST: usize = 16;
@@ -125,11 +117,7 @@ fn set_in_table(table: &mut Table, path: &str, steps: &[Step], value: Node) -> R
             Node { value: Value::Table(created), place: step.place }
         }
     };
-    for alternatives in EXCLUSIVE.iter().filter(|all| all.concat().contains(&step.name.as_str())) {
-        for other in alternatives.iter().filter(|keys| !keys.contains(&step.name.as_str())) {
-            other.iter().for_each(|key| table.remove(key));
-        }
-    }
+    keys::excluded(&step.name).into_iter().for_each(|other| table.remove(other));
     table.insert(Entry { key: step.name.clone(), key_place: step.place, node: next });
     Ok(())
 }

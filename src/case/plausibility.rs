@@ -1,101 +1,30 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
-//!
-//! The theory is one of small strains and small slopes: under an indenter the strain is about the slope of its flank at
-//! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, numbers are those
-//! of a linear body that is not there.
 
 use super::{Case, LoadSection};
-use crate::indenter::{Level, Shape};
+use crate::body::MeanStress;
+use crate::body::{HalfSpace, Interface};
+use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
-use crate::material::{HalfSpace, Interface};
-use crate::number::number;
-use crate::output::summary::Step;
-use crate::stress::MeanStress;
-use crate::texture::Surface;
-use std::f64::consts::PI;
+use crate::numeric::number::number;
+use crate::run::warnings::{HIGH, STEEP, part};
 
-/// Slope of a flank beyond which strains are not small.
-pub(super) const STEEP: f64 = 0.5;
 /// Lengths of one case that differ by more than this are hardly in one unit.
 const APART: f64 = 1e4;
-/// Peak pressure over E* beyond which strains are not small.
-const HIGH: f64 = 1.0 / 3.0;
 
 /// What the case alone makes doubtful, one sentence each.
 pub fn of_case(case: &Case) -> Vec<String> {
-    let cell = case.surface().cell();
+    let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(&case.load, case.half_space()).into_iter().collect();
     doubts.extend(lengths(case, cell));
-    if let Surface::Indenters { levels, .. } = case.surface() {
-        doubts.extend(heights(levels, cell));
-        doubts.extend(levels.iter().enumerate().filter_map(|(index, level)| steep_cone(index, level)));
+    if counterbody.indenters().is_some() {
+        doubts.extend(heights(counterbody.levels(), cell));
     }
-    if let Surface::Heights { cell, points, heights } = case.surface() {
-        doubts.extend(topography(*cell, *points, heights));
-    }
+    doubts.extend(counterbody.levels().iter().enumerate().filter_map(|(index, level)| steep_cone(index, level)));
+    doubts.extend(counterbody.topography().and_then(topography));
     if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
         doubts.extend(slipping(case.half_space(), cell));
     }
     doubts
-}
-
-/// What the solved steps make doubtful beside it: the steepest flank in contact and the highest pressure.
-pub fn of_steps(case: &Case, steps: &[Step]) -> Vec<String> {
-    let mut doubts = Vec::new();
-    if let Surface::Indenters { levels, .. } = case.surface() {
-        let flanks = (1..).zip(steps).flat_map(|(number, step)| {
-            let touching = step.levels.iter().filter(|level| level.load > 0.0);
-            // Merged contacts have no radius, but an area.
-            touching.map(move |level| (number, level.level, (level.contact_area / PI).sqrt()))
-        });
-        let slope = |level: usize, radius: f64| slope(levels[level - 1].shape(), radius);
-        let steepest = flanks
-            .filter(|(_, level, _)| !matches!(levels[level - 1].shape(), Shape::Cone { .. }))
-            .max_by(|a: &(usize, usize, f64), b| slope(a.1, a.2).total_cmp(&slope(b.1, b.2)));
-        if let Some((step, level, radius)) = steepest.filter(|&(_, level, radius)| slope(level, radius) > STEEP) {
-            doubts.push(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius));
-        }
-    }
-    let modulus = case.half_space().surface_material().contact_modulus();
-    // A pressure that is infinite under a tip is beyond any measure.
-    let peaks = (1..).zip(steps).filter_map(|(number, step): (usize, &Step)| Some((number, step.max_pressure?)));
-    let highest = peaks.max_by(|a, b| a.1.total_cmp(&b.1));
-    if let Some((step, pressure)) = highest.filter(|(_, p)| *p > HIGH * modulus) {
-        doubts.push(format!(
-            "step {step}: the largest pressure {} is {} of E* at the surface: strains are not small any more; are load and \
-             moduli in one unit?",
-            number(pressure),
-            part(pressure / modulus)
-        ));
-    }
-    doubts
-}
-
-/// Slope f′(a) of a flank at the edge of contact.
-pub(super) fn slope(shape: Shape, a: f64) -> f64 {
-    match shape {
-        Shape::Paraboloid { radius } => a / radius,
-        Shape::Sphere { radius } if a < radius => a / ((radius - a) * (radius + a)).sqrt(),
-        Shape::Sphere { .. } => f64::INFINITY,
-        Shape::Cone { slope } => slope,
-        Shape::Power { coefficient, exponent } => coefficient * exponent * a.powf(exponent - 1.0),
-    }
-}
-
-pub(super) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
-    let told = match shape {
-        Shape::Paraboloid { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
-        Shape::Sphere { radius } if a >= radius => {
-            format!("beyond the equator of its sphere of radius {}", number(radius))
-        }
-        Shape::Sphere { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
-        _ => format!("where its flank has the slope {}", part(slope(shape, a))),
-    };
-    format!(
-        "{context}: the contact radius {} of level {level} is {told}: strains are not small any more; are radius, period, \
-         load and moduli in consistent units?",
-        number(a)
-    )
 }
 
 fn pressures(load: &LoadSection, half_space: &HalfSpace) -> Option<String> {
@@ -122,22 +51,20 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
     let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
     let side = side.min(other);
     let mut all: Vec<(String, f64)> = Vec::new();
-    if let Surface::Indenters { levels, .. } = case.surface() {
-        for (number, level) in levels.iter().enumerate() {
-            match level.shape() {
-                Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
-                    all.push((format!("levels[{number}].radius"), radius));
-                }
-                // As of a paraboloid, whose radius this is.
-                Shape::Power { coefficient, exponent } if exponent > 1.0 => {
-                    let slope = coefficient * exponent * side.powf(exponent - 1.0);
-                    all.push((
-                        format!("levels[{number}]: the side of the cell over the slope of c·rⁿ there"),
-                        side / slope,
-                    ));
-                }
-                Shape::Power { .. } | Shape::Cone { .. } => {}
+    for (number, level) in case.counterbody().levels().iter().enumerate() {
+        match level.shape() {
+            Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
+                all.push((format!("levels[{number}].radius"), radius));
             }
+            // As of a paraboloid, whose radius this is.
+            Shape::Power { coefficient, exponent } if exponent > 1.0 => {
+                let slope = coefficient * exponent * side.powf(exponent - 1.0);
+                all.push((
+                    format!("levels[{number}]: the side of the cell over the slope of c·rⁿ there"),
+                    side / slope,
+                ));
+            }
+            Shape::Power { .. } | Shape::Cone { .. } => {}
         }
     }
     let layers = case.half_space().layers().iter().enumerate();
@@ -183,15 +110,15 @@ fn steep_cone(index: usize, level: &Level) -> Option<String> {
 }
 
 /// A topography whose mean slope is no surface's.
-fn topography(cell: Cell, [n1, n2]: [usize; 2], heights: &[f64]) -> Option<String> {
+fn topography(topography: &Topography) -> Option<String> {
+    let ([n1, n2], heights) = (topography.points(), topography.heights());
     let [step1, step2] = [(0, n1), (1, n2)].map(|(axis, n)| {
-        let [x, y] = cell.vectors()[axis];
+        let [x, y] = topography.cell().vectors()[axis];
         x.hypot(y) / n as f64
     });
-    let squares = heights.iter().enumerate().map(|(index, height)| {
-        let (i, j) = (index / n2, index % n2);
-        let along = (heights[(i + 1) % n1 * n2 + j] - height) / step1;
-        let across = (heights[i * n2 + (j + 1) % n2] - height) / step2;
+    let squares = heights.indexed_iter().map(|((i, j), height)| {
+        let along = (heights[[(i + 1) % n1, j]] - height) / step1;
+        let across = (heights[[i, (j + 1) % n2]] - height) / step2;
         along * along + across * across
     });
     let slope = (squares.sum::<f64>() / heights.len() as f64).sqrt();
@@ -224,11 +151,6 @@ fn slipping(half_space: &HalfSpace, cell: Cell) -> Vec<String> {
             )
         })
         .collect()
-}
-
-/// A ratio with two digits.
-fn part(x: f64) -> String {
-    if (0.01..1000.0).contains(&x) { format!("{:.2}", x) } else { format!("{x:.1e}") }
 }
 
 #[cfg(test)]
@@ -275,12 +197,14 @@ mod tests {
     #[test]
     fn a_topography_of_micrometres_on_a_cell_of_metres_is_doubted_either_way() {
         let cell = Cell::square(1.0).unwrap();
-        let waves =
-            |height: f64| -> Vec<f64> { (0..64).map(|k| height * (f64::from(k % 8) * PI / 4.0).cos()).collect() };
-        assert!(topography(cell, [8, 8], &waves(1e3)).unwrap().contains("steeper"));
-        assert!(topography(cell, [8, 8], &waves(1e-10)).unwrap().contains("flatter"));
-        assert_eq!(topography(cell, [8, 8], &waves(0.01)), None);
-        assert_eq!(topography(cell, [8, 8], &waves(0.0)), None);
+        let waves = |height: f64| {
+            let wave = |(_, j): (usize, usize)| height * (j as f64 * std::f64::consts::FRAC_PI_4).cos();
+            Topography::new(cell, ndarray::Array2::from_shape_fn((8, 8), wave)).unwrap()
+        };
+        assert!(topography(&waves(1e3)).unwrap().contains("steeper"));
+        assert!(topography(&waves(1e-10)).unwrap().contains("flatter"));
+        assert_eq!(topography(&waves(0.01)), None);
+        assert_eq!(topography(&waves(0.0)), None);
     }
 
     #[test]
@@ -291,11 +215,5 @@ mod tests {
         assert!(soft.contains("layer 1") && soft.contains("slips over"), "{soft}");
         assert!(doubts("fig2", &[&spring("1e3"), half_space]).is_empty());
         assert!(doubts("fig2", &[&spring("1e-3"), "stress.mean=confined"]).is_empty());
-    }
-
-    #[test]
-    fn contact_beyond_the_equator_is_told() {
-        assert!(slope(Shape::Sphere { radius: 1.0 }, 1.5).is_infinite());
-        assert!(flank("step 1", 1, Shape::Sphere { radius: 1.0 }, 1.5).contains("equator"));
     }
 }

@@ -4,43 +4,34 @@ use std::fmt::Write as _;
 use std::ops::{Bound, RangeBounds, RangeInclusive};
 
 use super::error::Refusal;
-use super::limits;
-use super::node::{Node, Place, Table, Value, plain};
+use super::keys::{self, Key, Keys};
+use super::node::{Node, Table, Value, plain};
+use super::place::Place;
 
 /// Numbers greater than zero.
 pub(super) const POSITIVE: (Bound<f64>, Bound<f64>) = (Bound::Excluded(0.0), Bound::Unbounded);
 
-/// Keys that belong to one section only, for those that were put into another.
-const HOMES: [(&str, &[&str]); 8] = [
-    ("lattice", &["kind", "period", "a1", "a2"]),
-    ("levels", &["shape", "height", "sites", "slope", "coefficient", "exponent"]),
-    ("layers", &["thickness", "shear_ratio", "interface"]),
-    ("load", &["mean_pressure", "penetration"]),
-    ("grid", &["points", "accuracy"]),
-    ("solver", &["method", "tolerance", "max_iterations"]),
-    ("stress", &["planes", "mean", "section"]),
-    ("localized", &["indenters", "elements", "mutual_effect"]),
-];
-
-/// A table of the case with its path (empty for the whole case).
+/// A table of the case with its keys and its path (empty for the whole case).
 #[derive(Debug)]
-pub(super) struct Section<'a> {
+pub(super) struct TableAt<'a> {
     table: &'a Table,
+    keys: &'static Keys,
     place: Place,
     path: String,
 }
 
-/// A value of the case with its path, such as `layers[0].poisson`.
+/// A value of the case with its path, such as `layers[0].poisson`, and the keys of the tables it may hold.
 #[derive(Debug)]
-pub(super) struct Field<'a> {
+pub(super) struct ValueAt<'a> {
     node: &'a Node,
+    keys: &'static Keys,
     path: String,
 }
 
-impl<'a> Section<'a> {
-    /// The whole case; `end` is where its text ends.
-    pub(super) fn root(table: &'a Table, end: Place) -> Self {
-        Self { table, place: end, path: String::new() }
+impl<'a> TableAt<'a> {
+    /// A table that stands in no other, such as the whole case; `end` is where its text ends.
+    pub(super) fn root(table: &'a Table, keys: &'static Keys, end: Place) -> Self {
+        Self { table, keys, place: end, path: String::new() }
     }
 
     /// Where the table begins.
@@ -54,26 +45,27 @@ impl<'a> Section<'a> {
     }
 
     /// The value of a key, if it is there.
-    pub(super) fn optional(&self, key: &str) -> Option<Field<'a>> {
-        self.table.get(key).map(|entry| Field { node: &entry.node, path: self.path(key) })
+    pub(super) fn optional(&self, key: &str) -> Option<ValueAt<'a>> {
+        let entry = self.table.get(key)?;
+        Some(ValueAt { node: &entry.node, keys: self.keys.get(key)?.holds, path: self.path(key) })
     }
 
-    /// The value of a key; `what` says what it is where it is missing.
-    pub(super) fn required(&self, key: &str, what: &str) -> Result<Field<'a>, Refusal> {
+    /// The value of a key, or the refusal that says what it is.
+    pub(super) fn required(&self, key: &str) -> Result<ValueAt<'a>, Refusal> {
         self.optional(key).ok_or_else(|| {
-            let path = self.path(key);
+            let (path, what) = (self.path(key), self.keys.get(key).map_or("", |key| key.what));
             Refusal::new(self.place, format!("`{path}` is missing"), format!("`{key}` is missing here"))
                 .help(format!("add `{key}`: {what}"))
         })
     }
 
     /// A section of the case, if it is there.
-    pub(super) fn section(&self, key: &str) -> Result<Option<Section<'a>>, Refusal> {
-        self.optional(key).map(|field| field.table(&format!("write it as a section, [{key}]"))).transpose()
+    pub(super) fn section(&self, key: &str) -> Result<Option<TableAt<'a>>, Refusal> {
+        self.optional(key).map(|value| value.table(&format!("write it as a section, [{key}]"))).transpose()
     }
 
     /// A section of the case; `example` is written where it is missing.
-    pub(super) fn required_section(&self, key: &str, example: &str) -> Result<Section<'a>, Refusal> {
+    pub(super) fn required_section(&self, key: &str, example: &str) -> Result<TableAt<'a>, Refusal> {
         self.section(key)?.ok_or_else(|| {
             Refusal::new(self.place, format!("the section [{key}] is missing"), format!("no [{key}] up to here"))
                 .help(format!("add it, for example\n{example}"))
@@ -81,37 +73,45 @@ impl<'a> Section<'a> {
     }
 
     /// The tables of a list, [[key]], none if it is not there.
-    pub(super) fn sections(&self, key: &str) -> Result<Vec<Section<'a>>, Refusal> {
-        let Some(field) = self.optional(key) else { return Ok(Vec::new()) };
+    pub(super) fn sections(&self, key: &str) -> Result<Vec<TableAt<'a>>, Refusal> {
+        let Some(value) = self.optional(key) else { return Ok(Vec::new()) };
         let help = format!("write each one as a section of its own, [[{key}]] in double brackets");
-        field.list("a list of tables", &help)?.iter().map(|item| item.table(&help)).collect()
+        value.list("a list of tables", &help)?.iter().map(|item| item.table(&help)).collect()
     }
 
-    /// Refuse keys that are not among `known`. `foreign` explains those that have their place, but not here.
-    pub(super) fn only(&self, known: &[&str], foreign: &[(&str, &str)]) -> Result<(), Refusal> {
+    /// Refuse keys that the table does not have, or not for its kind.
+    pub(super) fn only(&self) -> Result<(), Refusal> {
+        let kind = self.keys.all.first().and_then(|key| self.table.get(key.name)).map(|entry| &entry.node.value);
+        let has = |key: &&Key| {
+            key.kinds.is_empty() || matches!(kind, Some(Value::Text(kind)) if key.kinds.contains(&&kind[..]))
+        };
+        let known: Vec<&str> = self.keys.all.iter().filter(has).map(|key| key.name).collect();
         let Some(entry) = self.table.entries.iter().find(|entry| !known.contains(&entry.key.as_str())) else {
             return Ok(());
         };
         let (key, path) = (entry.key.as_str(), self.path(&entry.key));
-        if let Some((_, why)) = foreign.iter().find(|(foreign, _)| *foreign == key) {
+        if let Some((_, why)) = self.keys.foreign.iter().find(|(foreign, _)| *foreign == key) {
             return Err(Refusal::new(entry.key_place, format!("`{path}` has no place here: {why}"), "not used here")
                 .help(format!("remove it; allowed here: {}", known.join(", "))));
         }
         let refusal = Refusal::new(entry.key_place, format!("unknown key `{path}`"), "unknown key");
-        let home = HOMES.iter().find(|(home, keys)| *home != self.path && keys.contains(&key));
-        Err(match (nearest(key, known), home) {
-            (_, Some((home, _))) => refusal.help(format!("`{key}` belongs to `{home}`")),
-            (Some(near), None) => refusal.help(format!("did you mean `{near}`?")),
-            (None, None) => refusal.help(format!("allowed here: {}", known.join(", "))),
+        let homes = keys::homes(key);
+        Err(match nearest(key, &known) {
+            // `heights` in [[levels]] is a slip, `mean` in [load] a key of another section.
+            Some((near, likeness)) if homes.is_empty() || likeness > 0.95 => {
+                refusal.help(format!("did you mean `{near}`?"))
+            }
+            _ if homes.is_empty() => refusal.help(format!("allowed here: {}", known.join(", "))),
+            _ => refusal.help(format!("`{key}` belongs to {}", alternatives(&homes, '`'))),
         })
     }
 
     /// The value of the one key of two that is there: refused when both are, or none.
-    pub(super) fn one_of(&self, keys: [&str; 2], what: &str) -> Result<(usize, Field<'a>), Refusal> {
+    pub(super) fn one_of(&self, keys: [&str; 2], what: &str) -> Result<(usize, ValueAt<'a>), Refusal> {
         let [a, b] = keys;
         match (self.optional(a), self.optional(b)) {
-            (Some(field), None) => Ok((0, field)),
-            (None, Some(field)) => Ok((1, field)),
+            (Some(value), None) => Ok((0, value)),
+            (None, Some(value)) => Ok((1, value)),
             (Some(_), Some(second)) => Err(self.both(keys, second.place())),
             (None, None) => {
                 let message = format!("`{}` or `{}` is missing", self.path(a), self.path(b));
@@ -128,7 +128,7 @@ impl<'a> Section<'a> {
     }
 }
 
-impl<'a> Field<'a> {
+impl<'a> ValueAt<'a> {
     /// Where the value stands.
     pub(super) fn place(&self) -> Place {
         self.node.place
@@ -140,7 +140,7 @@ impl<'a> Field<'a> {
     }
 
     /// The bare value.
-    pub(super) fn value(&self) -> &'a Value {
+    pub(super) fn bare(&self) -> &'a Value {
         &self.node.value
     }
 
@@ -195,54 +195,47 @@ impl<'a> Field<'a> {
     /// One of a few words and what each stands for.
     pub(super) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Result<T, Refusal> {
         let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
-        let wanted = alternatives(&names);
+        let wanted = alternatives(&names, '"');
         let text = self.text(&wanted)?;
         choices.iter().find(|(name, _)| *name == text).map(|(_, choice)| *choice).ok_or_else(|| {
             let refusal = self.refuse(&wanted);
             match nearest(text, &names) {
-                Some(near) => refusal.help(format!("did you mean \"{near}\"?")),
+                Some((near, _)) => refusal.help(format!("did you mean \"{near}\"?")),
                 None => refusal,
             }
         })
     }
 
     /// The items of a list; `wanted` says of what, `help` how to write it.
-    pub(super) fn list(&self, wanted: &str, help: &str) -> Result<Vec<Field<'a>>, Refusal> {
+    pub(super) fn list(&self, wanted: &str, help: &str) -> Result<Vec<ValueAt<'a>>, Refusal> {
         let Value::List(items) = &self.node.value else { return Err(self.refuse(wanted).help(help)) };
-        let item = |(index, node)| Field { node, path: format!("{}[{index}]", self.path) };
+        let item = |(index, node)| ValueAt { node, keys: self.keys, path: format!("{}[{index}]", self.path) };
         Ok(items.iter().enumerate().map(item).collect())
     }
 
     /// The table of the value; `help` says how to write it.
-    pub(super) fn table(&self, help: &str) -> Result<Section<'a>, Refusal> {
+    pub(super) fn table(&self, help: &str) -> Result<TableAt<'a>, Refusal> {
         match &self.node.value {
-            Value::Table(table) => Ok(Section { table, place: self.node.place, path: self.path.clone() }),
+            Value::Table(table) => {
+                Ok(TableAt { table, keys: self.keys, place: self.node.place, path: self.path.clone() })
+            }
             _ => Err(self.refuse("a table").help(help)),
         }
     }
-
-    /// Two finite numbers, `wanted` such as "a vector [x, y]".
-    pub(super) fn pair(&self, wanted: &str) -> Result<[f64; 2], Refusal> {
-        match &self.list(wanted, "two numbers in brackets")?[..] {
-            [x, y] => Ok([limits::place(x)?, limits::place(y)?]),
-            _ => Err(self.refuse(wanted).help("two numbers in brackets")),
-        }
-    }
 }
 
-/// The known word nearest to a misspelt one.
-fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+/// The known word nearest to a misspelt one, and how like they are, at most 1.
+fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<(&'a str, f64)> {
     let word = word.to_lowercase().replace('_', "-");
     known
         .iter()
-        .map(|known| (strsim::jaro_winkler(&word, &known.replace('_', "-")), *known))
-        .filter(|(likeness, _)| *likeness > 0.8)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, known)| known)
+        .map(|known| (*known, strsim::jaro_winkler(&word, &known.replace('_', "-"))))
+        .filter(|(_, likeness)| *likeness > 0.8)
+        .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// "a", "a" or "b", "a", "b" or "c", each in quotes.
-fn alternatives(names: &[&str]) -> String {
+/// "a", "a" or "b", "a", "b" or "c", each in this kind of quotes.
+fn alternatives(names: &[impl AsRef<str>], quote: char) -> String {
     let mut text = String::new();
     for (index, name) in names.iter().enumerate() {
         let joint = match index {
@@ -251,7 +244,7 @@ fn alternatives(names: &[&str]) -> String {
             _ => ", ",
         };
         // Writing into a String cannot fail.
-        let _ = write!(text, "{joint}\"{name}\"");
+        let _ = write!(text, "{joint}{quote}{}{quote}", name.as_ref());
     }
     text
 }
@@ -290,11 +283,12 @@ mod tests {
         let accuracy = (Bound::Excluded(0.0), Bound::Included(0.1));
         assert_eq!(describe(&accuracy), "a number greater than 0 and at most 0.1");
         assert_eq!(describe(&..), "a finite number");
-        assert_eq!(alternatives(&["a", "b", "c"]), "\"a\", \"b\" or \"c\"");
+        assert_eq!(alternatives(&["a", "b", "c"], '"'), "\"a\", \"b\" or \"c\"");
     }
 
     #[test]
     fn only_similar_words_are_suggested() {
+        let nearest = |word, known| nearest(word, known).map(|(known, _)| known);
         let known = ["thickness", "shear_ratio", "young", "poisson", "interface"];
         assert_eq!(nearest("thicknes", &known), Some("thickness"));
         assert_eq!(nearest("Poison", &known), Some("poisson"));

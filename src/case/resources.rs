@@ -4,14 +4,13 @@
 //! pictures (`tests/command_line/refusals.rs` measures two of them again). An estimate lies above the peak by some tenth:
 //! below a quarter in all that were measured.
 
-use super::{Case, GridSection, Room, StressSection};
-use crate::fourier::fast_points;
-use crate::hierarchy;
+use super::{Case, Room, StressSection};
+use crate::body::HalfSpace;
 use crate::localized::Setup;
-use crate::material::HalfSpace;
-use crate::number::number;
-use crate::refinement::{MOST_POINTS, balanced_points};
-use crate::texture::Surface;
+use crate::numeric::number::number;
+use crate::run::accuracy::{MOST_POINTS, balanced_points};
+use crate::run::{SECTION, Sampling};
+use crate::spectral::{self, fourier::fast_points};
 
 const MEBIBYTE: u64 = 1 << 20;
 /// What the program takes before it solves anything.
@@ -37,8 +36,6 @@ const CURVES: u64 = 84 * MEBIBYTE;
 const COMPARISON: u64 = MEBIBYTE;
 /// A picture on disk.
 const PICTURE: u64 = MEBIBYTE / 5;
-/// Rows and columns of a vertical section.
-const SECTION: u64 = 200 * 401;
 
 /// What is done with a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +73,7 @@ impl Needs {
 pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = case.surface.as_ref().map_or(0, |_| 8 * samples);
-    let solver = PROGRAM + hierarchy::memory(points, case.solver.method) as u64 + heights;
+    let solver = PROGRAM + spectral::memory(points, case.solver.method) as u64 + heights;
     let needs = match job {
         Job::Solve { pictures } => of_solving(case, samples, solver, heights, pictures),
         Job::Compare { pictures } => of_comparing(case, samples, solver, pictures),
@@ -95,7 +92,7 @@ fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bo
     let pages = if pictures { PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1)) } else { 0 };
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are all there.
-    let coarser = if matches!(case.grid, GridSection::Accuracy(_)) { disk / 4 } else { 0 };
+    let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
     let disk_while_running = disk + fields.max(steps * written) + coarser;
     Needs { memory: (solver + stress).max(drawing), disk, disk_while_running }
 }
@@ -103,10 +100,7 @@ fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bo
 /// The localized method's influence coefficients: of every pair of indenters, inside circles and of the whole lattice,
 /// on the mesh and on one of half as many elements; its spots; and a field for the stresses compared.
 fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs {
-    let sites = match case.surface() {
-        Surface::Indenters { lattice, .. } => lattice.sites().concat().len() as u64,
-        Surface::Heights { .. } => 0,
-    };
+    let sites = case.counterbody().indenters().map_or(0, |all| all.lattice().sites().concat().len() as u64);
     let width = Setup::width(case.localized.elements) as u64;
     let side = 2 * width - 1;
     let tables = 8 * (sites * sites * side * side * 5 / 2 + SPOT_FIELDS * sites * width * width);
@@ -116,9 +110,9 @@ fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs
 
 /// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.
 fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u64, u64, u64) {
-    let sides = |z: &f64| half_space.sides(*z).count() as u64;
+    let sides = |z: &f64| half_space.materials_at(*z).count() as u64;
     let planes: u64 = stress.planes.iter().map(sides).sum();
-    let section = if stress.section.is_some() { SECTION } else { 0 };
+    let section = if stress.section.is_some() { (SECTION[0] * SECTION[1]) as u64 } else { 0 };
     let volume = stress.volume.map_or(0, |volume| {
         let layer = (volume.points as u64 + 1) * (volume.points as u64 + 1);
         (volume.rows as u64 + 1 + half_space.layers().len() as u64) * layer
@@ -158,15 +152,15 @@ pub fn largest_points(case: &Case, points: [usize; 2], room: Room, job: Job) -> 
 /// The largest grid that `case` may be solved on: its own, or the last one of a refinement.
 pub fn finest_points(case: &Case) -> [usize; 2] {
     match case.grid {
-        GridSection::Points(points) => points,
-        GridSection::Accuracy(_) => {
-            let cell = case.surface().cell();
+        Sampling::Points(points) => points,
+        Sampling::Accuracy(_) => {
+            let cell = case.counterbody().cell();
             let finer = |points: &usize| Some(2 * points);
-            std::iter::successors(Some(crate::refinement::FIRST_POINTS), finer)
+            std::iter::successors(Some(crate::run::accuracy::FIRST_POINTS), finer)
                 .map(|points| balanced_points(&cell, points))
                 .take_while(|points| points.iter().all(|&n| n <= MOST_POINTS))
                 .last()
-                .unwrap_or(balanced_points(&cell, crate::refinement::FIRST_POINTS))
+                .unwrap_or(balanced_points(&cell, crate::run::accuracy::FIRST_POINTS))
         }
     }
 }
@@ -180,9 +174,9 @@ pub fn fits(case: &Case, points: [usize; 2], room: Room, job: Job) -> bool {
 /// grid: its later ones are judged as they come ([`fits`]).
 pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
     let (points, key) = match case.grid {
-        GridSection::Points(points) => (points, "grid.points"),
-        GridSection::Accuracy(_) => {
-            (balanced_points(&case.surface().cell(), crate::refinement::FIRST_POINTS), "grid.accuracy")
+        Sampling::Points(points) => (points, "grid.points"),
+        Sampling::Accuracy(_) => {
+            (balanced_points(&case.counterbody().cell(), crate::run::accuracy::FIRST_POINTS), "grid.accuracy")
         }
     };
     let needs = needs(case, points, job);
@@ -289,7 +283,10 @@ mod tests {
         let (case, room) = (case(&[]), Room { memory: 500 * MEBIBYTE, disk: u64::MAX });
         for room in [room, Room { memory: u64::MAX, disk: 500 * MEBIBYTE }] {
             let points = largest_points(&case, [1024, 512], room, SOLVE).unwrap();
-            assert_eq!(points[0], 2 * points[1]);
+            // Each side is the next fast number of its share: at these sizes at most a twentieth above it.
+            let ratio = points[0] as f64 / points[1] as f64;
+            assert!((ratio / 2.0 - 1.0).abs() < 0.05, "{points:?}");
+            assert_eq!(points.map(fast_points), points);
             assert!(fits(&case, points, room, SOLVE));
             let larger = points.map(|n| fast_points(n + n / 20));
             assert!(!fits(&case, larger, room, SOLVE), "{points:?} is not the largest");

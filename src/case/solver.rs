@@ -1,13 +1,13 @@
 //! `[solver]`: how the contact problem is solved, and how far.
 
 use super::error::Refusal;
-use super::reader::Section;
-use crate::solver::{Method, Settings};
+use super::reader::TableAt;
+use crate::spectral::{Method, Settings};
 
-pub(super) fn read(section: Option<&Section<'_>>) -> Result<Settings, Refusal> {
+pub(super) fn read(section: Option<&TableAt<'_>>) -> Result<Settings, Refusal> {
     let mut settings = Settings::default();
     let Some(section) = section else { return Ok(settings) };
-    section.only(&["method", "tolerance", "max_iterations"], &[])?;
+    section.only()?;
     if let Some(method) = section.optional("method") {
         let choices = [("preconditioned", Method::Preconditioned), ("polonsky-keer", Method::PolonskyKeer)];
         settings.method = method.choice(&choices)?;

@@ -5,8 +5,12 @@ use serde::{Serialize, Serializer};
 use super::error::Refusal;
 use super::limits;
 use super::node::Value;
-use super::reader::{Field, Section};
-use crate::stress::MeanStress;
+use super::reader::{TableAt, ValueAt};
+use crate::body::MeanStress;
+use crate::counterbody::Counterbody;
+use crate::lattice::Lattice;
+use crate::run::{SECTION, StressRequest, Volume};
+use crate::stress::Line;
 
 /// The section `[stress]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -24,17 +28,6 @@ pub struct StressSection {
     /// A volume under the cell for ParaView.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub volume: Option<Volume>,
-}
-
-/// The field under the whole cell.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Volume {
-    /// Down to this depth, a length.
-    pub depth: f64,
-    /// Intervals in depth.
-    pub rows: usize,
-    /// Points along each cell vector.
-    pub points: usize,
 }
 
 /// A vertical cut from the axis of an indenter toward a neighbour.
@@ -70,33 +63,45 @@ impl Serialize for Toward {
 }
 
 impl StressSection {
+    /// What a run on `counterbody` is asked for.
+    pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
+        let line = |cut: Cut| Some((cut.line(counterbody.indenters()?.lattice()), cut.depth));
+        StressRequest {
+            mean: self.mean,
+            planes: self.planes.clone(),
+            section: self.section.and_then(line),
+            points: self.points.clone(),
+            volume: self.volume,
+        }
+    }
+
     /// Read the section of a case with this many levels (none: a surface from a file).
-    pub(super) fn read(section: &Section<'_>, levels: usize) -> Result<Self, Refusal> {
-        section.only(&["planes", "mean", "section", "points", "volume"], &[])?;
+    pub(super) fn read(section: &TableAt<'_>, levels: usize) -> Result<Self, Refusal> {
+        section.only()?;
         let planes = match section.optional("planes") {
-            Some(field) => {
-                let depths = field.list("a list of depths", "for example planes = [0.0, 0.5]")?;
-                at_most(&field, depths.len(), PLANES)?;
+            Some(value) => {
+                let depths = value.list("a list of depths", "for example planes = [0.0, 0.5]")?;
+                at_most(&value, depths.len(), PLANES)?;
                 depths.iter().map(limits::size_or_zero).collect::<Result<_, _>>()?
             }
             None => Vec::new(),
         };
         let mean = match section.optional("mean") {
-            Some(field) => {
-                field.choice(&[("confined", MeanStress::Confined), ("half-space", MeanStress::HalfSpace)])?
+            Some(value) => {
+                value.choice(&[("confined", MeanStress::Confined), ("half-space", MeanStress::HalfSpace)])?
             }
             None => MeanStress::Confined,
         };
-        let cut = section.optional("section").map(|field| Cut::read(&field, levels)).transpose()?;
+        let cut = section.optional("section").map(|value| Cut::read(&value, levels)).transpose()?;
         let points = match section.optional("points") {
-            Some(field) => {
-                let points = field.list("a list of points", "for example points = [[0.0, 0.0, 0.1]]")?;
-                at_most(&field, points.len(), POINTS)?;
+            Some(value) => {
+                let points = value.list("a list of points", "for example points = [[0.0, 0.0, 0.1]]")?;
+                at_most(&value, points.len(), POINTS)?;
                 points.iter().map(point).collect::<Result<_, _>>()?
             }
             None => Vec::new(),
         };
-        let volume = section.optional("volume").map(|field| Volume::read(&field)).transpose()?;
+        let volume = section.optional("volume").map(|value| volume(&value)).transpose()?;
         Ok(Self { planes, mean, section: cut, points, volume })
     }
 }
@@ -105,75 +110,84 @@ impl StressSection {
 const PLANES: usize = 1000;
 const POINTS: usize = 100_000;
 
-fn at_most(field: &Field<'_>, count: usize, most: usize) -> Result<(), Refusal> {
-    if count <= most { Ok(()) } else { Err(field.refuse(format!("a list of at most {most} items"))) }
+fn at_most(value: &ValueAt<'_>, count: usize, most: usize) -> Result<(), Refusal> {
+    if count <= most { Ok(()) } else { Err(value.refuse(format!("a list of at most {most} items"))) }
 }
 
 /// A point [x, y, z] at or below the surface.
-fn point(field: &Field<'_>) -> Result<[f64; 3], Refusal> {
+fn point(value: &ValueAt<'_>) -> Result<[f64; 3], Refusal> {
     const WANTED: &str = "three numbers [x, y, z], z not less than 0";
-    let items = field.list(WANTED, WANTED)?;
-    let [x, y, z] = &items[..] else { return Err(field.refuse(WANTED)) };
+    let items = value.list(WANTED, WANTED)?;
+    let [x, y, z] = &items[..] else { return Err(value.refuse(WANTED)) };
     Ok([limits::place(x)?, limits::place(y)?, limits::size_or_zero(z)?])
 }
 
-impl Volume {
-    fn read(field: &Field<'_>) -> Result<Self, Refusal> {
-        let section = field.table("{ depth = 1.0, rows = 40, points = 96 }")?;
-        section.only(&["depth", "rows", "points"], &[])?;
-        let count = |key: &str, default: usize| match section.optional(key) {
-            Some(field) => field.integer(1..=2048),
-            None => Ok(default),
-        };
-        Ok(Self {
-            depth: limits::size(&section.required("depth", "how deep it goes")?)?,
-            rows: count("rows", 40)?,
-            points: count("points", 96)?,
-        })
-    }
+fn volume(value: &ValueAt<'_>) -> Result<Volume, Refusal> {
+    let section = value.table("{ depth = 1.0, rows = 40, points = 96 }")?;
+    section.only()?;
+    let count = |key: &str, default: usize| match section.optional(key) {
+        Some(value) => value.integer(1..=2048),
+        None => Ok(default),
+    };
+    Ok(Volume {
+        depth: limits::size(&section.required("depth")?)?,
+        rows: count("rows", 40)?,
+        points: count("points", 96)?,
+    })
 }
 
 impl Cut {
-    fn read(field: &Field<'_>, levels: usize) -> Result<Self, Refusal> {
+    /// The line from the first indenter of a level toward another, or along a direction.
+    fn line(&self, lattice: &Lattice) -> Line {
+        let place = lattice.sites()[self.from - 1][0];
+        let direction = match self.toward {
+            Toward::Level(level) => lattice.toward(place, level),
+            Toward::Direction(direction) => direction,
+        };
+        let [_, points] = SECTION;
+        Line { origin: lattice.cell().point(place), direction, span: [0.0, self.length], points }
+    }
+
+    fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
         if levels == 0 {
-            let message = format!("`{}` has no place beside [surface]: a cut runs between levels", field.path());
-            return Err(Refusal::new(field.place(), message, "no levels in this case").help("remove it"));
+            let message = format!("`{}` has no place beside [surface]: a cut runs between levels", value.path());
+            return Err(Refusal::new(value.place(), message, "no levels in this case").help("remove it"));
         }
-        let section = field.table("{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }")?;
-        section.only(&["from", "toward", "length", "depth"], &[])?;
+        let section = value.table("{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }")?;
+        section.only()?;
         Ok(Self {
-            from: level(&section.required("from", "where the cut begins, such as \"level 1\"")?, levels)?,
-            toward: Toward::read(&section.required("toward", "where it runs to, such as \"level 2\"")?, levels)?,
-            length: limits::size(&section.required("length", "its length along the surface")?)?,
-            depth: limits::size(&section.required("depth", "how deep it goes")?)?,
+            from: level(&section.required("from")?, levels)?,
+            toward: Toward::read(&section.required("toward")?, levels)?,
+            length: limits::size(&section.required("length")?)?,
+            depth: limits::size(&section.required("depth")?)?,
         })
     }
 }
 
 impl Toward {
-    fn read(field: &Field<'_>, levels: usize) -> Result<Self, Refusal> {
+    fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
         const WANTED: &str = "a level such as \"level 2\", or a direction [x, y]";
-        if !matches!(field.value(), Value::List(_)) {
-            return level(field, levels).map(Self::Level);
+        if !matches!(value.bare(), Value::List(_)) {
+            return level(value, levels).map(Self::Level);
         }
-        let items = field.list(WANTED, WANTED)?;
-        let [x, y] = &items[..] else { return Err(field.refuse(WANTED)) };
+        let items = value.list(WANTED, WANTED)?;
+        let [x, y] = &items[..] else { return Err(value.refuse(WANTED)) };
         let direction = [limits::place(x)?, limits::place(y)?];
         if direction.iter().all(|x| x.abs() < *limits::CARRIED.start()) {
-            return Err(field.refuse("a direction [x, y] other than [0, 0]"));
+            return Err(value.refuse("a direction [x, y] other than [0, 0]"));
         }
         Ok(Self::Direction(direction))
     }
 }
 
 /// The number N of "level N".
-fn level(field: &Field<'_>, levels: usize) -> Result<usize, Refusal> {
+fn level(value: &ValueAt<'_>, levels: usize) -> Result<usize, Refusal> {
     let wanted = match levels {
         1 => "\"level 1\", the only one".to_owned(),
         _ => format!("\"level 1\" to \"level {levels}\""),
     };
-    let number = field.text(&wanted)?.strip_prefix("level ").and_then(|number| number.trim().parse().ok());
-    number.filter(|number| (1..=levels).contains(number)).ok_or_else(|| field.refuse(wanted))
+    let number = value.text(&wanted)?.strip_prefix("level ").and_then(|number| number.trim().parse().ok());
+    number.filter(|number| (1..=levels).contains(number)).ok_or_else(|| value.refuse(wanted))
 }
 
 fn write_level<S: Serializer>(level: &usize, serializer: S) -> Result<S::Ok, S::Error> {

@@ -10,7 +10,7 @@ use super::error::Refusal;
 use super::limits::CARRIED;
 use super::machine::available_memory;
 use super::npy::Head;
-use super::reader::{Field, Section};
+use super::reader::{TableAt, ValueAt};
 
 /// The section `[surface]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -32,22 +32,23 @@ const WANTED: &str = "float64 heights of shape (n1, n2), written by numpy.save";
 
 impl SurfaceSection {
     /// Read the section and the file, whose path is relative to `folder`.
-    pub(super) fn read(section: &Section<'_>, folder: &Path) -> Result<(Self, Heights), Refusal> {
-        section.only(&["heights"], &[])?;
-        let field = section.required("heights", "the path of a NumPy file, relative to the case file")?;
-        let name = field.text("the path of a NumPy file")?;
+    pub(super) fn read(section: &TableAt<'_>, folder: &Path) -> Result<(Self, Heights), Refusal> {
+        section.only()?;
+        let value = section.required("heights")?;
+        let name = value.text("the path of a NumPy file")?;
         let path = folder.join(name);
         let path = std::path::absolute(&path).unwrap_or(path);
-        let heights = Heights::read(&path, &field)?;
+        let heights = Heights::read(&path, &value)?;
         Ok((Self { heights: path.to_string_lossy().into_owned() }, heights))
     }
 }
 
 impl Heights {
-    fn read(path: &Path, field: &Field<'_>) -> Result<Self, Refusal> {
+    fn read(path: &Path, written: &ValueAt<'_>) -> Result<Self, Refusal> {
         let shown = path.display();
         let refuse = |what: String, label: String| {
-            Refusal::new(field.place(), format!("`{}`: {what}", field.path()), label).help(format!("needed: {WANTED}"))
+            Refusal::new(written.place(), format!("`{}`: {what}", written.path()), label)
+                .help(format!("needed: {WANTED}"))
         };
         let unreadable = |error| refuse(format!("cannot read {shown}: {error}"), "this file".into());
         let file = File::open(path).map_err(unreadable)?;
@@ -103,8 +104,8 @@ fn refuse_shape(refuse: &dyn Fn(String, String) -> Refusal, path: &Path, shape: 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Case, CaseError, GridSection, Source};
-    use crate::texture::Surface;
+    use crate::case::{Case, CaseError, Source};
+    use crate::run::Sampling;
     use npyz::{Order, WriterBuilder};
 
     const CASE: &str = "[lattice]\nkind = \"square\"\nperiod = 1\n[surface]\nheights = \"surface.npy\"\n\
@@ -129,9 +130,9 @@ mod tests {
         for (order, stored) in [(Order::C, [1., 2., 3., 4., 5., 6.]), (Order::Fortran, [1., 4., 2., 5., 3., 6.])] {
             write(folder.path(), &[2, 3], order, &stored);
             let case = read(folder.path(), "").unwrap();
-            let Surface::Heights { points, heights, .. } = case.surface() else { panic!("heights") };
-            assert_eq!((*points, &heights[..]), ([2, 3], &[1., 2., 3., 4., 5., 6.][..]));
-            assert_eq!(case.grid, GridSection::Points([2, 3]));
+            let heights = case.counterbody().topography().expect("a topography").heights();
+            assert_eq!(heights, ndarray::arr2(&[[1., 2., 3.], [4., 5., 6.]]));
+            assert_eq!(case.grid, Sampling::Points([2, 3]));
             let elsewhere = Source { name: "copy".to_owned(), text: case.to_toml(), folder: "elsewhere".into() };
             assert_eq!(Case::read(&elsewhere, &[]).unwrap(), case);
         }

@@ -1,9 +1,11 @@
 //! The case as a whole: embedded cases, defaults, overrides, writing and reading back.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use super::*;
-use crate::material::Interface;
+use crate::body::Interface;
+use crate::run::Sampling;
 use serde_json::{Value, json};
 
 const RICH: &str = r#"
@@ -18,7 +20,7 @@ const RICH: &str = r#"
     thickness = 0.1
     young = 3e11
     poisson = 0
-    interface = { tangential_stiffness = 2.5 }
+    interface = { tangential_stiffness = 2.5, normal_stiffness = 4 }
     [[layers]]
     thickness = 0.2
     shear_ratio = 0.3
@@ -39,6 +41,8 @@ const RICH: &str = r#"
     planes = [0, 0.1]
     mean = "half-space"
     section = { from = "level 1", toward = "level 3", length = 1, depth = 0.5 }
+    points = [[0, 0, 0.1]]
+    volume = { depth = 1, rows = 4, points = 8 }
     [localized]
     indenters = [7]
     elements = 10
@@ -62,6 +66,47 @@ fn every_embedded_case_is_read() {
         let case = Case::read(&embedded::source(name).unwrap(), &[]).unwrap_or_else(|error| panic!("{error}"));
         assert!(!case.title.is_empty(), "{name} has no title");
     }
+}
+
+#[test]
+fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2)}";
+    let file = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &[0; 32]].concat();
+    std::fs::write(folder.path().join("surface.npy"), file).unwrap();
+    let range = RICH.replace("penetration =", "mean_pressure =");
+    let surface = "lattice = { kind = \"square\", period = 1 }\nsurface = { heights = \"surface.npy\" }\n\
+                   substrate = { young = 1, poisson = 0.3 }\nload = { mean_pressure = 1e-3 }\ngrid = { points = 2 }\n";
+    let mut found = BTreeSet::new();
+    for text in embedded::all().iter().map(|(_, text)| *text).chain([RICH, &range, surface]) {
+        let source = Source { folder: folder.path().to_owned(), ..source(text) };
+        Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"));
+        collect(&node::Value::Table(node::Table::parse(text).unwrap()), "", &mut found);
+    }
+    let tables = keys::CASE.tables("");
+    let named = |(path, keys): &(String, &'static keys::Keys)| {
+        keys.all.iter().map(|key| join(path, key.name)).collect::<Vec<_>>()
+    };
+    assert_eq!(found, tables.iter().flat_map(named).collect());
+}
+
+/// Paths of all keys inside a value, without the indices of lists.
+fn collect(value: &node::Value, path: &str, found: &mut BTreeSet<String>) {
+    match value {
+        node::Value::Table(table) => {
+            for entry in &table.entries {
+                let path = join(path, &entry.key);
+                collect(&entry.node.value, &path, found);
+                found.insert(path);
+            }
+        }
+        node::Value::List(items) => items.iter().for_each(|item| collect(&item.value, path, found)),
+        _ => {}
+    }
+}
+
+fn join(path: &str, key: &str) -> String {
+    format!("{path}.{key}").trim_start_matches('.').to_owned()
 }
 
 #[test]
@@ -92,7 +137,7 @@ fn a_case_has_the_keys_of_its_file_in_json() {
     let case = serde_json::to_value(read(RICH, &[]).unwrap()).unwrap();
     assert_eq!(case["lattice"], json!({ "kind": "oblique", "a1": [1.0, 0.0], "a2": [0.25, 1.5] }));
     assert_eq!(case["levels"][1], json!({ "shape": "cone", "slope": 0.3, "height": 0.0, "sites": [[0.5, 0.0]] }));
-    assert_eq!(case["layers"][0]["interface"], json!({ "tangential_stiffness": 2.5 }));
+    assert_eq!(case["layers"][0]["interface"], json!({ "tangential_stiffness": 2.5, "normal_stiffness": 4.0 }));
     assert_eq!(case["layers"][0]["young"], json!(3e11));
     assert_eq!(case["layers"][1]["interface"], json!("frictionless"));
     assert_eq!(case["load"], json!({ "penetration": [1e-3, 0.01, 0.1] }));
@@ -109,8 +154,8 @@ fn what_is_not_said_has_its_default() {
     let text = "[lattice]\nkind = \"square\"\nperiod = 2\n[[levels]]\nshape = \"cone\"\nslope = 0.1\n\
                 [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
     let case = read(text, &[]).unwrap();
-    assert_eq!(case.grid, GridSection::Points([512, 512]));
-    assert_eq!(case.solver, crate::solver::Settings::default());
+    assert_eq!(case.grid, Sampling::Points([512, 512]));
+    assert_eq!(case.solver, crate::spectral::Settings::default());
     assert_eq!(case.localized, LocalizedSection::default());
     assert_eq!((case.stress, case.layers, case.title), (None, vec![], String::new()));
     let coated = format!("{text}[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n[stress]\n");
@@ -131,7 +176,7 @@ fn the_shear_ratio_is_that_to_the_substrate() {
 fn explicit_sites_stand_in_the_cell_whose_side_is_the_period() {
     let fig2 = embedded::find("fig2").unwrap();
     let side = |overrides: &[&str]| {
-        let [x, y] = read(fig2, overrides).unwrap().surface().cell().vectors()[0];
+        let [x, y] = read(fig2, overrides).unwrap().counterbody().cell().vectors()[0];
         x.hypot(y)
     };
     assert!((side(&[]) - 3f64.sqrt()).abs() < 1e-15);
@@ -145,7 +190,7 @@ fn overrides_come_one_after_another_and_are_checked_like_the_file() {
     let case = read(fig2, &["load.penetration=[0, 0.1]", "solver.method=polonsky-keer", "grid.points=[64,48]"]);
     let case = case.unwrap();
     assert_eq!(case.load, LoadSection::Penetration(vec![0.0, 0.1]));
-    assert_eq!(case.grid, GridSection::Points([64, 48]));
+    assert_eq!(case.grid, Sampling::Points([64, 48]));
     assert_eq!(read(fig2, &["levels.1.height=0.5", "levels.1.height=0.4"]).unwrap().levels[1].height, 0.4);
     let error = read(fig2, &["title=x", "substrate.poisson=0.6"]).unwrap_err();
     assert!(error.to_string().contains("--set:1:19"), "{error}");

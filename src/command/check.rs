@@ -1,33 +1,34 @@
 //! `percoat check`: what a case means, without solving it.
 
-use super::solve::{refuse_beyond_full_contact, room_or_refusal};
+use super::solve::room_or_refusal;
 use super::terminal::tell;
 use super::{Failure, Outcome, read_changed};
 use percoat::case::resources::{Job, Needs, bytes, finest_points, needs};
-use percoat::case::{Case, GridSection, Room, foreseen, plausibility};
-use percoat::grid::Grid;
-use percoat::hierarchy::Hierarchy;
-use percoat::number::number;
-use percoat::refinement::balanced_points;
-use percoat::texture::Surface;
-use percoat::touch::first_touches;
+use percoat::case::{Case, Room, foreseen, plausibility};
+use percoat::output::number;
+use percoat::reading::first_touches;
+use percoat::run::Sampling;
+use percoat::run::accuracy::balanced_points;
+use percoat::{Grid, Solver};
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
     let (case, name) = read_changed(Some(path), set)?;
     let job = Job::Solve { pictures: true };
     let room = room_or_refusal(&case, &Path::new("out").join(&name), job)?;
-    refuse_beyond_full_contact(&case, &case.load.controls())?;
+    case.run().check()?;
     let mut out = std::io::stdout().lock();
     let title = if case.title.is_empty() { &name } else { &case.title };
-    writeln!(out, "{title}\n\n{}\n\n{}\n", case.surface(), case.half_space())?;
+    writeln!(out, "{title}\n\n{}\n\n{}\n", case.counterbody(), case.half_space())?;
     match case.grid {
-        GridSection::Points(points) => {
-            let grid = Grid::new(case.surface().cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
+        Sampling::Points(points) => {
+            let grid =
+                Grid::new(case.counterbody().cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
             writeln!(out, "{grid}")?;
         }
-        GridSection::Accuracy(accuracy) => writeln!(out, "grid: refined until results change by less than {accuracy}")?,
+        Sampling::Accuracy(accuracy) => writeln!(out, "grid: refined until results change by less than {accuracy}")?,
     }
     write_needs(&mut out, &case, room)?;
     let (name, values) = (case.load.quantity(), case.load.values());
@@ -48,7 +49,7 @@ fn write_needs(out: &mut impl Write, case: &Case, room: Room) -> Result<(), Fail
     let points = finest_points(case);
     let Needs { memory, disk, disk_while_running } = needs(case, points, Job::Solve { pictures: true });
     let free = if room.disk == u64::MAX { String::new() } else { format!(", {} free", bytes(room.disk)) };
-    let most = if matches!(case.grid, GridSection::Accuracy(_)) { "at most " } else { "" };
+    let most = if matches!(case.grid, Sampling::Accuracy(_)) { "at most " } else { "" };
     writeln!(
         out,
         "memory: about {most}{} ({} without pictures), {} available",
@@ -65,12 +66,14 @@ const POINTS: usize = 192;
 
 /// The mean pressures at which the levels first touch, also as lines; none for a topography.
 fn write_touches(out: &mut impl Write, case: &Case) -> Result<Vec<Option<f64>>, Failure> {
-    let Surface::Indenters { .. } = case.surface() else { return Ok(Vec::new()) };
-    let points = balanced_points(&case.surface().cell(), POINTS);
-    let mut hierarchy = Hierarchy::new(case.surface(), case.half_space(), points, case.solver)
+    if case.counterbody().indenters().is_none() {
+        return Ok(Vec::new());
+    }
+    let points = balanced_points(&case.counterbody().cell(), POINTS);
+    let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)
         .map_err(|error| Failure::Refused(error.to_string()))?;
     writeln!(out, "first touch, on {} × {} samples:", points[0], points[1])?;
-    let touches = first_touches(&mut hierarchy);
+    let touches = first_touches(&mut solver);
     for (level, touch) in (1..).zip(&touches) {
         match touch {
             Some(pressure) => writeln!(out, "  level {level}: mean pressure {}", number(*pressure))?,

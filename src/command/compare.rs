@@ -2,40 +2,40 @@
 
 use super::interruption::{self, Saved};
 use super::pictures::PictureOptions;
-use super::solve::{refuse_beyond_full_contact, room_or_refusal};
+use super::solve::room_or_refusal;
 use super::terminal::{self, tell};
 use super::{Common, Failure, Outcome, read_case};
 use indicatif::ProgressBar;
-use percoat::case::GridSection;
+use percoat::MeanStress;
 use percoat::case::resources::{Job, fits};
 use percoat::comparison::{Comparison, Task};
 use percoat::localized::{CircleRadius, Setup, Stop};
-use percoat::number::number;
-use percoat::observables::FEW_SAMPLES;
-use percoat::output::{CompareFile, Plan, RunFolder, Writer, table, write_text};
+use percoat::output::{CompareFile, Plan, RunFolder, Writer, number, table, write_text};
 use percoat::picture;
-use percoat::refinement::{End, sufficient_points};
-use percoat::stress::MeanStress;
-use percoat::texture::Surface;
+use percoat::reading::FEW_SAMPLES;
+use percoat::run::accuracy::End;
+use percoat::run::{Run, Sampling};
 use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Outcome, Failure> {
     let (case, name) = read_case(case, common)?;
-    let Surface::Indenters { lattice, levels } = case.surface() else {
+    if case.counterbody().indenters().is_none() {
         return Err(Failure::Refused(
             "compare needs [[levels]]: the localized method knows indenters, not a [surface]; use percoat solve"
                 .to_owned(),
         ));
-    };
+    }
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
-    let controls = case.load.controls();
-    let Some(&control) = controls.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    let loads = case.load.loads();
+    let Some(&load) = loads.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    let run = Run { loads: vec![load], stress: None, ..case.run() };
     let job = Job::Compare { pictures: pictures.wanted() };
     let room = room_or_refusal(&case, &folder, job)?;
-    refuse_beyond_full_contact(&case, &[control])?;
+    run.check()?;
     interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
     let plan = Plan { names, ..Plan::new(Writer::Compare) };
@@ -49,22 +49,18 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         mutual_effect: localized.mutual_effect,
     };
     let task = Task {
-        lattice,
-        levels,
-        half_space: case.half_space(),
-        control,
+        problem: Arc::clone(case.problem()),
+        load,
         settings: case.solver,
         setup,
-        indenters: &localized.indenters,
+        indenters: localized.indenters.clone(),
         mean: case.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean),
     };
-    let refused = |error: percoat::lattice::LatticeError| Failure::Refused(error.to_string());
     let (points, end) = match case.grid {
-        GridSection::Points(points) => (points, End::Reached),
-        GridSection::Accuracy(accuracy) => {
-            let fits = |points| fits(&case, points, room, job);
-            sufficient_points(case.surface(), case.half_space(), case.solver, control, accuracy, fits)
-                .map_err(|error| Failure::Refused(error.to_string()))?
+        Sampling::Points(points) => (points, End::Reached),
+        Sampling::Accuracy(_) => {
+            let refined = run.solve(&mut (), &|points| fits(&case, points, room, job))?;
+            (refined.points, refined.end.unwrap_or(End::Reached))
         }
     };
     let progress = if common.shows_progress() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
@@ -76,13 +72,13 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         }
     });
     progress.finish_and_clear();
-    let comparison = comparison.map_err(refused)?;
+    let comparison = comparison.map_err(|error| Failure::Refused(error.to_string()))?;
 
     let file =
-        CompareFile::new(&comparison, &case.title, &case, controls.len(), setup.radius, setup.mutual_effect).to_json();
+        CompareFile::new(&comparison, &case.title, &case, loads.len(), setup.radius, setup.mutual_effect).to_json();
     write_text(&claim.staging().join("compare.json"), &file)?;
     pictures.write(&claim.staging(), "comparison", || {
-        picture::comparison(&case.title, case.surface(), case.half_space(), &comparison, setup.radius)
+        picture::comparison(&case.title, case.problem(), &comparison, setup.radius)
     })?;
     let mut saved = interruption::hold();
     terminal::tell_aside(claim.publish()?.as_deref(), common.quiet);
@@ -93,8 +89,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         if !case.title.is_empty() {
             writeln!(out, "{}", case.title)?;
         }
-        if controls.len() > 1 {
-            writeln!(out, "the last of {} load steps", controls.len())?;
+        if loads.len() > 1 {
+            writeln!(out, "the last of {} load steps", loads.len())?;
         }
         writeln!(out, "\n{}\n\n{}\n", table::readings(&comparison, &setup), table::differences(&comparison, &setup))?;
         if let Some(text) = stresses(&comparison) {
@@ -107,7 +103,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         doubts.iter().for_each(|doubt| tell!("warning: {doubt}"));
     }
     let all_solved = comparison.circles.iter().all(|circle| circle.stop == Stop::Converged);
-    let solved = comparison.solution.report.stop.solved() && all_solved && end == End::Reached;
+    let solved = comparison.step.report.stop.solved() && all_solved && end == End::Reached;
     Ok(if solved { Outcome::Done } else { Outcome::NotConverged })
 }
 
@@ -121,13 +117,13 @@ fn doubts(comparison: &Comparison, setup: &Setup, end: End) -> Vec<String> {
         .filter(|(_, circle)| circle.stop != Stop::Converged)
         .map(|(rule, circle)| format!("{} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop))
         .collect();
-    if !comparison.solution.report.stop.solved() {
-        doubts.push(format!("the spectral solution has not converged: {}", comparison.solution.report));
+    if !comparison.step.report.stop.solved() {
+        doubts.push(format!("the spectral solution has not converged: {}", comparison.step.report));
     }
     if end != End::Reached {
         doubts.push(format!("grid.accuracy is not reached: {end}"));
     }
-    let samples = comparison.spectral.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
+    let samples = comparison.reading.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
     let fewest = samples.fold(f64::INFINITY, f64::min);
     if fewest < FEW_SAMPLES {
         doubts.push(format!(
@@ -148,6 +144,6 @@ fn stresses(comparison: &Comparison) -> Option<String> {
         comparison.stresses.len(),
         100.0 * worst.difference() / largest,
         number(worst.depth.z),
-        worst.depth.side
+        worst.depth.material
     ))
 }

@@ -1,8 +1,7 @@
 //! `percoat kernel`: the layered half-space's response, one JSON line a wavenumber.
 
 use super::{Failure, Outcome, read_changed};
-use percoat::layered::{Interior, TransferFunction};
-use percoat::material::HalfSpace;
+use percoat::body::{Depth, HalfSpace, Interior, TransferFunction};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
@@ -29,22 +28,18 @@ pub fn run(case: Option<&Path>, wavenumbers: &[f64], depths: &[f64], set: &[Stri
 
 /// Amplitudes at the depth `z`: one row, or on an interface one for each side.
 fn at_depth(interior: &Interior, half_space: &HalfSpace, z: f64) -> Vec<Value> {
-    let faces = half_space.interface_depths();
-    half_space
-        .sides(z)
-        .map(|side| {
-            let top = if side == 1 { 0.0 } else { faces[side - 2] };
-            let amplitudes = interior.at(side, (z - top).max(0.0));
-            json!({
-                "z": z,
-                "side": side,
-                "szz": amplitudes.szz,
-                "sqz": amplitudes.sqz,
-                "sqq": amplitudes.sqq,
-                "stt": amplitudes.stt,
-                "uz": amplitudes.uz,
-                "uq": amplitudes.uq,
-            })
+    let row = |depth: Depth| {
+        let amplitudes = interior.at(depth);
+        json!({
+            "z": z,
+            "side": depth.material,
+            "szz": amplitudes.szz,
+            "sqz": amplitudes.sqz,
+            "sqq": amplitudes.sqq,
+            "stt": amplitudes.stt,
+            "uz": amplitudes.uz,
+            "uq": amplitudes.uq,
         })
-        .collect()
+    };
+    half_space.depths(z).into_iter().map(row).collect()
 }

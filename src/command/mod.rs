@@ -8,15 +8,17 @@ mod kernel;
 mod pictures;
 mod plan;
 mod solve;
-mod stress;
 mod terminal;
+#[cfg(feature = "validate")]
 mod validate;
 mod without_effect;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use percoat::case::{CARRIED, Case, CaseError, Source, embedded};
 use percoat::output::{FolderError, OutputError};
+use percoat::run::RunError;
 use pictures::PictureOptions;
+use std::convert::Infallible;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -80,6 +82,7 @@ enum Command {
         #[command(flatten)]
         changes: Changes,
     },
+    #[cfg(feature = "validate")]
     /// Hold percoat against closed forms, references and peers; exit code 1 when a check fails
     Validate {
         /// Name of one study, or of a folder of them (`paper`) [default: all of them]
@@ -130,6 +133,7 @@ struct Changes {
 }
 
 /// Where the studies of a validation go, and how they are told of.
+#[cfg(feature = "validate")]
 #[derive(Debug, Args)]
 struct Studies {
     /// Output folder [default: out/validate]
@@ -180,11 +184,27 @@ impl From<FolderError> for Failure {
     }
 }
 
+impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failure {
+    fn from(error: RunError<E>) -> Self {
+        match error {
+            RunError::Recorder(error) => error.into(),
+            refused => Self::Refused(refused.to_string()),
+        }
+    }
+}
+
+impl From<Infallible> for Failure {
+    fn from(never: Infallible) -> Self {
+        match never {}
+    }
+}
+
 /// How a command that did its work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Outcome {
     Done,
     /// A check of the validation fails.
+    #[cfg(feature = "validate")]
     Failed,
     /// Everything computed is written and marked.
     NotConverged,
@@ -210,7 +230,9 @@ impl Arguments {
     fn threads(&self) -> Option<u16> {
         match &self.command {
             Command::Solve { common, .. } | Command::Compare { common, .. } => common.threads,
-            Command::Check { work, .. } | Command::Validate { work, .. } => work.threads,
+            Command::Check { work, .. } => work.threads,
+            #[cfg(feature = "validate")]
+            Command::Validate { work, .. } => work.threads,
             Command::Kernel { .. } | Command::Cases { .. } => None,
         }
     }
@@ -233,10 +255,12 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         }
         Command::Check { case, changes, .. } => check::run(case, &changes.set),
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
+        #[cfg(feature = "validate")]
         Command::Validate { study, expect, studies, .. } => validate::run(study.as_deref(), expect.as_deref(), studies),
     };
     match outcome {
         Ok(Outcome::Done) => ExitCode::SUCCESS,
+        #[cfg(feature = "validate")]
         Ok(Outcome::Failed) => ExitCode::FAILURE,
         Ok(Outcome::NotConverged) => ExitCode::from(3),
         // Whoever reads standard output may stop reading; that is no fault.

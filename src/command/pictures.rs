@@ -2,12 +2,10 @@
 
 use super::Failure;
 use clap::Args;
-use percoat::indenter::Level;
 use percoat::localized::isolated;
-use percoat::output::summary::Step;
-use percoat::picture::{self, Canvas, Cut, Format, Snapshot, write_picture};
-use percoat::solver::Control;
-use percoat::texture::Surface;
+use percoat::picture::{self, Canvas, Format, Snapshot, write_picture};
+use percoat::run::StepRecord;
+use percoat::{Level, Load, Section};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -48,26 +46,30 @@ impl PictureOptions {
         asked.map(|(_, format)| format).collect()
     }
 
-    /// Draws what a solved step shows, a cut through its stresses if there is one, and the steps before it.
-    pub fn draw(&self, folder: &Path, last: &Snapshot, cut: Option<&Cut>, steps: &[Step]) -> Result<(), Failure> {
+    /// Draws what a solved step shows, a section of its stresses if there is one, and the steps before it.
+    pub fn draw(
+        &self,
+        folder: &Path,
+        last: &Snapshot,
+        section: Option<&Section>,
+        steps: &[StepRecord],
+    ) -> Result<(), Failure> {
         if !self.wanted() {
             return Ok(());
         }
         type Draw<'a> = &'a (dyn Fn() -> Option<Canvas> + Sync);
-        let touching = last.mean_pressure > 0.0;
-        let touching_cut = cut.filter(|_| touching);
+        let touching = last.reading.mean_pressure > 0.0;
+        let touching_section = section.filter(|_| touching);
         let apart = steps.last().is_some_and(stand_apart);
         let pictures: [(&str, Draw); 6] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),
             ("contact", &|| {
                 touching.then(|| picture::contact(last, apart.then(|| isolated_radii(last)).flatten().as_deref()))?
             }),
-            ("profiles", &|| {
-                picture::profiles(last, apart.then(|| isolated_profiles(last, steps)).flatten().as_deref())
-            }),
-            ("section", &|| Some(picture::section(last, touching_cut?))),
-            ("lines", &|| Some(picture::lines(last, touching_cut?))),
-            ("curve", &|| picture::load_curves(last.title, last.surface, last.half_space, steps)),
+            ("profiles", &|| picture::profiles(last, apart.then(|| isolated_profiles(last)).as_deref())),
+            ("section", &|| Some(picture::section(last, touching_section?))),
+            ("lines", &|| Some(picture::lines(last, touching_section?))),
+            ("curve", &|| picture::load_curves(&last.title, last.problem(), steps)),
         ];
         pictures.par_iter().try_for_each(|(name, draw)| self.write(folder, name, draw))
     }
@@ -87,23 +89,23 @@ impl PictureOptions {
 const MOST_CONTACT: f64 = 0.5;
 
 /// Whether the contacts of a step stand apart, so that each can be compared with one alone.
-fn stand_apart(step: &Step) -> bool {
-    step.contact_fraction < MOST_CONTACT && !step.levels.iter().any(|level| level.merged)
+fn stand_apart(step: &StepRecord) -> bool {
+    step.reading.contact_fraction < MOST_CONTACT && !step.reading.levels.iter().any(|level| level.merged)
 }
 
 /// Contact radius of each level without the mutual effect of the indenters.
 fn isolated_radii(last: &Snapshot) -> Option<Vec<f64>> {
-    let Surface::Indenters { lattice, levels } = last.surface else { return None };
-    isolated::radii(lattice, levels, last.half_space, Control::MeanPressure(last.mean_pressure))
+    let problem = last.problem();
+    let load = Load::MeanPressure(last.reading.mean_pressure);
+    isolated::radii(problem.counterbody().indenters()?, problem.half_space(), load)
 }
 
 /// Pressure of each level's indenter alone under the load it carries.
-fn isolated_profiles(last: &Snapshot, steps: &[Step]) -> Option<Vec<Vec<[f64; 2]>>> {
-    let Surface::Indenters { lattice, levels } = last.surface else { return None };
-    let size = lattice.cell().reduced().longer_side();
-    let loads = steps.last()?.levels.iter().map(|level| level.load);
-    let profile = |(level, load): (&Level, f64)| {
-        isolated::profile(*level, last.half_space, load, size).ok().flatten().unwrap_or_default()
-    };
-    Some(levels.iter().zip(loads).map(profile).collect())
+fn isolated_profiles(last: &Snapshot) -> Vec<Vec<[f64; 2]>> {
+    let problem = last.problem();
+    let size = problem.cell().reduced().longer_side();
+    let loads = last.reading.levels.iter().map(|level| level.load);
+    let profile =
+        |(level, load): (&Level, f64)| isolated::profile(*level, problem.half_space(), load, size).unwrap_or_default();
+    problem.counterbody().levels().iter().zip(loads).map(profile).collect()
 }

@@ -1,7 +1,7 @@
 //! The unit cell, and the reduced basis of its lattice.
 
 use super::LatticeError;
-use crate::number::number;
+use crate::numeric::number::number;
 use std::f64::consts::TAU;
 use std::fmt;
 

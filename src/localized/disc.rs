@@ -13,6 +13,7 @@
 
 use super::point::{PointKernel, QUADRATURE};
 use super::quadrature::{Bessel, Estimate, hankel};
+use crate::numeric::chebyshev::Chebyshev;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -66,7 +67,7 @@ pub struct FarField<'a> {
     pub radius: f64,
     reach: f64,
     /// Chebyshev series of the layers' part in the square of the distance.
-    series: [f64; TERMS],
+    series: Chebyshev<TERMS>,
 }
 
 /// Terms of the series: the layers' part is smooth and even in the distance.
@@ -75,21 +76,16 @@ const TERMS: usize = 14;
 impl<'a> FarField<'a> {
     /// Disc of `radius`, for distances up to `reach` from its centre.
     pub fn new(kernel: &'a PointKernel, radius: f64, reach: f64) -> Self {
-        let angle = |k: usize| PI * (k as f64 + 0.5) / TERMS as f64;
-        let distance = |k: usize| reach * (0.5 * (1.0 + angle(k).cos())).sqrt();
-        let values: Vec<f64> =
-            (0..TERMS).into_par_iter().map(|k| correction(kernel, radius, distance(k)).value).collect();
-        let series = std::array::from_fn(|j| {
-            let sum: f64 = (0..TERMS).map(|k| values[k] * (j as f64 * angle(k)).cos()).sum();
-            sum * if j == 0 { 1.0 } else { 2.0 } / TERMS as f64
-        });
+        let nodes = Chebyshev::<TERMS>::nodes();
+        let distance = |x: f64| reach * (0.5 * (1.0 + x)).sqrt();
+        let values: Vec<f64> = nodes.par_iter().map(|&x| correction(kernel, radius, distance(x)).value).collect();
+        let series = Chebyshev::through(&std::array::from_fn(|k| values[k]));
         Self { kernel, radius, reach, series }
     }
 
     /// D at the distance `s` from the centre: a length per pressure.
     pub fn at(&self, s: f64) -> f64 {
-        let angle = (2.0 * (s / self.reach).powi(2) - 1.0).clamp(-1.0, 1.0).acos();
-        let layers: f64 = self.series.iter().enumerate().map(|(j, c)| c * (j as f64 * angle).cos()).sum();
+        let layers = self.series.at((2.0 * (s / self.reach).powi(2) - 1.0).clamp(-1.0, 1.0));
         homogeneous(self.kernel, self.radius, s) + layers
     }
 }

@@ -7,7 +7,7 @@
 //!
 //! P* the loads the sweep had for the others. The last equation falls away under displacement control, with Δδ = 0.
 
-use crate::linear;
+use crate::numeric::linear;
 
 /// What a sweep has found of the levels, one entry per site.
 #[derive(Debug, Clone)]

@@ -21,9 +21,10 @@
 
 use super::circle::Circle;
 use super::mesh::{FAR, Mesh};
-use super::point::{QUADRATURE, clenshaw};
+use super::point::QUADRATURE;
 use super::quadrature::{Bessel, hankel};
-use super::system::Localized;
+use super::system::System;
+use crate::numeric::chebyshev::Chebyshev;
 use rayon::prelude::*;
 use std::f64::consts::{PI, SQRT_2};
 
@@ -48,14 +49,14 @@ pub struct Exterior {
     /// Half of the vectors **q** ≠ 0 and their amplitudes; −**q** is counted with **q**.
     waves: Vec<([f64; 2], f64)>,
     /// Series of K_g on intervals of equal length.
-    blurred: Vec<[f64; NODES]>,
+    blurred: Vec<Chebyshev<NODES>>,
     interval: f64,
 }
 
 impl Exterior {
     /// Exterior of circles of at least `indenters` for spots on `mesh`. Elements are squares: a force is spread over
     /// one, which to the second moment is the factor 1 − q²e²/24.
-    pub fn new(system: &Localized, mesh: Mesh, indenters: usize) -> Self {
+    pub fn new(system: &System, mesh: Mesh, indenters: usize) -> Self {
         let kernel = system.kernel();
         let (half, area) = (mesh.span(), system.cell_area());
         let length = |[x, y]: &[f64; 2]| x.hypot(*y);
@@ -78,7 +79,8 @@ impl Exterior {
         let interval = 1.0 / kappa;
         let pieces = ((reach + SQRT_2 * half) / interval).ceil() as usize + 1;
         let at = |r: f64| kernel.factor() * hankel(Bessel::Zero, r, end, QUADRATURE, spectrum).value;
-        let blurred = (0..pieces).into_par_iter().map(|k| series(|x| at((k as f64 + 0.5 * (1.0 + x)) * interval)));
+        let blurred =
+            (0..pieces).into_par_iter().map(|k| Chebyshev::of(|x| at((k as f64 + 0.5 * (1.0 + x)) * interval)));
         Self {
             circles: system.circles_within(reach),
             offsets: system.offsets(),
@@ -107,7 +109,7 @@ impl Exterior {
     fn blurred(&self, r: f64) -> f64 {
         let place = r / self.interval;
         let index = (place as usize).min(self.blurred.len() - 1);
-        clenshaw(&self.blurred[index], 2.0 * (place - index as f64) - 1.0)
+        self.blurred[index].at(2.0 * (place - index as f64) - 1.0)
     }
 }
 
@@ -119,14 +121,4 @@ fn bell(s: f64) -> f64 {
         sum += term;
     }
     (-s).exp() * sum
-}
-
-/// Chebyshev series of a function on [−1, 1].
-fn series(f: impl Fn(f64) -> f64) -> [f64; NODES] {
-    let angle = |k: usize| PI * (k as f64 + 0.5) / NODES as f64;
-    let values: [f64; NODES] = std::array::from_fn(|k| f(angle(k).cos()));
-    std::array::from_fn(|j| {
-        let sum: f64 = (0..NODES).map(|k| values[k] * (j as f64 * angle(k)).cos()).sum();
-        sum * if j == 0 { 1.0 } else { 2.0 } / NODES as f64
-    })
 }

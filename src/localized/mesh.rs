@@ -9,8 +9,8 @@
 //! far from the mesh make a smooth contribution to A, which a Chebyshev series in both directions carries.
 
 use super::square::Squares;
+use crate::numeric::chebyshev::Chebyshev;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 
 /// A square mesh of `width` × `width` elements, the central one on the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,18 +95,16 @@ impl Influence {
             images.iter().map(|[u, v]| squares.coefficient(x - u, y - v)).sum()
         };
         let distant = |x, y| under(&far, x, y) + outside.map_or(0.0, |outside| outside(x, y));
-        let series = if far.is_empty() && outside.is_none() { Vec::new() } else { chebyshev(half, distant) };
+        let nowhere = far.is_empty() && outside.is_none();
+        let series = (!nowhere).then(|| Smooth2::new(half, distant));
         let offset = |k: usize| (k as f64 - last) * mesh.size;
         let mut table = vec![0.0; side * side];
         table.par_chunks_mut(side).enumerate().for_each(|(i, row)| {
             let x = offset(i);
-            let waves = polynomials(x / half);
-            // The series in y at this x.
-            let line: Vec<f64> =
-                series.iter().map(|in_x: &Vec<f64>| in_x.iter().zip(&waves).map(|(c, t)| c * t).sum()).collect();
+            let line = series.as_ref().map(|series| series.at(x / half));
             for (j, value) in row.iter_mut().enumerate() {
                 let y = offset(j);
-                let smooth: f64 = line.iter().zip(polynomials(y / half)).map(|(c, t)| c * t).sum();
+                let smooth = line.as_ref().map_or(0.0, |line| line.at(y / half));
                 *value = under(&near, x, y) + smooth;
             }
         });
@@ -138,38 +136,27 @@ impl Influence {
     }
 }
 
-/// T₀ … at x in [−1, 1].
-fn polynomials(x: f64) -> [f64; TERMS] {
-    let mut values = [1.0; TERMS];
-    values[1] = x;
-    for k in 2..TERMS {
-        values[k] = 2.0 * x * values[k - 1] - values[k - 2];
-    }
-    values
-}
+/// A smooth function on the square |x|, |y| ≤ half: series in x of each coefficient of the series in y.
+struct Smooth2([Chebyshev<TERMS>; TERMS]);
 
-/// Coefficients c[l][k] of T_k(x/half) T_l(y/half) of a smooth function on the square |x|, |y| ≤ half.
-fn chebyshev(half: f64, f: impl Fn(f64, f64) -> f64 + Sync) -> Vec<Vec<f64>> {
-    let angle = |k: usize| PI * (k as f64 + 0.5) / TERMS as f64;
-    let node = |k: usize| half * angle(k).cos();
-    let values: Vec<Vec<f64>> =
-        (0..TERMS).into_par_iter().map(|i| (0..TERMS).map(|j| f(node(i), node(j))).collect()).collect();
-    let weight = |k: usize, i: usize| {
-        let scale = if k == 0 { 1.0 } else { 2.0 };
-        scale / TERMS as f64 * (k as f64 * angle(i)).cos()
-    };
-    let coefficient = |k: usize, l: usize| -> f64 {
-        let row = |i: usize| (0..TERMS).map(|j| weight(l, j) * values[i][j]).sum::<f64>();
-        (0..TERMS).map(|i| weight(k, i) * row(i)).sum()
-    };
-    (0..TERMS).map(|l| (0..TERMS).map(|k| coefficient(k, l)).collect()).collect()
+impl Smooth2 {
+    fn new(half: f64, f: impl Fn(f64, f64) -> f64 + Sync) -> Self {
+        let nodes = Chebyshev::<TERMS>::nodes();
+        let lines: Vec<Chebyshev<TERMS>> = nodes.par_iter().map(|x| Chebyshev::of(|y| f(half * x, half * y))).collect();
+        Self(std::array::from_fn(|l| Chebyshev::through(&std::array::from_fn(|k| lines[k].coefficients()[l]))))
+    }
+
+    /// The series in y at an x, both over half.
+    fn at(&self, x: f64) -> Chebyshev<TERMS> {
+        Chebyshev::with(self.0.each_ref().map(|series| series.at(x)))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::point::PointKernel;
     use super::*;
-    use crate::material::{HalfSpace, Interface, Layer, Material};
+    use crate::body::{HalfSpace, Interface, Layer, Material};
 
     #[test]
     fn tables_are_sums_of_coefficients_near_and_far() {

@@ -11,35 +11,42 @@
 //! = 0 with one penetration δ for all levels, and all pressures together carry p̄, Eq. (5).
 //!
 //! It shares nothing with the spectral solver but the indenters' shapes, the transfer function and general numerics (least
-//! squares, FFT), so that each checks the other; also the boundary of a contact is read in its own way ([`outline`], from
+//! squares, FFT), so that each checks the other; also the boundary of a contact is read in its own way (`outline`, from
 //! pressures and gaps with slopes of their own, where the spectral reading knows how a gap opens). In the order of building:
 //!
-//! - [`quadrature`], [`point`]: K by adaptive quadrature of the layer correction, tabulated;
+//! - `quadrature`, [`point`]: K by adaptive quadrature of the layer correction, tabulated;
 //! - [`square`], [`disc`]: influence coefficients, Eq. (7), and the far field;
-//! - [`circle`]: who stands inside, and the radius, Eq. (4); [`exterior`]: the lattice sum outside, in the place of p̄;
-//! - [`mesh`], [`press`]: elements and the contact of one spot; [`spot`], [`outline`]: what is read off it;
-//! - [`solver`]: level by level to one penetration and one load;
-//! - [`isolated`]: indenters without mutual effect;
-//! - [`system`]: the whole, and the additional displacement w_a of Eq. (8); [`stress`]: the stresses below.
+//! - `circle`: who stands inside, and the radius, Eq. (4); [`exterior`]: the lattice sum outside, in the place of p̄;
+//! - [`mesh`], `press`: elements and the contact of one spot; [`spot`], `outline`: what is read off it;
+//! - [`System`]: the indenters and what they press into; [`Setup`]: what is asked for;
+//! - [`Coupled`]: level by level to one penetration and one load; [`Localized`]: on meshes that fit;
+//! - [`Solution`]: what is read off it, and the additional displacement w_a of Eq. (8); [`stress`]: the stresses below;
+//! - [`isolated`]: indenters without mutual effect.
 
-pub mod circle;
+pub(crate) mod circle;
+mod coupled;
 pub mod disc;
 mod exchange;
 pub mod exterior;
 pub mod isolated;
 pub mod mesh;
-pub mod outline;
+pub(crate) mod outline;
 mod patterns;
 pub mod point;
-pub mod press;
-pub mod quadrature;
-pub mod solver;
+pub(crate) mod press;
+pub(crate) mod quadrature;
+mod setup;
+mod solution;
+mod solver;
 pub mod spot;
 pub mod square;
 pub mod stress;
-pub mod system;
+mod system;
 mod tables;
 
-pub use circle::CircleRadius;
-pub use solver::{Coupled, Solution, Stop};
-pub use system::{LevelReading, Localized, Setup};
+pub use circle::{Circle, CircleRadius};
+pub use coupled::Coupled;
+pub use setup::Setup;
+pub use solution::{Solution, Stop};
+pub use solver::Localized;
+pub use system::System;

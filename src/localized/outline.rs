@@ -17,8 +17,8 @@
 //! The open elements that a spot encloses are the hole of a ring; its rim is an outline seen from the other side.
 
 use super::mesh::Mesh;
-use crate::closed_line::{ANGLES, angle, mean_radius, radius, series, waves};
-use crate::least_squares;
+use crate::numeric::closed_line::{ANGLES, angle, mean_radius, radius, series, waves};
+use crate::numeric::least_squares;
 use std::f64::consts::PI;
 
 /// The line around a spot, and around the hole of a ring.

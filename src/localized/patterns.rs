@@ -1,7 +1,7 @@
 //! Patterns of pressure between two sweeps.
 
 use super::mesh::Mesh;
-use super::solver::Solution;
+use super::solution::Solution;
 
 /// What the sweeps carry on.
 pub(super) struct Patterns {

@@ -8,8 +8,9 @@
 //! kept as Chebyshev series on intervals of r, each halved until it agrees with the integral between its nodes.
 
 use super::quadrature::{Bessel, Estimate, hankel};
-use crate::layered::TransferFunction;
-use crate::material::{HalfSpace, Layer};
+use crate::body::TransferFunction;
+use crate::body::{HalfSpace, Layer};
+use crate::numeric::chebyshev::{self, Chebyshev};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -33,7 +34,7 @@ pub struct PointKernel {
     /// Thickness of the first layer; `None` without layers.
     thickness: Option<f64>,
     /// Upper ends of the intervals, ascending, and their series of C.
-    intervals: Vec<(f64, [f64; NODES])>,
+    intervals: Vec<(f64, Chebyshev<NODES>)>,
     reach: f64,
     error: f64,
 }
@@ -111,7 +112,7 @@ impl PointKernel {
         let index = self.intervals.partition_point(|(end, _)| *end < r).min(self.intervals.len() - 1);
         let start = if index == 0 { 0.0 } else { self.intervals[index - 1].0 };
         let (end, series) = &self.intervals[index];
-        clenshaw(series, (2.0 * r - start - end) / (end - start))
+        series.at(chebyshev::inside([start, *end], r))
     }
 
     /// K(r) for r > 0, a length per force.
@@ -120,21 +121,15 @@ impl PointKernel {
     }
 
     /// Series on [a, b] and, where one is not enough, on its halves; with the largest relative error found.
-    fn fitted(&self, a: f64, b: f64, depth: usize) -> (Vec<(f64, [f64; NODES])>, f64) {
-        let place = |x: f64| 0.5 * ((b - a) * x + a + b);
-        let node = |k: usize| (PI * (k as f64 + 0.5) / NODES as f64).cos();
-        let values: [f64; NODES] = std::array::from_fn(|k| self.correction_by_quadrature(place(node(k))).value);
-        let series: [f64; NODES] = std::array::from_fn(|j| {
-            let wave = |k: usize| values[k] * (PI * j as f64 * (k as f64 + 0.5) / NODES as f64).cos();
-            let sum: f64 = (0..NODES).map(wave).sum();
-            sum * if j == 0 { 1.0 } else { 2.0 } / NODES as f64
-        });
+    fn fitted(&self, a: f64, b: f64, depth: usize) -> (Vec<(f64, Chebyshev<NODES>)>, f64) {
+        let place = |x: f64| chebyshev::place([a, b], x);
+        let series = Chebyshev::of(|x| self.correction_by_quadrature(place(x)).value);
         let error = [-0.995, -0.47, 0.098, 0.61, 0.995].into_iter().map(|x| {
             let r = place(x);
             let exact = self.correction_by_quadrature(r);
             // Nearly incompressible layers on stiff ground heave: K itself has zeros.
             let size = (1.0 / r + exact.value).abs().max(1e-3 / r);
-            ((clenshaw(&series, x) - exact.value).abs() + exact.error) / size
+            ((series.at(x) - exact.value).abs() + exact.error) / size
         });
         let error = error.fold(0.0, f64::max);
         if error < TOLERANCE || depth == 0 {
@@ -147,19 +142,10 @@ impl PointKernel {
     }
 }
 
-/// Σ cⱼ Tⱼ(x).
-pub(super) fn clenshaw(series: &[f64], x: f64) -> f64 {
-    let (mut one, mut two) = (0.0, 0.0);
-    for &c in series[1..].iter().rev() {
-        (one, two) = (2.0 * x * one - two + c, one);
-    }
-    x * one - two + series[0]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{Interface, Material};
+    use crate::body::{Interface, Material};
 
     #[test]
     fn beyond_its_reach_the_kernel_is_that_of_a_longer_table() {

@@ -9,6 +9,41 @@ use super::mesh::Influence;
 /// Iterations at most.
 const ITERATIONS: usize = 400;
 
+/// Conjugate directions on the elements that may change.
+struct Conjugate {
+    direction: Vec<f64>,
+    /// A t of the direction t.
+    image: Vec<f64>,
+    /// Gap of the last step, and its square.
+    before: Option<(Vec<f64>, f64)>,
+}
+
+impl Conjugate {
+    fn new(len: usize) -> Self {
+        Self { direction: vec![0.0; len], image: vec![0.0; len], before: None }
+    }
+
+    /// Step along the next direction against `gap` on the `active` elements (Polak–Ribière β ≥ 0); `afresh` after they
+    /// have grown.
+    fn step(&mut self, influence: &Influence, gap: &[f64], active: &[usize], afresh: bool) -> f64 {
+        let square: f64 = active.iter().map(|&i| gap[i] * gap[i]).sum();
+        let beta = match &self.before {
+            Some((last, last_square)) if !afresh => {
+                let change: f64 = active.iter().map(|&i| gap[i] * (gap[i] - last[i])).sum();
+                (change / last_square).max(0.0)
+            }
+            _ => 0.0,
+        };
+        let last = std::mem::replace(&mut self.direction, vec![0.0; gap.len()]);
+        active.iter().for_each(|&i| self.direction[i] = gap[i] + beta * last[i]);
+        self.image.fill(0.0);
+        influence.add(&self.direction, &mut self.image);
+        self.before = Some((gap.to_vec(), square));
+        let dot = |a: &[f64]| active.iter().map(|&i| a[i] * self.direction[i]).sum::<f64>();
+        dot(gap) / dot(&self.image)
+    }
+}
+
 /// Brings `pressure` to the solution for the wanted displacements b = `wanted`; `tolerance` is relative to the largest
 /// of them. Gives back A p − b, the gap, and whether it is reached.
 pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> (Vec<f64>, bool) {
@@ -25,8 +60,7 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
         gap
     };
     let mut gap = residual(pressure);
-    let mut direction = vec![0.0; len];
-    let mut before: Option<(Vec<f64>, f64)> = None;
+    let mut conjugate = Conjugate::new(len);
     for _ in 0..ITERATIONS {
         let active: Vec<usize> = (0..len).filter(|&i| pressure[i] > 0.0 || gap[i] < 0.0).collect();
         let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale;
@@ -36,34 +70,19 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
         }
         // An element that is penetrated but carries nothing yet joins the contact: a new start.
         let grown = active.iter().any(|&i| pressure[i] == 0.0);
-        let square: f64 = active.iter().map(|&i| gap[i] * gap[i]).sum();
-        let beta = match &before {
-            Some((last, last_square)) if !grown => {
-                let change: f64 = active.iter().map(|&i| gap[i] * (gap[i] - last[i])).sum();
-                (change / last_square).max(0.0)
-            }
-            _ => 0.0,
-        };
-        let mut next = vec![0.0; len];
-        active.iter().for_each(|&i| next[i] = gap[i] + beta * direction[i]);
-        direction = next;
-        let mut image = vec![0.0; len];
-        influence.add(&direction, &mut image);
-        let dot = |a: &[f64]| active.iter().map(|&i| a[i] * direction[i]).sum::<f64>();
-        let step = dot(&gap) / dot(&image);
+        let step = conjugate.step(influence, &gap, &active, grown);
         let mut clipped = false;
         for &i in &active {
-            pressure[i] -= step * direction[i];
+            pressure[i] -= step * conjugate.direction[i];
             if pressure[i] < 0.0 {
                 pressure[i] = 0.0;
                 clipped = true;
             }
         }
-        before = Some((gap.clone(), square));
         if clipped {
             gap = residual(pressure);
         } else {
-            gap.iter_mut().zip(&image).for_each(|(g, u)| *g -= step * u);
+            gap.iter_mut().zip(&conjugate.image).for_each(|(g, u)| *g -= step * u);
         }
     }
     (gap, false)
@@ -77,24 +96,15 @@ pub fn punch(influence: &Influence, pressure: &[f64], tolerance: f64, mut start:
     (0..len).filter(|&i| pressure[i] == 0.0).for_each(|i| start[i] = 0.0);
     let mut rest = vec![-1.0; len];
     influence.add(&start, &mut rest);
-    let mut direction = vec![0.0; len];
-    let mut square_before = f64::INFINITY;
+    let mut conjugate = Conjugate::new(len);
     for _ in 0..ITERATIONS {
         let square: f64 = active.iter().map(|&i| rest[i] * rest[i]).sum();
         if square <= tolerance * tolerance * active.len() as f64 {
             break;
         }
-        let beta = square / square_before;
-        square_before = square;
-        let mut next = vec![0.0; len];
-        active.iter().for_each(|&i| next[i] = rest[i] + beta * direction[i]);
-        direction = next;
-        let mut image = vec![0.0; len];
-        influence.add(&direction, &mut image);
-        let dot = |a: &[f64]| active.iter().map(|&i| a[i] * direction[i]).sum::<f64>();
-        let step = dot(&rest) / dot(&image);
-        active.iter().for_each(|&i| start[i] -= step * direction[i]);
-        rest.iter_mut().zip(&image).for_each(|(r, u)| *r -= step * u);
+        let step = conjugate.step(influence, &rest, &active, false);
+        active.iter().for_each(|&i| start[i] -= step * conjugate.direction[i]);
+        rest.iter_mut().zip(&conjugate.image).for_each(|(r, u)| *r -= step * u);
     }
     start
 }

@@ -1,299 +1,81 @@
-//! Level by level: the contact of every spot with its circle, one penetration, one load (paper, §2.3).
-//!
-//! Each sweep presses every spot to the present penetration δ against the displacement by the other levels inside its
-//! circle, each with the pattern of its last sweep, and by p̄, or by the lattice, outside it. Then the levels exchange loads
-//! (`exchange.rs`) so that all have one penetration and carry p̄ together, Eq. (5). Only shapes lag behind, so
-//! that some eight sweeps are enough however many indenters stand in the circle. A level comes into contact when a
-//! sweep finds it penetrated, and leaves it when it would be pulled.
+//! The method from end to end: meshes that fit the contacts, then the coupled solution.
 
-use super::circle::{Circle, CircleRadius};
-use super::disc::FarField;
-use super::exchange::Sweep;
+use super::coupled::Coupled;
 use super::mesh::Mesh;
-use super::patterns::Patterns;
-use super::press::{press, punch};
+use super::setup::{FILLING, Setup};
+use super::solution::{Solution, Stop};
 use super::spot::Spot;
-use super::system::Localized;
-use super::tables::Tables;
-use crate::solver::Control;
-use std::f64::consts::PI;
-use std::fmt;
-use std::sync::OnceLock;
+use super::system::{COARSE_INDENTERS, System};
+use crate::body::HalfSpace;
+use crate::counterbody::Indenters;
+use crate::load::Load;
+use std::sync::Arc;
 
-/// Sweeps at most.
-const SWEEPS: usize = 60;
-/// Relative tolerance of the loads, of the surfaces pressed, and of the stiffness.
-const TOLERANCE: f64 = 1e-8;
-const SURFACE_TOLERANCE: f64 = 1e-9;
-const STIFFNESS_TOLERANCE: f64 = 1e-4;
+/// Elements along the side of the meshes on which the size of the contacts is found.
+const COARSE: usize = 25;
 
-/// Indenters that a contact is watched against.
-const NEIGHBOURS: usize = 13;
-
-/// How a localized solution ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stop {
-    /// Loads stand still to 1e-8 of the whole one, surfaces are met to 1e-9 of the deepest displacement.
-    Converged,
-    /// Loads still moved, or a surface was not met, after 60 sweeps.
-    Stalled,
-    /// A contact reaches the rim of its mesh.
-    Rim,
-    /// A contact reaches where a neighbour's surface is nearer: the method needs spots that stand apart.
-    Merged,
-}
-
-impl fmt::Display for Stop {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
-            Self::Stalled => "stalled: loads still moved, or a surface was not met, after 60 sweeps",
-            Self::Rim => "a contact reaches the rim of its mesh",
-            Self::Merged => "merged: a contact reaches under its neighbour",
-        })
-    }
-}
-
-/// A localized solution.
+/// The localized method for a system of indenters.
 #[derive(Debug, Clone)]
-pub struct Solution {
-    /// Nominal pressure p̄.
-    pub mean_pressure: f64,
-    /// Penetration δ, common to all levels, a length.
-    pub penetration: f64,
-    /// What acted outside the circles.
-    pub rule: CircleRadius,
-    /// The spots, one per site of the cell.
-    pub spots: Vec<Spot>,
-    /// How the iteration ended.
-    pub stop: Stop,
-    /// Sweeps over the levels.
-    pub sweeps: usize,
+pub struct Localized {
+    system: Arc<System>,
 }
 
-/// Circles and influence tables of a system on one mesh.
-#[derive(Debug)]
-pub struct Coupled<'a> {
-    system: &'a Localized,
-    mesh: Mesh,
-    circles: Vec<Circle>,
-    /// The next shells of indenters, whatever the circle.
-    neighbours: Vec<Circle>,
-    /// Of the indenters inside the circles, made when a rule first asks for them.
-    inside: OnceLock<Tables>,
-    /// Of all indenters of the lattice.
-    whole: OnceLock<Tables>,
-    /// Profile plus drop at each element, per site.
-    shapes: Vec<Vec<f64>>,
-    mutual_effect: bool,
-}
+impl Localized {
+    /// For `indenters` on `half_space`, with circles of up to `count` of them.
+    pub fn new(indenters: &Indenters, half_space: &HalfSpace, count: usize) -> Self {
+        Self { system: Arc::new(System::new(indenters, half_space, count)) }
+    }
 
-impl<'a> Coupled<'a> {
+    /// The indenters and what they press into.
+    pub fn system(&self) -> &Arc<System> {
+        &self.system
+    }
+
     /// Circles of at least `indenters` (in whole shells) on `mesh`; without mutual effect every indenter is alone.
-    pub fn new(system: &'a Localized, mesh: Mesh, indenters: usize, mutual_effect: bool) -> Self {
-        let circles = system.circles(if mutual_effect { indenters } else { 1 });
-        let shape = |site| {
-            let at = |index| {
-                let [x, y] = mesh.place(index);
-                system.profile(site, x.hypot(y))
-            };
-            (0..mesh.elements()).map(at).collect()
-        };
-        let shapes = (0..system.sites().len()).map(shape).collect();
-        let neighbours = system.circles(NEIGHBOURS);
-        let (inside, whole) = (OnceLock::new(), OnceLock::new());
-        Self { system, mesh, circles, neighbours, inside, whole, shapes, mutual_effect }
+    pub fn coupled(&self, mesh: Mesh, indenters: usize, mutual_effect: bool) -> Coupled {
+        Coupled::new(&self.system, mesh, indenters, mutual_effect)
     }
 
-    /// Indenters inside the circles: the largest number of any of them.
-    pub fn indenters(&self) -> usize {
-        self.circles.iter().map(Circle::indenters).max().unwrap_or(0)
-    }
-
-    /// Solves one load step, from an earlier solution where there is one.
-    pub fn solve(&self, control: Control, rule: CircleRadius, start: Option<&Solution>) -> Solution {
-        let tables = self.tables(rule);
-        let count = self.circles.len();
-        let cell = self.system.cell_area();
-        let element = self.mesh.size * self.mesh.size;
-        let mut patterns = Patterns::new(self.mesh, count, start);
-        if let Control::Penetration(penetration) = control {
-            patterns.penetration = penetration;
-        }
-        let mut gaps = vec![Vec::new(); count];
-        let mut punches = vec![vec![0.0; self.mesh.elements()]; count];
-        let mut radii = vec![f64::INFINITY; count];
-        let mut mean_pressure = 0.0;
-        let (mut stop, mut sweeps) = (Stop::Stalled, 0);
-        while sweeps < SWEEPS {
-            sweeps += 1;
-            mean_pressure = match control {
-                Control::MeanPressure(pressure) => pressure,
-                Control::Penetration(_) => patterns.loads.iter().sum::<f64>() / cell,
-            };
-            let mut sweep = Sweep::new(patterns.loads.clone());
-            let mut pressed = true;
-            for m in 0..count {
-                let others = self.others(tables, m, &patterns);
-                radii[m] = self.radius(m, rule, mean_pressure, &sweep.used);
-                let far = self.far(rule, radii[m]);
-                let wanted: Vec<f64> = (0..self.mesh.elements())
-                    .map(|i| {
-                        let moved: f64 = others.iter().flatten().map(|other| other[i]).sum();
-                        let outside = far.as_ref().map_or(0.0, |(_, under)| mean_pressure * under[i]);
-                        patterns.penetration - self.shapes[m][i] - moved + outside
-                    })
-                    .collect();
-                let own = tables.own(m);
-                let (gap, reached) = press(own, &wanted, SURFACE_TOLERANCE, &mut patterns.pressures[m]);
-                gaps[m] = gap;
-                pressed &= reached;
-                sweep.found[m] = patterns.pressures[m].iter().sum::<f64>() * element;
-                if sweep.found[m] == 0.0 {
-                    continue;
-                }
-                punches[m] = punch(own, &patterns.pressures[m], STIFFNESS_TOLERANCE, std::mem::take(&mut punches[m]));
-                let sum: f64 = punches[m].iter().sum();
-                sweep.stiffness[m] = sum * element;
-                let under = |field: &[f64]| punches[m].iter().zip(field).map(|(s, u)| s * u).sum::<f64>() / sum;
-                for c in 0..count {
-                    // A level without a pattern acts from its axes.
-                    let direct = match &others[c] {
-                        Some(displacement) => under(displacement) / sweep.used[c],
-                        None if c == m => 0.0,
-                        None => tables.between_axes(m, c),
-                    };
-                    let outside =
-                        far.as_ref().map_or(0.0, |(far, d)| self.far_coupling(control, rule, m, c, far, under(d)));
-                    sweep.coupling[m][c] = direct - outside;
-                }
-            }
-            let whole: f64 = sweep.found.iter().sum();
-            let prescribed = match control {
-                Control::MeanPressure(pressure) => Some(pressure * cell),
-                Control::Penetration(_) => None,
-            };
-            if pressed && sweep.unrest(prescribed.unwrap_or(whole)) <= TOLERANCE * prescribed.unwrap_or(whole) {
-                stop = self.reached(&patterns);
-                break;
-            }
-            if let (Some(load), true) = (prescribed, whole == 0.0) {
-                // Nobody touches yet: deep enough for one element to carry the load, the most compliant contact.
-                let own = tables.own(0).diagonal();
-                patterns.penetration += load / element * own;
+    /// The mesh with `setup.elements` across the largest contact, and a coarse solution on the way to it: coarse meshes
+    /// shrink onto the contacts, with few indenters in the circles.
+    pub fn mesh(&self, load: Load, setup: &Setup) -> (Mesh, Solution) {
+        let mut mesh = Mesh { width: COARSE, size: self.system.nearest() / COARSE as f64 };
+        let mut start = None;
+        loop {
+            let indenters = setup.indenters.min(COARSE_INDENTERS);
+            let solution = self.coupled(mesh, indenters, setup.mutual_effect).solve(load, setup.radius, start.as_ref());
+            let radius = solution.spots.iter().map(Spot::counted_radius).fold(0.0, f64::max);
+            let loose = 2.0 * radius < 0.5 * FILLING * 2.0 * mesh.half();
+            if loose && solution.stop == Stop::Converged && solution.mean_pressure > 0.0 {
+                mesh.size = 2.0 * (radius + mesh.size) / FILLING / COARSE as f64;
+                start = Some(solution);
                 continue;
             }
-            let (loads, rise) = sweep.exchanged(prescribed);
-            patterns.penetration += rise;
-            for m in 0..count {
-                let factor = if sweep.found[m] > 0.0 { loads[m] / sweep.found[m] } else { 0.0 };
-                patterns.scale(m, factor, loads[m]);
+            // Loads that did not come to rest tell nothing of the contact's size.
+            let radius = if solution.stop == Stop::Stalled { FILLING * mesh.half() } else { radius };
+            let fine = Mesh {
+                width: Setup::width(setup.elements),
+                size: 2.0 * radius.max(0.5 * mesh.size) / setup.elements as f64,
+            };
+            return (fine, solution);
+        }
+    }
+
+    /// Solves one load step.
+    pub fn solve(&self, load: Load, setup: &Setup) -> Solution {
+        let (mut mesh, start) = self.mesh(load, setup);
+        let most = 2 * mesh.width;
+        loop {
+            let coupled = self.coupled(mesh, setup.indenters, setup.mutual_effect);
+            let solution = coupled.solve(load, setup.radius, Some(&start));
+            if solution.stop != Stop::Rim {
+                return solution;
+            }
+            mesh.width = mesh.width * 5 / 4 / 2 * 2 + 1;
+            if mesh.width > most {
+                // Far larger than thought: as many elements across the contact are twice as large.
+                mesh = mesh.halved();
             }
         }
-        let spots = (0..count)
-            .map(|m| Spot {
-                level: self.system.sites()[m].level,
-                place: self.system.sites()[m].place,
-                mesh: self.mesh,
-                pressure: std::mem::take(&mut patterns.pressures[m]),
-                gap: std::mem::take(&mut gaps[m]),
-                circle: self.circles[m].clone(),
-                radius: radii[m],
-            })
-            .collect();
-        Solution { mean_pressure, penetration: patterns.penetration, rule, spots, stop, sweeps }
-    }
-
-    /// Who acts on whom under a rule.
-    fn tables(&self, rule: CircleRadius) -> &Tables {
-        if self.mutual_effect && rule == CircleRadius::LatticeSum {
-            self.whole.get_or_init(|| Tables::whole(self.system, self.mesh, self.circles[0].indenters()))
-        } else {
-            self.inside.get_or_init(|| Tables::inside(self.system, self.mesh, &self.circles))
-        }
-    }
-
-    /// Displacement of the spot m by each other site's indenters; `None` for those without load.
-    fn others(&self, tables: &Tables, m: usize, patterns: &Patterns) -> Vec<Option<Vec<f64>>> {
-        let by = |c: usize| {
-            let table = tables.of(m, c).filter(|_| c != m && patterns.loads[c] > 0.0)?;
-            let mut displacement = vec![0.0; self.mesh.elements()];
-            table.add(&patterns.pressures[c], &mut displacement);
-            Some(displacement)
-        };
-        (0..self.circles.len()).map(by).collect()
-    }
-
-    /// Radius of the circle around m; with the lattice sum outside, that of the same indenters in equilibrium.
-    fn radius(&self, m: usize, rule: CircleRadius, mean_pressure: f64, loads: &[f64]) -> f64 {
-        let circle = &self.circles[m];
-        match rule {
-            _ if !self.mutual_effect => f64::INFINITY,
-            CircleRadius::AreaBalanced => circle.area_balanced(self.system.cell_area() / self.circles.len() as f64),
-            CircleRadius::LoadBalanced | CircleRadius::LatticeSum => circle.load_balanced(loads, mean_pressure),
-        }
-    }
-
-    /// The disc that is cut out around a spot, and the displacement under unit pressure on it; `None` where there is
-    /// nothing outside, or the lattice.
-    fn far(&self, rule: CircleRadius, radius: f64) -> Option<(FarField<'_>, Vec<f64>)> {
-        if !self.mutual_effect || rule == CircleRadius::LatticeSum {
-            return None;
-        }
-        let far = FarField::new(self.system.kernel(), radius, 2f64.sqrt() * self.mesh.half());
-        let at = |index| {
-            let [x, y] = self.mesh.place(index);
-            far.at(x.hypot(y))
-        };
-        let under = (0..self.mesh.elements()).map(at).collect();
-        Some((far, under))
-    }
-
-    /// d(p̄D)/dP_c under the spot m, D = `under` there: the disc's rim moves with the load inside (∂D/∂R = 2πR K(R)), p̄
-    /// itself with the penetration prescribed.
-    fn far_coupling(
-        &self,
-        control: Control,
-        rule: CircleRadius,
-        m: usize,
-        c: usize,
-        far: &FarField<'_>,
-        under: f64,
-    ) -> f64 {
-        let share = match control {
-            Control::MeanPressure(_) => 0.0,
-            Control::Penetration(_) => 1.0 / self.system.cell_area(),
-        };
-        match rule {
-            CircleRadius::LatticeSum => 0.0,
-            CircleRadius::AreaBalanced => under * share,
-            CircleRadius::LoadBalanced if far.radius == 0.0 => 0.0,
-            CircleRadius::LoadBalanced => {
-                let rim = self.system.kernel().at(far.radius);
-                let inside = self.circles[m].images[c].len() as f64;
-                inside * rim + (under - PI * far.radius * far.radius * rim) * share
-            }
-        }
-    }
-
-    /// How converged patterns stand to their meshes and neighbours.
-    fn reached(&self, patterns: &Patterns) -> Stop {
-        let loaded = |m: usize| (0..self.mesh.elements()).filter(move |&index| patterns.pressures[m][index] > 0.0);
-        let sites = || 0..self.circles.len();
-        if self.mutual_effect && sites().any(|m| loaded(m).any(|index| self.belongs_to_another(m, index))) {
-            Stop::Merged
-        } else if sites().any(|m| loaded(m).any(|index| self.mesh.on_rim(index))) {
-            Stop::Rim
-        } else {
-            Stop::Converged
-        }
-    }
-
-    /// Whether the surface of a neighbour lies nearer to an element of spot m than that of its own indenter.
-    fn belongs_to_another(&self, m: usize, index: usize) -> bool {
-        let [x, y] = self.mesh.place(index);
-        self.neighbours[m].images.iter().enumerate().any(|(c, images)| {
-            images.iter().any(|[u, v]| self.system.profile(c, (x - u).hypot(y - v)) < self.shapes[m][index])
-        })
     }
 }

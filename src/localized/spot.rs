@@ -3,8 +3,8 @@
 use super::circle::Circle;
 use super::mesh::Mesh;
 use super::outline::Outline;
-use crate::closed_line::mean_radius;
-use crate::least_squares;
+use crate::numeric::closed_line::mean_radius;
+use crate::numeric::least_squares;
 use std::f64::consts::PI;
 
 /// The contact of one site's indenter.

@@ -10,6 +10,7 @@
 //! D half-widths from the centre, n points err by about (D + √(D²+1))^{−2n}.
 
 use super::point::PointKernel;
+use crate::numeric::quadrature::gauss;
 
 /// Distance in half-widths from which all of K is integrated.
 const FAR: f64 = 10.0;
@@ -26,7 +27,7 @@ pub struct Squares<'a> {
     /// Depth below the surface of the nearest image of the point force, in half-widths.
     image: f64,
     /// Abscissae and weights of the Gauss rules on [−1, 1], by their number of points.
-    rules: Vec<Vec<(f64, f64)>>,
+    rules: Vec<Vec<[f64; 2]>>,
 }
 
 impl<'a> Squares<'a> {
@@ -83,8 +84,8 @@ impl<'a> Squares<'a> {
     fn mean(&self, x: f64, y: f64, half: f64, points: usize, f: impl Fn(f64) -> f64) -> f64 {
         let rule = &self.rules[points];
         let mut sum = 0.0;
-        for &(s, u) in rule {
-            for &(t, v) in rule {
+        for &[s, u] in rule {
+            for &[t, v] in rule {
                 sum += u * v * f((x - half * s).hypot(y - half * t));
             }
         }
@@ -101,26 +102,4 @@ fn term(u: f64, v: f64) -> f64 {
 fn points(distance: f64) -> usize {
     let ellipse = distance + (distance * distance - 1.0).max(0.0).sqrt();
     (-0.5 * RULE_ERROR.ln() / ellipse.ln().max(1e-9)).ceil().max(1.0) as usize
-}
-
-/// The Gauss–Legendre rule of `n` points on [−1, 1]: roots of P_n by Newton's iteration.
-pub(super) fn gauss(n: usize) -> Vec<(f64, f64)> {
-    let legendre = |x: f64| {
-        let (mut before, mut value) = (0.0, 1.0);
-        for k in 1..=n {
-            let k = k as f64;
-            (before, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * before) / k);
-        }
-        (value, n as f64 * (x * value - before) / (x * x - 1.0))
-    };
-    let point = |i: usize| {
-        let mut x = (std::f64::consts::PI * (i as f64 + 0.75) / (n as f64 + 0.5)).cos();
-        for _ in 0..8 {
-            let (value, slope) = legendre(x);
-            x -= value / slope;
-        }
-        let (_, slope) = legendre(x);
-        (x, 2.0 / ((1.0 - x * x) * slope * slope))
-    };
-    (0..n).map(point).collect()
 }

@@ -1,6 +1,6 @@
 //! Stresses below a localized solution, at single points.
 //!
-//! A unit force on the surface causes, with the amplitudes of [`crate::layered::Interior`] and x = qr,
+//! A unit force on the surface causes, with the amplitudes of [`crate::body::Interior`] and x = qr,
 //!
 //! σ_zz = (1/2π) ∫ s_zz J₀ q dq,  σ_rz = (1/2π) ∫ s_qz J₁ q dq,
 //! σ_rr = (1/2π) ∫ [s_qq (J₀ − J₁/x) + s_tt J₁/x] q dq,  σ_tt = (1/2π) ∫ [s_qq J₁/x + s_tt (J₀ − J₁/x)] q dq.
@@ -10,10 +10,13 @@
 //! [`MeanStress`], minus p̄ on the disc: the same integrals with R J₁(qR) in the place of q/2π.
 
 use super::quadrature::{Bessel, hankel};
-use super::solver::Solution;
-use crate::layered::{Amplitudes, Interior, TransferFunction};
-use crate::material::HalfSpace;
-use crate::stress::{Depth, MeanStress, State};
+use super::solution::Solution;
+use crate::body::Depth;
+use crate::body::HalfSpace;
+use crate::body::MeanStress;
+use crate::body::{Amplitudes, Interior, TransferFunction};
+use crate::numeric::chebyshev::{self, Chebyshev};
+use crate::stress::State;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -39,22 +42,21 @@ struct Cylindrical {
 #[derive(Debug, Clone)]
 struct ForceStress {
     /// Upper ends of the intervals of r, and the series of the four components over each.
-    intervals: Vec<(f64, [[f64; TERMS]; 4])>,
+    intervals: Vec<(f64, [Chebyshev<TERMS>; 4])>,
 }
 
 /// The stress field of a localized solution around one spot.
 #[derive(Debug, Clone)]
 pub struct LocalizedField<'a> {
     solution: &'a Solution,
-    half_space: &'a HalfSpace,
     transfer: TransferFunction,
     mean: Vec<f64>,
 }
 
 impl<'a> LocalizedField<'a> {
     /// Field of `solution` on its `half_space`.
-    pub fn new(solution: &'a Solution, half_space: &'a HalfSpace, mean: MeanStress) -> Self {
-        Self { solution, half_space, transfer: TransferFunction::new(half_space), mean: mean.lateral(half_space) }
+    pub fn new(solution: &'a Solution, half_space: &HalfSpace, mean: MeanStress) -> Self {
+        Self { solution, transfer: TransferFunction::new(half_space), mean: mean.lateral(half_space) }
     }
 
     /// Whether `z` is deep enough for the elements to act as points.
@@ -81,7 +83,7 @@ impl<'a> LocalizedField<'a> {
                 add(&mut state, kernel.at((x - u).hypot(y - v)), [x - u, y - v], force);
             }
             if spot.radius.is_finite() {
-                let lateral = self.mean[depth.side - 1];
+                let lateral = self.mean[depth.material - 1];
                 (state.xx, state.yy) = (state.xx + mean_pressure * lateral, state.yy + mean_pressure * lateral);
                 state.zz -= mean_pressure;
                 let disc = self.under_disc(depth, spot.radius, x.hypot(y));
@@ -113,11 +115,9 @@ impl<'a> LocalizedField<'a> {
         forces
     }
 
-    /// Amplitudes at a depth; depths are counted from the upper face of the material.
+    /// Amplitudes at a depth, over the wavenumber.
     fn amplitudes(&self, depth: Depth) -> impl Fn(f64) -> Amplitudes + use<'_> {
-        let faces = self.half_space.interface_depths();
-        let top = if depth.side > 1 { faces[depth.side - 2] } else { 0.0 };
-        move |q| Interior::new(&self.transfer, q).at(depth.side, (depth.z - top).max(0.0))
+        move |q| Interior::new(&self.transfer, q).at(depth)
     }
 
     /// Stresses at the distance r from the axis of a unit force.
@@ -182,15 +182,9 @@ impl ForceStress {
             bounds.push(1.6 * bounds[bounds.len() - 1]);
         }
         let fit = |ends: &[f64]| {
-            let angle = |k: usize| PI * (k as f64 + 0.5) / TERMS as f64;
-            let node = |k: usize| 0.5 * ((ends[1] - ends[0]) * angle(k).cos() + ends[0] + ends[1]);
-            let values: Vec<Cylindrical> = (0..TERMS).map(|k| exact(node(k))).collect();
-            let series = |component: fn(&Cylindrical) -> f64| {
-                std::array::from_fn(|j| {
-                    let wave = |k: usize| component(&values[k]) * (j as f64 * angle(k)).cos();
-                    (0..TERMS).map(wave).sum::<f64>() * if j == 0 { 1.0 } else { 2.0 } / TERMS as f64
-                })
-            };
+            let values = Chebyshev::nodes().map(|x| exact(chebyshev::place([ends[0], ends[1]], x)));
+            let series =
+                |component: fn(&Cylindrical) -> f64| Chebyshev::<TERMS>::through(&values.each_ref().map(component));
             (ends[1], [series(|c| c.rr), series(|c| c.tt), series(|c| c.zz), series(|c| c.rz)])
         };
         Self { intervals: bounds.par_windows(2).map(fit).collect() }
@@ -200,8 +194,8 @@ impl ForceStress {
         let index = self.intervals.partition_point(|(end, _)| *end < r).min(self.intervals.len() - 1);
         let start = if index == 0 { 0.0 } else { self.intervals[index - 1].0 };
         let (end, series) = &self.intervals[index];
-        let x = (2.0 * r - start - end) / (end - start);
-        let [rr, tt, zz, rz] = series.each_ref().map(|series| super::point::clenshaw(series, x));
+        let x = chebyshev::inside([start, *end], r);
+        let [rr, tt, zz, rz] = series.each_ref().map(|series| series.at(x));
         Cylindrical { rr, tt, zz, rz }
     }
 }

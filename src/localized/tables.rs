@@ -4,7 +4,7 @@ use super::circle::Circle;
 use super::exterior::Exterior;
 use super::mesh::{Influence, Mesh};
 use super::square::Squares;
-use super::system::Localized;
+use super::system::System;
 
 /// A_mc of all pairs of sites.
 #[derive(Debug)]
@@ -17,7 +17,7 @@ pub(super) struct Tables {
 
 impl Tables {
     /// Of the indenters inside the circles.
-    pub fn inside(system: &Localized, mesh: Mesh, circles: &[Circle]) -> Self {
+    pub fn inside(system: &System, mesh: Mesh, circles: &[Circle]) -> Self {
         let squares = Squares::new(system.kernel(), 0.5 * mesh.size);
         let table = |images: &Vec<[f64; 2]>| (!images.is_empty()).then(|| Influence::new(&squares, mesh, images, None));
         let rows = circles.iter().map(|circle| circle.images.iter().map(table).collect()).collect();
@@ -25,7 +25,7 @@ impl Tables {
     }
 
     /// Of all indenters of the lattice: inside circles of at least `indenters` and outside them.
-    pub fn whole(system: &Localized, mesh: Mesh, indenters: usize) -> Self {
+    pub fn whole(system: &System, mesh: Mesh, indenters: usize) -> Self {
         let squares = Squares::new(system.kernel(), 0.5 * mesh.size);
         let exterior = Exterior::new(system, mesh, indenters);
         let element = mesh.size * mesh.size;

@@ -1,8 +1,9 @@
 //! `compare.json`: spectral and localized solution side by side.
 
-use super::summary::Step;
 use crate::comparison::{CircleComparison, Comparison, Deviation, StressPair};
-use crate::localized::{CircleRadius, LevelReading, Stop};
+use crate::localized::{CircleRadius, Stop};
+use crate::reading::LevelReading;
+use crate::run::StepRecord;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -14,7 +15,7 @@ pub struct CompareFile<'a, C: Serialize> {
     case: &'a C,
     /// Load step of the case that is compared, from 1.
     step: usize,
-    spectral: Step,
+    spectral: StepRecord,
     spectral_error: Deviation,
     rule: CircleRadius,
     mutual_effect: bool,
@@ -42,12 +43,7 @@ impl<'a, C: Serialize> CompareFile<'a, C> {
             title,
             case,
             step,
-            spectral: Step::new(
-                &comparison.spectral,
-                &comparison.spectral_errors,
-                &comparison.solution,
-                comparison.points,
-            ),
+            spectral: StepRecord::new(&comparison.step, comparison.reading.clone()),
             spectral_error: comparison.grid_error,
             rule,
             mutual_effect,
@@ -80,16 +76,15 @@ fn circle(circle: &CircleComparison) -> Value {
             "ring": level.ring,
         })
     };
-    let radius: Vec<Option<f64>> =
-        circle.reading.levels.iter().map(|level| Some(level.radius).filter(|r| r.is_finite())).collect();
+    let radius: Vec<Option<f64>> = circle.radii.iter().map(|&radius| Some(radius).filter(|r| r.is_finite())).collect();
     json!({
         "indenters": circle.indenters,
         "radius": radius,
         "converged": circle.stop == Stop::Converged,
         "stop_reason": circle.stop.to_string(),
-        "penetration": circle.reading.penetration,
+        "penetration": circle.answer.penetration,
         "additional_displacement": circle.additional_displacement,
-        "levels": circle.reading.levels.iter().map(level).collect::<Vec<_>>(),
+        "levels": circle.answer.levels.iter().map(level).collect::<Vec<_>>(),
         "difference": circle.difference,
         "mesh_error": circle.mesh_error,
     })
@@ -101,7 +96,7 @@ fn stress(pair: &StressPair) -> Value {
         "x": pair.place[0],
         "y": pair.place[1],
         "z": pair.depth.z,
-        "side": pair.depth.side,
+        "side": pair.depth.material,
         "spectral": state(&pair.spectral),
         "localized": state(&pair.localized),
     })

@@ -1,9 +1,9 @@
 //! `contact.npz`: the fields of every load step.
 
 use super::{OutputError, StepArrays};
-use crate::grid::Grid;
-use crate::hierarchy::Solution;
-use crate::texture::Texture;
+use crate::counterbody::Surface;
+use crate::spectral::Step;
+use ndarray::Array2;
 use std::path::Path;
 
 /// Fields of the load steps solved so far, kept on disk.
@@ -19,34 +19,38 @@ impl Fields {
         Ok(Self(StepArrays::new(folder, "contact")?))
     }
 
-    /// Puts the fields of the next step on disk.
+    /// Puts the fields of the next step on disk; its `mean_pressure` is known.
     ///
     /// # Errors
     /// [`OutputError`] when one cannot be written.
-    pub fn add(&mut self, grid: &Grid, mean_pressure: f64, solution: &Solution) -> Result<(), OutputError> {
+    pub fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<(), OutputError> {
         self.0.next_step();
         self.0.add("mean_pressure", &[], [mean_pressure])?;
-        self.0.add("penetration", &[], [solution.penetration])?;
-        self.0.add("pressure", &grid.points(), solution.pressure.iter().copied())?;
-        self.0.add("displacement", &grid.points(), solution.displacement.iter().copied())?;
-        self.0.add("gap", &grid.points(), solution.gap.iter().copied())
+        self.0.add("penetration", &[], [step.penetration()])?;
+        for (name, field) in [("pressure", step.pressure()), ("displacement", step.displacement()), ("gap", step.gap())]
+        {
+            self.0.add(name, field.shape(), field.iter().copied())?;
+        }
+        Ok(())
     }
 
-    /// Gathers all steps in `contact.npz`.
+    /// Gathers all steps in `contact.npz`, with the places of the samples of `surface` and whose they are.
     ///
     /// # Errors
     /// [`OutputError`] when the archive cannot be written; what waits then stays.
-    pub fn finish(self, grid: &Grid, texture: &Texture) -> Result<(), OutputError> {
-        let points = grid.points();
-        let position = |axis: usize| (0..grid.len()).map(move |i| grid.cell().point(grid.fractions(i))[axis]);
-        let level = |index: usize| texture.owner.get(index).map_or(0, |&o| texture.sites[o as usize].level as i32);
+    pub fn finish(self, surface: &Surface) -> Result<(), OutputError> {
+        let grid = surface.grid();
+        let (points, samples) = (grid.points(), 0..grid.len());
+        let position = |axis: usize| samples.clone().map(move |i| grid.cell().point(grid.fractions(i))[axis]);
+        let level = |site: &u32| surface.sites()[*site as usize].level as i32;
+        let levels = surface.owner().map_or(Array2::zeros(points), |owner| owner.map(level));
         self.0.finish(|archive| {
             let [a1, a2] = grid.cell().vectors();
             archive.array("a1", &[2], a1)?;
             archive.array("a2", &[2], a2)?;
             archive.array("x", &points, position(0))?;
             archive.array("y", &points, position(1))?;
-            archive.array("owner", &points, (0..grid.len()).map(level))
+            archive.array("owner", levels.shape(), levels.iter().copied())
         })
     }
 }

@@ -1,43 +1,14 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
 use super::gathered::{is_partial, remove_gathered, remove_own, set_aside};
-use super::manifest::{Manifest, Scope, Standing, Writer, Written};
+use super::layout::{COARSER, FolderError, MARK, OWN, foreign, names, own, remove_folder, staging};
+use super::manifest::{Manifest, Scope, Writer, Written};
 use super::publication::Publication;
+use super::steps_log;
 use super::{OutputError, make_folder, write_text};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-
-/// What percoat keeps for itself in an output folder.
-const OWN: &str = ".percoat";
-/// Marks a folder as one in which a run of percoat gathers its result.
-pub(super) const MARK: &str = ".percoat";
-/// Where the coarser grid's steps stand while a finer one is solved.
-pub(super) const COARSER: &str = "coarser";
-
-/// Why a folder cannot be had.
-#[derive(Debug, thiserror::Error)]
-pub enum FolderError {
-    /// What the run would replace is not percoat's.
-    #[error("{} {reason}, and this run would replace it: choose another folder with -o, or move it away", path.display())]
-    Foreign {
-        /// The file or folder.
-        path: PathBuf,
-        /// Whose it is.
-        reason: &'static str,
-    },
-    /// Another run has the folder.
-    #[error("another run ({owner}) is writing into {}: wait for it, or choose another folder with -o", folder.display())]
-    Busy {
-        /// The folder.
-        folder: PathBuf,
-        /// Which run.
-        owner: String,
-    },
-    /// It cannot be read or written.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-}
 
 /// What a run is going to write.
 #[derive(Debug, Clone)]
@@ -72,21 +43,6 @@ pub struct RunFolder {
     scope: Scope,
     set_aside: Option<PathBuf>,
     _lock: File,
-}
-
-/// Where percoat keeps something for itself in an output folder.
-pub(super) fn own(folder: &Path, name: &str) -> PathBuf {
-    folder.join(OWN).join(name)
-}
-
-/// Where a writer gathers its result.
-pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
-    match writer {
-        Writer::Solve => folder.join("unfinished"),
-        // Here nothing stands that is worth a look before all of it is there.
-        Writer::Compare => own(folder, "compare"),
-        Writer::Validate => own(folder, "validate"),
-    }
 }
 
 impl RunFolder {
@@ -143,13 +99,13 @@ impl RunFolder {
     /// [`OutputError`] with the path that cannot be moved.
     pub fn begin_finer(&self) -> Result<Option<PathBuf>, OutputError> {
         let staging = self.staging();
-        if !staging.join("summary.json").is_file() {
+        if !staging.join(steps_log::NAME).is_file() {
             return Ok(None);
         }
         let coarser = staging.join(COARSER);
         let aside = if remove_own(&coarser, &|_| false)? { None } else { set_aside(&coarser, &self.folder)? };
         make_folder(&coarser)?;
-        let of_steps = |name: &&String| self.names.contains(name) || is_partial(name);
+        let of_steps = |name: &&String| self.names.contains(name) || is_partial(name) || *name == steps_log::NAME;
         for name in names(&staging)?.iter().filter(of_steps) {
             let path = staging.join(name);
             fs::rename(&path, coarser.join(name)).map_err(|error| OutputError::new(&path, error))?;
@@ -181,7 +137,7 @@ impl RunFolder {
         if !staging.exists() {
             return Ok(None);
         }
-        let has_steps = self.writer == Writer::Solve && staging.join("summary.json").is_file();
+        let has_steps = [staging.clone(), staging.join(COARSER)].iter().any(|at| at.join(steps_log::NAME).is_file());
         if !has_steps && remove_gathered(&staging, self.writer, &|name| self.names.iter().any(|own| own == name))? {
             return Ok(None);
         }
@@ -235,15 +191,6 @@ fn refuse_foreign(folder: &Path, manifest: &Manifest, plan: &Plan) -> Result<(),
     Ok(())
 }
 
-/// Why a name is not percoat's, if it is somebody else's.
-pub(super) fn foreign(standing: Standing) -> Option<&'static str> {
-    match standing {
-        Standing::Absent | Standing::Written => None,
-        Standing::Changed => Some("was changed since percoat wrote it"),
-        Standing::Foreign => Some("is not listed as a result of percoat (in .percoat/written.json)"),
-    }
-}
-
 /// Has the folder for this process as long as the file is open; the system ends that however the process ends.
 fn lock(folder: &Path) -> Result<File, FolderError> {
     let path = own(folder, "lock");
@@ -262,25 +209,4 @@ fn lock(folder: &Path) -> Result<File, FolderError> {
     let written = file.set_len(0).and_then(|()| writeln!(file, "process {}", std::process::id()));
     written.map_err(failed)?;
     Ok(file)
-}
-
-/// Removes a folder of percoat's own if it is there.
-pub(super) fn remove_folder(path: &Path) -> Result<(), OutputError> {
-    match fs::remove_dir_all(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::new(path, error)),
-        _ => Ok(()),
-    }
-}
-
-/// Names of what is in a folder, sorted.
-pub(super) fn names(folder: &Path) -> Result<Vec<String>, OutputError> {
-    let names = || -> io::Result<Vec<String>> {
-        let mut names = Vec::new();
-        for entry in fs::read_dir(folder)? {
-            names.push(entry?.file_name().to_string_lossy().into_owned());
-        }
-        names.sort();
-        Ok(names)
-    };
-    names().map_err(|error| OutputError::new(folder, error))
 }

@@ -2,14 +2,15 @@
 //! is neither published nor removed.
 
 use super::OutputError;
-use super::folder::{COARSER, MARK, remove_folder};
+use super::layout::{COARSER, MARK, remove_folder};
 use super::manifest::Writer;
+use super::steps_log;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Files that steps leave before they are published.
-const STEPS: [&str; 5] = ["case.toml", "summary.json", "curve.csv", "contact.npz", "stress.npz"];
+const STEPS: [&str; 6] = ["case.toml", steps_log::NAME, "summary.json", "curve.csv", "contact.npz", "stress.npz"];
 
 /// Whether fields of the steps wait in a folder of that name.
 pub(super) fn is_partial(name: &str) -> bool {

@@ -9,7 +9,7 @@
 //!    is refused; so is a folder in which another run is writing, which a lock on `.percoat/lock` tells: the system
 //!    takes it away however a process ends.
 //! 2. **Gather** ([`RunFolder::staging`]). `solve` writes into `unfinished/`, every file under a temporary name that is
-//!    changed when it is complete. `summary.json` and `curve.csv` are renewed after each load step; the fields of a step
+//!    changed when it is complete. Each load step appends its line to `steps.jsonl`; its fields
 //!    stand as `.npy` files in `contact.partial/` and `stress.partial/` until `contact.npz` and `stress.npz` are made of
 //!    them. Where a finer grid follows, the steps of the coarser one stand in `coarser/`. The result of an earlier run
 //!    stays as it is all the while.
@@ -27,10 +27,13 @@ mod comparison;
 mod fields;
 mod folder;
 mod gathered;
+mod layout;
 mod manifest;
 mod npz;
+mod number;
 mod publication;
 mod steps;
+mod steps_log;
 mod stress;
 pub mod summary;
 pub mod table;
@@ -38,10 +41,13 @@ mod volume;
 
 pub use comparison::CompareFile;
 pub use fields::Fields;
-pub use folder::{FolderError, Plan, RunFolder};
+pub use folder::{Plan, RunFolder};
+pub use layout::FolderError;
 pub use manifest::{Scope, Writer};
+pub use number::number;
 pub use steps::StepArrays;
-pub use stress::{Section, Seen, Stresses, Volume, Wanted};
+pub use steps_log::StepsLog;
+pub use stress::Stresses;
 pub use volume::write_volume;
 
 use std::fs;
@@ -50,15 +56,15 @@ use std::path::{Path, PathBuf};
 
 /// Why an output could not be written: which path, and what the system says.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {error}", path.display())]
+#[error("cannot write {}: {source}", path.display())]
 pub struct OutputError {
     path: PathBuf,
-    error: io::Error,
+    source: io::Error,
 }
 
 impl OutputError {
-    fn new(path: &Path, error: io::Error) -> Self {
-        Self { path: path.to_owned(), error }
+    fn new(path: &Path, source: io::Error) -> Self {
+        Self { path: path.to_owned(), source }
     }
 }
 

@@ -4,8 +4,8 @@
 //! this one does not. A file gets a second name in the output folder and keeps the one where it was gathered: until all
 //! are in place and listed the whole new result stands there, and then that folder goes in one move.
 
-use super::folder::{FolderError, foreign, own, staging};
 use super::gathered::{remove_gathered, set_aside};
+use super::layout::{FolderError, foreign, own, staging};
 use super::manifest::{Manifest, Scope, Standing, Writer, Written};
 use super::{OutputError, write_text};
 use std::fs;
@@ -166,7 +166,7 @@ impl<'a> Publication<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::folder::names;
+    use super::super::layout::names;
     use super::super::{Plan, RunFolder};
     use super::*;
     use std::collections::BTreeMap;
@@ -283,19 +283,20 @@ mod tests {
         let folder = folder.path();
         gathered(folder, &["case.toml", "stress.npz"], "old").publish().unwrap();
         let run = gathered(folder, &["case.toml", "summary.json"], "new");
+        fs::write(run.staging().join("steps.jsonl"), "new").unwrap();
         fs::write(folder.join("case.toml"), "mine").unwrap();
         let error = run.publish().unwrap_err().to_string();
         assert!(error.contains("case.toml") && error.contains("changed"), "{error}");
         assert_eq!(files(folder)["case.toml"], "mine");
         assert_eq!(files(folder)["stress.npz"], "stress.npz: old");
-        assert_eq!(files(&folder.join("unfinished")).len(), 2);
+        assert_eq!(files(&folder.join("unfinished")).len(), 3);
 
         // The next run is refused too, and takes nothing.
         assert!(matches!(claim(folder), Err(FolderError::Foreign { .. })));
-        assert_eq!(files(&folder.join("unfinished")).len(), 2);
+        assert_eq!(files(&folder.join("unfinished")).len(), 3);
         fs::remove_file(folder.join("case.toml")).unwrap();
         let next = claim(folder).unwrap();
-        assert_eq!(files(next.set_aside().unwrap()).len(), 2);
+        assert_eq!(files(next.set_aside().unwrap()).len(), 3);
     }
 
     #[test]
@@ -350,10 +351,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let run = gathered(folder.path(), &["case.toml", "summary.json"], "coarse");
         run.begin_finer().unwrap();
-        assert_eq!(files(&run.staging().join("coarser")).len(), 2);
-        fs::write(run.staging().join("summary.json"), "fine").unwrap();
+        assert!(!run.staging().join("coarser").exists(), "no step is done");
+        fs::write(run.staging().join("steps.jsonl"), "coarse").unwrap();
         run.begin_finer().unwrap();
-        assert_eq!(files(&run.staging().join("coarser"))["summary.json"], "fine");
+        assert_eq!(files(&run.staging().join("coarser")).len(), 3);
+        fs::write(run.staging().join("steps.jsonl"), "fine").unwrap();
+        run.begin_finer().unwrap();
+        assert_eq!(files(&run.staging().join("coarser"))["steps.jsonl"], "fine");
         fs::write(run.staging().join("summary.json"), "finest").unwrap();
         run.publish().unwrap();
         assert_eq!(files(folder.path()), BTreeMap::from([("summary.json".to_owned(), "finest".to_owned())]));

@@ -1,21 +1,24 @@
 //! The result table a person reads.
 
-use super::summary::{Peak, Step, Stress};
-use crate::comparison::{CircleComparison, Comparison, Deviation, Reading};
+use super::number::{ROUNDING, number, with_error};
+use crate::comparison::{Answer, CircleComparison, Comparison, Deviation};
 use crate::localized::{CircleRadius, Setup};
-use crate::number::{ROUNDING, number, with_error};
+use crate::numeric::search::largest;
+use crate::reading::StressReading;
+use crate::run::StepRecord;
+use crate::stress::Peak;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Up to this many steps every level gets a row of its own.
 pub const DETAILED: usize = 6;
 
 /// The load steps as a table: in detail for a few steps, one row a step for many.
-pub fn steps(steps: &[Step]) -> String {
-    let levels = steps.first().map_or(0, |step| step.levels.len());
+pub fn steps(steps: &[StepRecord]) -> String {
+    let levels = steps.first().map_or(0, |step| step.reading.levels.len());
     if steps.len() <= DETAILED && levels > 0 { detailed(steps) } else { compact(steps, levels) }
 }
 
-fn detailed(steps: &[Step]) -> String {
+fn detailed(steps: &[StepRecord]) -> String {
     let header = [
         "mean pressure",
         "penetration",
@@ -30,11 +33,11 @@ fn detailed(steps: &[Step]) -> String {
     let mut rows = Vec::new();
     for step in steps {
         let mut lead = [
-            with_error(step.mean_pressure, step.errors.mean_pressure),
-            with_error(step.penetration, step.errors.penetration),
-            percent_with_error(step.contact_fraction, step.errors.contact_fraction),
+            with_error(step.reading.mean_pressure, step.reading.errors.mean_pressure),
+            with_error(step.reading.penetration, step.reading.errors.penetration),
+            percent_with_error(step.reading.contact_fraction, step.reading.errors.contact_fraction),
         ];
-        for level in &step.levels {
+        for level in &step.reading.levels {
             let radius = match level.contact_radius {
                 _ if level.load == 0.0 => "–".to_owned(),
                 // The radius of the area says little of a ring.
@@ -53,9 +56,9 @@ fn detailed(steps: &[Step]) -> String {
                 level.level.to_string(),
                 with_error(level.load, level.errors.load),
                 percent_with_error(level.load_share, level.errors.load_share),
-                finite(level.max_pressure, level.errors.max_pressure),
+                finite(level.finite_peak(), level.errors.max_pressure),
                 radius,
-                level.asymmetry.map_or("–".to_owned(), |part| percent_with_error(part, level.errors.asymmetry)),
+                level.asymmetry().map_or("–".to_owned(), |part| percent_with_error(part, level.errors.asymmetry)),
             ];
             rows.push([&lead[..], &cells[..]].concat());
             lead = [const { String::new() }; 3];
@@ -64,7 +67,7 @@ fn detailed(steps: &[Step]) -> String {
     render(&header.map(str::to_owned), &rows)
 }
 
-fn compact(steps: &[Step], levels: usize) -> String {
+fn compact(steps: &[StepRecord], levels: usize) -> String {
     let mut header = ["mean pressure", "penetration", "contact"].map(str::to_owned).to_vec();
     header.extend((1..=levels).map(|level| format!("peak {level}")));
     header.extend((1..=levels).map(|level| format!("share {level}")));
@@ -74,11 +77,15 @@ fn compact(steps: &[Step], levels: usize) -> String {
     let rows: Vec<Vec<String>> = steps
         .iter()
         .map(|step| {
-            let mut row = vec![number(step.mean_pressure), number(step.penetration), percent(step.contact_fraction)];
-            row.extend(step.levels.iter().map(|level| finite(level.max_pressure, None)));
-            row.extend(step.levels.iter().map(|level| percent(level.load_share)));
+            let mut row = vec![
+                number(step.reading.mean_pressure),
+                number(step.reading.penetration),
+                percent(step.reading.contact_fraction),
+            ];
+            row.extend(step.reading.levels.iter().map(|level| finite(level.finite_peak(), None)));
+            row.extend(step.reading.levels.iter().map(|level| percent(level.load_share)));
             if levels == 0 {
-                row.push(finite(step.max_pressure, None));
+                row.push(finite(step.reading.finite_peak(), None));
             }
             row
         })
@@ -99,25 +106,27 @@ pub fn readings(comparison: &Comparison, setup: &Setup) -> String {
         "contact radius",
         "circle",
     ];
-    let spectral = Reading::spectral(&comparison.spectral);
+    let spectral = Answer::from(&comparison.reading);
     let inside = |circle: &CircleComparison| {
         if setup.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() }
     };
-    let blocks = std::iter::once(("spectral", String::new(), &spectral))
-        .chain(comparison.circles.iter().map(|circle| ("localized", inside(circle), &circle.reading)));
+    let nowhere = vec![f64::INFINITY; spectral.levels.len()];
+    let circles = comparison.circles.iter();
+    let blocks = std::iter::once(("spectral", String::new(), &spectral, &nowhere))
+        .chain(circles.map(|circle| ("localized", inside(circle), &circle.answer, &circle.radii)));
     let mut rows = Vec::new();
-    for (name, inside, reading) in blocks {
-        let mut lead = [name.to_owned(), inside, number(reading.penetration)];
-        for level in &reading.levels {
+    for (name, inside, answer, radii) in blocks {
+        let mut lead = [name.to_owned(), inside, number(answer.penetration)];
+        for (level, &circle) in answer.levels.iter().zip(radii) {
             let length = |x: f64| if x.is_finite() { number(x) } else { "–".to_owned() };
             let cells = [
                 level.level.to_string(),
                 number(level.load),
                 percent(level.load_share),
                 number(level.max_pressure),
-                length(if level.load > 0.0 { level.contact_radius } else { f64::NAN })
+                length(level.contact_radius.filter(|_| level.load > 0.0).unwrap_or(f64::NAN))
                     + if level.ring { " (ring)" } else { "" },
-                length(level.radius),
+                length(circle),
             ];
             rows.push([&lead[..], &cells[..]].concat());
             lead = [const { String::new() }; 3];
@@ -197,15 +206,29 @@ fn percent_with_error(x: f64, error: Option<f64>) -> String {
     }
 }
 
+/// How far the load steps have been solved, in a line.
+pub fn solved(steps: &[StepRecord]) -> String {
+    let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
+    let most = steps.iter().map(|step| step.report.iterations).max().unwrap_or(0);
+    let gap = largest(steps.iter().map(|step| step.certificate.energy_gap));
+    let done = steps.iter().filter(|step| step.converged()).count();
+    format!(
+        "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy within {gap:.0e} \
+         of its minimum",
+        steps.len()
+    )
+}
+
 /// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.
-pub fn largest_errors(steps: &[Step]) -> Option<String> {
+pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
     let relative = |value: f64, error: Option<f64>| error.filter(|_| value != 0.0).map(|error| error / value.abs());
-    let levels = || steps.iter().flat_map(|step| &step.levels);
+    let readings = || steps.iter().map(|step| &step.reading);
+    let levels = || readings().flat_map(|reading| &reading.levels);
     let named = [
-        ("penetration", steps.iter().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
+        ("penetration", readings().filter_map(|s| relative(s.penetration, s.errors.penetration)).reduce(f64::max)),
         (
             "peak pressure",
-            steps.iter().filter_map(|s| relative(s.max_pressure?, s.errors.max_pressure)).reduce(f64::max),
+            readings().filter_map(|s| relative(s.finite_peak()?, s.errors.max_pressure)).reduce(f64::max),
         ),
         ("load on one", levels().filter_map(|l| relative(l.load, l.errors.load)).reduce(f64::max)),
         (
@@ -219,11 +242,10 @@ pub fn largest_errors(steps: &[Step]) -> Option<String> {
 }
 
 /// The largest stresses of a step in one line.
-pub fn stress(stress: &Stress) -> String {
+pub fn stress(stress: &StressReading) -> String {
     let peak = |name: &str, peak: &Peak, error: Option<f64>| {
-        let Peak { value, x, y, z, material, .. } = *peak;
-        let value = finite(value, error);
-        let [x, y, z] = [x, y, z].map(number);
+        let (value, material) = (finite(peak.finite(), error), peak.material);
+        let [x, y, z] = peak.position.map(number);
         format!("{name} {value} in material {material} at ({x}, {y}, {z})")
     };
     let [tau1, tension] = [stress.errors.max_tau1, stress.errors.max_tension];

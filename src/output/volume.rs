@@ -7,7 +7,8 @@
 //! have the opposite sign of [`State`]'s, whose z points into the body.
 
 use super::{OutputError, write_file};
-use crate::stress::{Depth, Field, State};
+use crate::body::Depth;
+use crate::stress::{State, StressField};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -18,12 +19,12 @@ const SCALARS: [&str; 10] =
 /// Writes the field on a stack of planes as a VTK structured grid; `path` should end in `.vts`.
 ///
 /// - **Points**: [n₁ + 1, n₂ + 1, `depths`] along a₁, a₂ and upwards (the last depth first, so that the grid is
-///   right-handed), a₁ fastest. `points` are the samples [n₁, n₂] of [`Field::plane`], at least 1 each; the border
+///   right-handed), a₁ fastest. `points` are the samples [n₁, n₂] of [`StressField::plane`], at least 1 each; the border
 ///   i = n₁, j = n₂ repeats i = 0, j = 0, so that the cell closes. A depth on an interface that is given once for each
 ///   side makes a layer of cells without thickness, across which the field jumps. Coordinates x, y, −z are lengths.
 /// - **Values at points**, 64-bit: `sigma_xx`, `sigma_yy`, `sigma_zz`, `sigma_xy`, `sigma_xz`, `sigma_yz`, the
 ///   principal shear stress `tau1`, the von Mises stress `mises` and the largest tension `sigma1`, all in the unit of
-///   the pressure, positive in tension; `material` ([`Depth::side`]); the vector `displacement` (u_x, u_y, −u_z), a
+///   the pressure, positive in tension; `material` ([`Depth::material`]); the vector `displacement` (u_x, u_y, −u_z), a
 ///   length, along the drawn axes.
 ///
 /// `sigma_xz` and `sigma_yz` too are along the drawn axes, the opposite of [`State`]'s, where z points into the body.
@@ -32,7 +33,7 @@ const SCALARS: [&str; 10] =
 ///
 /// # Errors
 /// [`OutputError`] when the file cannot be written, or when there are no depths or no points; nothing is left behind.
-pub fn write_volume(path: &Path, field: &Field, depths: &[Depth], points: [usize; 2]) -> Result<(), OutputError> {
+pub fn write_volume(path: &Path, field: &StressField, depths: &[Depth], points: [usize; 2]) -> Result<(), OutputError> {
     write_file(path, |writer| {
         let [n1, n2] = points;
         if depths.is_empty() || n1 == 0 || n2 == 0 {
@@ -44,7 +45,7 @@ pub fn write_volume(path: &Path, field: &Field, depths: &[Depth], points: [usize
         let per_layer = (n1 + 1) * (n2 + 1);
         head(writer, [n1, n2, depths.len() - 1], states.len())?;
         for c in 0..SCALARS.len() {
-            let value = |(index, state): (usize, &State)| values(state, upwards[index / per_layer].side)[c];
+            let value = |(index, state): (usize, &State)| values(state, upwards[index / per_layer].material)[c];
             block(writer, states.len(), states.iter().enumerate().map(value))?;
         }
         let displacement = states.iter().flat_map(|state| {
@@ -63,9 +64,9 @@ pub fn write_volume(path: &Path, field: &Field, depths: &[Depth], points: [usize
 }
 
 /// States of a plane, a₁ fastest, its border repeated.
-fn closed_plane(field: &Field, depth: Depth, points: [usize; 2]) -> Vec<State> {
+fn closed_plane(field: &StressField, depth: Depth, points: [usize; 2]) -> Vec<State> {
     let ([n1, n2], plane) = (points, field.plane(depth, points));
-    (0..=n2).flat_map(|j| (0..=n1).map(move |i| (i, j))).map(|(i, j)| plane.state(i % n1 * n2 + j % n2)).collect()
+    (0..=n2).flat_map(|j| (0..=n1).map(move |i| (i, j))).map(|(i, j)| plane.state([i % n1, j % n2])).collect()
 }
 
 /// What stands before the numbers: extents, and where the block of each array begins.
@@ -97,7 +98,7 @@ fn block(writer: &mut impl Write, len: usize, values: impl Iterator<Item = f64>)
 }
 
 /// The values of [`SCALARS`] along the drawn axes, z upwards.
-fn values(state: &State, side: usize) -> [f64; SCALARS.len()] {
+fn values(state: &State, material: usize) -> [f64; SCALARS.len()] {
     let State { xx, yy, zz, xy, xz, yz, .. } = *state;
-    [xx, yy, zz, xy, -xz, -yz, state.tau1(), state.mises(), state.s1(), side as f64]
+    [xx, yy, zz, xy, -xz, -yz, state.tau1(), state.mises(), state.s1(), material as f64]
 }

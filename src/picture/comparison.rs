@@ -7,9 +7,8 @@ use super::curve::{Curve, Style};
 use super::snapshot::caption;
 use crate::comparison::{CircleComparison, Comparison, Deviation};
 use crate::localized::CircleRadius;
-use crate::material::HalfSpace;
-use crate::number::number;
-use crate::texture::Surface;
+use crate::numeric::number::number;
+use crate::problem::Problem;
 
 /// What is read off a deviation.
 type Value = fn(&Deviation) -> f64;
@@ -23,13 +22,7 @@ const QUANTITIES: [(&str, Value); 4] = [
 ];
 
 /// The picture: one panel for each rule; `None` for less than two circles.
-pub fn comparison(
-    title: &str,
-    surface: &Surface,
-    half_space: &HalfSpace,
-    comparison: &Comparison,
-    rule: CircleRadius,
-) -> Option<Canvas> {
+pub fn comparison(title: &str, problem: &Problem, comparison: &Comparison, rule: CircleRadius) -> Option<Canvas> {
     if comparison.circles.len() < 2 || comparison.other_rule.is_empty() {
         return None;
     }
@@ -51,15 +44,15 @@ pub fn comparison(
         curves: curves(circles),
     };
     let charts: Vec<Chart> = ('a'..).zip(&panels).map(chart).collect();
-    let [n1, n2] = comparison.points;
+    let [n1, n2] = comparison.step.grid().points();
     let more = [
-        format!("p̄\u{a0}=\u{a0}{}", number(comparison.spectral.mean_pressure)),
+        format!("p̄\u{a0}=\u{a0}{}", number(comparison.reading.mean_pressure)),
         format!("localized with {} elements across the largest contact", comparison.elements),
         format!("spectral on {n1}\u{a0}×\u{a0}{n2} samples"),
     ];
     let what = "Lines with markers: largest difference of any level from the spectral solution. Dashed: what half the \
                 elements change, a bound of the mesh's own error.";
-    let text = caption(title, surface, half_space, &more);
+    let text = caption(title, problem, &more);
     Some(plots("", &[text.join(" "), what.to_owned()], &charts, 2))
 }
 

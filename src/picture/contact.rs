@@ -19,14 +19,14 @@ const LEAST: f64 = 0.1;
 /// have without each other, a length, drawn dashed.
 pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Canvas> {
     (snapshot.levels() > 0).then(|| {
-        let window = window(snapshot.grid.cell());
+        let window = window(snapshot.grid().cell());
         let colour = |place: [f64; 2]| {
             snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
         };
         let [x, y] = axes(snapshot, window);
         let mut over = unit_cell(snapshot);
-        let cell = snapshot.grid.cell();
-        for (site, boundary) in snapshot.texture.sites.iter().zip(snapshot.boundaries) {
+        let cell = snapshot.grid().cell();
+        for (site, boundary) in snapshot.surface().sites().iter().zip(snapshot.boundaries()) {
             for centre in images(cell, site.place, widened(window)) {
                 let ring = |radius: &dyn Fn(f64) -> f64, dash: Dash, width: f64, colour: Colour| {
                     let point = |k: u32| {
@@ -73,7 +73,7 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<C
     let mut curves = Vec::new();
     for level in 1..=snapshot.levels() {
         let site = snapshot.site_of(level)?;
-        let Some(boundary) = &snapshot.boundaries[site] else { continue };
+        let Some(boundary) = &snapshot.boundaries()[site] else { continue };
         let mean = boundary.mean_radius();
         let count = boundary.radii.len();
         let points = (0..=count).map(|k| [degrees(k, count), 100.0 * (boundary.radii[k % count] / mean - 1.0)]);
@@ -111,13 +111,13 @@ fn widened(window: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     window.map(|[first, last]| [first - 0.25 * (last - first), last + 0.25 * (last - first)])
 }
 
-impl Snapshot<'_> {
+impl Snapshot {
     /// Level whose indenter is in contact at a place, if one is.
     fn level_in_contact(&self, place: [f64; 2]) -> Option<usize> {
         self.pressure_at(place)?;
-        let touching = |&(index, _): &(usize, f64)| self.pressure[index] > 0.0;
-        let nearest = around(self.grid, place).into_iter().filter(touching).max_by(|a, b| a.1.total_cmp(&b.1));
+        let touching = |&(index, _): &(usize, f64)| self.pressures()[index] > 0.0;
+        let nearest = around(self.grid(), place).into_iter().filter(touching).max_by(|a, b| a.1.total_cmp(&b.1));
         let (index, _) = nearest?;
-        Some(self.texture.sites[*self.texture.owner.get(index)? as usize].level)
+        Some(self.surface().level_at(index))
     }
 }

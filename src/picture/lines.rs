@@ -4,29 +4,30 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
-use super::cut::{Cut, Quantity};
+use super::rows::Quantity;
 use super::snapshot::Snapshot;
+use crate::stress::Section;
 
 /// The picture.
-pub fn lines(snapshot: &Snapshot, cut: &Cut) -> Canvas {
-    let distances = cut.line.distances();
-    let interfaces = cut.interfaces().len();
+pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
+    let distances = section.line.distances();
+    let interfaces = section.interfaces().len();
     let name = |row: usize| {
-        let depth = cut.depths[row];
-        let upper = cut.depths.get(row + 1).is_some_and(|next| next.z == depth.z);
+        let depth = section.depths[row];
+        let upper = section.depths.get(row + 1).is_some_and(|next| next.z == depth.z);
         match (row, interfaces, upper) {
             (0, ..) => "surface".to_owned(),
             (_, 1, true) => "interface, coating".to_owned(),
             (_, 1, false) => "interface, substrate".to_owned(),
-            (_, _, true) => format!("interface {}, above", depth.side),
-            (_, _, false) => format!("interface {}, below", depth.side - 1),
+            (_, _, true) => format!("interface {}, above", depth.material),
+            (_, _, false) => format!("interface {}, below", depth.material - 1),
         }
     };
     let points = |row: usize, quantity: Quantity| {
-        let states = distances.iter().zip(&cut.states[row]);
-        let mut points: Vec<[f64; 2]> = states.map(|(&s, state)| [s, cut.stress(quantity, state)]).collect();
+        let states = distances.iter().zip(section.states.row(row));
+        let mut points: Vec<[f64; 2]> = states.map(|(&s, state)| [s, section.stress(quantity, state)]).collect();
         // An edge of contact between two points is the top of the surface's curve.
-        if let Some(highest) = cut.highest.filter(|_| quantity == Quantity::Along && cut.depths[row].z == 0.0) {
+        if let Some(highest) = section.highest.filter(|_| quantity == Quantity::Along && section.depths[row].z == 0.0) {
             points.insert(points.partition_point(|[s, _]| *s <= highest[0]), highest);
         }
         points
@@ -37,7 +38,7 @@ pub fn lines(snapshot: &Snapshot, cut: &Cut) -> Canvas {
         x: Axis::linear(snapshot.units.length("distance", "s")),
         y,
         curves: (1..)
-            .zip(cut.face_rows())
+            .zip(section.face_rows())
             .map(|(colour, row)| Curve {
                 label: name(row),
                 points: points(row, quantity),
@@ -53,7 +54,7 @@ pub fn lines(snapshot: &Snapshot, cut: &Cut) -> Canvas {
         chart("(b) principal shear stress", Quantity::Tau1, tau1),
     ];
     let mut caption = snapshot.caption();
-    let [dx, dy] = cut.line.direction;
+    let [dx, dy] = section.line.direction;
     caption.push(format!("Lines along {:.0}° from the x axis.", dy.atan2(dx).to_degrees()));
     plots("", &[caption.join(" ")], &charts, 2)
 }

@@ -6,17 +6,18 @@ use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
 use super::snapshot::caption;
 use super::units::Units;
-use crate::material::HalfSpace;
-use crate::output::summary::{Extremes, Level, Step};
-use crate::texture::Surface;
+use crate::problem::Problem;
+use crate::reading::LevelReading;
+use crate::run::StepRecord;
+use crate::stress::maxima::Extremes;
 
 /// The picture; `None` for less than two steps.
-pub fn load_curves(title: &str, surface: &Surface, half_space: &HalfSpace, steps: &[Step]) -> Option<Canvas> {
+pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Option<Canvas> {
     if steps.len() < 2 {
         return None;
     }
-    let units = Units::of(surface, half_space);
-    let run = Run { steps, levels: surface.levels(), units: &units };
+    let units = Units::of(problem);
+    let run = Run { steps, levels: problem.counterbody().levels().len(), units: &units };
     let mut charts = vec![run.peak_pressure(), run.extent(), run.penetration()];
     if run.levels > 1 {
         charts.push(run.shares());
@@ -27,12 +28,12 @@ pub fn load_curves(title: &str, surface: &Surface, half_space: &HalfSpace, steps
     }
     let [n1, n2] = steps[0].points;
     let more = [format!("{} load steps", steps.len()), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    let text = caption(title, surface, half_space, &more);
+    let text = caption(title, problem, &more);
     Some(plots("", &[text.join(" ")], &charts, 2))
 }
 
 struct Run<'a> {
-    steps: &'a [Step],
+    steps: &'a [StepRecord],
     levels: usize,
     units: &'a Units,
 }
@@ -40,7 +41,7 @@ struct Run<'a> {
 impl Run<'_> {
     /// Whether the steps are spread evenly on a logarithmic axis rather than on a linear one.
     fn logarithmic(&self) -> bool {
-        let loads: Vec<f64> = self.steps.iter().map(|step| step.mean_pressure).collect();
+        let loads: Vec<f64> = self.steps.iter().map(|step| step.reading.mean_pressure).collect();
         let spread = |value: fn(f64) -> f64| {
             let gaps: Vec<f64> = loads.windows(2).map(|pair| (value(pair[1]) - value(pair[0])).abs()).collect();
             let (least, most) = gaps.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &gap| (a.min(gap), b.max(gap)));
@@ -54,7 +55,7 @@ impl Run<'_> {
     }
 
     fn chart(&self, title: &str, y: Axis, curves: Vec<Curve>) -> Chart {
-        let loads = self.steps.iter().map(|step| step.mean_pressure);
+        let loads = self.steps.iter().map(|step| step.reading.mean_pressure);
         let last = loads.clone().fold(0.0, f64::max);
         let first = if self.logarithmic() { loads.fold(f64::INFINITY, f64::min) } else { 0.0 };
         let (first, last) = if self.logarithmic() { (first / 1.1, last * 1.1) } else { (first, 1.03 * last) };
@@ -62,18 +63,20 @@ impl Run<'_> {
         Chart { title: title.to_owned(), caption: Vec::new(), x, y, curves }
     }
 
-    fn curve(&self, label: &str, colour: usize, value: impl Fn(&Step) -> f64) -> Curve {
-        let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.mean_pressure, value(step)]).collect();
+    fn curve(&self, label: &str, colour: usize, value: impl Fn(&StepRecord) -> f64) -> Curve {
+        let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.reading.mean_pressure, value(step)]).collect();
         // Markers show the steps where they are few.
         let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
         Curve { label: label.to_owned(), points, style, colour }
     }
 
     /// One curve a level; where it has no value, or no contact, there is no curve.
-    fn by_level(&self, value: impl Fn(&Level) -> Option<f64>) -> Vec<Curve> {
-        let touching = |level: &Level| if level.load > 0.0 { value(level) } else { None };
+    fn by_level(&self, value: impl Fn(&LevelReading) -> Option<f64>) -> Vec<Curve> {
+        let touching = |level: &LevelReading| if level.load > 0.0 { value(level) } else { None };
         let of = |level: usize| {
-            self.curve(&format!("level {level}"), level, |step| touching(&step.levels[level - 1]).unwrap_or(f64::NAN))
+            self.curve(&format!("level {level}"), level, |step| {
+                touching(&step.reading.levels[level - 1]).unwrap_or(f64::NAN)
+            })
         };
         (1..=self.levels).map(of).collect()
     }
@@ -81,8 +84,8 @@ impl Run<'_> {
     fn peak_pressure(&self) -> Chart {
         let label = self.units.pressure("peak pressure", "p");
         let curves = match self.levels {
-            0 => vec![self.curve("", 1, |step| step.max_pressure.unwrap_or(f64::NAN))],
-            _ => self.by_level(|level| level.max_pressure),
+            0 => vec![self.curve("", 1, |step| step.reading.finite_peak().unwrap_or(f64::NAN))],
+            _ => self.by_level(LevelReading::finite_peak),
         };
         self.chart("peak pressure", self.axis(label), curves)
     }
@@ -90,7 +93,7 @@ impl Run<'_> {
     fn extent(&self) -> Chart {
         match self.levels {
             0 => {
-                let curve = self.curve("", 1, |step| step.contact_fraction);
+                let curve = self.curve("", 1, |step| step.reading.contact_fraction);
                 self.chart("contact area", self.axis("fraction of the cell in contact".into()), vec![curve])
             }
             _ => {
@@ -102,7 +105,7 @@ impl Run<'_> {
 
     fn penetration(&self) -> Chart {
         let label = self.units.length("additional displacement", "δ");
-        let curve = self.curve("", 0, |step| step.penetration);
+        let curve = self.curve("", 0, |step| step.reading.penetration);
         self.chart("additional displacement", self.axis(label), vec![curve])
     }
 
@@ -136,12 +139,12 @@ impl Run<'_> {
             self.chart(
                 "principal shear stress",
                 self.axis(tau1),
-                curves(&|extremes| extremes.max_tau1.value.unwrap_or(f64::NAN)),
+                curves(&|extremes| extremes.tau1.finite().unwrap_or(f64::NAN)),
             ),
             self.chart(
                 "tension",
                 Axis::linear(tension),
-                curves(&|extremes| extremes.max_tension.value.unwrap_or(f64::NAN)),
+                curves(&|extremes| extremes.tension.finite().unwrap_or(f64::NAN)),
             ),
         ]
     }

@@ -5,7 +5,7 @@
 //!
 //! - Any curves: [`Chart`], and [`Figure`] for several side by side.
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
-//! - Its stresses under a line ([`Cut`]): [`section`](section()), [`lines`](lines()).
+//! - Its stresses under a line ([`Section`](crate::stress::Section)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()).
 //! - Localized against spectral: [`comparison`](comparison()).
 
@@ -17,7 +17,6 @@ mod comparison;
 mod contact;
 pub(crate) mod contour;
 mod curve;
-mod cut;
 mod frame;
 mod legend;
 mod lines;
@@ -26,6 +25,7 @@ mod map;
 mod pressure;
 mod profiles;
 mod raster;
+mod rows;
 mod section;
 mod sheet;
 mod snapshot;
@@ -40,7 +40,6 @@ pub use chart::{Chart, Figure};
 pub use comparison::comparison;
 pub use contact::contact;
 pub use curve::{Curve, Style};
-pub use cut::Cut;
 pub use lines::lines;
 pub use load_curves::load_curves;
 pub use pressure::pressure;

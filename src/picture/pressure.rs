@@ -10,7 +10,7 @@ use super::tiling::{Window, cell_corners, images, window};
 
 /// The picture; white is where there is no contact.
 pub fn pressure(snapshot: &Snapshot) -> Canvas {
-    let window = window(snapshot.grid.cell());
+    let window = window(snapshot.grid().cell());
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.max_pressure();
     let bar = Bar {
@@ -50,7 +50,7 @@ pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
 /// The unit cell's outline between the contacts.
 pub fn unit_cell(snapshot: &Snapshot) -> Vec<Over> {
     const STEPS: u32 = 400;
-    let corners = cell_corners(snapshot.grid.cell());
+    let corners = cell_corners(snapshot.grid().cell());
     let mut lines = Vec::new();
     for k in 0..4 {
         let (from, to) = (corners[k], corners[(k + 1) % 4]);
@@ -75,8 +75,8 @@ pub fn numbers(snapshot: &Snapshot, window: Window, colour: impl Fn([f64; 2]) ->
     let [[x0, x1], [y0, y1]] = window;
     let border = 0.02 * (x1 - x0).min(y1 - y0);
     let inner = [[x0 + border, x1 - border], [y0 + border, y1 - border]];
-    let cell = snapshot.grid.cell();
-    let sites = snapshot.texture.sites.iter();
+    let cell = snapshot.grid().cell();
+    let sites = snapshot.surface().sites().iter();
     let places = sites.flat_map(|site| images(cell, site.place, inner).into_iter().map(|at| (site.level, at)));
     places.map(|(level, at)| Over::Word { word: level.to_string(), at, colour: colour(at) }).collect()
 }

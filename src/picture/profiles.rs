@@ -62,14 +62,14 @@ struct Profile {
 /// Points on either side of the axis.
 const POINTS: u32 = 240;
 
-impl Snapshot<'_> {
+impl Snapshot {
     fn profile(&self, level: usize) -> Option<Profile> {
         let site = self.site_of(level)?;
-        let centre = self.grid.cell().point(self.texture.sites[site].place);
-        if self.boundaries[site].is_none() && self.pressure_squared(centre) <= 0.0 {
+        let centre = self.grid().cell().point(self.surface().sites()[site].place);
+        if self.boundaries()[site].is_none() && self.pressure_squared(centre) <= 0.0 {
             return None;
         }
-        let (direction, [left, right]) = match &self.boundaries[site] {
+        let (direction, [left, right]) = match &self.boundaries()[site] {
             Some(boundary) => {
                 let ends = |theta: f64| [boundary.radius(theta + PI), boundary.radius(theta)];
                 // Of equal extents the first one.
@@ -84,14 +84,14 @@ impl Snapshot<'_> {
             }
             // Merged: halfway to the nearest equal indenter.
             None => {
-                let [x, y] = self.grid.cell().reduced().short();
+                let [x, y] = self.grid().cell().reduced().short();
                 (y.atan2(x), [0.5 * x.hypot(y); 2])
             }
         };
         let (sin, cos) = direction.sin_cos();
         let squared = |s: f64| self.pressure_squared([centre[0] + s * cos, centre[1] + s * sin]);
         // Between the outermost samples and the edge the square of the pressure falls evenly to zero.
-        let rim = if self.boundaries[site].is_some() { 1.5 * self.grid.spacing() } else { 0.0 };
+        let rim = if self.boundaries()[site].is_some() { 1.5 * self.grid().spacing() } else { 0.0 };
         let at = |s: f64| {
             let (end, sign) = if s < 0.0 { (left, -1.0) } else { (right, 1.0) };
             let inside = end - s.abs();
@@ -109,6 +109,6 @@ impl Snapshot<'_> {
 
     /// Square of the pressure between the samples: near the edge it is almost linear, as the pressure is not.
     fn pressure_squared(&self, place: [f64; 2]) -> f64 {
-        around(self.grid, place).iter().map(|&(index, weight)| weight * self.pressure[index].powi(2)).sum()
+        around(self.grid(), place).iter().map(|&(index, weight)| weight * self.pressures()[index].powi(2)).sum()
     }
 }

@@ -4,20 +4,22 @@ use super::axis::Axis;
 use super::canvas::{Canvas, Dash};
 use super::colour::{Colour, ColourMap};
 use super::contour::zero_line;
-use super::cut::{Cut, Largest, Quantity};
 use super::map::{Bar, Fill, Map, Over};
+use super::rows::{Largest, Quantity};
 use super::sheet::sheet;
 use super::snapshot::{Snapshot, equals};
+use crate::stress::Section;
+use ndarray::Array2;
 
 /// Height over width of a cut that is not shown to scale, least and largest.
 const ASPECT: [f64; 2] = [0.4, 1.1];
 
 /// The picture.
-pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
-    let values = [Quantity::Along, Quantity::Tau1].map(|quantity| cut.values(quantity));
+pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
+    let values = [Quantity::Along, Quantity::Tau1].map(|quantity| section.values(quantity));
     let [along, tau1] = [0, 1].map(|k| {
         let values = &values[k];
-        move |[s, z]: [f64; 2]| cut.at(values, s, z)
+        move |[s, z]: [f64; 2]| section.at(values, s, z)
     });
     let spans = [0, 1].map(|k| span(&values[k]));
     let bars = [
@@ -28,8 +30,8 @@ pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
             span: [0.0, spans[1][1].max(f64::MIN_POSITIVE)],
         },
     ];
-    let depth = cut.depths.last().map_or(1.0, |depth| depth.z);
-    let [first, last] = cut.line.span;
+    let depth = section.depths.last().map_or(1.0, |depth| depth.z);
+    let [first, last] = section.line.span;
     let scale = depth / (last - first);
     let aspect = scale.clamp(ASPECT[0], ASPECT[1]);
     let axes = || {
@@ -41,9 +43,9 @@ pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
     let interfaces = |colour: Colour| {
         let line =
             move |z: f64| Over::Line { points: vec![[first, z], [last, z]], width: 0.9, dash: Dash::Dashed, colour };
-        cut.interfaces().into_iter().map(line)
+        section.interfaces().into_iter().map(line)
     };
-    let places = [Quantity::Along, Quantity::Tau1].map(|quantity| cut.largest(quantity));
+    let places = [Quantity::Along, Quantity::Tau1].map(|quantity| section.largest(quantity));
     let mark = |largest: Option<Largest>, colour: Colour| {
         largest.map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour })
     };
@@ -59,19 +61,19 @@ pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
         })
         .collect();
     over.extend(interfaces(Colour::BLACK));
-    over.extend(contacts(snapshot, cut));
+    over.extend(contacts(snapshot, section));
     over.extend(mark(places[0], Colour::BLACK));
     let fill = Fill::Values(bar_along, &along);
     let first_map = Map { title: "(a) stress along the section σₛ".into(), x, y, aspect, fill, over };
     let [x, y] = axes();
     let mut over: Vec<Over> = interfaces(Colour::WHITE).collect();
-    over.extend(contacts(snapshot, cut));
+    over.extend(contacts(snapshot, section));
     over.extend(mark(places[1], Colour::WHITE));
     let fill = Fill::Values(bar_tau1, &tau1);
     let second_map = Map { title: "(b) principal shear stress τ₁".into(), x, y, aspect, fill, over };
 
     let mut caption = snapshot.caption();
-    let [dx, dy] = cut.line.direction;
+    let [dx, dy] = section.line.direction;
     let to_scale = if aspect == scale { "" } else { " Depth is stretched." };
     caption.push(format!(
         "Section along {:.0}° from the x axis; dashed: interface; bars on top: contacts; thin line in (a): {}.{to_scale}",
@@ -91,8 +93,8 @@ pub fn section(snapshot: &Snapshot, cut: &Cut) -> Canvas {
 }
 
 /// Least and largest value, with zero.
-fn span(values: &[Vec<f64>]) -> [f64; 2] {
-    values.iter().flatten().fold([0.0, 0.0], |[low, high], &x| [x.min(low), x.max(high)])
+fn span(values: &Array2<f64>) -> [f64; 2] {
+    values.iter().fold([0.0, 0.0], |[low, high], &x| [x.min(low), x.max(high)])
 }
 
 /// Three digits, as a picture can show.
@@ -101,11 +103,11 @@ fn rounded(x: f64) -> f64 {
 }
 
 /// The contacts along the cut, as bars on the surface.
-fn contacts(snapshot: &Snapshot, cut: &Cut) -> Vec<Over> {
-    let [first, last] = cut.line.span;
-    let length = cut.line.direction[0].hypot(cut.line.direction[1]);
+fn contacts(snapshot: &Snapshot, section: &Section) -> Vec<Over> {
+    let [first, last] = section.line.span;
+    let length = section.line.direction[0].hypot(section.line.direction[1]);
     let touches = |s: f64| {
-        let place = [0, 1].map(|k| cut.line.origin[k] + s * cut.line.direction[k] / length);
+        let place = [0, 1].map(|k| section.line.origin[k] + s * section.line.direction[k] / length);
         snapshot.pressure_at(place).is_some()
     };
     const STEPS: u32 = 800;

@@ -2,96 +2,94 @@
 
 use super::axis::{power, signed};
 use super::units::{Units, lowered, period, substrate_index};
-use crate::grid::Grid;
-use crate::hierarchy::{Hierarchy, Solution};
-use crate::indenter::{Level, Shape, drops};
-use crate::material::{HalfSpace, Interface};
-use crate::observables::{Boundary, Observables};
-use crate::texture::{Surface, Texture};
+use crate::body::{HalfSpace, Interface};
+use crate::counterbody::{Counterbody, Indenters, Level, Shape, Surface};
+use crate::lattice::Grid;
+use crate::problem::Problem;
+use crate::reading::{Boundary, Reading};
+use crate::spectral::Step;
 
 /// One load step.
 #[derive(Debug, Clone)]
-pub struct Snapshot<'a> {
+pub struct Snapshot {
     /// Title of the case.
-    pub title: &'a str,
-    /// The counterbody.
-    pub surface: &'a Surface,
-    /// Coating and substrate.
-    pub half_space: &'a HalfSpace,
-    /// The finest grid.
-    pub grid: &'a Grid,
-    /// The counterbody's surface on it.
-    pub texture: &'a Texture,
-    /// Pressure, one value per sample, a₂ fastest.
-    pub pressure: &'a [f64],
-    /// Mean pressure p̄.
-    pub mean_pressure: f64,
-    /// Penetration δ, a length.
-    pub penetration: f64,
-    /// Per site, the boundary of its contact where it has one; empty for a topography.
-    pub boundaries: &'a [Option<Boundary>],
+    pub title: String,
+    /// The step.
+    pub step: Step,
+    /// What is read off it.
+    pub reading: Reading,
     /// What lengths and pressures are measured in.
     pub units: Units,
 }
 
-impl<'a> Snapshot<'a> {
-    /// The load step that `hierarchy` solved last, and what was observed of it.
-    pub fn new(
-        title: &'a str,
-        surface: &'a Surface,
-        half_space: &'a HalfSpace,
-        hierarchy: &'a Hierarchy,
-        solution: &'a Solution,
-        observables: &'a Observables,
-    ) -> Self {
-        Self {
-            title,
-            surface,
-            half_space,
-            grid: hierarchy.grid(),
-            texture: hierarchy.texture(),
-            pressure: &solution.pressure,
-            mean_pressure: observables.mean_pressure,
-            penetration: solution.penetration,
-            boundaries: &observables.boundaries,
-            units: Units::of(surface, half_space),
-        }
+impl Snapshot {
+    /// A step and what is read off it.
+    pub fn new(title: &str, step: Step, reading: Reading) -> Self {
+        let units = Units::of(step.problem());
+        Self { title: title.to_owned(), step, reading, units }
+    }
+
+    /// What is pressed into what.
+    pub fn problem(&self) -> &Problem {
+        self.step.problem()
+    }
+
+    /// The finest grid.
+    pub fn grid(&self) -> &Grid {
+        self.step.grid()
+    }
+
+    /// The counterbody's surface on it.
+    pub fn surface(&self) -> &Surface {
+        self.step.surface()
+    }
+
+    /// Pressure sample by sample, a₂ fastest.
+    pub fn pressures(&self) -> &[f64] {
+        self.step.finest().pressures()
+    }
+
+    /// Per site, the boundary of its contact where it has one; empty for a topography.
+    pub fn boundaries(&self) -> &[Option<Boundary>] {
+        &self.reading.boundaries
     }
 
     /// Number of levels; 0 for a topography.
     pub fn levels(&self) -> usize {
-        self.surface.levels()
+        self.problem().counterbody().levels().len()
     }
 
     /// Index of the first site of a level (from 1).
     pub fn site_of(&self, level: usize) -> Option<usize> {
-        self.texture.sites.iter().position(|site| site.level == level)
+        self.surface().site_of(level)
     }
 
     /// Largest sample of the pressure.
     pub fn max_pressure(&self) -> f64 {
-        self.pressure.iter().copied().fold(0.0, f64::max)
+        self.pressures().iter().copied().fold(0.0, f64::max)
     }
 
     /// Caption: the title, the case's parameters and the load.
     pub fn caption(&self) -> Vec<String> {
-        let [n1, n2] = self.grid.points();
+        let [n1, n2] = self.grid().points();
         let load = [
-            equals(&self.units.pressure_symbol("p̄"), &[self.mean_pressure]),
-            equals(&self.units.length_symbol("δ"), &[self.penetration]),
+            equals(&self.units.pressure_symbol("p̄"), &[self.reading.mean_pressure]),
+            equals(&self.units.length_symbol("δ"), &[self.step.penetration()]),
         ];
         let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");
-        caption(self.title, self.surface, self.half_space, &[load.join(", "), samples])
+        caption(&self.title, self.problem(), &[load.join(", "), samples])
     }
 }
 
 /// Title and parameters of a case, then what else is to be said about it.
-pub fn caption(title: &str, surface: &Surface, half_space: &HalfSpace, more: &[String]) -> Vec<String> {
-    let units = Units::of(surface, half_space);
+pub fn caption(title: &str, problem: &Problem, more: &[String]) -> Vec<String> {
+    let units = Units::of(problem);
     let title = title.trim_end_matches('.');
     let title = (!title.is_empty()).then(|| format!("{title}."));
-    let parts =
-        [materials(half_space, &units)].into_iter().chain(geometry(surface, &units)).chain(more.iter().cloned());
+    let parts = [materials(problem.half_space(), &units)]
+        .into_iter()
+        .chain(geometry(problem.counterbody(), &units))
+        .chain(more.iter().cloned());
     title.into_iter().chain([format!("{}.", parts.collect::<Vec<_>>().join("; "))]).collect()
 }
 
@@ -130,12 +128,12 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
     parts.join(if single { ", " } else { "; " })
 }
 
-fn geometry(surface: &Surface, units: &Units) -> Option<String> {
-    let Surface::Indenters { levels, .. } = surface else { return None };
+fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
+    let levels = counterbody.indenters()?.levels();
     let mut parts = Vec::new();
     let l = units.length_symbol("l");
     if l != "l/l" {
-        parts.extend(period(surface).map(|period| equals(&l, &[period])));
+        parts.extend(period(counterbody).map(|period| equals(&l, &[period])));
     }
     let radius = |level: &Level| match level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
@@ -158,7 +156,7 @@ fn geometry(surface: &Surface, units: &Units) -> Option<String> {
     if levels.len() > 1 {
         let symbol = units.length_symbol("(h₁ − hₘ)");
         let bare = symbol.strip_suffix(')').and_then(|symbol| symbol.strip_prefix('(')).unwrap_or(&symbol);
-        parts.push(equals(bare, &drops(levels)[1..]));
+        parts.push(equals(bare, &counterbody.indenters().map(Indenters::drops)?[1..]));
     }
     Some(parts.join(", "))
 }

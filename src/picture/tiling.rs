@@ -1,8 +1,8 @@
 //! The cell repeated over a window of the surface, true to scale.
 
 use super::snapshot::Snapshot;
-use crate::grid::Grid;
 use crate::lattice::Cell;
+use crate::lattice::Grid;
 
 /// A rectangle of the surface, [first, last] along x and along y; lengths.
 pub type Window = [[f64; 2]; 2];
@@ -62,28 +62,28 @@ pub fn around(grid: &Grid, place: [f64; 2]) -> [(usize, f64); 4] {
     ]
 }
 
-impl Snapshot<'_> {
+impl Snapshot {
     /// Pressure at a place; `None` outside contact. Between samples on both sides of the edge the fitted boundary
     /// decides, or where there is none the nearer samples.
     pub fn pressure_at(&self, place: [f64; 2]) -> Option<f64> {
         let (mut weight, mut sum, mut touching, mut site) = (0.0, 0.0, 0, None);
-        for (index, part) in around(self.grid, place) {
-            let p = self.pressure[index];
+        for (index, part) in around(self.grid(), place) {
+            let p = self.pressures()[index];
             if p > 0.0 {
                 weight += part;
                 sum += part * p;
                 touching += 1;
-                site = self.texture.owner.get(index).copied();
+                site = self.surface().owners().get(index).copied();
             }
         }
         if touching == 0 {
             return None;
         }
         let is_inside =
-            match site.map(|site| site as usize).and_then(|site| Some((site, self.boundaries[site].as_ref()?))) {
+            match site.map(|site| site as usize).and_then(|site| Some((site, self.boundaries()[site].as_ref()?))) {
                 Some((site, boundary)) if touching < 4 => {
-                    let cell = self.grid.cell();
-                    let (s, t) = (cell.fractions(place), self.texture.sites[site].place);
+                    let cell = self.grid().cell();
+                    let (s, t) = (cell.fractions(place), self.surface().sites()[site].place);
                     let [x, y] = cell.reduced().nearest([s[0] - t[0], s[1] - t[1]]);
                     (boundary.hole_radius(y.atan2(x))..boundary.radius(y.atan2(x))).contains(&x.hypot(y))
                 }

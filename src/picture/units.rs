@@ -4,9 +4,9 @@
 //! p/E₂ as in the paper; where the lattice period or the first level's radius is 1, lengths are relative to that.
 //! Otherwise the axes say "unit of E" and "unit of length".
 
-use crate::indenter::Shape;
-use crate::material::HalfSpace;
-use crate::texture::Surface;
+use crate::body::HalfSpace;
+use crate::counterbody::{Counterbody, Level, Shape};
+use crate::problem::Problem;
 
 /// Units of lengths and pressures.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,15 +17,13 @@ pub struct Units {
 
 impl Units {
     /// Units of a case.
-    pub fn of(surface: &Surface, half_space: &HalfSpace) -> Self {
+    pub fn of(problem: &Problem) -> Self {
+        let (counterbody, half_space) = (problem.counterbody(), problem.half_space());
         let is_one = |x: f64| (x - 1.0).abs() < 1e-9;
-        let length = match surface {
-            Surface::Indenters { .. } if period(surface).is_some_and(is_one) => Some("l"),
-            Surface::Indenters { levels, .. } => match levels[0].shape() {
-                Shape::Paraboloid { radius } | Shape::Sphere { radius } if is_one(radius) => Some("r₁"),
-                _ => None,
-            },
-            Surface::Heights { .. } => None,
+        let length = match counterbody.levels().first().map(Level::shape) {
+            Some(_) if period(counterbody).is_some_and(is_one) => Some("l"),
+            Some(Shape::Paraboloid { radius } | Shape::Sphere { radius }) if is_one(radius) => Some("r₁"),
+            _ => None,
         };
         let pressure = is_one(half_space.substrate().young()).then(|| format!("E{}", substrate_index(half_space)));
         Self { length: length.map(str::to_owned), pressure }
@@ -74,8 +72,8 @@ pub fn lowered(number: usize) -> String {
 }
 
 /// Lattice period l: the least distance of two indenters, whatever their level.
-pub fn period(surface: &Surface) -> Option<f64> {
-    let Surface::Indenters { lattice, .. } = surface else { return None };
+pub fn period(counterbody: &Counterbody) -> Option<f64> {
+    let lattice = counterbody.indenters()?.lattice();
     let levels = 1..=lattice.sites().len();
     let places = lattice.sites().iter().flatten();
     let distances = places.flat_map(|&place| levels.clone().map(move |level| lattice.toward(place, level)));
@@ -85,21 +83,22 @@ pub fn period(surface: &Surface) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::indenter::Level;
+    use crate::body::Material;
+    use crate::counterbody::Indenters;
     use crate::lattice::Lattice;
-    use crate::material::Material;
 
     #[test]
     fn relative_units_are_recognised() {
-        let surface = |period: f64, radius: f64| Surface::Indenters {
-            lattice: Lattice::hexagonal(period, 3).unwrap(),
-            levels: vec![Level::new(Shape::Paraboloid { radius }, 0.0).unwrap(); 3],
+        let units = |period: f64, radius: f64, young: f64| {
+            let levels = vec![Level::new(Shape::Paraboloid { radius }, 0.0).unwrap(); 3];
+            let indenters = Indenters::new(Lattice::hexagonal(period, 3).unwrap(), levels).unwrap();
+            let half_space = HalfSpace::new(vec![], Material::from_young(young, 0.3).unwrap());
+            Units::of(&Problem::new(indenters, half_space))
         };
-        let half_space = |young: f64| HalfSpace::new(vec![], Material::from_young(young, 0.3).unwrap());
-        assert_eq!(Units::of(&surface(1.0, 0.8), &half_space(1.0)).length("radius", "a"), "radius a/l");
-        assert_eq!(Units::of(&surface(0.6, 1.0), &half_space(1.0)).length("", "x"), "x/r₁");
-        assert_eq!(Units::of(&surface(0.6, 1.0), &half_space(1.0)).pressure("pressure", "p"), "pressure p/E");
-        let metres = Units::of(&surface(2e-5, 8e-5), &half_space(2.1e11));
+        assert_eq!(units(1.0, 0.8, 1.0).length("radius", "a"), "radius a/l");
+        assert_eq!(units(0.6, 1.0, 1.0).length("", "x"), "x/r₁");
+        assert_eq!(units(0.6, 1.0, 1.0).pressure("pressure", "p"), "pressure p/E");
+        let metres = units(2e-5, 8e-5, 2.1e11);
         assert_eq!(metres.length("", "x"), "x\u{a0}(unit\u{a0}of\u{a0}length)");
         assert_eq!(metres.pressure("pressure", "p"), "pressure p\u{a0}(unit\u{a0}of\u{a0}E)");
     }

@@ -1,45 +1,36 @@
 //! The stress field under a solved contact: planes and points.
 
-use super::mean::MeanStress;
+use super::regions::Regions;
 use super::spectrum::{Spectrum, Wave};
-use super::spots::Spots;
 use super::tensor::State;
-use crate::fourier::Fourier;
-use crate::grid::Grid;
-use crate::layered::{Amplitudes, Interior, TransferFunction};
-use crate::material::{HalfSpace, Interface};
-use crate::number::number;
+use crate::body::{Amplitudes, Depth, HalfSpace, Interface, Interior, MeanStress, TransferFunction};
+use crate::lattice::{Grid, ShapeError};
+use crate::numeric::array::field;
+use crate::numeric::number::number;
+use crate::spectral::Contact;
+use crate::spectral::fourier::Fourier;
+use ndarray::{Array2, Array3, ArrayView2};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::fmt;
+use std::sync::Arc;
 
 /// Largest qz of a wave that still counts: its stresses are below e^{−60} of the pressure.
 pub(super) const REACH: f64 = 60.0;
 /// Waves summed at a time; fixed, so that sums do not depend on the number of threads.
 pub(super) const BLOCK: usize = 4096;
 
-/// A depth in one material.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Depth {
-    /// Depth z ≥ 0 below the surface, a length.
-    pub z: f64,
-    /// Material, from 1; the substrate is layers + 1.
-    pub side: usize,
-}
-
 /// The stress field of one load step.
 #[derive(Debug)]
-pub struct Field {
+pub struct StressField {
     pub(super) spectrum: Spectrum,
-    grid: Grid,
+    grid: Arc<Grid>,
     half_space: HalfSpace,
     transfer: TransferFunction,
-    /// Depths of the upper faces of all materials.
-    tops: Vec<f64>,
     /// State under the mean pressure at the upper face of each material, and the slope of u_z there.
     mean: Vec<(State, f64)>,
     mean_stress: MeanStress,
-    pub(super) spots: Spots,
+    pub(super) regions: Regions,
 }
 
 /// The states on a plane of constant depth.
@@ -47,41 +38,65 @@ pub struct Field {
 pub struct Plane {
     /// Where.
     pub depth: Depth,
-    /// Samples [n₁, n₂] along a₁ and a₂.
-    pub points: [usize; 2],
-    /// xx, yy, zz, xy, xz, yz, then u_x, u_y, u_z: one value per sample each, a₂ fastest.
-    pub components: [Vec<f64>; 9],
+    /// Axis 0: xx, yy, zz, xy, xz, yz, then u_x, u_y, u_z; axes 1 and 2 along a₁ and a₂.
+    pub components: Array3<f64>,
 }
 
 impl Plane {
-    /// The state at the sample `index`.
-    pub fn state(&self, index: usize) -> State {
-        State::from_components(self.components.each_ref().map(|component| component[index]))
+    /// Samples [n₁, n₂] along a₁ and a₂.
+    pub fn points(&self) -> [usize; 2] {
+        let (_, n1, n2) = self.components.dim();
+        [n1, n2]
+    }
+
+    /// The state at the sample [i, j].
+    pub fn state(&self, [i, j]: [usize; 2]) -> State {
+        State::from_components(std::array::from_fn(|c| self.components[[c, i, j]]))
+    }
+
+    /// The states of all samples, axes along a₁ and a₂.
+    pub fn states(&self) -> Array2<State> {
+        Array2::from_shape_fn(self.points(), |(i, j)| self.state([i, j]))
     }
 }
 
-impl Field {
-    /// Field under `pressure` (one value per sample of `grid`) on `half_space`.
-    pub fn new(grid: &Grid, pressure: &[f64], half_space: &HalfSpace, mean: MeanStress) -> Self {
+impl StressField {
+    /// Under a solved contact.
+    pub fn new(contact: &Contact, mean: MeanStress) -> Self {
+        Self::of_samples(contact.grid(), contact.pressures(), contact.problem().half_space(), mean)
+    }
+
+    /// Under any `pressure` on a `half_space`; axes along a₁ and a₂.
+    ///
+    /// # Errors
+    /// [`ShapeError`] unless the pressure has one value per sample of the grid.
+    pub fn under(
+        grid: &Arc<Grid>,
+        pressure: ArrayView2<'_, f64>,
+        half_space: &HalfSpace,
+        mean: MeanStress,
+    ) -> Result<Self, ShapeError> {
+        grid.check(pressure.dim().into())?;
+        let samples: Vec<f64> = pressure.iter().copied().collect();
+        Ok(Self::of_samples(grid, &samples, half_space, mean))
+    }
+
+    fn of_samples(grid: &Arc<Grid>, pressure: &[f64], half_space: &HalfSpace, mean: MeanStress) -> Self {
         let spectrum = Spectrum::new(grid, pressure);
-        let faces = half_space.interface_depths();
-        let tops = std::iter::once(0.0).chain(faces).collect();
-        let states = mean_states(half_space, mean, spectrum.mean);
         Self {
-            spectrum,
-            grid: grid.clone(),
+            grid: Arc::clone(grid),
             half_space: half_space.clone(),
             transfer: TransferFunction::new(half_space),
-            tops,
-            mean: states,
+            mean: mean_states(half_space, mean, spectrum.mean),
             mean_stress: mean,
-            spots: Spots::new(grid, pressure),
+            regions: Regions::new(grid, pressure),
+            spectrum,
         }
     }
 
-    /// The field under another pressure, on the same half-space.
-    pub fn under(&self, grid: &Grid, pressure: &[f64]) -> Self {
-        Self::new(grid, pressure, &self.half_space, self.mean_stress)
+    /// What it lies in.
+    pub fn half_space(&self) -> &HalfSpace {
+        &self.half_space
     }
 
     /// Poisson's ratio ν of the material at the surface.
@@ -89,34 +104,28 @@ impl Field {
         self.half_space.surface_material().poisson()
     }
 
-    /// The depth `z` in its material, or, on an interface, in both: above, then below.
-    pub fn depths(&self, z: f64) -> Vec<Depth> {
-        self.half_space.sides(z).map(|side| Depth { z, side }).collect()
-    }
-
-    /// Depth of the upper face of material `side`, and of its lower face (infinite for the substrate).
-    pub fn faces(&self, side: usize) -> (f64, f64) {
-        (self.tops[side - 1], self.tops.get(side).copied().unwrap_or(f64::INFINITY))
+    /// What the mean lateral stress is.
+    pub fn mean_stress(&self) -> MeanStress {
+        self.mean_stress
     }
 
     /// Number of materials, layers + 1.
-    pub fn materials(&self) -> usize {
-        self.tops.len()
+    pub(super) fn materials(&self) -> usize {
+        self.half_space.layers().len() + 1
     }
 
     /// The grid of the pressure.
-    pub fn grid(&self) -> &Grid {
+    pub fn grid(&self) -> &Arc<Grid> {
         &self.grid
     }
 
     /// Amplitudes of the shells with qz up to `reach`; the waves of all of them come first.
     pub(super) fn amplitudes(&self, depth: Depth, reach: f64) -> Vec<Amplitudes> {
         let count = self.spectrum.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
-        let below = depth.z - self.tops[depth.side - 1];
         self.spectrum.shells[..count]
             .par_iter()
             .with_min_len(256)
-            .map(|&q| Interior::new(&self.transfer, q).at(depth.side, below.max(0.0)))
+            .map(|&q| Interior::new(&self.transfer, q).at(depth))
             .collect()
     }
 
@@ -127,8 +136,8 @@ impl Field {
 
     /// The state that the mean pressure causes at a depth.
     pub(super) fn mean(&self, depth: Depth) -> State {
-        let (mut state, slope) = self.mean[depth.side - 1];
-        state.displacement[2] += slope * (depth.z - self.tops[depth.side - 1]);
+        let (mut state, slope) = self.mean[depth.material - 1];
+        state.displacement[2] += slope * (depth.z - self.half_space.faces(depth.material).0);
         state
     }
 
@@ -177,11 +186,12 @@ impl Field {
             .filter(|wave| !coarser || (0..2).all(|k| 2 * wave.index[k].unsigned_abs() < points[k] as u32))
             .collect();
         let mean = self.mean(depth).components();
-        let component = |c: usize| {
+        let mut all = Array3::zeros([mean.len(), points[0], points[1]]);
+        for (c, mut component) in all.outer_iter_mut().enumerate() {
             let value = |wave: &Wave| components(wave, &amplitudes[wave.shell as usize], wave.coefficient)[c];
-            self.synthesised(&waves, points, mean[c], value)
-        };
-        Plane { depth, points, components: std::array::from_fn(component) }
+            component.assign(&field(points, self.synthesised(&waves, points, mean[c], value)));
+        }
+        Plane { depth, components: all }
     }
 
     /// mean + Re Σ value(wave) e^{iq·x} at [n₁, n₂] `points` of the cell, a₂ fastest.
@@ -240,10 +250,9 @@ pub(super) fn components(wave: &Wave, amplitudes: &Amplitudes, value: Complex64)
 /// u_z is measured from the mean plane of the deformed surface; lateral displacements under a lateral mean strain are
 /// left out.
 fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64) -> Vec<(State, f64)> {
-    let materials = half_space.layers().iter().map(|layer| layer.material()).chain([half_space.substrate()]);
     let mut uz = 0.0;
     let mut states = Vec::new();
-    for (index, (material, lateral)) in materials.zip(mean.lateral(half_space)).enumerate() {
+    for (index, (material, lateral)) in half_space.materials().zip(mean.lateral(half_space)).enumerate() {
         let lateral = pressure * lateral;
         let slope = (-pressure - 2.0 * material.poisson() * lateral) / material.young();
         let state = State { xx: lateral, yy: lateral, zz: -pressure, displacement: [0.0, 0.0, uz], ..State::default() };
@@ -258,7 +267,7 @@ fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64) -> Vec<(
     states
 }
 
-impl fmt::Display for Field {
+impl fmt::Display for StressField {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,

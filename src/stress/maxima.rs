@@ -9,30 +9,24 @@
 //! On the surface itself, and within two samples of it, the series converges slowly. There the samples of the pressure's
 //! own grid are taken as they are, but the largest tension on the surface is that of its [`Crest`].
 
-use super::field::{Depth, Field, Plane};
+use super::field::{Plane, StressField};
+use super::peak::Peak;
 use super::surface::Crest;
 use super::tensor::State;
-use crate::fourier::fast_points;
-
-/// A largest value and where it stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peak {
-    /// The value, a pressure.
-    pub value: f64,
-    /// x, y, z; lengths.
-    pub position: [f64; 3],
-    /// Material, from 1; the substrate is layers + 1.
-    pub side: usize,
-    /// Direction along which σ₁ acts there, a unit vector: a crack opens across it.
-    pub direction: [f64; 3],
-}
+use crate::body::Depth;
+use crate::numeric::search::golden_maximum;
+use crate::spectral::fourier::fast_points;
+use ndarray::Array2;
 
 /// Maxima over a material or a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Extremes {
     /// Largest principal shear stress τ₁.
+    #[cfg_attr(feature = "serde", serde(rename = "max_tau1"))]
     pub tau1: Peak,
     /// Largest principal stress σ₁; negative where nothing is in tension.
+    #[cfg_attr(feature = "serde", serde(rename = "max_tension"))]
     pub tension: Peak,
 }
 
@@ -88,7 +82,7 @@ impl Maxima {
         let all = self.materials.iter().map(quantity);
         // There is always a substrate.
         let none =
-            Peak { value: f64::NEG_INFINITY, position: [0.0; 3], side: self.materials.len(), direction: [0.0; 3] };
+            Peak { value: f64::NEG_INFINITY, position: [0.0; 3], material: self.materials.len(), direction: [0.0; 3] };
         all.fold(none, |best, peak| if peak.value > best.value { peak } else { best })
     }
 }
@@ -107,6 +101,9 @@ const RATIO: f64 = 1.35;
 const REACH: f64 = 25.0;
 /// Planes leave out waves with qz beyond this.
 const PLANE_REACH: f64 = 10.0;
+
+/// Relative accuracy of a depth.
+const DEPTH_TOLERANCE: f64 = 2e-3;
 
 /// A quantity to be maximised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,22 +131,22 @@ struct Candidate {
     step: f64,
 }
 
-impl Field {
+impl StressField {
     /// Maxima over all materials and faces. `radii`: the smallest and the largest contact radius (or half the width of
     /// a contact), lengths.
     pub fn maxima(&self, radii: [f64; 2]) -> Maxima {
         let mut faces = Vec::new();
         let mut materials = Vec::new();
         let crest = self.crest();
-        for side in 1..=self.materials() {
-            let depths = self.search_depths(side, radii);
+        for material in 1..=self.materials() {
+            let depths = self.search_depths(material, radii);
             let mut candidates: Vec<[Candidate; 2]> =
-                depths.iter().map(|&z| self.candidates(Depth { z, side }, radii[0])).collect();
-            let crest = crest.filter(|_| side == 1);
+                depths.iter().map(|&z| self.candidates(Depth { z, material }, radii[0])).collect();
+            let crest = crest.filter(|_| material == 1);
             if let Some(crest) = crest {
                 candidates[0][Quantity::Tension as usize].value = crest.peak.value;
             }
-            let (top, bottom) = self.faces(side);
+            let (top, bottom) = self.half_space().faces(material);
             let peaks =
                 |index: usize, quantity: Quantity| self.face_peak(&candidates[index][quantity as usize], quantity);
             let face = |index: usize| Extremes {
@@ -182,13 +179,13 @@ impl Field {
             materials.push(Extremes { tau1: best(Quantity::Tau1), tension: best(Quantity::Tension) });
             faces.extend(own);
         }
-        let (resolution, spacing) = (self.spots.least_resolution(), self.grid().spacing());
+        let (resolution, spacing) = (self.regions.least_resolution(), self.grid().spacing());
         Maxima { materials, faces, crest, resolution, spacing }
     }
 
     /// Depths at which planes are searched, ascending, faces first and last.
-    fn search_depths(&self, side: usize, [small, large]: [f64; 2]) -> Vec<f64> {
-        let (top, bottom) = self.faces(side);
+    fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
+        let (top, bottom) = self.half_space().faces(material);
         let least = 0.1 * small;
         // Below some six radii and a few coating thicknesses stresses only fall.
         let reach = 6.0 * large + 3.0 * top;
@@ -222,7 +219,7 @@ impl Field {
             if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
         });
         let plane = self.plane(depth, points);
-        let states: Vec<State> = (0..points[0] * points[1]).map(|index| plane.state(index)).collect();
+        let states = plane.states();
         [Quantity::Tau1, Quantity::Tension].map(|quantity| best_sample(&plane, &states, quantity, self, steps))
     }
 
@@ -265,7 +262,12 @@ impl Field {
     fn peak(&self, candidate: &Candidate) -> Peak {
         let [x, y] = candidate.place;
         let direction = self.points_within(candidate.depth, &[[x, y]], REACH)[0].s1_direction();
-        Peak { value: candidate.value, position: [x, y, candidate.depth.z], side: candidate.depth.side, direction }
+        Peak {
+            value: candidate.value,
+            position: [x, y, candidate.depth.z],
+            material: candidate.depth.material,
+            direction,
+        }
     }
 
     /// Moves a candidate to the top of the paraboloid through 3 × 3 points around it, with smaller and smaller steps.
@@ -300,33 +302,24 @@ impl Field {
 
     /// Moves a candidate in depth within [low, high] by golden sections.
     fn vertically(&self, candidate: &Candidate, quantity: Quantity, [low, high]: [f64; 2]) -> Candidate {
-        let side = candidate.depth.side;
-        let value = |z: f64| quantity.of(&self.points_within(Depth { z, side }, &[candidate.place], REACH)[0]);
-        let golden = 0.5 * (5f64.sqrt() - 1.0);
-        let (mut a, mut b) = (low, high);
-        let (mut c, mut d) = (b - golden * (b - a), a + golden * (b - a));
-        let (mut at_c, mut at_d) = (value(c), value(d));
-        while b - a > 2e-3 * b {
-            if at_c > at_d {
-                (b, d, at_d) = (d, c, at_c);
-                c = b - golden * (b - a);
-                at_c = value(c);
-            } else {
-                (a, c, at_c) = (c, d, at_d);
-                d = a + golden * (b - a);
-                at_d = value(d);
-            }
-        }
-        let (z, found) = if at_c > at_d { (c, at_c) } else { (d, at_d) };
+        let material = candidate.depth.material;
+        let value = |z: f64| quantity.of(&self.points_within(Depth { z, material }, &[candidate.place], REACH)[0]);
+        let [z, found] = golden_maximum([low, high], DEPTH_TOLERANCE, value);
         if found > candidate.value {
-            Candidate { value: found, depth: Depth { z, side }, ..*candidate }
+            Candidate { value: found, depth: Depth { z, material }, ..*candidate }
         } else {
             *candidate
         }
     }
 }
 
-fn best_sample(plane: &Plane, states: &[State], quantity: Quantity, field: &Field, steps: [f64; 2]) -> Candidate {
+fn best_sample(
+    plane: &Plane,
+    states: &Array2<State>,
+    quantity: Quantity,
+    field: &StressField,
+    steps: [f64; 2],
+) -> Candidate {
     let mut best = (f64::NEG_INFINITY, 0);
     for (index, state) in states.iter().enumerate() {
         let value = quantity.of(state);
@@ -335,8 +328,8 @@ fn best_sample(plane: &Plane, states: &[State], quantity: Quantity, field: &Fiel
             best = (value, index);
         }
     }
-    let [n1, n2] = plane.points;
+    let [n1, n2] = plane.points();
     let place = field.grid().cell().point([(best.1 / n2) as f64 / n1 as f64, (best.1 % n2) as f64 / n2 as f64]);
-    let scale = [0, 1].map(|k| steps[k] * field.grid().points()[k] as f64 / plane.points[k] as f64);
+    let scale = [0, 1].map(|k| steps[k] * field.grid().points()[k] as f64 / [n1, n2][k] as f64);
     Candidate { value: best.0, depth: plane.depth, place, step: 0.5 * scale[0].min(scale[1]) }
 }

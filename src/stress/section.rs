@@ -8,10 +8,13 @@
 //! On the surface the stresses are those of [`super::surface`]: a line meets edges between the samples, where the series
 //! itself overshoots. Just below it, where the series still does, stresses are interpolated in depth.
 
-use super::field::{Depth, Field, REACH, components};
+use super::field::{REACH, StressField, components};
 use super::spectrum::Wave;
 use super::surface::{OPEN, Skin};
 use super::tensor::State;
+use crate::body::Depth;
+use crate::numeric::array::field;
+use ndarray::Array2;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
@@ -54,10 +57,24 @@ impl Line {
 /// the waves.
 const FEW_SHARE: usize = 4;
 
+/// The states on a vertical section.
+#[derive(Debug, Clone)]
+pub struct Section {
+    /// The line on the surface.
+    pub line: Line,
+    /// Depths of its rows; one on an interface stands twice, once for each side.
+    pub depths: Vec<Depth>,
+    /// Axis 0: rows, as `depths`; axis 1: points of the line.
+    pub states: Array2<State>,
+    /// s on the surface where the normal stress along the line is largest, between the points, and that stress; `None`
+    /// unless the first row is the surface.
+    pub highest: Option<[f64; 2]>,
+}
+
 /// A field along a line: its waves by their wavenumbers there. Sections and the highest place are read off it.
 #[derive(Debug)]
-pub struct Trace<'a> {
-    field: &'a Field,
+struct Trace<'a> {
+    field: &'a StressField,
     line: Line,
     /// Wavenumbers κ along the line, ascending.
     wavenumbers: Vec<f64>,
@@ -67,38 +84,26 @@ pub struct Trace<'a> {
     skin: Option<Skin<'a>>,
 }
 
-impl Field {
-    /// The field along a line, for one section or several.
-    pub fn trace(&self, line: &Line) -> Trace<'_> {
-        Trace::new(self, *line)
-    }
-
+impl StressField {
     /// States on a vertical section: for each depth those at the points of the line.
-    pub fn section(&self, line: &Line, depths: &[Depth]) -> Vec<Vec<State>> {
-        self.trace(line).section(depths)
-    }
-
-    /// Rows of a section down to `depth`, `rows` equal intervals of it; both sides of each interface are among them.
-    pub fn section_depths(&self, depth: f64, rows: usize) -> Vec<Depth> {
-        let mut depths: Vec<f64> = (0..=rows).map(|row| row as f64 * depth / rows as f64).collect();
-        let faces = (2..=self.materials()).map(|side| self.faces(side).0);
-        depths.extend(faces.filter(|&face| face <= depth));
-        depths.sort_by(f64::total_cmp);
-        // A row that is an interface but for rounding is that interface.
-        depths.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * depth);
-        depths.into_iter().flat_map(|z| self.depths(z)).collect()
+    pub fn section(&self, line: &Line, depths: &[Depth]) -> Section {
+        let trace = Trace::new(self, *line);
+        let rows = trace.rows(depths);
+        let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| trace.highest(surface));
+        let states = field([depths.len(), line.points], rows.into_iter().flatten().collect());
+        Section { line: *line, depths: depths.to_vec(), states, highest }
     }
 
     /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
     /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
     fn shallow(&self) -> f64 {
-        let depth = if self.spots.have_edges() { 0.5 * OPEN * OPEN / self.least_aliased() } else { 0.0 };
-        depth.min(self.faces(1).1)
+        let depth = if self.regions.have_edges() { 0.5 * OPEN * OPEN / self.least_aliased() } else { 0.0 };
+        depth.min(self.half_space().faces(1).1)
     }
 }
 
 impl<'a> Trace<'a> {
-    fn new(field: &'a Field, line: Line) -> Self {
+    fn new(field: &'a StressField, line: Line) -> Self {
         let [dx, dy] = line.unit();
         let all = &field.spectrum.waves;
         let along: Vec<f64> = all.iter().map(|wave| wave.q[0] * dx + wave.q[1] * dy).collect();
@@ -117,16 +122,16 @@ impl<'a> Trace<'a> {
             let coefficient = wave.coefficient * Complex64::cis(phase);
             waves[number as usize] = (wavenumbers.len() as u32 - 1, coefficient);
         }
-        let skin = field.spots.have_edges().then(|| Skin::new(field, 1.0));
+        let skin = field.regions.have_edges().then(|| Skin::new(field, 1.0));
         Self { field, line, wavenumbers, waves, skin }
     }
 
     /// States on the vertical section below the line: for each depth those at its points.
-    pub fn section(&self, depths: &[Depth]) -> Vec<Vec<State>> {
+    fn rows(&self, depths: &[Depth]) -> Vec<Vec<State>> {
         let shallow = self.field.shallow();
-        let between = |depth: &Depth| depth.side == 1 && depth.z > 0.0 && depth.z < shallow;
+        let between = |depth: &Depth| depth.material == 1 && depth.z > 0.0 && depth.z < shallow;
         let ends =
-            depths.iter().any(between).then(|| [0.0, shallow].map(|z| self.row(&self.line, Depth { z, side: 1 })));
+            depths.iter().any(between).then(|| [0.0, shallow].map(|z| self.row(&self.line, Depth { z, material: 1 })));
         let row = |depth: &Depth| {
             let own = self.row(&self.line, *depth);
             match &ends {
@@ -143,7 +148,7 @@ impl<'a> Trace<'a> {
 
     /// Where on the surface the normal stress along the line is largest, between its points: s and the stress.
     /// `surface` holds the states at the points.
-    pub fn highest(&self, surface: &[State]) -> Option<[f64; 2]> {
+    fn highest(&self, surface: &[State]) -> Option<[f64; 2]> {
         let line = self.line;
         let stress = |state: &State| state.along(line.direction);
         let best = (0..surface.len()).max_by(|&a, &b| stress(&surface[a]).total_cmp(&stress(&surface[b])))?;
@@ -154,7 +159,7 @@ impl<'a> Trace<'a> {
             let [s, _] = highest;
             let span = [(s - half).max(line.span[0]), (s + half).min(line.span[1])];
             let finer = Line { span, points: 17, ..line };
-            let states = self.row(&finer, Depth { z: 0.0, side: 1 });
+            let states = self.row(&finer, Depth::SURFACE);
             for (s, state) in finer.distances().into_iter().zip(&states) {
                 if stress(state) > highest[1] {
                     highest = [s, stress(state)];

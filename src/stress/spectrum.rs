@@ -5,8 +5,8 @@
 //! and the symmetry of the lattice is kept. Waves of equal wavenumber form a **shell**; the half-space's amplitudes
 //! depend on the shell and the depth alone.
 
-use crate::fourier::Fourier;
-use crate::grid::Grid;
+use crate::lattice::Grid;
+use crate::spectral::fourier::Fourier;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 

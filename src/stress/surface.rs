@@ -15,12 +15,13 @@
 //! itself, smoothed to the fourth order with e^{−OPEN²/2} of the shortest waves.
 
 use super::edge::Edge;
-use super::field::{BLOCK, Depth, Field, REACH, components};
-use super::maxima::Peak;
+use super::field::{BLOCK, REACH, StressField, components};
+use super::peak::Peak;
 use super::spectrum::Wave;
 use super::tensor::State;
+use crate::body::Amplitudes;
+use crate::body::Depth;
 use crate::lattice::Cell;
-use crate::layered::Amplitudes;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
@@ -49,7 +50,7 @@ pub(super) type Smooth = [f64; 11];
 /// The surface of a field, smoothed.
 #[derive(Debug)]
 pub(super) struct Skin<'a> {
-    field: &'a Field,
+    field: &'a StressField,
     depth: Depth,
     amplitudes: Vec<Amplitudes>,
     /// Per shell: the Gaussian near edges, both factors of the stresses.
@@ -81,10 +82,10 @@ impl Crest {
 
 impl<'a> Skin<'a> {
     /// With `scale` times the usual widths.
-    pub fn new(field: &'a Field, scale: f64) -> Self {
-        let depth = Depth { z: 0.0, side: 1 };
+    pub fn new(field: &'a StressField, scale: f64) -> Self {
+        let depth = Depth::SURFACE;
         let most = field.least_aliased();
-        let growth = (field.spots.least_resolution() / 12.0).max(1.0).powf(0.4);
+        let growth = (field.regions.least_resolution() / 12.0).max(1.0).powf(0.4);
         let [edge, open] = [EDGE * growth, OPEN].map(|c| scale * c / most);
         let factors = field.spectrum.shells.iter().map(|&q| {
             let gaussian = (-0.5 * q * q * edge * edge).exp();
@@ -233,7 +234,7 @@ enum Place {
     Edge,
 }
 
-impl Field {
+impl StressField {
     /// Least wavenumber that the grid cannot hold in all directions, 1/length.
     pub(super) fn least_aliased(&self) -> f64 {
         let [b1, b2] = self.grid().cell().reciprocal();
@@ -246,8 +247,8 @@ impl Field {
     /// The largest tension on the surface; `None` where there is no edge: contact is complete, or nowhere.
     pub fn crest(&self) -> Option<Crest> {
         let points = self.grid().points();
-        let spots = &self.spots;
-        if !spots.have_edges() {
+        let regions = &self.regions;
+        if !regions.have_edges() {
             return None;
         }
         let skin = Skin::new(self, 1.0);
@@ -258,9 +259,9 @@ impl Field {
 
         // Edges beside the samples where contact ends: the tension, the place, and the resolution of the less resolved
         // of the spot and the open place beside it.
-        let edges = (0..spots.of.len()).filter(|&index| spots.touches(index)).filter_map(|index| {
-            let open = self.grid().neighbours(index).filter(|&next| !spots.touches(next));
-            let resolution = open.map(|next| spots.resolution(next)).reduce(f64::min)?.min(spots.resolution(index));
+        let edges = (0..regions.of.len()).filter(|&index| regions.touches(index)).filter_map(|index| {
+            let open = self.grid().neighbours(index).filter(|&next| !regions.touches(next));
+            let resolution = open.map(|next| regions.resolution(next)).reduce(f64::min)?.min(regions.resolution(index));
             let (mut here, mut smooth, mut u) = (place(index), at(index), 0.0);
             for _ in 0..3 {
                 (here, u) = skin.moved(here, &smooth);
@@ -272,7 +273,7 @@ impl Field {
         edges.sort_by(|a, b| b.0.total_cmp(&a.0));
 
         let open = |index: usize| skin.state(&at(index)).s1();
-        let highest = (0..spots.of.len()).map(|index| (open(index), index)).reduce(|best, next| {
+        let highest = (0..regions.of.len()).map(|index| (open(index), index)).reduce(|best, next| {
             // Equal values, to rounding, of symmetric places: the first one.
             if next.0 > best.0 + 1e-12 * next.0.abs() { next } else { best }
         })?;
@@ -291,7 +292,7 @@ impl Field {
         };
         let few = edges.iter().map(few).fold(0.0, f64::max);
         let direction = state.s1_direction();
-        let peak = Peak { value, position: [place[0], place[1], 0.0], side: 1, direction };
+        let peak = Peak { value, position: [place[0], place[1], 0.0], material: 1, direction };
         Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })
     }
 }

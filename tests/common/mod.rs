@@ -1,13 +1,10 @@
 //! Cases that several tests share.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
-use percoat::hierarchy::{Hierarchy, Solution};
-use percoat::indenter::{Level, Shape};
-use percoat::lattice::Lattice;
-use percoat::material::{HalfSpace, Interface, Layer, Material};
-use percoat::observables::{Observables, observe};
-use percoat::solver::{Control, Settings};
-use percoat::texture::Surface;
+use percoat::{
+    HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Reading, Settings, Shape, Solver,
+    Step,
+};
 
 /// Parameters of one of the paper's three-level cases, in units of l and E₂.
 #[derive(Debug, Clone, Copy)]
@@ -63,8 +60,12 @@ pub const PAPER: [Paper; 5] = [
 ];
 
 impl Paper {
-    pub fn surface(&self) -> Surface {
-        Surface::Indenters { lattice: Lattice::hexagonal(1.0, 3).unwrap(), levels: self.levels() }
+    pub fn problem(&self) -> Problem {
+        Problem::new(self.indenters(), self.half_space())
+    }
+
+    pub fn indenters(&self) -> Indenters {
+        Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), self.levels()).unwrap()
     }
 
     pub fn levels(&self) -> Vec<Level> {
@@ -88,35 +89,29 @@ pub fn coated(chi: f64, thickness: f64, poisson: [f64; 2], interface: Interface)
     HalfSpace::new(vec![Layer::new(coating, thickness, interface).unwrap()], substrate)
 }
 
+/// Indenters of one level, one in the cell.
+pub fn one_level(lattice: Lattice, level: Level) -> Indenters {
+    Indenters::new(lattice, vec![level]).unwrap()
+}
+
 /// Solves one step with the default settings.
-pub fn solve(
-    surface: &Surface,
-    half_space: &HalfSpace,
-    points: [usize; 2],
-    control: Control,
-) -> (Hierarchy, Solution, Observables) {
-    solve_with(surface, half_space, points, control, Settings::default())
+pub fn solve(problem: &Problem, points: [usize; 2], load: Load) -> (Step, Reading) {
+    solve_with(problem, points, load, Settings::default())
 }
 
 /// Solves one step.
-pub fn solve_with(
-    surface: &Surface,
-    half_space: &HalfSpace,
-    points: [usize; 2],
-    control: Control,
-    settings: Settings,
-) -> (Hierarchy, Solution, Observables) {
-    let mut hierarchy = Hierarchy::new(surface, half_space, points, settings).unwrap();
-    let solution = hierarchy.solve(control, &mut |_| ());
-    let observables = observe(&hierarchy, &solution);
-    (hierarchy, solution, observables)
+pub fn solve_with(problem: &Problem, points: [usize; 2], load: Load, settings: Settings) -> (Step, Reading) {
+    let step = Solver::new(problem.clone(), points, settings).unwrap().solve(load);
+    let reading = Reading::of(step.finest());
+    (step, reading)
 }
 
 /// Largest difference over the largest value of the second field.
-pub fn relative_difference(a: &[f64], b: &[f64]) -> f64 {
+pub fn relative_difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator<Item = &'a f64>) -> f64 {
+    let [a, b]: [Vec<&f64>; 2] = [a.into_iter().collect(), b.into_iter().collect()];
     let scale = b.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     assert_eq!(a.len(), b.len());
-    a.iter().zip(b).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs())) / scale
+    a.iter().zip(b).fold(0.0, |m: f64, (x, y)| m.max((*x - y).abs())) / scale
 }
 
 /// A generator of reproducible numbers (xorshift).

@@ -1,30 +1,28 @@
 //! Contacts of single indenters and of levels.
 
-use crate::common::{PAPER, coated, paraboloid, solve};
+use crate::common::{PAPER, coated, one_level, paraboloid, solve};
 use crate::{alone, homogeneous, setup, two_layers};
-use percoat::lattice::Lattice;
 use percoat::localized::{Localized, Stop};
-use percoat::material::{HalfSpace, Interface};
-use percoat::solver::Control;
+use percoat::{HalfSpace, Interface, Lattice, Load};
 use std::f64::consts::PI;
 
 fn single(half_space: &HalfSpace) -> Localized {
-    Localized::new(&Lattice::hexagonal(10.0, 1).unwrap(), &[paraboloid(1.0, 0.0)], half_space, 1)
+    Localized::new(&one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(1.0, 0.0)), half_space, 1)
 }
 
 /// a = (3PR/4E*)^{1/3}, δ = a²/R, p₀ = 2E*a/(πR), whatever the size of the contact in the cell; errors fall with the
 /// element size.
 #[test]
 fn an_indenter_alone_on_a_half_space_obeys_hertz() {
-    let system = single(&homogeneous());
+    let localized = single(&homogeneous());
     for a in [0.01, 1.0] {
         let error = |elements| {
             let load = 4.0 / 3.0 * f64::powi(a, 3);
-            let solution = system.solve(Control::MeanPressure(load / system.cell_area()), &alone(elements));
+            let solution = localized.solve(Load::MeanPressure(load / localized.system().cell_area()), &alone(elements));
             assert_eq!(solution.stop, Stop::Converged);
-            let found = system.observe(&solution)[0];
+            let found = &solution.levels()[0];
             assert!((found.load / load - 1.0).abs() < 1e-8);
-            [solution.penetration / (a * a), found.max_pressure * PI / (2.0 * a), found.contact_radius / a]
+            [solution.penetration / (a * a), found.max_pressure * PI / (2.0 * a), found.contact_radius.unwrap() / a]
                 .map(|ratio| (ratio - 1.0).abs())
         };
         let (coarse, fine) = (error(16), error(64));
@@ -38,15 +36,16 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
 /// Hertz with E₁* of the coating, whatever the load: the lattice and the layer are far away.
 #[test]
 fn tiny_loads_have_hertzian_contacts() {
-    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &PAPER[0].half_space(), 7);
+    let localized = Localized::new(&PAPER[0].indenters(), &PAPER[0].half_space(), 7);
     for pressure in [1e-7, 1e-9, 1e-12] {
-        let solution = system.solve(Control::MeanPressure(pressure), &setup(7, 24));
+        let solution = localized.solve(Load::MeanPressure(pressure), &setup(7, 24));
         assert_eq!(solution.stop, Stop::Converged);
-        let found = system.observe(&solution)[0];
-        let a = (0.6 * pressure * system.cell_area() / system.contact_modulus()).cbrt();
-        let p0 = 2.0 * system.contact_modulus() * a / (PI * 0.8);
-        println!("{pressure}: a {}, p₀ {}", found.contact_radius / a, found.max_pressure / p0);
-        assert!((found.contact_radius / a - 1.0).abs() < 2e-3 && (found.max_pressure / p0 - 1.0).abs() < 2e-3);
+        let found = &solution.levels()[0];
+        let a = (0.6 * pressure * localized.system().cell_area() / localized.system().contact_modulus()).cbrt();
+        let p0 = 2.0 * localized.system().contact_modulus() * a / (PI * 0.8);
+        let radius = found.contact_radius.unwrap();
+        println!("{pressure}: a {}, p₀ {}", radius / a, found.max_pressure / p0);
+        assert!((radius / a - 1.0).abs() < 2e-3 && (found.max_pressure / p0 - 1.0).abs() < 2e-3);
     }
 }
 
@@ -79,14 +78,14 @@ fn an_indenter_alone_on_a_coating_obeys_its_integral_equation() {
         ),
     ];
     for (chi, nu1, rows) in tables {
-        let system = single(&coated(chi, 1.0, [nu1, 0.3], Interface::Bonded));
+        let localized = single(&coated(chi, 1.0, [nu1, 0.3], Interface::Bonded));
         for [radius, load, penetration, peak] in rows {
-            let solution = system.solve(Control::MeanPressure(load / system.cell_area()), &alone(48));
-            let found = system.observe(&solution)[0];
+            let solution = localized.solve(Load::MeanPressure(load / localized.system().cell_area()), &alone(48));
+            let found = &solution.levels()[0];
             let pairs = [
                 (solution.penetration, penetration, 3e-4),
                 (found.max_pressure, peak, 3e-4),
-                (found.contact_radius, radius, 1e-3),
+                (found.contact_radius.unwrap(), radius, 1e-3),
             ];
             for (found, expected, tolerance) in pairs {
                 assert!((found / expected - 1.0).abs() < tolerance, "a/h {radius}: {found} against {expected}");
@@ -99,9 +98,9 @@ fn an_indenter_alone_on_a_coating_obeys_its_integral_equation() {
 #[test]
 fn levels_without_mutual_effect_share_the_load_of_isolated_laws() {
     let paper = PAPER[0];
-    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 1);
-    let solution = system.solve(Control::MeanPressure(paper.pressure), &alone(48));
-    for (found, expected) in system.observe(&solution).iter().zip([0.3964, 0.3791, 0.3607]) {
+    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 1);
+    let solution = localized.solve(Load::MeanPressure(paper.pressure), &alone(48));
+    for (found, expected) in solution.levels().iter().zip([0.3964, 0.3791, 0.3607]) {
         assert!((found.max_pressure - expected).abs() < 2e-4, "{found:?}");
     }
     assert!((solution.penetration - 0.10462).abs() < 2e-5);
@@ -110,10 +109,10 @@ fn levels_without_mutual_effect_share_the_load_of_isolated_laws() {
 #[test]
 fn the_penetration_found_under_a_load_gives_the_load_back() {
     let paper = PAPER[1];
-    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 37);
+    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 37);
     for setup in [setup(37, 24), alone(24)] {
-        let loaded = system.solve(Control::MeanPressure(paper.pressure), &setup);
-        let pressed = system.solve(Control::Penetration(loaded.penetration), &setup);
+        let loaded = localized.solve(Load::MeanPressure(paper.pressure), &setup);
+        let pressed = localized.solve(Load::Penetration(loaded.penetration), &setup);
         assert_eq!((loaded.stop, pressed.stop), (Stop::Converged, Stop::Converged));
         // The meshes differ in the last digits of the contact's size.
         assert!((pressed.mean_pressure / paper.pressure - 1.0).abs() < 1e-5, "{}", pressed.mean_pressure);
@@ -124,23 +123,23 @@ fn the_penetration_found_under_a_load_gives_the_load_back() {
 #[test]
 fn levels_come_into_contact_one_after_the_other() {
     let paper = PAPER[0];
-    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 37);
+    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 37);
     let touching = |pressure: f64| {
-        let solution = system.solve(Control::MeanPressure(pressure), &setup(37, 24));
+        let solution = localized.solve(Load::MeanPressure(pressure), &setup(37, 24));
         assert_eq!(solution.stop, Stop::Converged);
         solution.spots.iter().filter(|spot| spot.touches()).count()
     };
     assert_eq!([0.0009, 0.001, 0.0035, 0.0038].map(touching), [1, 2, 2, 3]);
-    let none = system.solve(Control::Penetration(-1e-3), &setup(37, 24));
+    let none = localized.solve(Load::Penetration(-1e-3), &setup(37, 24));
     assert!(none.spots.iter().all(|spot| !spot.touches()) && none.mean_pressure == 0.0);
 }
 
 #[test]
 fn the_additional_displacement_of_eq_8_is_the_penetration() {
     for half_space in [PAPER[0].half_space(), two_layers()] {
-        let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &half_space, 37);
-        let solution = system.solve(Control::MeanPressure(0.02), &setup(37, 24));
-        let additional = system.additional_displacement(&solution);
+        let localized = Localized::new(&PAPER[0].indenters(), &half_space, 37);
+        let solution = localized.solve(Load::MeanPressure(0.02), &setup(37, 24));
+        let additional = solution.additional_displacement();
         assert!((additional / solution.penetration - 1.0).abs() < 1e-6, "{additional} {}", solution.penetration);
     }
 }
@@ -148,31 +147,32 @@ fn the_additional_displacement_of_eq_8_is_the_penetration() {
 /// Far beyond complete contact: elements grow with the contact, their number does not.
 #[test]
 fn a_penetration_out_of_reach_comes_to_an_end() {
-    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &PAPER[0].levels(), &PAPER[0].half_space(), 7);
-    let solution = system.solve(Control::Penetration(0.1), &setup(7, 8));
+    let localized = Localized::new(&PAPER[0].indenters(), &PAPER[0].half_space(), 7);
+    let solution = localized.solve(Load::Penetration(0.1), &setup(7, 8));
     assert!(solution.stop != Stop::Converged && solution.stop != Stop::Rim);
     assert!(solution.spots[0].mesh.width < 30);
 }
 
 #[test]
 fn contacts_that_meet_are_reported() {
-    let system = Localized::new(&Lattice::hexagonal(1.0, 1).unwrap(), &[paraboloid(0.8, 0.0)], &homogeneous(), 7);
+    let indenters = one_level(Lattice::hexagonal(1.0, 1).unwrap(), paraboloid(0.8, 0.0));
+    let localized = Localized::new(&indenters, &homogeneous(), 7);
     // At p̄ = 0.4 E* spots are hexagons that fill nine tenths of the cell and still stand apart.
-    assert_eq!(system.solve(Control::MeanPressure(0.4), &setup(7, 24)).stop, Stop::Converged);
-    assert_eq!(system.solve(Control::MeanPressure(1.2), &setup(7, 24)).stop, Stop::Merged);
+    assert_eq!(localized.solve(Load::MeanPressure(0.4), &setup(7, 24)).stop, Stop::Converged);
+    assert_eq!(localized.solve(Load::MeanPressure(1.2), &setup(7, 24)).stop, Stop::Merged);
 }
 
 /// χ = 2, h/l = 0.5, ν 0.2/0.3, R = 0.8 l, steps 0.01 l, p̄ = 0.03.
 #[test]
 fn load_balanced_circles_need_few_indenters_and_area_balanced_ones_many() {
     let paper = PAPER[0];
-    let control = Control::MeanPressure(0.03);
-    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 451);
-    let (_, _, spectral) = solve(&paper.surface(), &paper.half_space(), [384, 384], control);
+    let load = Load::MeanPressure(0.03);
+    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 451);
+    let (_, spectral) = solve(&paper.problem(), [384, 384], load);
     let deviation = |setup| {
-        let solution = system.solve(control, &setup);
+        let solution = localized.solve(load, &setup);
         let mut largest = [0.0f64; 2];
-        for (own, reference) in system.observe(&solution).iter().zip(&spectral.levels) {
+        for (own, reference) in solution.levels().iter().zip(&spectral.levels) {
             largest[0] = largest[0].max((own.load_share - reference.load_share).abs());
             largest[1] = largest[1].max((own.max_pressure / reference.max_pressure - 1.0).abs());
         }

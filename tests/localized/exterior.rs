@@ -3,25 +3,22 @@
 
 use crate::common::{PAPER, coated, paraboloid, solve};
 use crate::{homogeneous, setup, two_layers};
-use percoat::lattice::{Cell, Lattice};
 use percoat::localized::exterior::Exterior;
 use percoat::localized::mesh::Mesh;
-use percoat::localized::{CircleRadius, Localized, Setup, Stop};
-use percoat::material::{HalfSpace, Interface};
-use percoat::solver::Control;
-use percoat::texture::Surface;
+use percoat::localized::{CircleRadius, Localized, Setup, Stop, System};
+use percoat::{Cell, HalfSpace, Indenters, Interface, Lattice, Load, Problem};
 use std::f64::consts::PI;
 
 /// Elements so small that forces on them are point forces.
 const POINTS: Mesh = Mesh { width: 3, size: 1e-6 };
 
-fn system(lattice: &Lattice, half_space: &HalfSpace) -> Localized {
-    let levels: Vec<_> = lattice.sites().iter().map(|_| paraboloid(0.8, 0.0)).collect();
-    Localized::new(lattice, &levels, half_space, 91)
+fn system(lattice: Lattice, half_space: &HalfSpace) -> System {
+    let levels = vec![paraboloid(0.8, 0.0); lattice.sites().len()];
+    System::new(&Indenters::new(lattice, levels).unwrap(), half_space, 91)
 }
 
 /// πE* times the displacement at `x` from site m by unit forces on all images of c, but for the force's own c/(2πr).
-fn images(system: &Localized, exterior: &Exterior, [m, c]: [usize; 2], x: [f64; 2]) -> f64 {
+fn images(system: &System, exterior: &Exterior, [m, c]: [usize; 2], x: [f64; 2]) -> f64 {
     let kernel = system.kernel();
     let mut sum = exterior.at(m, c, x) / kernel.factor();
     for [u, v] in &exterior.circles()[m].images[c] {
@@ -40,7 +37,7 @@ fn one_level_has_the_closed_lattice_sums_however_many_indenters_stand_inside() {
         (Lattice::square(1.0, 1), [-3.900264920001956, 9.03362168310095, 5.090258233665483, 4.423117787678166]),
     ];
     for (lattice, [s1, s3, s5, s7]) in sums {
-        let system = system(&lattice.unwrap(), &homogeneous());
+        let system = system(lattice.unwrap(), &homogeneous());
         for (indenters, size) in [(1, 1e-6), (7, 1e-6), (37, 1e-6), (91, 1e-6), (7, 0.1), (1, 0.2)] {
             let exterior = Exterior::new(&system, Mesh { width: 3, size }, indenters);
             let found = images(&system, &exterior, [0, 0], [0.0, 0.0]);
@@ -71,7 +68,7 @@ fn one_level_has_the_closed_lattice_sums_however_many_indenters_stand_inside() {
 /// Three equal sublattices: from an indenter's own images, and from each other level.
 #[test]
 fn three_levels_have_the_sums_of_their_sublattices() {
-    let system = system(&Lattice::hexagonal(1.0, 3).unwrap(), &homogeneous());
+    let system = system(Lattice::hexagonal(1.0, 3).unwrap(), &homogeneous());
     let exterior = Exterior::new(&system, POINTS, 7);
     for (m, c) in (0..3).flat_map(|m| (0..3).map(move |c| (m, c))) {
         let expected = if m == c { -2.432620693183306 } else { -0.8904009714768005 };
@@ -91,7 +88,7 @@ fn coatings_have_their_effective_sums() {
         (0.12, 5.0, 0.22, 18.55881237, -3.50052908),
     ] {
         let half_space = coated(chi, h, [nu, 0.3], Interface::Bonded);
-        let system = system(&Lattice::hexagonal(1.0, 3).unwrap(), &half_space);
+        let system = system(Lattice::hexagonal(1.0, 3).unwrap(), &half_space);
         for indenters in [1, 37] {
             let exterior = Exterior::new(&system, POINTS, indenters);
             for (c, expected) in [(0, own), (1, other), (2, other)] {
@@ -112,7 +109,7 @@ fn oblique_lattices_have_the_sum_over_their_images_one_by_one() {
     for half_space in [homogeneous(), coated(20.0, 0.05, [0.2, 0.3], Interface::Bonded), two_layers()] {
         let cell = Cell::new([1.0, 0.1], [2.3, 1.4]).unwrap();
         let lattice = Lattice::new(cell, vec![vec![[0.1, 0.2]], vec![[0.65, 0.3]]]).unwrap();
-        let system = system(&lattice, &half_space);
+        let system = system(lattice, &half_space);
         let kernel = percoat::localized::point::PointKernel::new(&half_space, end + 3.0);
         // Simpson's rule, in units of c/2π.
         let (steps, step) = (60_000, 1e-3);
@@ -144,24 +141,22 @@ fn oblique_lattices_have_the_sum_over_their_images_one_by_one() {
 fn levels_of_several_indenters_on_an_oblique_lattice_carry_their_own_loads_whatever_the_shell() {
     let cell = Cell::new([2.2, 0.1], [0.6, 1.9]).unwrap();
     let sites = vec![vec![[0.0, 0.0], [0.45, 0.1]], vec![[0.1, 0.45]], vec![[0.52, 0.62], [0.75, 0.35]]];
-    let lattice = Lattice::new(cell, sites).unwrap();
-    let levels = PAPER[0].levels();
+    let indenters = Indenters::new(Lattice::new(cell, sites).unwrap(), PAPER[0].levels()).unwrap();
     let half_space = coated(3.0, 0.2, [0.2, 0.3], Interface::Frictionless);
-    let control = Control::MeanPressure(0.02);
-    let surface = Surface::Indenters { lattice: lattice.clone(), levels: levels.clone() };
-    let (_, _, spectral) = solve(&surface, &half_space, [256, 256], control);
-    let system = Localized::new(&lattice, &levels, &half_space, 37);
-    for indenters in [1, 7, 37] {
-        let setup = Setup { radius: CircleRadius::LatticeSum, ..setup(indenters, 48) };
-        let solution = system.solve(control, &setup);
+    let load = Load::MeanPressure(0.02);
+    let localized = Localized::new(&indenters, &half_space, 37);
+    let (_, spectral) = solve(&Problem::new(indenters, half_space), [256, 256], load);
+    for inside in [1, 7, 37] {
+        let setup = Setup { radius: CircleRadius::LatticeSum, ..setup(inside, 48) };
+        let solution = localized.solve(load, &setup);
         assert_eq!(solution.stop, Stop::Converged);
-        for (found, expected) in system.observe(&solution).iter().zip(&spectral.levels) {
-            println!("{indenters}: {} {} {}", found.level, found.load, found.load / expected.load - 1.0);
+        for (found, expected) in solution.levels().iter().zip(&spectral.levels) {
+            println!("{inside}: {} {} {}", found.level, found.load, found.load / expected.load - 1.0);
             assert!((found.load / expected.load - 1.0).abs() < 1e-3);
             assert!((found.max_pressure / expected.max_pressure - 1.0).abs() < 1e-3);
         }
         assert!((solution.penetration / spectral.penetration - 1.0).abs() < 1e-3);
-        let additional = system.additional_displacement(&solution);
+        let additional = solution.additional_displacement();
         assert!((additional / solution.penetration - 1.0).abs() < 1e-6, "{additional} {}", solution.penetration);
     }
 }
@@ -169,10 +164,10 @@ fn levels_of_several_indenters_on_an_oblique_lattice_carry_their_own_loads_whate
 #[test]
 fn a_penetration_gives_the_load_back_that_led_to_it() {
     let paper = PAPER[1];
-    let system = Localized::new(&Lattice::hexagonal(1.0, 3).unwrap(), &paper.levels(), &paper.half_space(), 7);
+    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 7);
     let setup = Setup { radius: CircleRadius::LatticeSum, ..setup(7, 24) };
-    let loaded = system.solve(Control::MeanPressure(paper.pressure), &setup);
-    let pressed = system.solve(Control::Penetration(loaded.penetration), &setup);
+    let loaded = localized.solve(Load::MeanPressure(paper.pressure), &setup);
+    let pressed = localized.solve(Load::Penetration(loaded.penetration), &setup);
     assert_eq!((loaded.stop, pressed.stop), (Stop::Converged, Stop::Converged));
     // The meshes differ in the last digits of the contact's size.
     assert!((pressed.mean_pressure / paper.pressure - 1.0).abs() < 1e-5, "{}", pressed.mean_pressure);

@@ -1,0 +1,198 @@
+//! Coating layers and the half-space they form.
+
+use super::{Depth, Material, MaterialError};
+use crate::numeric::number::number;
+use std::fmt;
+use std::ops::RangeInclusive;
+
+/// How the lower face of a layer holds to what lies below it. Interfaces never open: tension is carried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Interface {
+    /// Perfect adhesion, Eq. (3): tractions and displacements continuous.
+    Bonded,
+    /// Complete sliding: no shear traction, normal displacement continuous.
+    Frictionless,
+    /// Incomplete sliding: the displacements jump by σ_qz/k_t and p/k_n. `f64::INFINITY` is rigid.
+    Spring {
+        /// Tangential stiffness k_t, a pressure per length.
+        tangential: f64,
+        /// Normal stiffness k_n, a pressure per length.
+        normal: f64,
+    },
+}
+
+impl fmt::Display for Interface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bonded => write!(f, "bonded"),
+            Self::Frictionless => write!(f, "frictionless"),
+            Self::Spring { tangential, normal } => {
+                let [tangential, normal] = [*tangential, *normal].map(number);
+                write!(f, "spring, tangential stiffness {tangential}, normal stiffness {normal}")
+            }
+        }
+    }
+}
+
+/// One layer of a coating.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layer {
+    material: Material,
+    thickness: f64,
+    interface: Interface,
+}
+
+impl Layer {
+    /// Layer of the given thickness (a length) with the given lower interface.
+    ///
+    /// # Errors
+    /// [`MaterialError`] for a thickness or a stiffness that is not positive.
+    pub fn new(material: Material, thickness: f64, interface: Interface) -> Result<Self, MaterialError> {
+        if !(thickness.is_finite() && thickness > 0.0) {
+            return Err(MaterialError::Thickness(thickness));
+        }
+        if let Interface::Spring { tangential, normal } = interface {
+            for stiffness in [tangential, normal] {
+                if stiffness.is_nan() || stiffness <= 0.0 {
+                    return Err(MaterialError::Stiffness(stiffness));
+                }
+            }
+        }
+        Ok(Self { material, thickness, interface })
+    }
+
+    /// Material of the layer.
+    pub fn material(&self) -> Material {
+        self.material
+    }
+
+    /// Thickness h, a length.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Interface at the layer's lower face.
+    pub fn interface(&self) -> Interface {
+        self.interface
+    }
+}
+
+/// A coated elastic half-space: layers from the surface down, then the substrate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HalfSpace {
+    layers: Vec<Layer>,
+    substrate: Material,
+}
+
+impl HalfSpace {
+    /// Half-space of `substrate` under `layers`, given from the surface down (none: uncoated).
+    pub fn new(layers: Vec<Layer>, substrate: Material) -> Self {
+        Self { layers, substrate }
+    }
+
+    /// Layers from the surface down.
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
+    /// Material of the substrate.
+    pub fn substrate(&self) -> Material {
+        self.substrate
+    }
+
+    /// Material at the surface: that of the first layer, or the substrate's.
+    pub fn surface_material(&self) -> Material {
+        self.layers.first().map_or(self.substrate, Layer::material)
+    }
+
+    /// All materials: those of the layers from the surface down, then the substrate.
+    pub fn materials(&self) -> impl Iterator<Item = Material> {
+        self.layers.iter().map(Layer::material).chain([self.substrate])
+    }
+
+    /// Depths of the interfaces from the surface down, lengths.
+    pub fn interface_depths(&self) -> Vec<f64> {
+        self.layers
+            .iter()
+            .scan(0.0, |depth, layer| {
+                *depth += layer.thickness;
+                Some(*depth)
+            })
+            .collect()
+    }
+
+    /// Depths of the upper and the lower face of a material (from 1), lengths; the lower one of the substrate is
+    /// infinite.
+    ///
+    /// # Panics
+    /// When there is no such material.
+    pub fn faces(&self, material: usize) -> (f64, f64) {
+        let below = |layers: &[Layer]| layers.iter().fold(0.0, |depth, layer| depth + layer.thickness);
+        let bottom = if material <= self.layers.len() { below(&self.layers[..material]) } else { f64::INFINITY };
+        (below(&self.layers[..material - 1]), bottom)
+    }
+
+    /// The depth z ≥ 0 in its material, or, on an interface, in both: above, then below.
+    pub fn depths(&self, z: f64) -> Vec<Depth> {
+        self.materials_at(z).map(|material| Depth { z, material }).collect()
+    }
+
+    /// Depths down to `depth` > 0, a length, by `rows` equal intervals; both sides of each interface are among them.
+    pub fn rows(&self, depth: f64, rows: usize) -> Vec<Depth> {
+        let mut depths: Vec<f64> = (0..=rows).map(|row| row as f64 * depth / rows as f64).collect();
+        depths.extend(self.interface_depths().into_iter().filter(|&face| face <= depth));
+        depths.sort_by(f64::total_cmp);
+        // A row that is an interface but for rounding is that interface.
+        depths.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * depth);
+        depths.into_iter().flat_map(|z| self.depths(z)).collect()
+    }
+
+    /// Materials (from 1; the substrate is layers + 1) that the depth z ≥ 0 belongs to: on an interface, to rounding,
+    /// both.
+    pub fn materials_at(&self, z: f64) -> RangeInclusive<usize> {
+        let faces = self.interface_depths();
+        let tolerance = 1e-12;
+        let above = faces.iter().filter(|&&face| face * (1.0 + tolerance) < z).count();
+        let below = faces.iter().filter(|&&face| face * (1.0 - tolerance) <= z).count();
+        above + 1..=below + 1
+    }
+}
+
+impl fmt::Display for HalfSpace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, layer) in (1..).zip(&self.layers) {
+            writeln!(
+                f,
+                "layer {index}: thickness {}, χ {}, {}, {}",
+                number(layer.thickness),
+                number(layer.material.shear() / self.substrate.shear()),
+                layer.material,
+                layer.interface
+            )?;
+        }
+        write!(f, "substrate: {}", self.substrate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_depth_on_an_interface_has_two_sides_whatever_the_rounding() {
+        let material = Material::from_shear(1.0, 0.3).unwrap();
+        let layers = [0.1, 0.2].map(|h| Layer::new(material, h, Interface::Bonded).unwrap());
+        let half_space = HalfSpace::new(layers.to_vec(), material);
+        let sides = [0.0, 0.1, 0.2, 0.3, 0.1 + 0.2, 5.0].map(|z| half_space.materials_at(z));
+        assert_eq!(sides, [1..=1, 1..=2, 2..=2, 2..=3, 2..=3, 3..=3]);
+    }
+
+    #[test]
+    fn values_out_of_range_are_refused() {
+        let material = Material::from_shear(1.0, 0.5).unwrap();
+        assert!(Layer::new(material, 0.0, Interface::Bonded).is_err());
+        let interface = Interface::Spring { tangential: 0.0, normal: f64::INFINITY };
+        assert_eq!(Layer::new(material, 1.0, interface), Err(MaterialError::Stiffness(0.0)));
+    }
+}

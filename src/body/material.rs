@@ -1,0 +1,103 @@
+//! Isotropic elastic materials.
+//!
+//! E* = E/(1 − ν²) = 2G/(1 − ν); χ = G₁/G₂ = E₁(1 + ν₂)/(E₂(1 + ν₁)).
+
+use crate::numeric::number::number;
+use std::fmt;
+
+/// Why a material or a layer cannot be built.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MaterialError {
+    /// Shear or Young's modulus not positive and finite.
+    #[error("a modulus must be positive and finite, not {0}")]
+    Modulus(f64),
+    /// Poisson's ratio outside [0, 0.5].
+    #[error("Poisson's ratio must lie between 0 and 0.5, not {0}")]
+    Poisson(f64),
+    /// Thickness not positive and finite.
+    #[error("the thickness of a layer must be positive and finite, not {0}")]
+    Thickness(f64),
+    /// Interface stiffness not positive.
+    #[error("the stiffness of an interface must be positive, not {0}")]
+    Stiffness(f64),
+}
+
+/// An isotropic linear elastic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    shear: f64,
+    poisson: f64,
+}
+
+impl Material {
+    /// Material with the shear modulus `shear` (a pressure) and Poisson's ratio `poisson` in [0, 0.5].
+    ///
+    /// # Errors
+    /// [`MaterialError`] for values out of range.
+    pub fn from_shear(shear: f64, poisson: f64) -> Result<Self, MaterialError> {
+        if !(shear.is_finite() && shear > 0.0) {
+            return Err(MaterialError::Modulus(shear));
+        }
+        if !(0.0..=0.5).contains(&poisson) {
+            return Err(MaterialError::Poisson(poisson));
+        }
+        Ok(Self { shear, poisson })
+    }
+
+    /// Material with Young's modulus `young` (a pressure) and Poisson's ratio `poisson` in [0, 0.5].
+    ///
+    /// # Errors
+    /// [`MaterialError`] for values out of range.
+    pub fn from_young(young: f64, poisson: f64) -> Result<Self, MaterialError> {
+        if !(young.is_finite() && young > 0.0) {
+            return Err(MaterialError::Modulus(young));
+        }
+        Self::from_shear(young / (2.0 * (1.0 + poisson)), poisson)
+    }
+
+    /// Shear modulus G, a pressure.
+    pub fn shear(&self) -> f64 {
+        self.shear
+    }
+
+    /// Poisson's ratio ν.
+    pub fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
+    /// Young's modulus E = 2G(1 + ν), a pressure.
+    pub fn young(&self) -> f64 {
+        2.0 * self.shear * (1.0 + self.poisson)
+    }
+
+    /// Contact modulus E* = 2G/(1 − ν), a pressure.
+    pub fn contact_modulus(&self) -> f64 {
+        2.0 * self.shear / (1.0 - self.poisson)
+    }
+}
+
+impl fmt::Display for Material {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [young, shear, contact] = [self.young(), self.shear, self.contact_modulus()].map(number);
+        write!(f, "E {young}, ν {}, G {shear}, E* {contact}", self.poisson)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moduli_agree_with_each_other() {
+        let steel = Material::from_young(210e9, 0.3).unwrap();
+        assert!((steel.young() / 210e9 - 1.0).abs() < 1e-15);
+        assert!((steel.contact_modulus() / (210e9 / 0.91) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn values_out_of_range_are_refused() {
+        assert_eq!(Material::from_young(-1.0, 0.3), Err(MaterialError::Modulus(-1.0)));
+        assert_eq!(Material::from_young(1.0, 0.51), Err(MaterialError::Poisson(0.51)));
+    }
+}

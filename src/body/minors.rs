@@ -1,0 +1,200 @@
+//! The plane of admissible states below a depth, by its 2 × 2 minors.
+//!
+//! Two independent solutions that decay into the substrate span a plane in the space of (U, w, t, p). The plane is
+//! known by its minors N = t∧p, A = U∧p, B = t∧U = w∧p, C = t∧w, D = U∧w (Betti's reciprocity makes the two readings of
+//! B equal), up to a common factor. Where t, p determine U, w, the surface compliances are A/N, B/N, C/N; where they do
+//! not (below a frictionless interface N = 0) the minors stay finite. Across a layer
+//!
+//! N′ = eA,  A′ = 2B + N,  B′ = C − rA,  C′ = eD − 2rB + mN,  D′ = C + mA   (′ = d/dζ, upwards)
+//!
+//! is a linear system **m**′ = Q**m** with Q⁵ = 4Q³, so that by Cayley–Hamilton
+//!
+//! exp(xQ) = 1 + xQ + ½x²Q² + s₃Q³ + s₄Q⁴,  s₃ = (sinh 2x − 2x)/8,  s₄ = (cosh 2x − 1 − 2x²)/16,
+//!
+//! five positive functions: no cancellation in thin layers, and e^{2x} is a common factor in thick ones.
+//! Source of the idea: J. W. Dunkin, Bull. Seismol. Soc. Am. 55, 335 (1965).
+
+use super::{Interface, Material};
+
+/// Distance, over the wavelength's 1/q, beyond which nothing is felt: e^{−800} is 0 in double precision. Thicker layers are
+/// taken to be as thick as this, so that exponents stay small and exact.
+pub(super) const EXTINCT: f64 = 800.0;
+
+/// Coefficients e, r, m of a material's plane-strain equations.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlaneStrain {
+    pub shear: f64,
+    pub poisson: f64,
+    /// e = 2/(1−ν), in-plane stiffness over G.
+    pub e: f64,
+    /// r = ν/(1−ν).
+    pub r: f64,
+    /// m = (1−2ν)/(2(1−ν)), uniaxial compliance times G.
+    pub m: f64,
+}
+
+impl PlaneStrain {
+    pub fn new(material: Material) -> Self {
+        let (shear, poisson) = (material.shear(), material.poisson());
+        let lateral = 1.0 - poisson;
+        Self { shear, poisson, e: 2.0 / lateral, r: poisson / lateral, m: (1.0 - 2.0 * poisson) / (2.0 * lateral) }
+    }
+}
+
+/// Minors of the plane of admissible states, displacements in units of 1/(Gq) of the material they stand in.
+/// The true minors are these times e^`exponent`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Minors {
+    pub n: f64,
+    pub a: f64,
+    pub b: f64,
+    pub c: f64,
+    pub d: f64,
+    pub exponent: f64,
+}
+
+impl Minors {
+    /// At the top of a homogeneous half-space: A/N = C/N = 1−ν, B/N = ½−ν, D/N = ¾−ν.
+    pub fn half_space(material: &PlaneStrain) -> Self {
+        let nu = material.poisson;
+        Self { n: 1.0, a: 1.0 - nu, b: 0.5 - nu, c: 1.0 - nu, d: 0.75 - nu, exponent: 0.0 }
+    }
+
+    /// The plane seen from above an interface, in the units of the layer above it (`wavenumber` q).
+    pub fn above(self, interface: Interface, below: &PlaneStrain, above: &PlaneStrain, wavenumber: f64) -> Self {
+        let ratio = above.shear / below.shear;
+        let scaled =
+            Self { a: ratio * self.a, b: ratio * self.b, c: ratio * self.c, d: ratio * ratio * self.d, ..self };
+        let Self { n, a, b, c, d, exponent } = scaled;
+        match interface {
+            Interface::Bonded => scaled,
+            Interface::Spring { tangential, normal } => {
+                let (slip, closure) = (above.shear * wavenumber / tangential, above.shear * wavenumber / normal);
+                Self {
+                    n,
+                    a: a + slip * n,
+                    b,
+                    c: c + closure * n,
+                    d: d + closure * a + slip * c + slip * closure * n,
+                    exponent,
+                }
+            }
+            // The spring with k_t → 0, divided by its slip: U is free and t = 0.
+            Interface::Frictionless => Self { n: 0.0, a: n, b: 0.0, c: 0.0, d: c, exponent },
+        }
+        .normalised()
+    }
+
+    /// The plane at a height `x` = q·(distance) ≥ 0 further up in the same material.
+    pub fn raised(self, material: &PlaneStrain, x: f64) -> Self {
+        let x = x.min(EXTINCT);
+        let (one, s1, s2, s3, s4) = exponential_coefficients(x);
+        let q1 = self.slope(material);
+        let q2 = q1.slope(material);
+        let q3 = q2.slope(material);
+        let q4 = q3.slope(material);
+        let sum = |m: f64, m1: f64, m2: f64, m3: f64, m4: f64| one * m + s1 * m1 + s2 * m2 + s3 * m3 + s4 * m4;
+        Self {
+            n: sum(self.n, q1.n, q2.n, q3.n, q4.n),
+            a: sum(self.a, q1.a, q2.a, q3.a, q4.a),
+            b: sum(self.b, q1.b, q2.b, q3.b, q4.b),
+            c: sum(self.c, q1.c, q2.c, q3.c, q4.c),
+            d: sum(self.d, q1.d, q2.d, q3.d, q4.d),
+            exponent: self.exponent + 2.0 * x,
+        }
+        .normalised()
+    }
+
+    /// Q**m**.
+    fn slope(&self, &PlaneStrain { e, r, m, .. }: &PlaneStrain) -> Self {
+        Self {
+            n: e * self.a,
+            a: 2.0 * self.b + self.n,
+            b: self.c - r * self.a,
+            c: e * self.d - 2.0 * r * self.b + m * self.n,
+            d: self.c + m * self.a,
+            exponent: self.exponent,
+        }
+    }
+
+    /// The same plane with minors of order one.
+    fn normalised(self) -> Self {
+        let Self { n, a, b, c, d, exponent } = self;
+        let scale = n.abs().max(a.abs()).max(b.abs()).max(c.abs()).max(d.abs());
+        Self { n: n / scale, a: a / scale, b: b / scale, c: c / scale, d: d / scale, exponent: exponent + scale.ln() }
+    }
+}
+
+/// e^{−2x} times 1, x, x²/2, s₃, s₄ of exp(xQ).
+fn exponential_coefficients(x: f64) -> (f64, f64, f64, f64, f64) {
+    let theta = (-2.0 * x).exp();
+    let (s3, s4) = if x < 1.0 {
+        // s₃ = Σ 4ʲ x^{2j+3}/(2j+3)!, s₄ = Σ 4ʲ x^{2j+4}/(2j+4)!
+        let square = 4.0 * x * x;
+        let (mut term3, mut sum3) = (x * x * x / 6.0, 0.0);
+        let (mut term4, mut sum4) = (x * x * x * x / 24.0, 0.0);
+        let mut k = 3.0;
+        while term3 > 1e-17 * sum3 {
+            sum3 += term3;
+            sum4 += term4;
+            term3 *= square / ((k + 1.0) * (k + 2.0));
+            term4 *= square / ((k + 2.0) * (k + 3.0));
+            k += 2.0;
+        }
+        (theta * sum3, theta * sum4)
+    } else {
+        (
+            (0.5 * (1.0 - theta * theta) - 2.0 * x * theta) / 8.0,
+            (0.5 * (1.0 + theta * theta) - theta - 2.0 * x * x * theta) / 16.0,
+        )
+    };
+    (theta, theta * x, theta * 0.5 * x * x, s3, s4)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn material(shear: f64, poisson: f64) -> PlaneStrain {
+        PlaneStrain::new(Material::from_shear(shear, poisson).unwrap())
+    }
+
+    #[test]
+    fn a_half_space_under_its_own_material_is_the_same_half_space() {
+        for nu in [0.0, 0.2, 0.5] {
+            let m = material(3.0, nu);
+            for x in [1e-8, 1e-3, 0.5, 0.999_999, 1.0, 7.0, 700.0, 1e155, f64::INFINITY] {
+                let bottom = Minors::half_space(&m);
+                let top = bottom.raised(&m, x);
+                for (raised, expected) in [(top.a, bottom.a), (top.b, bottom.b), (top.c, bottom.c), (top.d, bottom.d)] {
+                    assert!((raised / top.n - expected).abs() < 1e-15, "ν = {nu}, x = {x}");
+                }
+                let x = x.min(EXTINCT);
+                assert!((top.exponent - 2.0 * x).abs() < 1e-13 * (1.0 + x));
+            }
+        }
+    }
+
+    #[test]
+    fn two_raises_are_one() {
+        let (layer, base) = (material(40.0, 0.1), material(1.0, 0.4));
+        let bottom = Minors::half_space(&base).above(Interface::Bonded, &base, &layer, 1.0);
+        let once = bottom.raised(&layer, 1.7);
+        let twice = bottom.raised(&layer, 0.9).raised(&layer, 0.8);
+        for (one, two) in
+            [(once.a, twice.a), (once.b, twice.b), (once.c, twice.c), (once.d, twice.d), (once.n, twice.n)]
+        {
+            assert!((one * (once.exponent - twice.exponent).exp() - two).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn minors_keep_their_plucker_relation() {
+        let (layer, base) = (material(0.03, 0.5), material(1.0, 0.3));
+        let spring = Interface::Spring { tangential: 0.2, normal: 7.0 };
+        for interface in [Interface::Bonded, spring, Interface::Frictionless] {
+            let m = Minors::half_space(&base).above(interface, &base, &layer, 1.3).raised(&layer, 0.4);
+            assert!((m.a * m.c - m.b * m.b - m.n * m.d).abs() < 1e-15);
+        }
+    }
+}

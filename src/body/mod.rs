@@ -1,0 +1,32 @@
+//! Response of a layered elastic half-space to a plane harmonic pressure p cos(qξ) on its surface.
+//!
+//! ξ runs along the wavevector, z into the body, x = qz. With the amplitudes p and t of the tractions
+//! σ_zz = −p cos, σ_qz = t sin, and of the displacements u_z = w cos, u_q = −U sin, plane strain
+//! across the wavevector gives, going **up** (ζ = −x, displacements in units of 1/(Gq)):
+//!
+//! dU/dζ = w + t,  dw/dζ = −r U + m p,  dt/dζ = e U + r p,  dp/dζ = −t,
+//! e = 2/(1−ν),  r = ν/(1−ν),  m = (1−2ν)/(2(1−ν)),
+//!
+//! equilibrium and Hooke's law for the four quantities that interfaces connect (with the stress function F of the plane
+//! problem, p = F and t = F′). Two tools are enough, and neither meets a growing exponential:
+//!
+//! - `minors`: everything below a depth confines (U, w, t, p) to a plane; the plane's five 2 × 2 minors are
+//!   carried from the substrate up (delta-matrix method, Dunkin 1965). The surface compliance is a ratio of two
+//!   of them (`transfer`).
+//! - `interior`: everything above a depth imposes "no shear at the surface", one linear functional carried from the
+//!   surface down. Plane and functional meet in one vector: the amplitudes at that depth.
+
+mod depth;
+mod half_space;
+mod interior;
+mod material;
+mod mean;
+mod minors;
+mod transfer;
+
+pub use depth::Depth;
+pub use half_space::{HalfSpace, Interface, Layer};
+pub use interior::{Amplitudes, Interior};
+pub use material::{Material, MaterialError};
+pub use mean::MeanStress;
+pub use transfer::TransferFunction;

@@ -1,0 +1,16 @@
+//! Where something was written.
+
+/// A span of bytes in one of the sources (0: the case file, n: the n-th `--set`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Place {
+    pub(super) source: usize,
+    pub(super) start: usize,
+    pub(super) end: usize,
+}
+
+impl Place {
+    /// The span `start..end` of a source.
+    pub(super) fn new(source: usize, span: std::ops::Range<usize>) -> Self {
+        Self { source, start: span.start, end: span.end }
+    }
+}

@@ -1,0 +1,26 @@
+//! Why a counterbody cannot be built.
+
+/// Why a counterbody cannot be built from its parts.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CounterbodyError {
+    /// Another number of levels than the lattice has.
+    #[error("the lattice has sites for {sites} levels, not {levels}: give one level for each")]
+    Levels {
+        /// Levels of the lattice.
+        sites: usize,
+        /// Levels received.
+        levels: usize,
+    },
+    /// A topography without samples.
+    #[error("a topography of {0} × {1} heights is empty: give at least one height along each cell vector")]
+    Empty(usize, usize),
+    /// A height that is not finite.
+    #[error("the height at [{}, {}] of a topography must be finite, not {value}", .place[0], .place[1])]
+    Height {
+        /// Its indices along a₁ and a₂.
+        place: [usize; 2],
+        /// The value received.
+        value: f64,
+    },
+}

@@ -1,0 +1,69 @@
+//! A multi-level system of indenters on a lattice.
+
+use super::{CounterbodyError, Level};
+use crate::lattice::Lattice;
+use crate::numeric::number::number;
+use std::fmt;
+
+/// Indenters at several levels on the sites of a lattice: level m + 1 stands on `lattice().sites()[m]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Indenters {
+    lattice: Lattice,
+    levels: Vec<Level>,
+}
+
+impl Indenters {
+    /// Indenters of `levels` on the sites of `lattice`.
+    ///
+    /// # Errors
+    /// [`CounterbodyError::Levels`] unless there are as many levels as the lattice has.
+    pub fn new(lattice: Lattice, levels: Vec<Level>) -> Result<Self, CounterbodyError> {
+        let (sites, count) = (lattice.sites().len(), levels.len());
+        if sites != count || count == 0 {
+            return Err(CounterbodyError::Levels { sites, levels: count });
+        }
+        Ok(Self { lattice, levels })
+    }
+
+    /// Cell and sites.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The levels, as many as the lattice has.
+    pub fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// Drops d_m = max h − h_m of the levels, lengths ≥ 0.
+    pub fn drops(&self) -> Vec<f64> {
+        let highest = self.levels.iter().map(Level::height).fold(f64::NEG_INFINITY, f64::max);
+        self.levels.iter().map(|level| highest - level.height()).collect()
+    }
+}
+
+impl fmt::Display for Indenters {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.lattice)?;
+        for (index, (level, drop)) in (1..).zip(self.levels.iter().zip(self.drops())) {
+            write!(f, "\nlevel {index}: {}, drop {}", level.shape(), number(drop))?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counterbody::Shape;
+
+    #[test]
+    fn levels_and_sites_must_match() {
+        let level = Level::new(Shape::Cone { slope: 0.1 }, 0.0).unwrap();
+        let three = |levels: usize| Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), vec![level; levels]);
+        assert!(three(3).is_ok());
+        for levels in [0, 2, 4] {
+            assert_eq!(three(levels), Err(CounterbodyError::Levels { sites: 3, levels }));
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! The undeformed surface of the rigid counterbody on a grid.
+//!
+//! f(**x**) = min over all indenters of [f_m(|**x** − **x**ᵢ|) + d_m]: the initial gap, the distance of the counterbody's
+//! surface above its highest apex. The indenter that gives the minimum owns the sample. Every profile grows with the
+//! radius, so of the periodic images of an indenter only the nearest one counts.
+
+use super::{Counterbody, Indenters, Shape};
+use crate::lattice::{Grid, Interpolation, Reduced, resample};
+use crate::numeric::array::{field, samples};
+use crate::numeric::sums;
+use ndarray::{Array2, ArrayView2};
+use rayon::prelude::*;
+use std::fmt;
+use std::sync::Arc;
+
+/// One site of an indenter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Site {
+    /// Level of the indenter, from 1.
+    pub level: usize,
+    /// Place in fractions of a₁, a₂.
+    pub place: [f64; 2],
+    /// Shape of the indenter.
+    pub shape: Shape,
+}
+
+/// The counterbody's surface on a grid.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    grid: Arc<Grid>,
+    initial_gap: Array2<f64>,
+    owner: Option<Array2<u32>>,
+    /// Samples that face the surfaces of several sites at once (to rounding), each with all of them, by ascending
+    /// sample.
+    ties: Vec<(usize, Vec<u32>)>,
+    sites: Vec<Site>,
+}
+
+impl Surface {
+    /// The counterbody on a grid of its cell: exact for indenters, interpolated between the samples of a topography.
+    pub fn new(counterbody: &Counterbody, grid: Arc<Grid>) -> Self {
+        let points = grid.points();
+        match counterbody {
+            Counterbody::Indenters(indenters) => of_indenters(indenters, grid),
+            Counterbody::Topography(topography) => {
+                let interpolation = Interpolation::on(grid.cell());
+                let gap = resample(&topography.depths(), topography.points(), points, interpolation);
+                Self { grid, initial_gap: field(points, gap), owner: None, ties: Vec::new(), sites: Vec::new() }
+            }
+        }
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Arc<Grid> {
+        &self.grid
+    }
+
+    /// f, lengths ≥ 0 measured from the highest apex; axes along a₁ and a₂.
+    pub fn initial_gap(&self) -> ArrayView2<'_, f64> {
+        self.initial_gap.view()
+    }
+
+    /// f sample by sample, a₂ fastest.
+    pub(crate) fn gaps(&self) -> &[f64] {
+        samples(&self.initial_gap)
+    }
+
+    /// Index into [`Surface::sites`] of the indenter whose surface faces each sample, axes along a₁ and a₂; `None` for a
+    /// topography.
+    pub fn owner(&self) -> Option<ArrayView2<'_, u32>> {
+        self.owner.as_ref().map(|owner| owner.view())
+    }
+
+    /// The same sample by sample, a₂ fastest; empty for a topography.
+    pub(crate) fn owners(&self) -> &[u32] {
+        self.owner.as_ref().map_or(&[], samples)
+    }
+
+    /// Level (from 1) of the indenter whose surface faces a sample; 0 for a topography.
+    pub fn level_at(&self, sample: usize) -> usize {
+        self.owners().get(sample).map_or(0, |&owner| self.sites[owner as usize].level)
+    }
+
+    /// All sites whose surfaces face a sample; none for a topography.
+    pub(crate) fn facing(&self, sample: usize) -> &[u32] {
+        match self.ties.binary_search_by_key(&sample, |(tied, _)| *tied) {
+            Ok(tie) => &self.ties[tie].1,
+            Err(_) => self.owners().get(sample).map_or(&[], std::slice::from_ref),
+        }
+    }
+
+    /// The sites of the indenters; none for a topography.
+    pub fn sites(&self) -> &[Site] {
+        &self.sites
+    }
+
+    /// Index of the first site of a level (from 1).
+    pub fn site_of(&self, level: usize) -> Option<usize> {
+        self.sites.iter().position(|site| site.level == level)
+    }
+
+    /// The vector from the axis of the nearest image of the site `site` to a sample, a length.
+    pub(crate) fn offset(&self, reduced: &Reduced, site: u32, sample: usize) -> [f64; 2] {
+        let (here, place) = (self.grid.fractions(sample), self.sites[site as usize].place);
+        reduced.nearest([here[0] - place[0], here[1] - place[1]])
+    }
+
+    /// Largest minus smallest initial gap, a length.
+    pub fn range(&self) -> f64 {
+        let gaps = self.gaps();
+        let lowest = sums::least(gaps.len(), |i| gaps[i]);
+        -sums::least(gaps.len(), |i| -gaps[i]) - lowest
+    }
+
+    /// Mean of the initial gap over the cell: the penetration at which contact is complete, a length.
+    pub fn mean(&self) -> f64 {
+        sums::mean(self.gaps())
+    }
+}
+
+impl fmt::Display for Surface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "surface on {}", self.grid)
+    }
+}
+
+/// Surfaces closer to a sample than this, relatively, face it together.
+const TIE: f64 = 1e-12;
+
+fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
+    let lattice = indenters.lattice();
+    let reduced = lattice.cell().reduced();
+    let drops = indenters.drops();
+    let sites: Vec<Site> = (1..)
+        .zip(lattice.sites())
+        .zip(indenters.levels())
+        .flat_map(|((level, places), own)| places.iter().map(move |&place| Site { level, place, shape: own.shape() }))
+        .collect();
+    let distance = |index: usize, site: &Site| {
+        let here = grid.fractions(index);
+        let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
+        site.shape.profile(x.hypot(y)) + drops[site.level - 1]
+    };
+    let face = |index: usize| {
+        let (mut nearest, mut owner, mut tied) = (f64::INFINITY, 0, false);
+        for (number, site) in (0..).zip(&sites) {
+            let distance = distance(index, site);
+            if distance < nearest * (1.0 - TIE) {
+                (nearest, owner, tied) = (distance, number, false);
+            } else {
+                tied |= distance <= nearest * (1.0 + TIE);
+            }
+        }
+        (nearest, (owner, tied))
+    };
+    let (gap, owner): (Vec<f64>, Vec<(u32, bool)>) = (0..grid.len()).into_par_iter().map(face).unzip();
+    let all_facing = |index: usize| {
+        let facing = (0..).zip(&sites).filter(|(_, site)| distance(index, site) <= gap[index] * (1.0 + TIE));
+        (index, facing.map(|(number, _)| number).collect())
+    };
+    let tied = owner.iter().enumerate().filter(|(_, (_, tied))| *tied);
+    let ties = tied.map(|(index, _)| all_facing(index)).collect();
+    let owner = owner.into_iter().map(|(owner, _)| owner).collect();
+    let points = grid.points();
+    Surface { initial_gap: field(points, gap), owner: Some(field(points, owner)), ties, sites, grid }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counterbody::Level;
+    use crate::lattice::{Cell, Lattice};
+
+    fn on(lattice: Lattice, levels: Vec<Level>, points: [usize; 2]) -> Surface {
+        let grid = Grid::new(lattice.cell(), points).unwrap();
+        Surface::new(&Indenters::new(lattice, levels).unwrap().into(), Arc::new(grid))
+    }
+
+    fn paraboloid(height: f64) -> Level {
+        Level::new(Shape::Paraboloid { radius: 0.8 }, height).unwrap()
+    }
+
+    #[test]
+    fn apices_stand_on_their_sites_at_their_drops() {
+        let levels = [0.02, 0.01, 0.0].map(paraboloid).to_vec();
+        let surface = on(Lattice::hexagonal(1.0, 3).unwrap(), levels, [12, 12]);
+        for (site, drop) in [([0, 0], 0.0), ([4, 4], 0.01), ([8, 8], 0.02)] {
+            assert!((surface.initial_gap()[site] - drop).abs() < 1e-15);
+        }
+        assert_eq!(surface.level_at(4 * 12 + 4), 2);
+        assert!(surface.range() > 0.2 && surface.range() < 0.23);
+    }
+
+    #[test]
+    fn the_nearest_surface_owns_a_sample_not_the_nearest_site() {
+        // Halfway between levels 1 and 3 the higher one is nearer.
+        let surface = on(Lattice::square(1.0, 2).unwrap(), vec![paraboloid(0.1), paraboloid(0.0)], [24, 24]);
+        let first = surface.owners().iter().filter(|&&owner| owner == 0).count();
+        assert!(first > 24 * 24 / 2, "level 1 owns {first} of 576");
+    }
+
+    #[test]
+    fn samples_between_equal_indenters_are_tied() {
+        let surface = on(Lattice::square(1.0, 4).unwrap(), vec![paraboloid(0.0); 4], [8, 8]);
+        // Rows and columns 2 and 6 lie halfway between the sites: 2·8 + 2·8 − 4 samples, four of them between all
+        // sites.
+        assert_eq!(surface.ties.len(), 28);
+        assert_eq!(surface.ties.iter().filter(|(_, sites)| sites.len() == 4).count(), 4);
+        assert_eq!((surface.facing(0).len(), surface.facing(2 * 8 + 2).len()), (1, 4));
+    }
+
+    #[test]
+    fn the_initial_gap_is_the_minimum_over_every_image() {
+        let level = |shape, height| Level::new(shape, height).unwrap();
+        let cell = Cell::new([1.0, 0.1], [1.7, 0.9]).unwrap();
+        let places = vec![vec![[0.13, 0.2], [0.6, 0.77]], vec![[0.4, 0.9]]];
+        let levels = vec![level(Shape::Cone { slope: 0.4 }, 0.1), level(Shape::Sphere { radius: 3.0 }, 0.04)];
+        let surface = on(Lattice::new(cell, places.clone()).unwrap(), levels.clone(), [10, 9]);
+        for index in 0..surface.grid().len() {
+            let s = surface.grid().fractions(index);
+            let mut least = f64::INFINITY;
+            for (m, place) in places.iter().enumerate().flat_map(|(m, p)| p.iter().map(move |x| (m, x))) {
+                for (i, j) in (-4..=4).flat_map(|i| (-4..=4).map(move |j| (f64::from(i), f64::from(j)))) {
+                    let [x, y] = cell.point([s[0] - place[0] + i, s[1] - place[1] + j]);
+                    least = least.min(levels[m].shape().profile(x.hypot(y)) + 0.06 * m as f64);
+                }
+            }
+            assert!((surface.gaps()[index] - least).abs() < 1e-14);
+        }
+    }
+}

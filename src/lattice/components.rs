@@ -1,0 +1,175 @@
+//! Connected sets of samples of a periodic grid: contact spots, and what is open between or inside them.
+
+use crate::lattice::Grid;
+use std::f64::consts::PI;
+
+/// Samples joined along the grid's lines.
+#[derive(Debug, Clone)]
+pub struct Component {
+    /// Rows and columns of the samples, followed through the set over the borders of the cell.
+    pub samples: Vec<[i32; 2]>,
+    /// Whether it meets an image of itself.
+    pub wraps: bool,
+}
+
+/// The sample of the cell that a row and a column beyond its borders repeat.
+fn index([n1, n2]: [usize; 2], [i, j]: [i32; 2]) -> usize {
+    i.rem_euclid(n1 as i32) as usize * n2 + j.rem_euclid(n2 as i32) as usize
+}
+
+fn place(grid: &Grid, [i, j]: [i32; 2]) -> [f64; 2] {
+    let [n1, n2] = grid.points();
+    grid.cell().point([f64::from(i) / n1 as f64, f64::from(j) / n2 as f64])
+}
+
+impl Component {
+    /// Indices of the samples.
+    pub fn indices(&self, grid: &Grid) -> impl Iterator<Item = usize> {
+        let points = grid.points();
+        self.samples.iter().map(move |sample| index(points, *sample))
+    }
+
+    /// Mean of the places, lengths.
+    pub fn centre(&self, grid: &Grid) -> [f64; 2] {
+        let count = self.samples.len() as f64;
+        let sum =
+            self.samples.iter().map(|sample| place(grid, *sample)).fold([0.0; 2], |[a, b], [x, y]| [a + x, b + y]);
+        sum.map(|x| x / count)
+    }
+
+    /// Distance of the farthest sample from a place.
+    pub fn farthest(&self, grid: &Grid, [x, y]: [f64; 2]) -> f64 {
+        let distance = |sample: &[i32; 2]| {
+            let [own_x, own_y] = place(grid, *sample);
+            (own_x - x).hypot(own_y - y)
+        };
+        self.samples.iter().map(distance).fold(0.0, f64::max)
+    }
+}
+
+/// The connected sets of the samples that are `members`.
+pub fn components(grid: &Grid, members: impl Fn(usize) -> bool) -> Vec<Component> {
+    const UNSEEN: [i32; 2] = [i32::MIN; 2];
+    let points = grid.points();
+    let mut seen = vec![UNSEEN; grid.len()];
+    let mut found = Vec::new();
+    for start in 0..grid.len() {
+        if seen[start] != UNSEEN || !members(start) {
+            continue;
+        }
+        let here = [start / points[1], start % points[1]].map(|k| k as i32);
+        seen[start] = here;
+        // Those found, of which the last ones have not been looked around.
+        let (mut samples, mut looked, mut wraps) = (vec![here], 0, false);
+        while looked < samples.len() {
+            let [i, j] = samples[looked];
+            looked += 1;
+            for there in [[i + 1, j], [i - 1, j], [i, j + 1], [i, j - 1]] {
+                let next = index(points, there);
+                if seen[next] == UNSEEN && members(next) {
+                    seen[next] = there;
+                    samples.push(there);
+                } else if seen[next] != UNSEEN {
+                    wraps |= seen[next] != there;
+                }
+            }
+        }
+        found.push(Component { samples, wraps });
+    }
+    found
+}
+
+/// Samples closer than `reach` to `centre`, each once, with their places relative to it.
+pub fn around(grid: &Grid, centre: [f64; 2], reach: f64) -> impl Iterator<Item = (usize, [f64; 2])> {
+    let n = grid.points().map(|n| n as f64);
+    let middle = grid.cell().fractions(centre);
+    // The height of the cell over a side bounds the fractions of a place at that distance.
+    let steps = grid.steps();
+    let range = [0, 1].map(|k| {
+        let [x, y] = steps[1 - k];
+        // Half a row more, by which the middle is rounded; no sample twice.
+        let rows = (reach * x.hypot(y) / grid.sample_area() + 0.5).ceil();
+        let rows = rows.min((0.5 * (n[k] - 1.0)).floor()) as i32;
+        let first = (middle[k] * n[k]).round() as i32;
+        first - rows..=first + rows
+    });
+    let [rows, columns] = range;
+    rows.flat_map(move |i| columns.clone().map(move |j| [i, j])).filter_map(move |sample| {
+        let [x, y] = place(grid, sample);
+        let offset = [x - centre[0], y - centre[1]];
+        (offset[0].hypot(offset[1]) < reach).then(|| (index(grid.points(), sample), offset))
+    })
+}
+
+/// Number of contact spots, and the samples along the radius of the disc as large as the one up to which, from the
+/// smallest on, half of the load is carried; `None` without contact.
+pub fn spots(grid: &Grid, pressure: &[f64]) -> Option<(usize, f64)> {
+    let mut spots: Vec<(usize, f64)> = components(grid, |index| pressure[index] > 0.0)
+        .iter()
+        .map(|spot| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum()))
+        .collect();
+    spots.sort_by_key(|(size, _)| *size);
+    let mut rest: f64 = 0.5 * spots.iter().map(|(_, load)| load).sum::<f64>();
+    let middle = spots.iter().find(|(_, load)| {
+        rest -= load;
+        rest <= 0.0
+    })?;
+    Some((spots.len(), (middle.0 as f64 / PI).sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Cell;
+
+    #[test]
+    fn a_spot_across_the_border_is_one_and_a_stripe_wraps() {
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
+        let corner = |index: usize| [0, 7].contains(&(index / 8)) && [0, 7].contains(&(index % 8));
+        let found = components(&grid, corner);
+        assert!(found.len() == 1 && found[0].samples.len() == 4 && !found[0].wraps);
+        let centre = found[0].centre(&grid);
+        let [x, y] = centre.map(|x| (x + 0.5).rem_euclid(1.0) - 0.5);
+        assert!((x + 0.0625).abs() < 1e-12 && (y + 0.0625).abs() < 1e-12, "{x} {y}");
+        assert!((found[0].farthest(&grid, centre) - 0.0625 * 2f64.sqrt()).abs() < 1e-12);
+        let near: Vec<_> = around(&grid, centre, 0.1).collect();
+        assert!(near.len() == 4 && near.iter().all(|&(index, _)| corner(index)));
+        assert!(components(&grid, |index| index / 8 == 3)[0].wraps);
+    }
+
+    #[test]
+    fn half_of_the_load_decides_which_spot_counts() {
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
+        let mut pressure = [0.0; 64];
+        assert_eq!(spots(&grid, &pressure), None);
+        // One sample of load 1, two of 1 each, four of 2 each.
+        pressure[0] = 1.0;
+        pressure[16..18].fill(1.0);
+        pressure[36..40].fill(2.0);
+        let disc = |samples: f64| (samples / PI).sqrt();
+        assert_eq!(spots(&grid, &pressure), Some((3, disc(4.0))));
+        pressure[0] = 20.0;
+        assert_eq!(spots(&grid, &pressure), Some((3, disc(1.0))));
+    }
+
+    #[test]
+    fn what_is_near_is_counted_once_in_a_skewed_cell_too() {
+        let grid = Grid::new(Cell::new([1.0, 0.0], [0.7, 0.6]).unwrap(), [30, 21]).unwrap();
+        for reach in [0.02, 0.11, 0.29, 5.0] {
+            let near: Vec<_> = around(&grid, [0.3, -0.2], reach).collect();
+            let mut indices: Vec<usize> = near.iter().map(|(index, _)| *index).collect();
+            indices.sort_unstable();
+            indices.dedup();
+            assert_eq!(indices.len(), near.len());
+            // A disc that fits into the cell has as many samples as its area, up to its rim.
+            if reach < 0.3 {
+                let expected = PI * reach * reach / grid.sample_area();
+                assert!(
+                    (near.len() as f64 - expected).abs() < 3.0 * expected.sqrt() + 2.0,
+                    "{} {expected}",
+                    near.len()
+                );
+            }
+        }
+    }
+}

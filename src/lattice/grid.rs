@@ -1,0 +1,182 @@
+//! The doubly periodic grid on a cell, and its wavevectors.
+//!
+//! Samples stand at x = (i/N₁) **a**₁ + (j/N₂) **a**₂, sample (0, 0) at the origin; fields are stored row by row, j
+//! (along **a**₂) fastest. The index (k₁, k₂) of a Fourier component means the wavevector k₁**b**₁ + k₂**b**₂ up to
+//! multiples of N₁**b**₁ and N₂**b**₂ (its aliases). The one of least length is taken: on an oblique cell the usual
+//! index range is a parallelogram that breaks the lattice's symmetry, the set of shortest aliases (the first Brillouin
+//! zone of the sampling lattice) keeps it.
+
+use crate::lattice::{Cell, LatticeError, Reduced};
+use crate::numeric::number::number;
+use std::fmt;
+
+/// A field that does not belong to a grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "a field of {} × {} values does not belong to a grid of {} × {} samples",
+    .field[0], .field[1], .points[0], .points[1]
+)]
+pub struct ShapeError {
+    /// Shape of the field.
+    pub field: [usize; 2],
+    /// Samples of the grid.
+    pub points: [usize; 2],
+}
+
+/// A grid of N₁ × N₂ samples on a cell.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    cell: Cell,
+    points: [usize; 2],
+    /// The lattice of N₁**b**₁, N₂**b**₂, which aliases differ by.
+    sampling: Reduced,
+}
+
+impl Grid {
+    /// Grid of `points` = [N₁, N₂] samples along a₁ and a₂.
+    ///
+    /// # Errors
+    /// [`LatticeError::NoPoints`] when a number of points is zero, [`LatticeError::FlatCell`] when samples stand so much
+    /// denser along one vector than along the other that they span no area.
+    pub fn new(cell: Cell, points: [usize; 2]) -> Result<Self, LatticeError> {
+        if points.contains(&0) {
+            return Err(LatticeError::NoPoints(points[0], points[1]));
+        }
+        let [b1, b2] = cell.reciprocal();
+        let [n1, n2] = points.map(|n| n as f64);
+        let sampling = [[n1 * b1[0], n1 * b1[1]], [n2 * b2[0], n2 * b2[1]]];
+        let sampling = Cell::new(sampling[0], sampling[1])?.reduced();
+        Ok(Self { cell, points, sampling })
+    }
+
+    /// The cell the grid lies on.
+    pub fn cell(&self) -> Cell {
+        self.cell
+    }
+
+    /// [N₁, N₂].
+    pub fn points(&self) -> [usize; 2] {
+        self.points
+    }
+
+    /// Whether a field of this shape has one value per sample.
+    ///
+    /// # Errors
+    /// [`ShapeError`] unless it has.
+    pub fn check(&self, field: [usize; 2]) -> Result<(), ShapeError> {
+        if field == self.points { Ok(()) } else { Err(ShapeError { field, points: self.points }) }
+    }
+
+    /// Number of samples N₁N₂.
+    #[allow(clippy::len_without_is_empty, reason = "a grid is never empty")]
+    pub fn len(&self) -> usize {
+        self.points[0] * self.points[1]
+    }
+
+    /// Area of the cell per sample.
+    pub fn sample_area(&self) -> f64 {
+        self.cell.area() / self.len() as f64
+    }
+
+    /// Fractions of a₁, a₂ at which the sample with the flat index `index` stands.
+    pub fn fractions(&self, index: usize) -> [f64; 2] {
+        let [n1, n2] = self.points;
+        [(index / n2) as f64 / n1 as f64, (index % n2) as f64 / n2 as f64]
+    }
+
+    /// Flat indices of the eight samples around one.
+    pub fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> {
+        let [n1, n2] = self.points;
+        let (row, column) = (index / n2, index % n2);
+        (0..9).filter(|&k| k != 4).map(move |k| (row + n1 + k / 3 - 1) % n1 * n2 + (column + n2 + k % 3 - 1) % n2)
+    }
+
+    /// The vectors from a sample to the next one along a₁ and along a₂.
+    pub fn steps(&self) -> [[f64; 2]; 2] {
+        let [a1, a2] = self.cell.vectors();
+        let [n1, n2] = self.points.map(|n| n as f64);
+        [a1.map(|x| x / n1), a2.map(|x| x / n2)]
+    }
+
+    /// Distance between neighbouring samples: the longer side of the reduced cell of the samples.
+    pub fn spacing(&self) -> f64 {
+        let [e1, e2] = self.steps();
+        // The samples' cell is a cell as the grid's is.
+        Cell::new(e1, e2).map_or(0.0, |cell| cell.reduced().longer_side())
+    }
+
+    /// Wavevector of the Fourier component (k₁, k₂), 0 ≤ kᵢ < Nᵢ: its shortest alias, 1/length.
+    ///
+    /// Aliases of equal length are equivalent for everything that depends on the length alone.
+    pub fn wavevector(&self, component: [usize; 2]) -> [f64; 2] {
+        self.sampling.nearest(self.fractions_of(component))
+    }
+
+    /// Fractions of N₁b₁ and N₂b₂ that a component stands for.
+    fn fractions_of(&self, component: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| component[axis] as f64 / self.points[axis] as f64)
+    }
+
+    /// All shortest aliases of the component (k₁, k₂) whose lengths agree to the relative `tolerance`, each with the
+    /// multiples of b₁, b₂ it is made of.
+    pub fn tied_wavevectors(&self, component: [usize; 2], tolerance: f64) -> Vec<([i32; 2], [f64; 2])> {
+        let aliases = self.sampling.shortest(self.fractions_of(component), tolerance).into_iter();
+        let index = |taken: [i32; 2]| [0, 1].map(|k| component[k] as i32 - taken[k] * self.points[k] as i32);
+        aliases.map(|(q, taken)| (index(taken), q)).collect()
+    }
+
+    /// Length |q| of [`Grid::wavevector`].
+    pub fn wavenumber(&self, component: [usize; 2]) -> f64 {
+        let [x, y] = self.wavevector(component);
+        x.hypot(y)
+    }
+
+    /// Least non-zero wavenumber of the cell, 1/length.
+    pub fn least_wavenumber(&self) -> f64 {
+        // The reciprocal cell is a cell: |b₁ × b₂| > 0.
+        let [b1, b2] = self.cell.reciprocal();
+        Cell::new(b1, b2).map_or(0.0, |cell| cell.reduced().shortest_vector())
+    }
+}
+
+impl fmt::Display for Grid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [n1, n2] = self.points;
+        write!(f, "grid {n1} × {n2}, spacing {}, sample area {}", number(self.spacing()), number(self.sample_area()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// Rotation by 60° of the rhombus a₁ = (1, 0), a₂ = (½, √3/2) maps b₁ → b₁ + b₂, b₂ → −b₁.
+    #[test]
+    fn shortest_aliases_keep_the_sixfold_symmetry() {
+        for n in [8, 9, 12, 30] {
+            let grid = Grid::new(Cell::hexagonal(1.7).unwrap(), [n, n]).unwrap();
+            for (k1, k2) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+                let (here, rotated) = (grid.wavenumber([k1, k2]), grid.wavenumber([(n + k1 - k2) % n, k1]));
+                assert!((here - rotated).abs() <= 1e-14 * here, "N = {n}, ({k1}, {k2}): {here} {rotated}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rectangular_cell_has_the_usual_wavevectors() {
+        let grid = Grid::new(Cell::new([2.0, 0.0], [0.0, 1.0]).unwrap(), [6, 5]).unwrap();
+        assert!((grid.wavevector([1, 0])[0] - TAU / 2.0).abs() < 1e-14 && grid.wavevector([1, 0])[1] == 0.0);
+        assert!((grid.wavevector([5, 4])[0] + TAU / 2.0).abs() < 1e-14);
+        assert!((grid.wavevector([5, 4])[1] + TAU).abs() < 1e-14);
+        assert!((grid.wavenumber([3, 0]) - 3.0 * TAU / 2.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_least_wavenumber_belongs_to_the_reduced_cell() {
+        let skewed = Grid::new(Cell::new([1.0, 0.0], [3.0, 1.0]).unwrap(), [4, 4]).unwrap();
+        assert!((skewed.least_wavenumber() - TAU).abs() < 1e-13);
+        let hexagonal = Grid::new(Cell::hexagonal(1.0).unwrap(), [4, 4]).unwrap();
+        assert!((hexagonal.least_wavenumber() - TAU / 0.75f64.sqrt()).abs() < 1e-13);
+    }
+}

@@ -1,0 +1,77 @@
+//! Fields between the samples of a grid, in the way that keeps the symmetry of the cell.
+
+use super::Cell;
+use rayon::prelude::*;
+
+/// How a field is interpolated between four neighbouring samples of a grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Bilinear: keeps the symmetry of rectangular cells.
+    Bilinear,
+    /// Linear on the two triangles that the diagonal between the ends of a₁ and a₂ makes: keeps the symmetry of a 60°
+    /// rhombus.
+    AcrossDiagonal,
+    /// Linear on the two triangles that the diagonal along a₁ + a₂ makes: the same for a 120° rhombus.
+    AlongDiagonal,
+}
+
+impl Interpolation {
+    /// The one that keeps the symmetry of the cell: triangles along the shorter diagonal, if there is a shorter one.
+    pub fn on(cell: Cell) -> Self {
+        let [[x1, y1], [x2, y2]] = cell.vectors();
+        let cosine = (x1 * x2 + y1 * y2) / (x1.hypot(y1) * x2.hypot(y2));
+        match cosine {
+            c if c > 1e-9 => Self::AcrossDiagonal,
+            c if c < -1e-9 => Self::AlongDiagonal,
+            _ => Self::Bilinear,
+        }
+    }
+
+    /// Value at the fractions s, t between the samples at (0, 0), (0, 1), (1, 0), (1, 1).
+    fn between(self, [v00, v01, v10, v11]: [f64; 4], s: f64, t: f64) -> f64 {
+        match self {
+            Self::Bilinear => (1.0 - s) * ((1.0 - t) * v00 + t * v01) + s * ((1.0 - t) * v10 + t * v11),
+            Self::AcrossDiagonal if s + t <= 1.0 => (1.0 - s - t) * v00 + (s * v10 + t * v01),
+            Self::AcrossDiagonal => (s + t - 1.0) * v11 + ((1.0 - s) * v01 + (1.0 - t) * v10),
+            Self::AlongDiagonal if s >= t => (1.0 - s) * v00 + ((s - t) * v10 + t * v11),
+            Self::AlongDiagonal => (1.0 - t) * v00 + ((t - s) * v01 + s * v11),
+        }
+    }
+}
+
+/// Periodic interpolation of a field from one grid of a cell to another; exact where samples coincide.
+pub fn resample(field: &[f64], from: [usize; 2], to: [usize; 2], interpolation: Interpolation) -> Vec<f64> {
+    if from == to {
+        return field.to_vec();
+    }
+    let place = |index: usize, axis: usize| {
+        let (before, rest) = (index * from[axis] / to[axis], index * from[axis] % to[axis]);
+        (before, (before + 1) % from[axis], rest as f64 / to[axis] as f64)
+    };
+    let mut result = vec![0.0; to[0] * to[1]];
+    result.par_chunks_mut(to[1]).enumerate().for_each(|(i, row)| {
+        let (low, high, s) = place(i, 0);
+        for (j, value) in row.iter_mut().enumerate() {
+            let (left, right, t) = place(j, 1);
+            let at = |i: usize, j: usize| field[i * from[1] + j];
+            *value = interpolation.between([at(low, left), at(low, right), at(high, left), at(high, right)], s, t);
+        }
+    });
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resampling_keeps_common_samples_and_constants() {
+        let field: Vec<f64> = (0..24).map(|i| f64::from(i * i % 7)).collect();
+        for interpolation in [Interpolation::Bilinear, Interpolation::AcrossDiagonal, Interpolation::AlongDiagonal] {
+            let finer = resample(&field, [4, 6], [8, 12], interpolation);
+            assert!((0..24).all(|i| finer[(2 * (i / 6)) * 12 + 2 * (i % 6)] == field[i]));
+            let constant = resample(&[2.5; 24], [4, 6], [7, 5], interpolation);
+            assert!(constant.iter().all(|&x| (x - 2.5).abs() < 1e-15));
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Fields as arrays with their shape, and as the samples they are made of.
+
+use ndarray::Array2;
+
+/// The field of [n₁, n₂] samples, given row by row.
+///
+/// # Panics
+/// When there are other than n₁n₂ samples.
+pub fn field<T>(points: [usize; 2], samples: Vec<T>) -> Array2<T> {
+    Array2::from_shape_vec(points, samples).expect("as many samples as the field has points")
+}
+
+/// The samples of a field, row by row.
+///
+/// # Panics
+/// When the field is not stored that way.
+pub fn samples<T>(field: &Array2<T>) -> &[T] {
+    field.as_slice().expect("fields are stored row by row")
+}

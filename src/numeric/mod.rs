@@ -1,0 +1,12 @@
+//! General numerics that the physics rests on: sums whose order is fixed, small systems, lines around an axis, and numbers
+//! as a person reads them.
+
+pub mod array;
+pub mod chebyshev;
+pub mod closed_line;
+pub mod least_squares;
+pub mod linear;
+pub mod number;
+pub mod quadrature;
+pub mod search;
+pub mod sums;

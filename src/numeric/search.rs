@@ -1,0 +1,45 @@
+//! Where a function of one variable is largest.
+
+/// Place and value of the maximum of a function with one between `low` and `high` > 0, by golden sections, to the relative
+/// `tolerance` of the place.
+pub fn golden_maximum([low, high]: [f64; 2], tolerance: f64, value: impl Fn(f64) -> f64) -> [f64; 2] {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut a, mut b) = (low, high);
+    let (mut c, mut d) = (b - golden * (b - a), a + golden * (b - a));
+    let (mut at_c, mut at_d) = (value(c), value(d));
+    while b - a > tolerance * b {
+        if at_c > at_d {
+            (b, d, at_d) = (d, c, at_c);
+            c = b - golden * (b - a);
+            at_c = value(c);
+        } else {
+            (a, c, at_c) = (c, d, at_d);
+            d = a + golden * (b - a);
+            at_d = value(d);
+        }
+    }
+    if at_c > at_d { [c, at_c] } else { [d, at_d] }
+}
+
+/// The largest of some numbers, at least 0; unlike [`f64::max`] it keeps what is not a number.
+pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
+    numbers.into_iter().fold(0.0, |most, x| if most.is_nan() || x <= most { most } else { x })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parabola_has_its_maximum_at_its_apex() {
+        let [place, value] = golden_maximum([0.1, 3.0], 1e-6, |x| 2.0 - (x - 1.3) * (x - 1.3));
+        assert!((place - 1.3).abs() < 1e-5 && (value - 2.0).abs() < 1e-10);
+    }
+
+    #[test]
+    fn what_is_not_a_number_stays() {
+        assert_eq!(largest([0.1, 0.3, 0.2]), 0.3);
+        assert_eq!(largest([]), 0.0);
+        assert!(largest([0.1, f64::NAN, 5.0]).is_nan());
+    }
+}

@@ -1,0 +1,39 @@
+//! Sums over fields that do not depend on the number of threads.
+//!
+//! A field is cut into blocks of fixed length; blocks are summed on any thread, their sums added in order.
+
+use rayon::prelude::*;
+
+/// Samples of one block.
+pub const BLOCK: usize = 4096;
+
+/// Σᵢ term(i) for `K` sums at once over 0 ≤ i < `len`.
+pub fn of<const K: usize>(len: usize, term: impl Fn(usize) -> [f64; K] + Sync + Send) -> [f64; K] {
+    let add = |mut total: [f64; K], part: [f64; K]| {
+        for (t, p) in total.iter_mut().zip(part) {
+            *t += p;
+        }
+        total
+    };
+    let blocks: Vec<[f64; K]> = (0..len.div_ceil(BLOCK))
+        .into_par_iter()
+        .map(|block| (block * BLOCK..len.min((block + 1) * BLOCK)).map(&term).fold([0.0; K], add))
+        .collect();
+    blocks.into_iter().fold([0.0; K], add)
+}
+
+/// Least term(i) over 0 ≤ i < `len`, +∞ for none.
+pub fn least(len: usize, term: impl Fn(usize) -> f64 + Sync + Send) -> f64 {
+    (0..len).into_par_iter().with_min_len(BLOCK).map(term).reduce(|| f64::INFINITY, f64::min)
+}
+
+/// Sets every `field[i]` to `value(i, field[i])`.
+pub fn update<T: Copy + Send + Sync>(field: &mut [T], value: impl Fn(usize, T) -> T + Sync + Send) {
+    field.par_iter_mut().with_min_len(BLOCK).enumerate().for_each(|(i, x)| *x = value(i, *x));
+}
+
+/// Mean of a field.
+pub fn mean(field: &[f64]) -> f64 {
+    let [sum] = of(field.len(), |i| [field[i]]);
+    sum / field.len() as f64
+}

@@ -1,0 +1,83 @@
+//! What stands where in an output folder, and whose it is.
+
+use super::OutputError;
+use super::manifest::{Standing, Writer};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What percoat keeps for itself in an output folder.
+pub(super) const OWN: &str = ".percoat";
+/// Marks a folder as one in which a run of percoat gathers its result.
+pub(super) const MARK: &str = ".percoat";
+/// Where the coarser grid's steps stand while a finer one is solved.
+pub(super) const COARSER: &str = "coarser";
+
+/// Why a folder cannot be had.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// What the run would replace is not percoat's.
+    #[error("{} {reason}, and this run would replace it: choose another folder with -o, or move it away", path.display())]
+    Foreign {
+        /// The file or folder.
+        path: PathBuf,
+        /// Whose it is.
+        reason: &'static str,
+    },
+    /// Another run has the folder.
+    #[error("another run ({owner}) is writing into {}: wait for it, or choose another folder with -o", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// Which run.
+        owner: String,
+    },
+    /// It cannot be read or written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// Where percoat keeps something for itself in an output folder.
+pub(super) fn own(folder: &Path, name: &str) -> PathBuf {
+    folder.join(OWN).join(name)
+}
+
+/// Where a writer gathers its result.
+pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
+    match writer {
+        Writer::Solve => folder.join("unfinished"),
+        // Here nothing stands that is worth a look before all of it is there.
+        Writer::Compare => own(folder, "compare"),
+        Writer::Validate => own(folder, "validate"),
+    }
+}
+
+/// Why a name is not percoat's, if it is somebody else's.
+pub(super) fn foreign(standing: Standing) -> Option<&'static str> {
+    match standing {
+        Standing::Absent | Standing::Written => None,
+        Standing::Changed => Some("was changed since percoat wrote it"),
+        Standing::Foreign => Some("is not listed as a result of percoat (in .percoat/written.json)"),
+    }
+}
+
+/// Removes a folder of percoat's own if it is there.
+pub(super) fn remove_folder(path: &Path) -> Result<(), OutputError> {
+    match fs::remove_dir_all(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::new(path, error)),
+        _ => Ok(()),
+    }
+}
+
+/// Names of what is in a folder, sorted.
+pub(super) fn names(folder: &Path) -> Result<Vec<String>, OutputError> {
+    let names = || -> io::Result<Vec<String>> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            names.push(entry?.file_name().to_string_lossy().into_owned());
+        }
+        names.sort();
+        Ok(names)
+    };
+    names().map_err(|error| OutputError::new(folder, error))
+}

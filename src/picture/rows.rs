@@ -1,0 +1,107 @@
+//! A section row by row: values of a stress, interfaces, the largest.
+
+use crate::body::Depth;
+use crate::stress::{Section, State};
+use ndarray::Array2;
+
+/// A stress that the pictures show.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// The normal stress along the line: tension and compression, σ_r of the paper when it begins at an axis.
+    Along,
+    /// The principal shear stress τ₁.
+    Tau1,
+}
+
+/// Where a stress is largest in a section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Largest {
+    /// The value.
+    pub value: f64,
+    /// Distance along the line.
+    pub s: f64,
+    /// Where in depth.
+    pub depth: Depth,
+}
+
+impl Section {
+    /// The stress of a state.
+    pub(super) fn stress(&self, quantity: Quantity, state: &State) -> f64 {
+        match quantity {
+            Quantity::Along => state.along(self.line.direction),
+            Quantity::Tau1 => state.tau1(),
+        }
+    }
+
+    /// All values of a stress; axes as of the states.
+    pub(super) fn values(&self, quantity: Quantity) -> Array2<f64> {
+        self.states.map(|state| self.stress(quantity, state))
+    }
+
+    /// Value at a distance along the line and a depth, between the nearest rows of its material.
+    pub(super) fn at(&self, values: &Array2<f64>, s: f64, z: f64) -> Option<f64> {
+        let below = self.depths.partition_point(|depth| depth.z <= z);
+        let (before, after) = (below.checked_sub(1)?, below.min(self.depths.len() - 1));
+        let [z0, z1] = [before, after].map(|row| self.depths[row].z);
+        let t = if z1 > z0 { (z - z0) / (z1 - z0) } else { 0.0 };
+        let count = self.line.points;
+        let [first, last] = self.line.span;
+        let place = ((s - first) / (last - first) * (count - 1) as f64).clamp(0.0, (count - 1) as f64);
+        let column = (place as usize).min(count - 2);
+        let u = place - column as f64;
+        let at = |row: usize| (1.0 - u) * values[[row, column]] + u * values[[row, column + 1]];
+        Some((1.0 - t) * at(before) + t * at(after))
+    }
+
+    /// The largest of a stress.
+    pub(super) fn largest(&self, quantity: Quantity) -> Option<Largest> {
+        let (distances, values) = (self.line.distances(), self.values(quantity));
+        let surface = self.depths.first().filter(|_| quantity == Quantity::Along).zip(self.highest);
+        let mut best = surface.map(|(&depth, [s, value])| Largest { value, s, depth });
+        for (row, &depth) in values.outer_iter().zip(&self.depths) {
+            for (&value, &s) in row.iter().zip(&distances) {
+                if best.is_none_or(|best| value > best.value) {
+                    best = Some(Largest { value, s, depth });
+                }
+            }
+        }
+        best
+    }
+
+    /// Depths of the interfaces within the section.
+    pub(super) fn interfaces(&self) -> Vec<f64> {
+        self.depths.windows(2).filter(|pair| pair[0].material != pair[1].material).map(|pair| pair[1].z).collect()
+    }
+
+    /// The rows on the surface and on both sides of each interface, by their index.
+    pub(super) fn face_rows(&self) -> Vec<usize> {
+        let sides = self.depths.windows(2).enumerate().filter(|(_, pair)| pair[0].material != pair[1].material);
+        let surface = (self.depths.first().is_some_and(|depth| depth.z == 0.0)).then_some(0);
+        surface.into_iter().chain(sides.flat_map(|(row, _)| [row, row + 1])).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::stress::Line;
+
+    #[test]
+    fn values_are_taken_from_the_side_of_the_interface_where_they_are() {
+        let depths = [(0.0, 1), (1.0, 1), (1.0, 2), (2.0, 2)].map(|(z, material)| Depth { z, material }).to_vec();
+        let line = Line { origin: [0.0; 2], direction: [2.0, 0.0], span: [0.0, 1.0], points: 3 };
+        let rows = [1.0, 3.0, -2.0, -1.0];
+        let states = Array2::from_shape_fn((4, 3), |(row, _)| State { xx: rows[row], ..State::default() });
+        let section = Section { line, depths, states, highest: None };
+        let values = section.values(Quantity::Along);
+        assert!((section.at(&values, 0.3, 0.5).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(section.at(&values, 0.3, 0.999).map(f64::round), Some(3.0));
+        assert_eq!(section.at(&values, 0.3, 1.001).map(f64::round), Some(-2.0));
+        assert_eq!(section.interfaces(), [1.0]);
+        assert_eq!(section.face_rows(), [0, 1, 2]);
+        assert_eq!(section.largest(Quantity::Along).unwrap().value, 3.0);
+        let sharp = Section { highest: Some([0.3, 3.2]), ..section };
+        assert_eq!(sharp.largest(Quantity::Along).map(|largest| (largest.s, largest.value)), Some((0.3, 3.2)));
+        assert!((sharp.largest(Quantity::Tau1).unwrap().value - 1.5).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,193 @@
+//! What is read off a contact on one grid.
+
+use super::boundary::{Boundary, Scale};
+use super::edge::Edge;
+use super::spots::{self, SpotReading};
+use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak};
+use crate::body::TransferFunction;
+use crate::lattice::components;
+use crate::numeric::number::number;
+use crate::numeric::sums;
+use crate::spectral::Contact;
+use std::f64::consts::PI;
+use std::fmt;
+
+/// Scalars of one load step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reading {
+    /// Mean pressure p̄ over the cell.
+    pub mean_pressure: f64,
+    /// Penetration δ, a length.
+    pub penetration: f64,
+    /// Fraction of the cell in contact.
+    pub contact_fraction: f64,
+    /// What the reading of the fraction says of its own error.
+    pub contact_fraction_uncertainty: f64,
+    /// Largest pressure, between the samples; what the grid resolves of it where it is infinite ([`Reading::singular`]).
+    pub max_pressure: f64,
+    /// Number of contact spots in the cell; merged contacts are one.
+    pub contact_spots: usize,
+    /// Samples along the radius of a disc as large as the typical spot: the one up to which, from the smallest on, half
+    /// of the load is carried. 0 without contact.
+    pub spot_resolution: f64,
+    /// Per level; empty for a topography.
+    pub levels: Vec<LevelReading>,
+    /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
+    /// samples or no smooth boundary. Empty for a topography.
+    pub boundaries: Vec<Option<Boundary>>,
+    /// Estimated discretisation errors, where coarser grids tell them.
+    pub errors: Errors,
+}
+
+impl Reading {
+    /// Whether the largest pressure is infinite: that of a level is.
+    pub fn singular(&self) -> bool {
+        self.levels.iter().any(|level| level.singular)
+    }
+
+    /// The largest pressure where it is finite.
+    pub fn finite_peak(&self) -> Option<f64> {
+        (!self.singular()).then_some(self.max_pressure)
+    }
+
+    /// What one grid says of a contact, without errors.
+    pub fn of(contact: &Contact) -> Self {
+        let (grid, surface) = (contact.grid(), contact.surface());
+        let (pressure, gap) = (contact.pressures(), contact.gaps());
+        let mean_pressure = sums::mean(pressure);
+        let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
+        let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
+
+        let most = grid.len() as f64;
+        let [shortest, longest] = Scale::distances((most / PI).sqrt()).map(|distance| distance * grid.spacing());
+        let transfer = TransferFunction::new(contact.problem().half_space());
+        let edge = Edge::new(&transfer, shortest, longest);
+        let scale = Scale { sample_area: grid.sample_area(), spacing: grid.spacing(), edge: &edge };
+        let spots = spots::spots(contact, &scale);
+        let (topography, located_samples) = if surface.owners().is_empty() {
+            spots::of_topography(contact, &scale)
+        } else {
+            spots::samples(contact, &spots)
+        };
+
+        let cell = grid.cell().area();
+        // Located spots have their own area. The others share what the lines of samples find there, as they were counted.
+        let located = || spots.iter().filter_map(|spot| spot.boundary.as_ref()).chain(&topography);
+        let along_lines = area::contact_fraction(grid, pressure, gap, |index| located_samples[index]);
+        let located_area: f64 = located().map(Boundary::area).sum();
+        let contact_area = located_area + cell * along_lines.fraction;
+        let counted: f64 = spots.iter().filter(|spot| spot.boundary.is_none()).map(|spot| spot.counted).sum();
+        let share = if counted > 0.0 { cell / counted } else { 0.0 };
+        let spot_area = |spot: &SpotReading| match &spot.boundary {
+            Some(boundary) => [boundary.area(), boundary.area_error()],
+            None => [along_lines.fraction, along_lines.error].map(|part| part * share * spot.counted),
+        };
+
+        let levels = (1..=contact.problem().counterbody().levels().len())
+            .map(|level| {
+                let own: Vec<&SpotReading> = surface
+                    .sites()
+                    .iter()
+                    .zip(&spots)
+                    .filter(|(site, _)| site.level == level)
+                    .map(|(_, s)| s)
+                    .collect();
+                let indenters = own.len() as f64;
+                let load = own.iter().map(|spot| spot.load).sum::<f64>();
+                let [area, area_error] =
+                    [0, 1].map(|k| own.iter().map(|spot| spot_area(spot)[k]).sum::<f64>() / indenters);
+                let merged = own.iter().any(|spot| spot.merged);
+                let peaks = own.iter().filter_map(|spot| spot.peak);
+                let boundaries = || own.iter().map(|spot| spot.boundary.as_ref());
+                let extremes = boundaries().map(|boundary| boundary.map(Boundary::extremes));
+                let radius = (area / PI).sqrt();
+                let ring = !merged && own.iter().any(|spot| spot.ring);
+                // Means over the indenters, by area.
+                let mean = |radius: fn(&Boundary) -> f64| {
+                    let squares: Option<Vec<f64>> = boundaries().map(|b| b.map(|b| radius(b).powi(2))).collect();
+                    squares.map(|squares| (squares.iter().sum::<f64>() / indenters).sqrt())
+                };
+                // The largest of them.
+                let most = |error: fn(&Boundary) -> f64| {
+                    let errors: Option<Vec<f64>> = boundaries().map(|b| b.map(error)).collect();
+                    errors.map(|errors| errors.into_iter().fold(0.0, f64::max))
+                };
+                let (radius_min, radius_max) = extremes
+                    .reduce(|a, b| a.zip(b).map(|(a, b): ((f64, f64), (f64, f64))| (a.0.min(b.0), a.1.max(b.1))))
+                    .flatten()
+                    .unzip();
+                let ring_radii = mean(Boundary::mean_hole_radius).zip(mean(Boundary::mean_radius)).filter(|_| ring);
+                let (radius_inner, radius_outer) = ring_radii.unzip();
+                LevelReading {
+                    level,
+                    load: load / indenters,
+                    load_share: if mean_pressure > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
+                    max_pressure: peaks.map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max),
+                    singular: load > 0.0
+                        && surface.sites().iter().any(|site| site.level == level && site.shape.singular_peak()),
+                    contact_area: area,
+                    contact_radius: (!merged).then_some(radius),
+                    ring,
+                    radius_inner,
+                    radius_outer,
+                    radius_min,
+                    radius_max,
+                    merged,
+                    resolution: (area / PI / grid.sample_area()).sqrt(),
+                    uncertainty: Uncertainty {
+                        area: area_error,
+                        radius: (!merged && area > 0.0).then(|| 0.5 * area_error / area * radius),
+                        hole: most(|b| b.hole_error).filter(|_| ring),
+                        boundary: most(|b| b.error),
+                    },
+                    errors: LevelErrors::default(),
+                }
+            })
+            .collect();
+        let (contact_spots, spot_resolution) = components::spots(grid, pressure).unwrap_or_default();
+        let contact_fraction = contact_area / cell;
+        let contact_fraction_uncertainty = located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error;
+        let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
+        Self {
+            mean_pressure,
+            penetration: contact.penetration(),
+            contact_fraction,
+            contact_fraction_uncertainty,
+            max_pressure,
+            contact_spots,
+            spot_resolution,
+            levels,
+            boundaries,
+            errors: Errors::default(),
+        }
+    }
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "mean pressure {}, penetration {}, contact fraction {}",
+            number(self.mean_pressure),
+            number(self.penetration),
+            number(self.contact_fraction)
+        )?;
+        for level in &self.levels {
+            write!(
+                f,
+                "\nlevel {}: load {} ({:.3} %), peak pressure {}, contact area {}{}",
+                level.level,
+                number(level.load),
+                100.0 * level.load_share,
+                number(level.max_pressure),
+                number(level.contact_area),
+                match (level.merged, level.ring) {
+                    (true, _) => ", merged with a neighbour",
+                    (false, true) => ", a ring",
+                    (false, false) => "",
+                }
+            )?;
+        }
+        Ok(())
+    }
+}

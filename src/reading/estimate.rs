@@ -1,0 +1,186 @@
+//! Estimated discretisation errors of what is read off a solution.
+//!
+//! On the way to a solution the nested grids have solved the same load step with a half, a quarter, … of the points.
+//! Quantities converge at second order, a cusp of the pressure slower; errors oscillate as the edge of contact moves
+//! among the samples, so that two grids can agree by chance. The estimate is therefore 1.5 to 4 times the largest of
+//!
+//! |q(h) − q(2h)|,  |q(h) − q(4h)|/4,  what n samples along a contact radius leave open:
+//!
+//! | quantity | relative |
+//! |---|---|
+//! | peak pressure | 0.1 n⁻² + n⁻⁴ for profiles rᵏ with k ≥ 2; 0.25 n^{1−k} for the cusps of 1 < k < 2 |
+//! | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
+//! | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
+//! | penetration | 0.01 n⁻², and under a topography what its apex rises above the highest sample |
+//! | areas, radii, asymmetry, fraction in contact | what the reading of the boundary says of itself |
+//!
+//! A topography stands where its highest sample does: prescribed its penetration, the errors of the others are those in
+//! that position, and the apex is the error of the penetration.
+//!
+//! The numbers are read off seven hundred random cases solved again with four times the points; that the estimates hold
+//! in 95 % of others is shown in `validation/discretisation`. What is prescribed has no error, the peak under a tip is
+//! infinite and has none either.
+
+use super::{Errors, LevelErrors, LevelReading, Reading, peak};
+use crate::load::Load;
+use crate::spectral::Step;
+
+/// What n samples along a contact radius leave open, relative to the quantity.
+struct Resolved {
+    /// Samples along the radius.
+    samples: f64,
+    /// Least exponent of the profiles.
+    exponent: f64,
+}
+
+impl Resolved {
+    /// Below one sample the laws say no more than there.
+    fn new(samples: f64, exponent: f64) -> Self {
+        Self { samples: samples.max(1.0), exponent }
+    }
+
+    fn peak(&self) -> f64 {
+        if self.exponent >= 2.0 {
+            0.1 * self.samples.powi(-2) + self.samples.powi(-4)
+        } else {
+            0.25 * self.samples.powf(1.0 - self.exponent)
+        }
+    }
+
+    fn load(&self) -> f64 {
+        0.03 * self.samples.powi(-2) + 0.3 * self.samples.powi(-4)
+    }
+
+    fn share(&self) -> f64 {
+        0.002 * self.samples.powi(-2)
+    }
+
+    fn penetration(&self) -> f64 {
+        0.01 * self.samples.powi(-2)
+    }
+}
+
+impl Step {
+    /// What a tribologist reads off the step, with its estimated discretisation errors.
+    pub fn reading(&self) -> Reading {
+        let mut reading = Reading::of(self.finest());
+        let coarser: Vec<Reading> = self.coarser().iter().take(CHANGES.len()).map(Reading::of).collect();
+        let levels = self.problem().counterbody().levels();
+        let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
+        let (errors, of_levels) = between(&reading, &coarser, &exponents, self.load, apex_above_samples(self));
+        reading.errors = errors;
+        for (level, errors) in reading.levels.iter_mut().zip(of_levels) {
+            level.errors = errors;
+        }
+        reading
+    }
+}
+
+/// How far the apex of a topography lies above its highest sample, from which the penetration is measured: a length. An
+/// indenter's apex is known.
+fn apex_above_samples(step: &Step) -> f64 {
+    let (grid, surface) = (step.grid(), step.surface());
+    if !surface.owners().is_empty() {
+        return 0.0;
+    }
+    // Positive everywhere, as a pressure is.
+    let lowest = surface.gaps().iter().copied().fold(0.0, f64::max) + surface.range();
+    let height: Vec<f64> = surface.gaps().iter().map(|depth| lowest - depth).collect();
+    // Another hill than that of the highest sample may rise higher between its own.
+    let is_summit = |&index: &usize| grid.neighbours(index).all(|next| height[next] <= height[index]);
+    let summits = (0..grid.len()).filter(is_summit);
+    let apex = summits.map(|index| peak::interpolated(grid, &height, index)).fold(0.0, f64::max);
+    let highest = height.iter().copied().fold(0.0, f64::max);
+    (apex - highest).max(0.0)
+}
+
+/// By how much the largest of all is multiplied, so that the estimates hold in some 97 % of the cases from which these
+/// numbers were read.
+const MEAN_PRESSURE: f64 = 2.0;
+const PENETRATION: f64 = 3.2;
+const LOAD: f64 = 3.0;
+const SHARE: f64 = 4.0;
+const PEAK: f64 = 2.2;
+const APEX: f64 = 1.25;
+// Judged by the least resolved of all contacts, and so already wide.
+const HIGHEST: f64 = 1.5;
+const AREA: f64 = 2.0;
+
+/// Parts of the changes against the coarser grids that count, the next coarser first.
+const CHANGES: [f64; 2] = [1.0, 0.25];
+
+/// Errors of `fine` from the readings of the coarser grids; `apex`: see [`apex_above_samples`].
+fn between(
+    fine: &Reading,
+    coarser: &[Reading],
+    exponents: &[f64],
+    load: Load,
+    apex: f64,
+) -> (Errors, Vec<LevelErrors>) {
+    if coarser.is_empty() || fine.mean_pressure <= 0.0 {
+        return (Errors::default(), vec![LevelErrors::default(); fine.levels.len()]);
+    }
+    // What the samples leave open, and what the coarser grids say.
+    let estimate = |safety: f64, open: f64, of: &dyn Fn(&Reading) -> Option<f64>| -> Option<f64> {
+        let value = of(fine)?;
+        let changes = CHANGES.into_iter().zip(coarser);
+        let changes = changes.filter_map(|(part, coarse)| Some(part * (of(coarse)? - value).abs()));
+        Some(safety * changes.fold(open, f64::max))
+    };
+    let mut touching: Vec<f64> =
+        fine.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution).collect();
+    if fine.levels.is_empty() {
+        touching.push(fine.spot_resolution);
+    }
+    // The whole is as good as the largest contact, the highest peak as the least resolved one; a topography has its
+    // typical spot.
+    let largest = touching.iter().copied().fold(0.0, f64::max);
+    let smallest = touching.iter().copied().fold(f64::INFINITY, f64::min);
+    let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
+    let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);
+    let law = |of: fn(&Resolved) -> f64, samples: f64| of(&Resolved::new(samples, sharpest));
+    let by_load = load.is_mean_pressure();
+    let level = |(index, (own, &exponent)): (usize, (&LevelReading, &f64))| -> LevelErrors {
+        if own.load <= 0.0 {
+            return LevelErrors::default();
+        }
+        let resolved = Resolved::new(own.resolution, exponent);
+        let of = |safety: f64, open: f64, value: fn(&LevelReading) -> Option<f64>| {
+            estimate(safety, open, &|reading| reading.levels.get(index).and_then(value))
+        };
+        // A single level carries the whole load.
+        let share = if fine.levels.len() == 1 { 0.0 } else { resolved.share() };
+        let own_load = own.load * if by_load { share / own.load_share } else { resolved.load() };
+        let peak = own.max_pressure * resolved.peak();
+        let radius = |error: Option<f64>, value: fn(&LevelReading) -> Option<f64>| of(AREA, error?, value);
+        let relative = own.uncertainty.boundary.zip(own.radius_max).map(|(error, largest)| error / largest);
+        LevelErrors {
+            load: of(LOAD, own_load, |level| Some(level.load)),
+            load_share: of(SHARE, share, |level| Some(level.load_share)),
+            max_pressure: of(PEAK, peak, LevelReading::finite_peak),
+            contact_area: of(AREA, own.uncertainty.area, |level| Some(level.contact_area)),
+            contact_radius: radius(own.uncertainty.radius, |level| level.contact_radius),
+            radius_inner: radius(own.uncertainty.hole, |level| level.radius_inner),
+            radius_outer: radius(own.uncertainty.boundary, |level| level.radius_outer),
+            radius_min: radius(own.uncertainty.boundary, |level| level.radius_min),
+            radius_max: radius(own.uncertainty.boundary, |level| level.radius_max),
+            asymmetry: radius(relative, LevelReading::asymmetry),
+        }
+    };
+    let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
+    let apex = APEX * apex;
+    let load = fine.mean_pressure * law(Resolved::load, largest);
+    let depth = fine.penetration.abs() * law(Resolved::penetration, largest);
+    let mean_pressure = estimate(MEAN_PRESSURE, load, &|step| Some(step.mean_pressure));
+    let penetration = estimate(PENETRATION, depth, &|step| Some(step.penetration));
+    let peak = fine.max_pressure * law(Resolved::peak, smallest);
+    let highest = if fine.levels.is_empty() { PEAK } else { HIGHEST };
+    let levels = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
+    let errors = Errors {
+        mean_pressure: prescribed(mean_pressure, by_load),
+        penetration: prescribed(penetration, !by_load).map(|error| error + apex),
+        contact_fraction: estimate(AREA, fine.contact_fraction_uncertainty, &|step| Some(step.contact_fraction)),
+        max_pressure: estimate(highest, peak, &|step| step.finite_peak()),
+    };
+    (errors, levels)
+}

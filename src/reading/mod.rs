@@ -1,0 +1,25 @@
+//! What a tribologist reads off a solved contact, level by level and between the samples.
+//!
+//! A sample belongs to the indenter whose surface is nearest to it. Contacts of neighbouring indenters that touch have
+//! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning. A contact that is open in
+//! the middle is a **ring**: its area is that in contact. Radii and areas carry an estimate of their discretisation
+//! error.
+
+pub(crate) mod area;
+pub(crate) mod boundary;
+mod contact;
+pub(crate) mod edge;
+mod errors;
+mod estimate;
+mod level;
+pub(crate) mod peak;
+mod spots;
+mod stress;
+mod touch;
+
+pub use boundary::Boundary;
+pub use contact::Reading;
+pub use errors::{Errors, LevelErrors};
+pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
+pub use stress::{StressErrors, StressReading};
+pub use touch::first_touches;

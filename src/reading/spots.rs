@@ -1,0 +1,183 @@
+//! The contact spots of a grid: whose they are, whether they have merged, where they are open, and their boundaries.
+
+use crate::lattice::components::{Component, around, components};
+use crate::reading::boundary::{Boundary, Polar, Scale};
+use crate::spectral::Contact;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Label of a sample that belongs to no contact, or to no contact's hole.
+const NOBODY: u32 = u32::MAX;
+
+/// Contact spot of one site.
+#[derive(Debug, Clone, Default)]
+pub struct SpotReading {
+    pub load: f64,
+    /// Area of its samples; one that several sites own together counts in parts.
+    pub counted: f64,
+    pub peak: Option<usize>,
+    pub merged: bool,
+    /// Whether it encloses open samples.
+    pub ring: bool,
+    pub boundary: Option<Boundary>,
+}
+
+/// The contacts of all sites; none for a topography.
+pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
+    let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
+    let (reduced, [n1, n2]) = (grid.cell().reduced(), grid.points());
+    let mut spots = vec![SpotReading::default(); surface.sites().len()];
+    if surface.owners().is_empty() {
+        return spots;
+    }
+    let offset = |index: usize| surface.offset(&reduced, surface.owners()[index], index);
+    // The way to the next sample along a₁ and a₂, in a skewed cell by its shortest equivalent.
+    let steps = [reduced.nearest([1.0 / n1 as f64, 0.0]), reduced.nearest([0.0, 1.0 / n2 as f64])];
+    let tolerance = 1e-6 * grid.spacing();
+    for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
+        let owner = surface.owners()[index];
+        let owners = surface.facing(index);
+        let part = grid.sample_area() / owners.len() as f64;
+        for &site in owners {
+            let spot = &mut spots[site as usize];
+            spot.load += part * p;
+            spot.counted += part;
+            if spot.peak.is_none_or(|peak| p > pressure[peak]) {
+                spot.peak = Some(index);
+            }
+        }
+        // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
+        let (row, column) = (index / n2, index % n2);
+        let neighbours = [(row + 1) % n1 * n2 + column, row * n2 + (column + 1) % n2];
+        for (neighbour, step) in neighbours.into_iter().zip(steps) {
+            if pressure[neighbour] <= 0.0 {
+                continue;
+            }
+            let (here, there) = (offset(index), offset(neighbour));
+            let apart = [0, 1].map(|k| (there[k] - here[k] - step[k]).abs());
+            let other = surface.owners()[neighbour];
+            if other != owner || apart[0].max(apart[1]) > tolerance {
+                spots[owner as usize].merged = true;
+                spots[other as usize].merged = true;
+            }
+        }
+    }
+    locate(contact, scale, &mut spots);
+    spots
+}
+
+/// Open samples that one contact encloses: `label` tells contacts apart.
+fn holes(contact: &Contact, label: impl Fn(usize) -> u32) -> Vec<(u32, Component)> {
+    let (grid, pressure) = (contact.grid(), contact.pressures());
+    let [n1, n2] = grid.points();
+    let enclosed = |open: Component| {
+        let mut beside = open.indices(grid).flat_map(|index| {
+            let (row, column) = (index / n2, index % n2);
+            let rows = [(row + 1) % n1, (row + n1 - 1) % n1].map(|row| row * n2 + column);
+            let columns = [(column + 1) % n2, (column + n2 - 1) % n2].map(|column| row * n2 + column);
+            rows.into_iter().chain(columns).filter(|&index| pressure[index] > 0.0)
+        });
+        let owner = label(beside.next()?);
+        let alone = beside.all(|index| label(index) == owner);
+        drop(beside);
+        alone.then_some((owner, open))
+    };
+    // What lies outside meets its own images, or several contacts.
+    components(grid, |index| pressure[index] <= 0.0)
+        .into_iter()
+        .filter(|open| !open.wraps)
+        .filter_map(enclosed)
+        .collect()
+}
+
+/// Finds the holes and the boundaries of the spots that stand alone.
+fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
+    let (grid, surface) = (contact.grid(), contact.surface());
+    let (pressure, gap) = (contact.pressures(), contact.gaps());
+    let reduced = grid.cell().reduced();
+    let modulus = contact.problem().half_space().surface_material().contact_modulus();
+    // Whose a sample is: in a hole that of the contact around it.
+    let mut owner = surface.owners().to_vec();
+    let mut hole = vec![false; grid.len()];
+    for (own, open) in holes(contact, |index| surface.owners()[index]) {
+        let spot = &mut spots[own as usize];
+        // Between merged contacts lies what is outside all of them.
+        if !spot.merged {
+            spot.ring = true;
+            for index in open.indices(grid) {
+                (owner[index], hole[index]) = (own, true);
+            }
+        }
+    }
+    // Samples that a fit can reach: out to twice the radius of all that is enclosed.
+    let mut enclosed = vec![0.0; spots.len()];
+    for (index, &own) in owner.iter().enumerate() {
+        if pressure[index] > 0.0 || hole[index] {
+            enclosed[own as usize] += grid.sample_area();
+        }
+    }
+    let polar = |index: usize| {
+        let own = owner[index];
+        let area = enclosed[own as usize];
+        if spots[own as usize].merged || area == 0.0 {
+            return None;
+        }
+        let [x, y] = surface.offset(&reduced, own, index);
+        let (r, p) = (x.hypot(y), pressure[index]);
+        let opening = 0.75 * modulus * gap[index];
+        let sample = Polar { r, theta: y.atan2(x), p, opening, hole: hole[index] };
+        (r < 2.0 * (area / PI).sqrt() || p > 0.0).then_some((own as usize, sample))
+    };
+    // Counted first, so that they take no more room than they need.
+    let mut counts = vec![0; spots.len()];
+    (0..grid.len()).filter_map(polar).for_each(|(own, _)| counts[own] += 1);
+    let mut samples: Vec<Vec<Polar>> = counts.into_iter().map(Vec::with_capacity).collect();
+    (0..grid.len()).filter_map(polar).for_each(|(own, sample)| samples[own].push(sample));
+    spots.par_iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()).for_each(|(spot, samples)| {
+        spot.boundary = Boundary::locate(samples, scale);
+    });
+}
+
+/// Which samples belong to spots with a boundary.
+pub fn samples(contact: &Contact, spots: &[SpotReading]) -> (Vec<Boundary>, Vec<bool>) {
+    let located = |&owner: &u32| spots[owner as usize].boundary.is_some();
+    (Vec::new(), contact.surface().owners().iter().map(located).collect())
+}
+
+/// Boundaries of a topography's contacts around their own centres, where these are simple, and the samples of all that
+/// have one.
+pub fn of_topography(contact: &Contact, scale: &Scale<'_>) -> (Vec<Boundary>, Vec<bool>) {
+    let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
+    let modulus = contact.problem().half_space().surface_material().contact_modulus();
+    let contacts = components(grid, |index| pressure[index] > 0.0);
+    let mut label = vec![NOBODY; grid.len()];
+    for (own, contact) in (0..).zip(&contacts) {
+        contact.indices(grid).for_each(|index| label[index] = own);
+    }
+    let mut hole_of = vec![NOBODY; grid.len()];
+    for (own, open) in holes(contact, |index| label[index]) {
+        open.indices(grid).for_each(|index| hole_of[index] = own);
+    }
+    let boundary = |(own, spot): (usize, &Component)| {
+        let own = own as u32;
+        let centre = spot.centre(grid);
+        // What is nobody's or its own, in contact and in holes.
+        let ours = |whose: u32| whose == own || whose == NOBODY;
+        let samples: Vec<Polar> = around(grid, centre, 2.0 * spot.farthest(grid, centre))
+            .filter(|(index, _)| ours(label[*index]) && ours(hole_of[*index]))
+            .map(|(index, [x, y])| {
+                let opening = 0.75 * modulus * gap[index];
+                let (p, hole) = (pressure[index], hole_of[index] == own);
+                Polar { r: x.hypot(y), theta: y.atan2(x), p, opening, hole }
+            })
+            .collect();
+        Boundary::locate(&samples, scale)
+    };
+    let found: Vec<Option<Boundary>> =
+        contacts.par_iter().enumerate().map(|each| (!each.1.wraps).then(|| boundary(each)).flatten()).collect();
+    let mut located = vec![false; grid.len()];
+    for (spot, _) in contacts.iter().zip(&found).filter(|(_, boundary)| boundary.is_some()) {
+        spot.indices(grid).for_each(|index| located[index] = true);
+    }
+    (found.into_iter().flatten().collect(), located)
+}

@@ -1,0 +1,190 @@
+//! How much the answer changes from one grid to the next finer one.
+
+use super::StepRecord;
+use crate::lattice::Cell;
+use crate::numeric::search::largest;
+use crate::reading::Reading;
+use crate::spectral::fourier::fast_points;
+use std::fmt;
+
+/// Points along the shorter cell vector at which a refinement starts.
+pub const FIRST_POINTS: usize = 96;
+/// Points along the longer cell vector beyond which it gives up.
+pub const MOST_POINTS: usize = 4096;
+/// Points along the shorter cell vector of the first grid, at least.
+const LEAST_POINTS: usize = 12;
+
+/// `points` along the shorter cell vector, and as dense along the longer one.
+pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
+    let lengths = cell.vectors().map(|a| a[0].hypot(a[1]));
+    let shorter = lengths[0].min(lengths[1]);
+    lengths.map(|length| fast_points((points as f64 * length / shorter).round() as usize))
+}
+
+/// Largest relative change between the load steps on two grids: of peak pressures (over the largest one), load shares,
+/// mean pressure and penetration, and of the largest stresses. What is infinite under a tip is left out.
+pub fn change(coarse: &[StepRecord], fine: &[StepRecord]) -> f64 {
+    let pairs = coarse.iter().zip(fine);
+    largest(pairs.flat_map(|(coarse, fine)| [step_change(&coarse.reading, &fine.reading), stress_change(coarse, fine)]))
+}
+
+/// A cell too oblong for any grid of the refinement.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "the cell is {0:.0} times as long as wide: no grid of at most {MOST_POINTS} points along a side has {LEAST_POINTS} along the other; \
+     give grid.points instead of grid.accuracy"
+)]
+pub struct TooOblong(f64);
+
+/// Why a refinement ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum End {
+    /// The last change is below the accuracy.
+    Reached,
+    /// Changes **stagnate**: as fast as they fall, the better of the last two times, no grid in reach gets below the
+    /// accuracy.
+    Stagnates,
+    /// The next grid would have more than 4096 points along a side.
+    Finest,
+    /// There is no room for the next grid, in memory or on disk.
+    Room,
+}
+
+impl fmt::Display for End {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reached => f.write_str("it is reached"),
+            Self::Stagnates => f.write_str("changes fall too slowly for any grid in reach"),
+            Self::Finest => write!(f, "the next grid would have more than {MOST_POINTS} points along a side"),
+            Self::Room => f.write_str("there is no room for the next grid, in memory or on disk"),
+        }
+    }
+}
+
+/// Finer and finer grids until results change by less than an accuracy, or for another reason to [`End`].
+#[derive(Debug, Clone)]
+pub struct Refinement {
+    cell: Cell,
+    accuracy: f64,
+    points: usize,
+    changes: Vec<f64>,
+}
+
+impl Refinement {
+    /// Refinement on a cell, to changes below `accuracy`.
+    ///
+    /// # Errors
+    /// [`TooOblong`] when not even the first grid is allowed.
+    pub fn new(cell: Cell, accuracy: f64) -> Result<Self, TooOblong> {
+        let lengths = cell.vectors().map(|a| a[0].hypot(a[1]));
+        let ratio = lengths[0].max(lengths[1]) / lengths[0].min(lengths[1]);
+        let first = FIRST_POINTS.min((MOST_POINTS as f64 / ratio) as usize);
+        if first < LEAST_POINTS {
+            return Err(TooOblong(ratio));
+        }
+        Ok(Self { cell, accuracy, points: first, changes: Vec::new() })
+    }
+
+    /// The present grid.
+    pub fn points(&self) -> [usize; 2] {
+        balanced_points(&self.cell, self.points)
+    }
+
+    /// Goes on to the next grid, after the change that the present one brought (none on the first), unless it ends.
+    /// `fits` tells whether there is room for a grid.
+    pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<End> {
+        self.changes.extend(change);
+        let finer = balanced_points(&self.cell, 2 * self.points);
+        let end = if self.changes.last().is_some_and(|&change| change < self.accuracy) {
+            End::Reached
+        } else if finer.iter().any(|&n| n > MOST_POINTS) {
+            End::Finest
+        } else if self.stagnates() {
+            End::Stagnates
+        } else if !fits(finer) {
+            End::Room
+        } else {
+            self.points *= 2;
+            return None;
+        };
+        Some(end)
+    }
+
+    fn stagnates(&self) -> bool {
+        let [.., first, second, last] = self.changes[..] else { return false };
+        let fall = (second / first).min(last / second);
+        let grids = (1..).map(|times| balanced_points(&self.cell, self.points << times));
+        let in_reach = grids.take_while(|points| points.iter().all(|&n| n <= MOST_POINTS)).count();
+        let best = last * fall.powi(in_reach as i32);
+        // What is not a number stagnates too.
+        best.partial_cmp(&self.accuracy) != Some(std::cmp::Ordering::Less)
+    }
+}
+
+fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
+    if fine.max_pressure <= 0.0 {
+        return 0.0;
+    }
+    let peak = if fine.singular() { 0.0 } else { (fine.max_pressure - coarse.max_pressure).abs() };
+    let penetration = ((fine.penetration - coarse.penetration) / fine.penetration).abs();
+    let load = (fine.mean_pressure - coarse.mean_pressure).abs() / fine.mean_pressure;
+    let levels = coarse.levels.iter().zip(&fine.levels).flat_map(|(coarse, level)| {
+        let peak = if level.singular { 0.0 } else { (level.max_pressure - coarse.max_pressure).abs() };
+        [peak / fine.max_pressure, (level.load_share - coarse.load_share).abs()]
+    });
+    largest([peak / fine.max_pressure, penetration, load].into_iter().chain(levels))
+}
+
+/// Of the largest τ₁ and tension, over the larger of both; 0 without stresses.
+fn stress_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
+    let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
+    let pairs = [(&coarse.max_tau1, &fine.max_tau1), (&coarse.max_tension, &fine.max_tension)];
+    let finite = pairs.map(|(coarse, fine)| coarse.finite().zip(fine.finite()));
+    let finite = || finite.into_iter().flatten();
+    let scale = largest(finite().map(|(_, fine)| fine.abs()));
+    let change = largest(finite().map(|(coarse, fine)| (fine - coarse).abs()));
+    if scale > 0.0 { change / scale } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_as_dense_along_both_vectors_and_fast() {
+        let oblong = Cell::new([10.0, 0.0], [0.0, 1.0]).unwrap();
+        assert_eq!(balanced_points(&oblong, 96), [960, 96]);
+        let odd = Cell::new([1.0, 0.0], [0.5, 1.1]).unwrap();
+        assert_eq!(balanced_points(&odd, 96), [96, 120]);
+    }
+
+    #[test]
+    fn a_refinement_says_why_it_ends() {
+        let square = Cell::square(1.0).unwrap();
+        let run = |changes: &[f64], most: usize| {
+            let mut refinement = Refinement::new(square, 1e-3).unwrap();
+            let mut rest = changes.iter().copied();
+            let mut change = None;
+            loop {
+                match refinement.refine(change, |[n, _]| n <= most) {
+                    Some(end) => return (refinement.points()[0], end),
+                    None => change = rest.next(),
+                }
+            }
+        };
+        assert_eq!(run(&[1e-2, 3e-3, 9e-4, 1e-9], 8192), (768, End::Reached));
+        // A logarithm changes as much from grid to grid.
+        assert_eq!(run(&[1e-2, 9.9e-3, 9.8e-3, 9.7e-3], 8192), (768, End::Stagnates));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 8192), (3072, End::Finest));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 1000), (768, End::Room));
+    }
+
+    #[test]
+    fn the_first_grid_is_bounded_and_a_needle_refused() {
+        let oblong = |ratio: f64| Refinement::new(Cell::new([ratio, 0.0], [0.0, 1.0]).unwrap(), 1e-3);
+        assert_eq!(oblong(4.0).unwrap().points(), [384, 96]);
+        assert!(oblong(100.0).unwrap().points().iter().all(|&n| n <= MOST_POINTS));
+        assert!(oblong(1000.0).is_err());
+    }
+}

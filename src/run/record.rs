@@ -1,0 +1,85 @@
+//! Every scalar of a load step, as `summary.json` has them.
+
+use crate::reading::{Reading, StressReading};
+use crate::spectral::{Certificate, Report, Step, Stop};
+
+/// What stays of a load step beside its fields.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepRecord {
+    /// What is read off it.
+    pub reading: Reading,
+    /// How it was solved.
+    pub report: Report,
+    /// What the pressure proves about itself.
+    pub certificate: Certificate,
+    /// Convolutions on all grids, as equivalents of the finest one.
+    pub convolutions: f64,
+    /// Grid points along a₁ and a₂.
+    pub points: [usize; 2],
+    /// Largest stresses, where stresses are asked for and there is contact.
+    pub stress: Option<StressReading>,
+}
+
+impl StepRecord {
+    /// Of a step and what is read off it, without stresses.
+    pub fn new(step: &Step, reading: Reading) -> Self {
+        let Step { report, certificate, convolutions, .. } = *step;
+        Self { reading, report, certificate, convolutions, points: step.grid().points(), stress: None }
+    }
+
+    /// Whether the solution meets the tolerance. What is not a number compares as small as any, and does not.
+    pub fn converged(&self) -> bool {
+        self.report.stop.solved() && self.is_finite()
+    }
+
+    /// Why the iteration ended.
+    pub fn stop_reason(&self) -> String {
+        if self.is_finite() { self.report.stop.to_string() } else { "not a number".to_owned() }
+    }
+
+    /// Whether contact is no wider than the grid's spacing.
+    pub fn is_unresolved(&self) -> bool {
+        self.report.stop == Stop::Unresolved && self.is_finite()
+    }
+
+    fn is_finite(&self) -> bool {
+        let Reading { mean_pressure, penetration, max_pressure, .. } = self.reading;
+        [mean_pressure, penetration, max_pressure, self.certificate.energy_gap].iter().all(|x| x.is_finite())
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for StepRecord {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use crate::spectral::Route;
+        use serde::ser::SerializeStruct;
+        let Self { reading, report, certificate, .. } = self;
+        let mut keys = serializer.serialize_struct("step", 21)?;
+        keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
+        keys.serialize_field("penetration", &reading.penetration)?;
+        // Eq. (8): δ is measured from the mean plane of the deformed surface.
+        keys.serialize_field("additional_displacement", &reading.penetration)?;
+        keys.serialize_field("contact_fraction", &reading.contact_fraction)?;
+        keys.serialize_field("max_pressure", &reading.finite_peak())?;
+        keys.serialize_field("singular", &reading.singular())?;
+        keys.serialize_field("errors", &reading.errors)?;
+        keys.serialize_field("converged", &self.converged())?;
+        keys.serialize_field("stop_reason", &self.stop_reason())?;
+        keys.serialize_field("route", report.route.name())?;
+        keys.serialize_field("fell_back", &(report.route == Route::BaselineAfterStall))?;
+        keys.serialize_field("trials", &report.route.trials())?;
+        keys.serialize_field("iterations", &report.iterations)?;
+        keys.serialize_field("convolutions", &self.convolutions)?;
+        keys.serialize_field("residual", &report.residual)?;
+        keys.serialize_field("certificate", certificate)?;
+        keys.serialize_field("points", &self.points)?;
+        keys.serialize_field("contact_spots", &reading.contact_spots)?;
+        keys.serialize_field("spot_resolution", &reading.spot_resolution)?;
+        keys.serialize_field("levels", &reading.levels)?;
+        match &self.stress {
+            Some(stress) => keys.serialize_field("stress", stress)?,
+            None => keys.skip_field("stress")?,
+        }
+        keys.end()
+    }
+}

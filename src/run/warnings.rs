@@ -1,0 +1,161 @@
+//! What a reader should know before trusting the numbers of a run, a sentence each.
+//!
+//! The theory is one of small strains and small slopes: under an indenter the strain is about the slope of its flank at
+//! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, numbers are those
+//! of a linear body that is not there.
+
+use super::StepRecord;
+use super::accuracy::End;
+use crate::counterbody::Shape;
+use crate::numeric::number::number;
+use crate::problem::Problem;
+use crate::reading::FEW_SAMPLES;
+use std::f64::consts::PI;
+
+/// Slope of a flank beyond which strains are not small.
+pub const STEEP: f64 = 0.5;
+/// Peak pressure over E* beyond which strains are not small.
+pub const HIGH: f64 = 1.0 / 3.0;
+/// A larger error of the stresses on the surface than this is worth a warning.
+const WORTH_SAYING: f64 = 0.02;
+
+/// What is doubtful about the steps of a run; `end` and `change`: how a refinement ended, and its last change.
+pub(super) fn warnings(problem: &Problem, steps: &[StepRecord], end: Option<End>, change: Option<f64>) -> Vec<String> {
+    let all = [
+        unresolved(steps),
+        not_converged(steps),
+        few_samples(steps),
+        small_spots(steps),
+        end.and_then(|end| not_accurate(end, change)),
+        rough_surface(steps),
+        steep_flank(problem, steps),
+        high_pressure(problem, steps),
+    ];
+    all.into_iter().flatten().collect()
+}
+
+/// Numbers of the steps of which something is true, as a list; `None` without any.
+fn list(steps: &[StepRecord], of: impl Fn(&StepRecord) -> bool) -> Option<String> {
+    let numbers = (1..).zip(steps).filter(|(_, step)| of(step)).map(|(number, _): (usize, _)| number.to_string());
+    Some(numbers.collect::<Vec<_>>().join(", ")).filter(|list| !list.is_empty())
+}
+
+fn unresolved(steps: &[StepRecord]) -> Option<String> {
+    let list = list(steps, StepRecord::is_unresolved)?;
+    Some(format!(
+        "the penetration of step {list} reaches hardly a sample: contact is no wider than the grid's spacing, and its load \
+         is unknown; raise grid.points, or prescribe more"
+    ))
+}
+
+fn not_converged(steps: &[StepRecord]) -> Option<String> {
+    let list = list(steps, |step| !step.converged() && !step.is_unresolved())?;
+    Some(format!("not converged: step {list}; judge it by its certificate"))
+}
+
+fn few_samples(steps: &[StepRecord]) -> Option<String> {
+    let coarse =
+        |step: &StepRecord| step.reading.levels.iter().any(|level| level.load > 0.0 && level.resolution < FEW_SAMPLES);
+    let list = list(steps, coarse)?;
+    Some(format!(
+        "a contact radius has less than {FEW_SAMPLES} samples in step {list}: its radius and peak pressure are rough; raise \
+         grid.points"
+    ))
+}
+
+/// Few samples in the spots of a topography. Complete contact has no edge that samples would have to show.
+fn small_spots(steps: &[StepRecord]) -> Option<String> {
+    let rough = |step: &StepRecord| {
+        let reading = &step.reading;
+        reading.levels.is_empty()
+            && 0.0 < reading.spot_resolution
+            && reading.spot_resolution < FEW_SAMPLES
+            && reading.contact_fraction < 1.0
+    };
+    let list = list(steps, rough)?;
+    Some(format!(
+        "half of the load lies on contact spots of less than {FEW_SAMPLES} samples to the radius in step {list}: contact area \
+         and pressures are rough; give the topography on more points"
+    ))
+}
+
+fn not_accurate(end: End, change: Option<f64>) -> Option<String> {
+    let reached = match change {
+        Some(change) => format!("the last change was {change:.1e}"),
+        None => "there is one grid only".to_owned(),
+    };
+    (end != End::Reached).then(|| format!("grid.accuracy is not reached: {reached}, and {end}"))
+}
+
+fn rough_surface(steps: &[StepRecord]) -> Option<String> {
+    let errors = steps.iter().filter_map(|step| Some(step.stress.as_ref()?.surface_error));
+    let worst = errors.filter(|&error| error > WORTH_SAYING).reduce(f64::max)?;
+    Some(format!(
+        "stresses on the surface near the edge of contact may err by {:.0} % (stress.surface_error of each step); raise \
+         grid.points",
+        100.0 * worst
+    ))
+}
+
+/// The steepest flank in contact, beside cones, whose flank is their own.
+fn steep_flank(problem: &Problem, steps: &[StepRecord]) -> Option<String> {
+    let levels = problem.counterbody().levels();
+    let flanks = (1..).zip(steps).flat_map(|(number, step)| {
+        let touching = step.reading.levels.iter().filter(|level| level.load > 0.0);
+        // Merged contacts have no radius, but an area.
+        touching.map(move |level| (number, level.level, (level.contact_area / PI).sqrt()))
+    });
+    let slope = |level: usize, radius: f64| levels[level - 1].shape().slope(radius);
+    let steepest = flanks
+        .filter(|(_, level, _)| !matches!(levels[level - 1].shape(), Shape::Cone { .. }))
+        .max_by(|a: &(usize, usize, f64), b| slope(a.1, a.2).total_cmp(&slope(b.1, b.2)));
+    let (step, level, radius) = steepest.filter(|&(_, level, radius)| slope(level, radius) > STEEP)?;
+    Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius))
+}
+
+fn high_pressure(problem: &Problem, steps: &[StepRecord]) -> Option<String> {
+    let modulus = problem.half_space().surface_material().contact_modulus();
+    // A pressure that is infinite under a tip is beyond any measure.
+    let peaks = (1..).zip(steps).filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
+    let highest = peaks.max_by(|a: &(usize, f64), b| a.1.total_cmp(&b.1));
+    let (step, pressure) = highest.filter(|(_, p)| *p > HIGH * modulus)?;
+    Some(format!(
+        "step {step}: the largest pressure {} is {} of E* at the surface: strains are not small any more; are load and moduli \
+         in one unit?",
+        number(pressure),
+        part(pressure / modulus)
+    ))
+}
+
+/// That the flank of a level is steep at the edge of a contact of radius a.
+pub fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
+    let told = match shape {
+        Shape::Paraboloid { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
+        Shape::Sphere { radius } if a >= radius => {
+            format!("beyond the equator of its sphere of radius {}", number(radius))
+        }
+        Shape::Sphere { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
+        _ => format!("where its flank has the slope {}", part(shape.slope(a))),
+    };
+    format!(
+        "{context}: the contact radius {} of level {level} is {told}: strains are not small any more; are radius, period, \
+         load and moduli in consistent units?",
+        number(a)
+    )
+}
+
+/// A ratio with two digits.
+pub fn part(x: f64) -> String {
+    if (0.01..1000.0).contains(&x) { format!("{x:.2}") } else { format!("{x:.1e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn contact_beyond_the_equator_is_told() {
+        assert!(Shape::Sphere { radius: 1.0 }.slope(1.5).is_infinite());
+        assert!(flank("step 1", 1, Shape::Sphere { radius: 1.0 }, 1.5).contains("equator"));
+    }
+}

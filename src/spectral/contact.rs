@@ -1,0 +1,80 @@
+//! A contact solved on one grid.
+
+use crate::counterbody::Surface;
+use crate::lattice::Grid;
+use crate::numeric::array::{field, samples};
+use crate::problem::Problem;
+use ndarray::{Array2, ArrayView2};
+use std::sync::Arc;
+
+/// Pressure and gap of a solved load step on one grid. It owns its fields and shares problem and surface, so that it
+/// outlives the solver.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    problem: Arc<Problem>,
+    surface: Arc<Surface>,
+    pressure: Array2<f64>,
+    gap: Array2<f64>,
+    penetration: f64,
+}
+
+impl Contact {
+    /// `pressure` and `gap` have one value per sample of the surface's grid, a₂ fastest.
+    pub(super) fn new(
+        problem: &Arc<Problem>,
+        surface: &Arc<Surface>,
+        pressure: Vec<f64>,
+        gap: Vec<f64>,
+        penetration: f64,
+    ) -> Self {
+        let points = surface.grid().points();
+        Self {
+            problem: Arc::clone(problem),
+            surface: Arc::clone(surface),
+            pressure: field(points, pressure),
+            gap: field(points, gap),
+            penetration,
+        }
+    }
+
+    /// What is pressed into what.
+    pub fn problem(&self) -> &Arc<Problem> {
+        &self.problem
+    }
+
+    /// The counterbody's surface on the grid.
+    pub fn surface(&self) -> &Arc<Surface> {
+        &self.surface
+    }
+
+    /// The grid.
+    pub fn grid(&self) -> &Arc<Grid> {
+        self.surface.grid()
+    }
+
+    /// Pressure p ≥ 0, in the unit of Young's modulus; axes along a₁ and a₂.
+    pub fn pressure(&self) -> ArrayView2<'_, f64> {
+        self.pressure.view()
+    }
+
+    /// Gap g = w + f − δ, a length; axes along a₁ and a₂.
+    pub fn gap(&self) -> ArrayView2<'_, f64> {
+        self.gap.view()
+    }
+
+    /// Penetration δ, from the mean plane of the deformed surface to the highest apex, a length: the additional
+    /// displacement w_a.
+    pub fn penetration(&self) -> f64 {
+        self.penetration
+    }
+
+    /// Pressure sample by sample, a₂ fastest.
+    pub(crate) fn pressures(&self) -> &[f64] {
+        samples(&self.pressure)
+    }
+
+    /// Gap sample by sample, a₂ fastest.
+    pub(crate) fn gaps(&self) -> &[f64] {
+        samples(&self.gap)
+    }
+}

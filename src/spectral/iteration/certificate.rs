@@ -1,0 +1,37 @@
+//! What a pressure proves about itself, from one convolution.
+//!
+//! For the energy E(p) = ½⟨p, Cp⟩ + ⟨p, f⟩ over all p ≥ 0 with the same load, convexity gives for the minimum E*
+//!
+//! E(p) − E* ≤ ⟨p, g⟩ − min_s ⟨s, g⟩ = Σ p (g − min g),
+//!
+//! the Frank–Wolfe gap (g may be shifted by any constant). Divided by the elastic energy ½⟨p, Cp⟩ it bounds the
+//! relative excess of energy whatever route led to p. Under displacement control the multiplier δ is given and no
+//! other p ≥ 0 of at most the same load has less energy ½⟨p, Cp⟩ + ⟨p, f − δ⟩ than by Σ p (g − min(0, min g)).
+//!
+//! In complete contact a uniform pressure is free, and the rounding of g under it would rule the gap. Without p ≥ 0 the
+//! minimum is at Cp + f = δ, so that the excess is at most ½⟨g, C⁻¹g⟩ there: the smaller of the two bounds is taken.
+
+use std::fmt;
+
+/// Bounds on the error of a pressure, all dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Certificate {
+    /// Σ p (g − min g) over ½⟨p, Cp⟩ (min(0, min g) under displacement control): bound on the relative excess of energy.
+    pub energy_gap: f64,
+    /// Deepest penetration outside contact over δ, ≥ 0.
+    pub penetration: f64,
+    /// Deviation of what was prescribed: |mean p − p̄|/p̄ under load control, |Σp(w+f)/Σp − δ|/δ under displacement
+    /// control.
+    pub load: f64,
+}
+
+impl fmt::Display for Certificate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "energy within {:.1e} of its minimum, penetration {:.1e}, load {:.1e}",
+            self.energy_gap, self.penetration, self.load
+        )
+    }
+}

@@ -1,0 +1,67 @@
+//! Conjugate gradients of Polonsky & Keer, Wear 231 (1999) 206, the baseline.
+//!
+//! On {p > 0}: t = g + δ′ (G/G₀) t with G = Σ g² (δ′ = 0 right after samples have joined), τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p
+//! − τt, 0); samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over
+//! contact, Ct likewise, and p is scaled back to its mean.
+
+use super::check::Check;
+use super::problem::GridProblem;
+use super::report::{Progress, Report, Route, Stop};
+use super::stopping::Patience;
+use super::unknowns::Unknowns;
+use crate::numeric::sums;
+
+/// First window of the patience, iterations: the method is rougher on its way than the preconditioned one.
+const PATIENCE: usize = 100;
+
+/// Iterates from and into `unknowns`; `iterations` are those before.
+pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknowns: &mut Unknowns) -> Report {
+    let len = problem.initial_gap.len();
+    let (load, load_control) = (problem.load, problem.load.is_mean_pressure());
+    let mut patience = Patience::new(PATIENCE);
+    let (mut norm_before, mut conjugate) = (1.0, false);
+    unknowns.direction.fill(0.0);
+    unknowns.admit(load);
+    loop {
+        let check = Check::new(problem, unknowns);
+        let ended = |stop, iterations| Report { stop, route: Route::Baseline, iterations, residual: check.residual };
+        if let Some(stop) = check.stop(&problem.settings, &mut patience, iterations) {
+            return ended(stop, iterations);
+        }
+        iterations += 1;
+
+        let Unknowns { pressure: p, gap: g, direction: t, image, .. } = unknowns;
+        let over_contact = |field: &[f64]| {
+            let [size, sum] = sums::of(len, |i| if p[i] > 0.0 { [1.0, field[i]] } else { [0.0; 2] });
+            if load_control && size > 0.0 { sum / size } else { 0.0 }
+        };
+        let mean = over_contact(g);
+        sums::update(g, |_, g| g - mean);
+        let [norm, violation] =
+            sums::of(len, |i| if p[i] > 0.0 { [g[i] * g[i], 0.0] } else { [0.0, g[i].min(0.0).powi(2)] });
+        let beta = if conjugate { norm / norm_before } else { 0.0 };
+        norm_before = norm;
+        // Contact of one sample (or of equal ones) leaves no direction within contact: the penetrating samples lead.
+        let lonely = norm <= 1e-24 * violation;
+        sums::update(t, |i, t| if p[i] > 0.0 || (lonely && g[i] < 0.0) { g[i] + beta * t } else { 0.0 });
+
+        problem.compliance.displacement(t, image);
+        let image_mean = if lonely { 0.0 } else { over_contact(image) };
+        let [descent, curvature] = sums::of(len, |i| [g[i] * t[i], (image[i] - image_mean) * t[i]]);
+        let step = descent / curvature;
+        if !(step.is_finite() && curvature > 0.0) {
+            // Samples that left contact can spoil the direction; steepest descent cannot fail that way.
+            if beta > 0.0 {
+                conjugate = false;
+                continue;
+            }
+            return ended(Stop::Stalled, iterations);
+        }
+        sums::update(p, |i, p| if p > 0.0 { (p - step * t[i]).max(0.0) } else { p });
+        let [joined] = sums::of(len, |i| [f64::from(u8::from(p[i] == 0.0 && g[i] < 0.0))]);
+        sums::update(p, |i, p| if p == 0.0 && g[i] < 0.0 { -step * g[i] } else { p });
+        conjugate = joined == 0.0;
+        unknowns.admit(load);
+        (problem.progress)(Progress { iteration: iterations, residual: check.residual });
+    }
+}

@@ -1,0 +1,109 @@
+//! How a solution was reached, and why the iteration ended.
+
+use std::fmt;
+
+/// Why the iteration ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stop {
+    /// ε < tolerance, energy gap < 20 tolerance and penetration outside contact < 10 tolerance · δ.
+    Converged,
+    /// Over the last window of iterations the criteria's mean was not below 0.9 of the window's before, half as long.
+    Stalled,
+    /// As many iterations as allowed, tolerance not reached.
+    IterationLimit,
+    /// Nothing to solve: the load or the penetration is zero.
+    NoContact,
+    /// At the prescribed penetration at most four samples are in contact, a touching indenter (of a topography, in
+    /// all): contact is no wider than the grid's spacing, and its load a matter of where the samples lie.
+    Unresolved,
+    /// The prescribed penetration is not below the mean of the initial gap f, where contact is complete: no finite load reaches it.
+    BeyondFullContact,
+}
+
+impl Stop {
+    /// Whether the returned pressure solves the problem to the tolerance.
+    pub fn solved(self) -> bool {
+        matches!(self, Self::Converged | Self::NoContact)
+    }
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Converged => "converged",
+            Self::Stalled => "stalled",
+            Self::IterationLimit => "iteration limit",
+            Self::NoContact => "no contact",
+            Self::Unresolved => "unresolved",
+            Self::BeyondFullContact => "beyond full contact",
+        })
+    }
+}
+
+/// Which way led to a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Route {
+    /// The preconditioned method, or nothing to solve.
+    Direct,
+    /// The baseline, as asked for.
+    Baseline,
+    /// The baseline, after the preconditioned method had stalled.
+    BaselineAfterStall,
+    /// Displacement control by load control: the iteration under displacement control had stalled.
+    LoadSearch {
+        /// Mean pressures tried.
+        trials: usize,
+    },
+}
+
+impl Route {
+    /// Mean pressures tried; 0 unless there was a load search.
+    pub fn trials(self) -> usize {
+        if let Self::LoadSearch { trials } = self { trials } else { 0 }
+    }
+
+    /// Its name in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::Baseline => "baseline",
+            Self::BaselineAfterStall => "baseline-after-stall",
+            Self::LoadSearch { .. } => "load-search",
+        }
+    }
+}
+
+/// How a solution was reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// Why it ended.
+    pub stop: Stop,
+    /// Which way led there.
+    pub route: Route,
+    /// Iterations of all methods and trials on this grid.
+    pub iterations: usize,
+    /// ε = Σ p|g| / (δ Σp) of the last iterate.
+    pub residual: f64,
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} after {} iterations, ε = {:.1e}", self.stop, self.iterations, self.residual)?;
+        match self.route {
+            Route::Direct | Route::Baseline => Ok(()),
+            Route::BaselineAfterStall => write!(f, ", fell back to Polonsky–Keer"),
+            Route::LoadSearch { trials } => write!(f, ", by {trials} trials of the mean pressure"),
+        }
+    }
+}
+
+/// What is heard after each iteration on the finest grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Iterations so far on this grid.
+    pub iteration: usize,
+    /// ε.
+    pub residual: f64,
+}

@@ -1,0 +1,32 @@
+//! Which method iterates, and how far.
+
+/// Which conjugate-gradient method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+#[non_exhaustive]
+pub enum Method {
+    /// Preconditioned with C⁻¹ on the active set: iterations do not grow with the grid.
+    #[default]
+    Preconditioned,
+    /// Polonsky & Keer, Wear 231 (1999) 206.
+    PolonskyKeer,
+}
+
+/// Dimensionless tolerance and limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Settings {
+    /// Which method starts; the preconditioned one falls back to the other when it stalls.
+    pub method: Method,
+    /// Bound on ε; the energy gap of a converged solution is below [`ENERGY_GAP`](super::ENERGY_GAP) times it, the deepest penetration
+    /// outside contact below [`PENETRATION`](super::PENETRATION) times it and δ.
+    pub tolerance: f64,
+    /// Largest number of iterations on one grid.
+    pub max_iterations: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { method: Method::default(), tolerance: 1e-8, max_iterations: 10_000 }
+    }
+}

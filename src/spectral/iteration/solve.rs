@@ -1,0 +1,52 @@
+//! The way to a solution: at once where there is nothing to iterate, by iteration, or by a search for the load.
+
+use super::iterate::iterate;
+use super::load_search;
+use super::problem::GridProblem;
+use super::report::{Report, Route, Stop};
+use super::settings::Method;
+use super::unknowns::Unknowns;
+use crate::load::Load;
+use crate::numeric::sums;
+
+impl GridProblem<'_> {
+    /// Solves from and into `unknowns` (any values; negative pressures are dropped).
+    pub fn solve(&mut self, unknowns: &mut Unknowns) -> Report {
+        let route = match self.settings.method {
+            Method::Preconditioned => Route::Direct,
+            Method::PolonskyKeer => Route::Baseline,
+        };
+        let done = |stop, residual| Report { stop, route, iterations: 0, residual };
+        let gap = self.initial_gap;
+        if self.load.value() <= 0.0 {
+            unknowns.pressure.fill(0.0);
+            unknowns.gap.copy_from_slice(gap);
+            unknowns.penetration = self.load.value().min(0.0);
+            return done(Stop::NoContact, 0.0);
+        }
+        match self.load {
+            Load::MeanPressure(mean) if gap.iter().all(|f| *f == gap[0]) => {
+                // A flat counterbody: complete contact at once.
+                unknowns.pressure.fill(mean);
+                unknowns.gap.fill(0.0);
+                unknowns.penetration = gap[0];
+                done(Stop::Converged, 0.0)
+            }
+            Load::MeanPressure(_) => iterate(self, 0, unknowns),
+            Load::Penetration(penetration) => {
+                if penetration >= sums::mean(gap) {
+                    // Of the step before nothing must pass for an answer: the surface at rest, pushed in as prescribed.
+                    unknowns.pressure.fill(0.0);
+                    sums::update(&mut unknowns.gap, |i, _| gap[i] - penetration);
+                    unknowns.penetration = penetration;
+                    return done(Stop::BeyondFullContact, f64::INFINITY);
+                }
+                let report = iterate(self, 0, unknowns);
+                if report.stop != Stop::Stalled {
+                    return report;
+                }
+                load_search::solve(self, penetration, report.iterations, unknowns)
+            }
+        }
+    }
+}

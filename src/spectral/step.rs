@@ -1,0 +1,84 @@
+//! One load step, solved.
+
+use super::Contact;
+use super::iteration::{Certificate, Report};
+use crate::counterbody::Surface;
+use crate::lattice::Grid;
+use crate::load::Load;
+use crate::numeric::number::number;
+use crate::problem::Problem;
+use ndarray::{Array2, ArrayView2};
+use std::fmt;
+use std::sync::Arc;
+
+/// A solved load step. It owns its fields and shares grid, surface and problem: it can be kept, sent to another thread,
+/// and read after the solver is gone.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// What was prescribed.
+    pub load: Load,
+    /// How the finest grid's solution was reached.
+    pub report: Report,
+    /// What the pressure proves about itself.
+    pub certificate: Certificate,
+    /// Convolutions on all grids, as equivalents of the finest one.
+    pub convolutions: f64,
+    pub(super) finest: Contact,
+    pub(super) displacement: Array2<f64>,
+    pub(super) coarser: Vec<Contact>,
+}
+
+impl Step {
+    /// The contact on the finest grid.
+    pub fn finest(&self) -> &Contact {
+        &self.finest
+    }
+
+    /// The same load step as the next two coarser grids have solved it on the way, the finer one first; none for the
+    /// baseline method and on grids too coarse for any.
+    pub fn coarser(&self) -> &[Contact] {
+        &self.coarser
+    }
+
+    /// What is pressed into what.
+    pub fn problem(&self) -> &Arc<Problem> {
+        self.finest.problem()
+    }
+
+    /// The finest grid.
+    pub fn grid(&self) -> &Arc<Grid> {
+        self.finest.grid()
+    }
+
+    /// The counterbody's surface on it.
+    pub fn surface(&self) -> &Arc<Surface> {
+        self.finest.surface()
+    }
+
+    /// Pressure p ≥ 0, in the unit of Young's modulus; axes along a₁ and a₂.
+    pub fn pressure(&self) -> ArrayView2<'_, f64> {
+        self.finest.pressure()
+    }
+
+    /// Displacement w into the body with zero mean, a length; axes along a₁ and a₂.
+    pub fn displacement(&self) -> ArrayView2<'_, f64> {
+        self.displacement.view()
+    }
+
+    /// Gap g = w + f − δ, a length; axes along a₁ and a₂.
+    pub fn gap(&self) -> ArrayView2<'_, f64> {
+        self.finest.gap()
+    }
+
+    /// Penetration δ, a length; see [`Contact::penetration`].
+    pub fn penetration(&self) -> f64 {
+        self.finest.penetration()
+    }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let penetration = number(self.penetration());
+        write!(f, "{} on {}: penetration {penetration}\n{}\n{}", self.load, self.grid(), self.report, self.certificate)
+    }
+}

@@ -1,0 +1,38 @@
+//! The place where a stress is largest.
+
+/// A largest value and where it stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// The value, a pressure; infinite under a tip in contact.
+    pub value: f64,
+    /// x, y, z; lengths.
+    pub position: [f64; 3],
+    /// Material, from 1; the substrate is layers + 1.
+    pub material: usize,
+    /// Direction along which σ₁ acts there, a unit vector: a crack opens across it.
+    pub direction: [f64; 3],
+}
+
+impl Peak {
+    /// The value where it is finite.
+    pub fn finite(&self) -> Option<f64> {
+        self.value.is_finite().then_some(self.value)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for Peak {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let [x, y, z] = self.position;
+        let mut keys = serializer.serialize_struct("peak", 7)?;
+        keys.serialize_field("value", &self.finite())?;
+        keys.serialize_field("singular", &self.value.is_infinite())?;
+        keys.serialize_field("x", &x)?;
+        keys.serialize_field("y", &y)?;
+        keys.serialize_field("z", &z)?;
+        keys.serialize_field("material", &self.material)?;
+        keys.serialize_field("direction", &self.direction)?;
+        keys.end()
+    }
+}

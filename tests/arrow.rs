@@ -1,0 +1,118 @@
+//! The arrow of modules in `lib.rs` is true, and no two files import each other.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Every source file of the library by its module path, without its tests and comments.
+fn sources() -> BTreeMap<String, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut sources = BTreeMap::new();
+    let mut folders = vec![(root.join("src"), String::new()), (root.join("validation"), "validation".to_owned())];
+    while let Some((folder, module)) = folders.pop() {
+        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let stem = path.file_stem().unwrap().to_string_lossy().replace('-', "_");
+            let own = if module.is_empty() { stem.clone() } else { format!("{module}::{stem}") };
+            if path.is_dir() && own != "command" {
+                folders.push((path, own));
+            } else if path.extension().is_some_and(|ending| ending == "rs") && own != "main" {
+                let name = if ["mod", "study"].contains(&&stem[..]) { module.clone() } else { own };
+                sources.insert(name, code(&path));
+            }
+        }
+    }
+    sources
+}
+
+fn code(path: &PathBuf) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+    text.lines().filter(|line| !line.trim_start().starts_with("//")).map(|line| format!("{line}\n")).collect()
+}
+
+/// Module paths that a text names after `crate::` or `super::`, groups in braces one by one.
+fn named(text: &str, module: &str, is_folder: bool) -> Vec<String> {
+    let parent = if is_folder { module } else { module.rsplit_once("::").map_or("", |(parent, _)| parent) };
+    let starts = text.match_indices("crate::").map(|(at, word)| (at + word.len(), String::new()));
+    let above = text.match_indices("super::").filter(|(at, _)| !text[..*at].ends_with("super::"));
+    let above = above.map(|(at, word)| {
+        let deeper = text[at + word.len()..].starts_with("super::");
+        let up = |path: &str| path.rsplit_once("::").map_or(String::new(), |(up, _)| up.to_owned());
+        let own = if is_folder { up(parent) } else { parent.to_owned() };
+        if deeper { (at + 2 * word.len(), up(&own)) } else { (at + word.len(), own) }
+    });
+    let mut paths = Vec::new();
+    for (at, base) in starts.chain(above) {
+        let path: String = text[at..].chars().take_while(|c| c.is_alphanumeric() || "_:".contains(*c)).collect();
+        let group = text[at + path.len()..].strip_prefix('{').and_then(|rest| rest.split('}').next());
+        for item in group.map_or(vec![String::new()], |group| group.split(',').map(|s| s.trim().to_owned()).collect()) {
+            paths.push(format!("{base}::{path}{item}").trim_matches(':').to_owned());
+        }
+    }
+    paths
+}
+
+#[test]
+fn every_module_uses_only_what_stands_to_its_left() {
+    let lib = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs")).unwrap();
+    let arrow = lib.split("```text").nth(1).and_then(|rest| rest.split("```").next()).expect("the arrow of modules");
+    let order: Vec<&str> = arrow.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let place = |module: &str| order.iter().position(|name| *name == module);
+    let modules: BTreeSet<String> =
+        sources().keys().filter_map(|path| path.split("::").next().map(str::to_owned)).filter(|m| m != "lib").collect();
+    assert_eq!(modules, order.iter().map(|name| (*name).to_owned()).collect(), "modules of the arrow");
+    for (path, text) in sources().iter().filter(|(path, _)| *path != "lib") {
+        let own = path.split("::").next().and_then(place).unwrap();
+        for used in named(text, path, false).iter().filter_map(|path| place(path.split("::").next()?)) {
+            assert!(used <= own, "{path} uses {}, which stands to the right of it", order[used]);
+        }
+    }
+}
+
+#[test]
+fn no_two_files_import_each_other() {
+    let sources = sources();
+    let is_folder = |path: &str| sources.keys().any(|other| other.starts_with(&format!("{path}::")));
+    // Names that a folder hands on from its files: `pub use file::{Name, …}`.
+    let mut homes: BTreeMap<String, String> = BTreeMap::new();
+    for (folder, text) in sources.iter().filter(|(path, _)| is_folder(path)) {
+        for (at, _) in text.match_indices("use ") {
+            let path = &text[at + 4..at + text[at..].find(';').unwrap_or(4)];
+            let (file, names) = path.split_once("::").unwrap_or((path, ""));
+            let file = format!("{folder}::{file}");
+            if sources.contains_key(&file) && text[..at].ends_with("pub ") {
+                let names = names.trim_matches(['{', '}']).split(',').map(|name| format!("{folder}::{}", name.trim()));
+                homes.extend(names.map(|name| (name, file.clone())));
+            }
+        }
+    }
+    // The file in which a path ends.
+    let file = |path: &str| {
+        let mut path = path.to_owned();
+        loop {
+            if let Some(home) = homes.get(&path).or_else(|| sources.get_key_value(&path).map(|(path, _)| path)) {
+                return Some(home.clone());
+            }
+            path.truncate(path.rfind("::")?);
+        }
+    };
+    let imports: BTreeMap<&String, BTreeSet<String>> = sources
+        .iter()
+        .filter(|(path, _)| *path != "lib")
+        .map(|(path, text)| {
+            let folder = is_folder(path);
+            // What a folder's own file names of the files in it, beside handing it on.
+            let lines = text.lines().filter(|line| folder && !line.starts_with("pub use "));
+            let words = lines.flat_map(|line| line.split(|c: char| !(c.is_alphanumeric() || "_:".contains(c))));
+            let below = words.filter_map(|word| Some(format!("{path}::{}", word.split_once("::")?.0)));
+            let used = named(text, path, folder).into_iter().chain(below).filter_map(|path| file(&path));
+            (path, used.filter(|used| used != path).collect())
+        })
+        .collect();
+    let circles: Vec<(&String, &String)> = imports
+        .iter()
+        .flat_map(|(path, used)| used.iter().map(move |used| (*path, used)))
+        .filter(|(path, used)| path < used && imports.get(used).is_some_and(|back| back.contains(*path)))
+        .collect();
+    assert_eq!(circles, [], "files that import each other");
+}

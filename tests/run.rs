@@ -1,0 +1,124 @@
+//! The engine of a run: what a recorder hears, and how a refinement ends.
+
+mod common;
+
+use common::{PAPER, one_level, paraboloid};
+use percoat::run::accuracy::{End, change};
+use percoat::run::{Recorder, Run, RunError, Sampling, StepRecord, StressRequest};
+use percoat::{HalfSpace, Lattice, Load, Material, Problem, Solver, Step, StressField};
+
+/// Writes down what it hears, and cannot go on at the step `fails`.
+#[derive(Default)]
+struct Diary {
+    heard: Vec<String>,
+    iterations: usize,
+    fails: Option<usize>,
+}
+
+#[derive(Debug, thiserror::Error)]
+#[error("no room in the diary")]
+struct Full;
+
+impl Recorder for Diary {
+    type Error = Full;
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), Full> {
+        self.heard.push(format!("grid {}", solver.grid().points()[0]));
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: percoat::Progress) {
+        self.iterations += 1;
+    }
+
+    fn stresses(&mut self) {
+        self.heard.push("stresses".to_owned());
+    }
+
+    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Full> {
+        assert_eq!(field.is_some(), record.stress.is_some());
+        if self.fails == Some(self.heard.len()) {
+            return Err(Full);
+        }
+        self.heard.push(format!("step {}", step.load.value()));
+        Ok(())
+    }
+
+    fn refined(&mut self, points: [usize; 2], change: f64) {
+        assert!(change.is_finite() && change > 0.0);
+        self.heard.push(format!("refined {}", points[0]));
+    }
+}
+
+fn problem() -> Problem {
+    let substrate = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+    Problem::new(one_level(Lattice::square(1.0, 1).unwrap(), paraboloid(0.8, 0.0)), substrate)
+}
+
+fn run(sampling: Sampling) -> Run {
+    Run::new(problem(), [0.01, 0.02].map(Load::MeanPressure).to_vec(), sampling)
+}
+
+#[test]
+fn a_recorder_hears_of_grids_steps_and_stresses_in_their_order() {
+    let mut diary = Diary::default();
+    let stressed = Run { stress: Some(StressRequest::default()), ..run(Sampling::Points([48, 48])) };
+    let outcome = stressed.solve(&mut diary, &|_| true).unwrap();
+    assert_eq!(diary.heard, ["grid 48", "stresses", "step 0.01", "stresses", "step 0.02"]);
+    let iterations: usize = outcome.steps.iter().map(|step| step.report.iterations).sum();
+    assert_eq!(diary.iterations, iterations);
+    assert!(outcome.converged() && outcome.end.is_none() && outcome.change.is_none());
+    assert_eq!(outcome.last.unwrap().load, Load::MeanPressure(0.02));
+}
+
+#[test]
+fn a_recorder_that_cannot_go_on_ends_the_run() {
+    let mut diary = Diary { fails: Some(2), ..Diary::default() };
+    let error = run(Sampling::Points([48, 48])).solve(&mut diary, &|_| true).unwrap_err();
+    assert!(matches!(&error, RunError::Recorder(Full)), "{error}");
+    assert_eq!(diary.heard, ["grid 48", "step 0.01"]);
+}
+
+/// Every grid holds all loads; the change is that of the last two.
+#[test]
+fn a_refinement_goes_on_until_the_accuracy_is_reached_or_there_is_no_room() {
+    let mut diary = Diary::default();
+    let outcome = run(Sampling::Accuracy(1e-4)).solve(&mut diary, &|_| true).unwrap();
+    let grids: Vec<&String> = diary.heard.iter().filter(|heard| heard.starts_with("grid")).collect();
+    assert!(grids.len() > 2, "{:?}", diary.heard);
+    assert_eq!((outcome.end, outcome.is_accurate()), (Some(End::Reached), true));
+    assert!(outcome.change.unwrap() < 1e-4);
+    let on = |points| run(Sampling::Points(points)).solve(&mut (), &|_| true).unwrap().steps;
+    let [n1, n2] = outcome.points;
+    let again = change(&on([n1 / 2, n2 / 2]), &on([n1, n2]));
+    assert_eq!(outcome.change, Some(again));
+
+    let first = diary.heard[0].trim_start_matches("grid ").parse::<usize>().unwrap();
+    let narrow = run(Sampling::Accuracy(1e-4)).solve(&mut (), &|points| points[0] <= 2 * first).unwrap();
+    assert_eq!((narrow.end, narrow.points[0], narrow.converged()), (Some(End::Room), 2 * first, false));
+    assert!(narrow.warnings.iter().any(|warning| warning.contains("accuracy")), "{:?}", narrow.warnings);
+}
+
+/// What is no number is no agreement.
+#[test]
+fn a_number_that_is_none_counts_as_a_change() {
+    let steps = run(Sampling::Points([48, 48])).solve(&mut (), &|_| true).unwrap().steps;
+    assert_eq!(change(&steps, &steps), 0.0);
+    let mut spoilt = steps.clone();
+    spoilt[0].reading.max_pressure = f64::NAN;
+    assert!(change(&steps, &spoilt).is_nan() && change(&spoilt, &steps).is_nan());
+}
+
+/// Refused before anything is solved, on the grid of the run.
+#[test]
+fn a_penetration_beyond_complete_contact_is_refused() {
+    let problem = PAPER[0].problem();
+    let solver = Solver::new(problem.clone(), [48, 48], percoat::Settings::default()).unwrap();
+    let complete = solver.full_contact_penetration();
+    let run = |part: f64| {
+        let loads = vec![Load::Penetration(0.1 * complete), Load::Penetration(part * complete)];
+        Run::new(problem.clone(), loads, Sampling::Points([48, 48])).check()
+    };
+    assert!(run(0.99).is_ok());
+    assert!(matches!(run(1.01), Err(RunError::BeyondFullContact(_))));
+}

@@ -1,0 +1,99 @@
+//! Studies with verdicts: what percoat computes, held against closed forms, multiprecision references and peers.
+//!
+//! A [`Study`] computes its quantities afresh and compares each with its reference: a [`Check`] that holds or fails.
+//! Its equation, source and tolerances stand in `validation/<study>/README.md`; reference numbers and case files lie
+//! beside it and are part of the program, so that `percoat validate` works wherever it is installed. A [`Report`] prints
+//! the verdicts as a table and as Markdown, and finds where two reports differ.
+//!
+//! ```
+//! let study = percoat::validation::find("kernel").expect("a study");
+//! let outcome = (study.run)().expect("the study runs");
+//! assert!(outcome.checks.iter().all(|check| check.holds()));
+//! ```
+
+mod check;
+#[path = "convergence/study.rs"]
+mod convergence;
+#[path = "disc/study.rs"]
+mod disc;
+#[path = "discretisation/study.rs"]
+mod discretisation;
+mod draw;
+pub mod exact;
+#[path = "hertz/study.rs"]
+mod hertz;
+#[path = "hertz-stresses/study.rs"]
+mod hertz_stresses;
+#[path = "isolated/study.rs"]
+mod isolated;
+#[path = "iterations/study.rs"]
+mod iterations;
+#[path = "kernel/study.rs"]
+mod kernel;
+#[path = "lattice-sums/study.rs"]
+mod lattice_sums;
+#[path = "localized/study.rs"]
+mod localized;
+mod outcome;
+pub mod paper;
+#[path = "peer/study.rs"]
+mod peer;
+#[path = "periodic-hertz/study.rs"]
+mod periodic_hertz;
+mod random;
+mod report;
+#[path = "rings/study.rs"]
+mod rings;
+#[path = "sinusoidal-stresses/study.rs"]
+mod sinusoidal_stresses;
+mod steps;
+#[path = "thin-coatings/study.rs"]
+mod thin_coatings;
+#[path = "wavy/study.rs"]
+mod wavy;
+#[path = "westergaard/study.rs"]
+mod westergaard;
+
+pub use check::{Check, Evidence, Tolerance};
+pub use outcome::{Data, Outcome, Study, StudyError};
+pub use report::{Report, differences};
+
+/// Every study, in the order in which they are run and reported.
+pub const STUDIES: [Study; 24] = [
+    kernel::STUDY,
+    lattice_sums::STUDY,
+    hertz::STUDY,
+    periodic_hertz::STUDY,
+    westergaard::STUDY,
+    wavy::STUDY,
+    isolated::STUDY,
+    thin_coatings::STUDY,
+    rings::STUDY,
+    hertz_stresses::STUDY,
+    sinusoidal_stresses::STUDY,
+    convergence::STUDY,
+    discretisation::STUDY,
+    iterations::STUDY,
+    peer::STUDY,
+    disc::STUDY,
+    localized::STUDY,
+    paper::STUDIES[0],
+    paper::STUDIES[1],
+    paper::STUDIES[2],
+    paper::STUDIES[3],
+    paper::STUDIES[4],
+    paper::STUDIES[5],
+    paper::STUDIES[6],
+];
+
+/// The study of a name.
+pub fn find(name: &str) -> Option<&'static Study> {
+    STUDIES.iter().find(|study| study.name == name)
+}
+
+/// The study of a name, or all whose folders lie in a folder of that name.
+pub fn named(name: &str) -> Vec<&'static Study> {
+    let inside =
+        |study: &&Study| study.name.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'));
+    STUDIES.iter().filter(inside).collect()
+}

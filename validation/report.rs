@@ -1,0 +1,248 @@
+//! The verdicts of a run, as a table for the terminal and as Markdown for the repository.
+//!
+//! References, own refinement and findings are counted apart ([`Evidence`]). [`differences`] holds one report against
+//! another: same studies, same quantities, same evidence, same verdicts. Values may differ in
+//! their digits; they are judged by their tolerances, not by the report.
+
+use super::{Check, Evidence, Outcome, Study, StudyError};
+use crate::numeric::number::number;
+use crate::output::table;
+use std::collections::BTreeMap;
+
+/// Columns of a row; Markdown leaves out the first one.
+const COLUMNS: [&str; 8] = ["study", "quantity", "value", "reference", "error", "tolerance", "evidence", "verdict"];
+
+/// The studies that were run, with what they found.
+#[derive(Debug, Default)]
+pub struct Report {
+    results: Vec<(&'static Study, Result<Outcome, StudyError>)>,
+}
+
+impl Report {
+    /// Adds what a study found.
+    pub fn add(&mut self, study: &'static Study, result: Result<Outcome, StudyError>) {
+        self.results.push((study, result));
+    }
+
+    /// Whether every study ran and every check holds.
+    pub fn holds(&self) -> bool {
+        self.results.iter().all(|(_, result)| result.as_ref().is_ok_and(Outcome::holds))
+    }
+
+    /// Checks of one kind of evidence, over all studies.
+    pub fn count(&self, evidence: Evidence) -> usize {
+        self.results.iter().map(|(_, result)| count(result, evidence)).sum()
+    }
+
+    /// Checks that fail; a study that could not be run, or has none, counts as one.
+    pub fn failures(&self) -> usize {
+        self.results.iter().flat_map(|(study, result)| rows(study, result)).filter(|row| row[7] == FAILS).count()
+    }
+
+    /// How many checks there are of each kind, and whether all hold.
+    pub fn summary(&self) -> String {
+        let [references, own, findings] = Evidence::ALL.map(|evidence| self.count(evidence));
+        let verdict = match self.failures() {
+            0 => "all hold".to_owned(),
+            1 => "1 fails".to_owned(),
+            failures => format!("{failures} fail"),
+        };
+        format!("{references} independent references, {own} of own refinement, {findings} findings pinned: {verdict}")
+    }
+
+    /// All checks as one table.
+    pub fn table(&self) -> String {
+        let rows: Vec<Vec<String>> = self.results.iter().flat_map(|(study, result)| rows(study, result)).collect();
+        table::render_with(&COLUMNS.map(str::to_owned), &rows, 2)
+    }
+
+    /// Rows of the paper's table of statements, study by study.
+    pub fn statements(&self) -> Vec<(&'static str, Vec<String>)> {
+        let judged = |(study, result): &(&'static Study, Result<Outcome, StudyError>)| {
+            let claims = result.as_ref().ok().filter(|outcome| !outcome.claims.is_empty())?;
+            Some((study.name, claims.claims.iter().map(|claim| claim.row(study.name)).collect()))
+        };
+        self.results.iter().filter_map(judged).collect()
+    }
+
+    /// Why studies could not be run, one line each.
+    pub fn errors(&self) -> Vec<String> {
+        let failed = |(study, result): &(&Study, Result<Outcome, StudyError>)| {
+            result.as_ref().err().map(|error| format!("{}: {error}", study.name))
+        };
+        self.results.iter().filter_map(failed).collect()
+    }
+
+    /// The report as Markdown: an overview, then each study with its figures and checks.
+    pub fn markdown(&self) -> String {
+        let mut text = format!(
+            "# Validation report\n\npercoat {}: {}. `percoat validate -o validation` makes this report again.\n\n\
+             | study | shows | references | refinement | findings | verdict |\n|---|---|---|---|---|---|\n",
+            env!("CARGO_PKG_VERSION"),
+            self.summary()
+        );
+        for (study, result) in &self.results {
+            let [references, own, findings] = Evidence::ALL.map(|evidence| count(result, evidence));
+            let verdict = if result.as_ref().is_ok_and(Outcome::holds) { HOLDS } else { FAILS };
+            text += &format!(
+                "| [{0}]({0}/README.md) | {1} | {references} | {own} | {findings} | {verdict} |\n",
+                study.name, study.title
+            );
+        }
+        for (study, result) in &self.results {
+            text += &format!("\n## {}\n\n{}.\n\n", study.name, study.title);
+            for (name, _) in result.iter().flat_map(|outcome| &outcome.figures) {
+                text += &format!("![{0}, {name}]({0}/{name}.png)\n\n", study.name);
+            }
+            text += &format!("| {} |\n|{}\n", COLUMNS[1..].join(" | "), "---|".repeat(7));
+            for row in rows(study, result) {
+                text += &format!("| {} |\n", row[1..].join(" | "));
+            }
+        }
+        text
+    }
+}
+
+const HOLDS: &str = "holds";
+const FAILS: &str = "fails";
+
+/// Checks of one kind of evidence.
+fn count(result: &Result<Outcome, StudyError>, evidence: Evidence) -> usize {
+    result.iter().flat_map(|outcome| &outcome.checks).filter(|check| check.evidence == evidence).count()
+}
+
+/// The rows of a study.
+fn rows(study: &Study, result: &Result<Outcome, StudyError>) -> Vec<Vec<String>> {
+    let row = |check: &Check| -> Vec<String> {
+        let bound = matches!(check.tolerance, super::Tolerance::AtMost | super::Tolerance::AtLeast);
+        let error = if bound { "–".to_owned() } else { format!("{:.1e}", check.error()) };
+        [
+            study.name,
+            &check.quantity,
+            &number(check.value),
+            &number(check.reference),
+            &error,
+            &check.tolerance.to_string(),
+            &check.evidence.to_string(),
+            check.verdict(),
+        ]
+        .map(str::to_owned)
+        .to_vec()
+    };
+    let broken = |what: &str| vec![[study.name, what, "–", "–", "–", "–", "–", FAILS].map(str::to_owned).to_vec()];
+    match result {
+        Ok(outcome) if outcome.checks.is_empty() => broken("has checks"),
+        Ok(outcome) => outcome.checks.iter().map(row).collect(),
+        Err(_) => broken("runs to its end"),
+    }
+}
+
+/// What differs between two Markdown reports in evidence or verdict: rows that changed, are missing or are new. With `studies`
+/// only theirs are compared.
+pub fn differences(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec<String> {
+    let wanted = |study: &str| studies.is_none_or(|studies| studies.contains(&study));
+    let [expected, found] = [expected, found].map(verdicts);
+    let mut differences = Vec::new();
+    for ((study, quantity), verdict) in expected.iter().filter(|((study, _), _)| wanted(study)) {
+        match found.get(&(study.clone(), quantity.clone())) {
+            None => differences.push(format!("{study}: {quantity}: missing, expected {verdict}")),
+            Some(now) if now != verdict => {
+                differences.push(format!("{study}: {quantity}: {now}, expected {verdict}"));
+            }
+            Some(_) => (),
+        }
+    }
+    for ((study, quantity), verdict) in found.iter().filter(|((study, _), _)| wanted(study)) {
+        if !expected.contains_key(&(study.clone(), quantity.clone())) {
+            differences.push(format!("{study}: {quantity}: {verdict}, but not expected at all"));
+        }
+    }
+    differences
+}
+
+/// Verdict, with its evidence unless that is independent, by study and quantity, from the sections of a Markdown report.
+/// Rows of the same name count one by one.
+fn verdicts(markdown: &str) -> BTreeMap<(String, String), String> {
+    let mut verdicts = BTreeMap::new();
+    let mut study = None;
+    for line in markdown.lines() {
+        if let Some(name) = line.strip_prefix("## ") {
+            study = Some(name.trim().to_owned());
+        }
+        let Some(study) = &study else { continue };
+        let cells: Vec<&str> = line.trim().trim_matches('|').split('|').map(str::trim).collect();
+        let &[quantity, _, _, _, _, evidence, verdict] = &cells[..] else { continue };
+        if quantity == COLUMNS[1] || quantity.starts_with("--") {
+            continue;
+        }
+        let mut key = (study.clone(), quantity.to_owned());
+        while verdicts.contains_key(&key) {
+            key.1 += " (again)";
+        }
+        let independent = evidence == Evidence::Reference.to_string();
+        verdicts.insert(key, if independent { verdict.to_owned() } else { format!("{verdict} as {evidence}") });
+    }
+    verdicts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    static ONE: Study = Study { name: "one", title: "One thing", files: &[], run: || Ok(Outcome::default()) };
+    static TWO: Study = Study { name: "two", title: "Another", files: &[], run: || Ok(Outcome::default()) };
+
+    fn report(values: &[f64]) -> Report {
+        let checks = values.iter().map(|&x| Check::relative(format!("quantity {x:.0}"), x, x.round(), 1e-2)).collect();
+        let mut report = Report::default();
+        report.add(&ONE, Ok(Outcome { checks, ..Outcome::default() }));
+        report.add(&TWO, Ok(Outcome { checks: vec![Check::at_most("bound", 1.0, 2.0)], ..Outcome::default() }));
+        report
+    }
+
+    #[test]
+    fn digits_may_change_and_verdicts_may_not() {
+        let [a, digits, failed] = [&[1.0, 2.0], &[1.001, 2.003], &[1.0, 2.2]].map(|values| report(values));
+        assert!(a.holds() && digits.holds() && !failed.holds());
+        assert_eq!(a.summary(), "2 independent references, 1 of own refinement, 0 findings pinned: all hold");
+        assert_eq!(failed.summary(), "2 independent references, 1 of own refinement, 0 findings pinned: 1 fails");
+        assert!(a.markdown().contains("| One thing | 2 | 0 | 0 | holds |"));
+        assert_eq!(differences(&a.markdown(), &digits.markdown(), None), Vec::<String>::new());
+        let changed = differences(&a.markdown(), &failed.markdown(), None);
+        assert_eq!(changed, ["one: quantity 2: fails, expected holds"]);
+        assert!(differences(&a.markdown(), &failed.markdown(), Some(&["two"])).is_empty());
+    }
+
+    #[test]
+    fn another_kind_of_evidence_is_a_difference() {
+        let of = |check: Check| {
+            let mut report = Report::default();
+            report.add(&ONE, Ok(Outcome { checks: vec![check], ..Outcome::default() }));
+            report.markdown()
+        };
+        let check = Check::relative("peak", 1.0, 1.0, 1e-2);
+        let [reference, finding] = [check.clone(), check.as_finding()].map(of);
+        assert_eq!(differences(&reference, &finding, None), ["one: peak: holds as finding, expected holds"]);
+    }
+
+    #[test]
+    fn missing_and_added_rows_are_differences() {
+        let [a, fewer, twice] = [&[1.0, 2.0][..], &[1.0], &[1.0, 1.0, 2.0]].map(|values| report(values).markdown());
+        assert_eq!(differences(&a, &fewer, None), ["one: quantity 2: missing, expected holds"]);
+        assert_eq!(differences(&fewer, &a, None), ["one: quantity 2: holds, but not expected at all"]);
+        assert_eq!(differences(&a, &twice, None).len(), 1);
+        assert_eq!(differences(&a, "", None).len(), 3);
+        assert_eq!(differences("", &a, None).len(), 3);
+    }
+
+    #[test]
+    fn a_study_that_breaks_or_checks_nothing_fails_and_is_a_row() {
+        let mut report = report(&[1.0]);
+        report.add(&ONE, Err("no memory".into()));
+        report.add(&TWO, Ok(Outcome::default()));
+        assert!(!report.holds());
+        assert_eq!(report.failures(), 2);
+        assert_eq!(report.errors(), ["one: no memory"]);
+        assert!(report.table().contains("runs to its end") && report.table().contains("has checks"));
+    }
+}

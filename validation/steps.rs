@@ -1,0 +1,73 @@
+//! Load steps that a study rests on: each must have converged.
+
+use super::StudyError;
+use crate::body::HalfSpace;
+use crate::case::{Case, Source};
+use crate::counterbody::{Counterbody, Topography};
+use crate::lattice::Cell;
+use crate::load::Load;
+use crate::problem::Problem;
+use crate::reading::Reading;
+use crate::spectral::{Settings, Solver, Step};
+use ndarray::Array2;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Load steps of one problem.
+pub struct Steps {
+    pub solver: Solver,
+}
+
+impl Steps {
+    pub fn new(
+        counterbody: impl Into<Counterbody>,
+        half_space: &HalfSpace,
+        points: [usize; 2],
+    ) -> Result<Self, StudyError> {
+        let problem = Problem::new(counterbody, half_space.clone());
+        Ok(Self { solver: Solver::new(problem, points, Settings::default())? })
+    }
+
+    /// The problem of a case, on `points` × `points` samples.
+    pub fn of(case: &Case, points: usize) -> Result<Self, StudyError> {
+        Ok(Self { solver: Solver::new(Arc::clone(case.problem()), [points; 2], Settings::default())? })
+    }
+
+    /// The next step; an error unless it converged.
+    pub fn step(&mut self, load: Load) -> Result<Step, StudyError> {
+        let step = self.solver.solve(load);
+        if step.report.stop.solved() { Ok(step) } else { Err(format!("{load}: {}", step.report).into()) }
+    }
+
+    /// The next step and what is read off it.
+    pub fn solve(&mut self, load: Load) -> Result<(Step, Reading), StudyError> {
+        let step = self.step(load)?;
+        let reading = Reading::of(step.finest());
+        Ok((step, reading))
+    }
+
+    /// Penetration of the next step alone.
+    pub fn penetration(&mut self, mean_pressure: f64) -> Result<f64, StudyError> {
+        Ok(self.step(Load::MeanPressure(mean_pressure))?.penetration())
+    }
+
+    pub fn loaded(&mut self, mean_pressure: f64) -> Result<Reading, StudyError> {
+        Ok(self.solve(Load::MeanPressure(mean_pressure))?.1)
+    }
+}
+
+/// A case file of `validation/`, with overrides `KEY=VALUE`.
+pub fn case(name: &str, text: &str, overrides: &[String]) -> Result<Case, StudyError> {
+    let source = Source { name: format!("validation/{name}"), text: text.to_owned(), folder: PathBuf::new() };
+    Case::read(&source, overrides).map_err(|error| error.render(false).into())
+}
+
+/// Topography with the heights h(s₁, s₂) at the samples, s in fractions of the cell vectors.
+pub fn topography(
+    cell: Cell,
+    [n1, n2]: [usize; 2],
+    height: impl Fn(f64, f64) -> f64,
+) -> Result<Topography, StudyError> {
+    let at = |(i, j): (usize, usize)| height(i as f64 / n1 as f64, j as f64 / n2 as f64);
+    Ok(Topography::new(cell, Array2::from_shape_fn((n1, n2), at))?)
+}
