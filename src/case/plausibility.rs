@@ -1,8 +1,7 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
 use super::{Case, LoadSection};
-use crate::body::MeanStress;
-use crate::body::{HalfSpace, Interface};
+use crate::body::{HalfSpace, Interface, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
 use crate::numeric::number::number;

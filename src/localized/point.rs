@@ -8,8 +8,7 @@
 //! kept as Chebyshev series on intervals of r, each halved until it agrees with the integral between its nodes.
 
 use super::quadrature::{Bessel, Estimate, hankel};
-use crate::body::TransferFunction;
-use crate::body::{HalfSpace, Layer};
+use crate::body::{HalfSpace, Layer, TransferFunction};
 use crate::numeric::chebyshev::{self, Chebyshev};
 use rayon::prelude::*;
 use std::f64::consts::PI;

@@ -11,10 +11,7 @@
 
 use super::quadrature::{Bessel, hankel};
 use super::solution::Solution;
-use crate::body::Depth;
-use crate::body::HalfSpace;
-use crate::body::MeanStress;
-use crate::body::{Amplitudes, Interior, TransferFunction};
+use crate::body::{Amplitudes, Depth, HalfSpace, Interior, MeanStress, TransferFunction};
 use crate::numeric::chebyshev::{self, Chebyshev};
 use crate::stress::State;
 use rayon::prelude::*;

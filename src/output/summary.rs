@@ -17,7 +17,7 @@ pub struct Summary<'a, C: Serialize> {
     pub complete: bool,
     /// What a reader should know before trusting the numbers.
     pub warnings: &'a [String],
-    /// Change of the observables between the two finest grids, where an accuracy was asked for.
+    /// Change of what is read off between the two finest grids, where an accuracy was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<f64>,
     /// The load steps.

@@ -1,8 +1,7 @@
 //! The cell repeated over a window of the surface, true to scale.
 
 use super::snapshot::Snapshot;
-use crate::lattice::Cell;
-use crate::lattice::Grid;
+use crate::lattice::{Cell, Grid};
 
 /// A rectangle of the surface, [first, last] along x and along y; lengths.
 pub type Window = [[f64; 2]; 2];

@@ -2,9 +2,8 @@
 
 use super::Reading;
 use crate::spectral::Step;
-use crate::stress::Peak;
-use crate::stress::StressField;
 use crate::stress::maxima::{Extremes, Maxima};
+use crate::stress::{Peak, StressField};
 use std::f64::consts::PI;
 
 /// Largest stresses of a step, see [`crate::stress::maxima`].

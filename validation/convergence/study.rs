@@ -13,8 +13,7 @@
 use super::draw::{self, curve, slope};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError};
-use crate::body::Depth;
-use crate::body::MeanStress;
+use crate::body::{Depth, MeanStress};
 use crate::load::Load;
 use crate::numeric::search::largest;
 use crate::picture::{Axis, Chart, Figure, Style};

@@ -7,9 +7,7 @@ use crate::load::Load;
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::problem::Problem;
 use crate::reading::{LevelErrors, Reading};
-use crate::spectral::Settings;
-use crate::spectral::Solver;
-use crate::spectral::Stop;
+use crate::spectral::{Settings, Solver, Stop};
 use std::sync::Arc;
 
 pub const STUDY: Study = Study {

@@ -7,8 +7,7 @@
 use super::draw::{self, curve, linear};
 use super::steps::{Steps, case};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::Depth;
-use crate::body::MeanStress;
+use crate::body::{Depth, MeanStress};
 use crate::load::Load;
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::stress::StressField;

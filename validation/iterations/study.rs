@@ -10,10 +10,7 @@ use crate::lattice::Lattice;
 use crate::load::Load;
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::problem::Problem;
-use crate::spectral::Method;
-use crate::spectral::Route;
-use crate::spectral::Settings;
-use crate::spectral::{Solver, Step};
+use crate::spectral::{Method, Route, Settings, Solver, Step};
 use std::sync::Arc;
 
 pub const STUDY: Study = Study {

@@ -10,10 +10,8 @@
 
 use super::draw::{self, curve, linear};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::TransferFunction;
-use crate::body::{HalfSpace, Material};
-use crate::lattice::Cell;
-use crate::lattice::Grid;
+use crate::body::{HalfSpace, Material, TransferFunction};
+use crate::lattice::{Cell, Grid};
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::spectral::iteration::Compliance;
 use crate::spectral::operator::Operator;

@@ -8,8 +8,7 @@
 //! the second moments M = 2Pa²/5 of the indenters outside would add, A the area of the cell: the pressure p̄ has none.
 //! Divided by the stiffness of the contacts ε moves loads and penetration ([`crate::validation::exact::localization::shifts`]).
 
-use crate::body::HalfSpace;
-use crate::body::TransferFunction;
+use crate::body::{HalfSpace, TransferFunction};
 use crate::comparison::Answer;
 use crate::lattice::Lattice;
 use crate::localized::circle::Circle;

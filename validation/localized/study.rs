@@ -10,8 +10,7 @@ mod one_level;
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::MeanStress;
-use crate::body::{HalfSpace, Interface, Layer, Material};
+use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
 use crate::comparison::{Answer, CircleComparison, Comparison, StressPair, Task};
 use crate::counterbody::{Indenters, Level, Shape};
 use crate::lattice::Lattice;

@@ -1,8 +1,7 @@
 //! Stresses under an indenter of the first level, for Figs 6 and 7.
 
 use super::model::Model;
-use crate::body::Depth;
-use crate::body::MeanStress;
+use crate::body::{Depth, MeanStress};
 use crate::load::Load;
 use crate::picture::contour::zero_line;
 use crate::stress::{Line, State, StressField};

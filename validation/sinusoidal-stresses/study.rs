@@ -4,11 +4,8 @@
 
 use super::draw::{self, curve, linear};
 use super::{Check, Data, Outcome, Study, StudyError};
-use crate::body::Depth;
-use crate::body::MeanStress;
-use crate::body::{HalfSpace, Material};
-use crate::lattice::Cell;
-use crate::lattice::Grid;
+use crate::body::{Depth, HalfSpace, Material, MeanStress};
+use crate::lattice::{Cell, Grid};
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::stress::{State, StressField};
 use crate::validation::exact::sinusoidal;
