@@ -1,9 +1,7 @@
 //! A sheet of paper measured in points (1/72 inch), and the marks on it in their order.
 //!
-//! x grows to the right and y down. The sheet becomes pixels ([`super::raster`]) or an SVG file ([`super::vector`]);
-//! whoever draws on it need not know which.
+//! x grows to the right and y down. The sheet becomes pixels or an SVG file; whoever draws on it need not know which.
 
-use super::Format;
 use super::colour::Colour;
 use super::text;
 
@@ -15,10 +13,6 @@ pub const PIXELS: f64 = 300.0 / 72.0;
 
 /// Points of a line closer together than this are one, points.
 const CLOSE: f64 = 0.25;
-
-fn distance([x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
-    (x1 - x0).hypot(y1 - y0)
-}
 
 /// Where a text stands relative to its anchor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +36,17 @@ pub enum Dash {
     Dotted,
 }
 
+impl Dash {
+    /// Lengths of a dash and of the gap after it over the width of the line; a dot is a round end without a dash.
+    pub fn lengths(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Solid => None,
+            Self::Dashed => Some([4.0, 2.5]),
+            Self::Dotted => Some([0.0, 1.8]),
+        }
+    }
+}
+
 /// One mark.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
@@ -51,6 +56,8 @@ pub enum Mark {
         points: Vec<[f64; 2]>,
         /// Width, points.
         width: f64,
+        /// How it is interrupted.
+        dash: Dash,
         /// Its colour.
         colour: Colour,
     },
@@ -113,33 +120,25 @@ impl Canvas {
         Self { size, marks: Vec::new() }
     }
 
-    /// A line through points; those closer together than an eye can see are left out.
+    /// A line through points.
     pub fn line(&mut self, points: &[[f64; 2]], width: f64, colour: Colour) {
+        self.dashed(points, width, Dash::Solid, colour);
+    }
+
+    /// A line through points, dashed or dotted; points closer together than an eye can see are left out.
+    pub fn dashed(&mut self, points: &[[f64; 2]], width: f64, dash: Dash, colour: Colour) {
         let Some((&last, others)) = points.split_last() else { return };
         let mut seen: Vec<[f64; 2]> = Vec::new();
-        for &point in others {
-            if seen.last().is_none_or(|before| distance(*before, point) > CLOSE) {
-                seen.push(point);
+        for &[x, y] in others {
+            if seen.last().is_none_or(|before| (x - before[0]).hypot(y - before[1]) > CLOSE) {
+                seen.push([x, y]);
             }
         }
         seen.push(last);
+        // Dots as wide as a line would look thinner than it.
+        let width = if dash == Dash::Dotted { 1.2 * width } else { width };
         if seen.len() > 1 {
-            self.marks.push(Mark::Line { points: seen, width, colour });
-        }
-    }
-
-    /// A line through points, dashed or dotted.
-    pub fn dashed(&mut self, points: &[[f64; 2]], width: f64, dash: Dash, colour: Colour) {
-        let (on, off) = match dash {
-            Dash::Solid => return self.line(points, width, colour),
-            Dash::Dashed => (4.0 * width, 2.5 * width),
-            Dash::Dotted => (0.01 * width, 2.2 * width),
-        };
-        for piece in pieces(points, on, off) {
-            match dash {
-                Dash::Dotted => self.disc(piece[0], 0.55 * width, colour),
-                _ => self.line(&piece, width, colour),
-            }
+            self.marks.push(Mark::Line { points: seen, width, dash, colour });
         }
     }
 
@@ -175,63 +174,9 @@ impl Canvas {
         self.marks.push(Mark::Text { text: text.to_owned(), at, anchor, size, upward: true, colour });
     }
 
-    /// A rectangle of pixels.
+    /// A rectangle of pixels, below all other marks.
     pub fn image(&mut self, corner: [f64; 2], size: [f64; 2], pixels: [usize; 2], colours: Vec<u8>) {
-        self.marks.push(Mark::Image { corner, size, pixels, colours });
-    }
-
-    /// The file of this sheet.
-    pub fn file(&self, format: Format) -> Vec<u8> {
-        match format {
-            Format::Png => super::raster::png(self),
-            Format::Svg => super::vector::svg(self).into_bytes(),
-        }
-    }
-}
-
-/// The dashes of a line: pieces of length `on` after gaps of length `off`.
-fn pieces(points: &[[f64; 2]], on: f64, off: f64) -> Vec<Vec<[f64; 2]>> {
-    let mut pieces = Vec::new();
-    let (mut piece, mut left): (Option<Vec<[f64; 2]>>, f64) = (points.first().map(|&p| vec![p]), on);
-    for pair in points.windows(2) {
-        let ([x0, y0], [x1, y1]) = (pair[0], pair[1]);
-        let length = distance([x0, y0], [x1, y1]);
-        let mut done = 0.0;
-        while length - done > left {
-            done += left;
-            let here = [x0 + (x1 - x0) * done / length, y0 + (y1 - y0) * done / length];
-            match piece.take() {
-                Some(mut points) => {
-                    points.push(here);
-                    pieces.push(points);
-                    left = off;
-                }
-                None => {
-                    piece = Some(vec![here]);
-                    left = on;
-                }
-            }
-        }
-        left -= length - done;
-        if let Some(points) = &mut piece {
-            points.push([x1, y1]);
-        }
-    }
-    pieces.extend(piece.filter(|points| points.len() > 1));
-    pieces
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn dashes_cover_their_share_of_a_line() {
-        let dashes = pieces(&[[0.0, 0.0], [7.0, 0.0], [7.0, 23.0]], 2.0, 1.0);
-        assert_eq!(dashes.len(), 10);
-        let length = |points: &Vec<[f64; 2]>| -> f64 {
-            points.windows(2).map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1])).sum()
-        };
-        assert!((dashes.iter().map(length).sum::<f64>() - 20.0).abs() < 1e-9);
+        let lowest = self.marks.partition_point(|mark| matches!(mark, Mark::Image { .. }));
+        self.marks.insert(lowest, Mark::Image { corner, size, pixels, colours });
     }
 }

@@ -23,6 +23,25 @@ pub fn zero_line(columns: usize, rows: usize, value: impl Fn([f64; 2]) -> Option
     pieces
 }
 
+/// The pieces put together to lines; a closed one ends where it begins.
+pub fn joined(mut pieces: Vec<[[f64; 2]; 2]>) -> Vec<Vec<[f64; 2]>> {
+    // Neighbours find their common end from opposite sides and differ by rounding.
+    let same = |p: [f64; 2], q: [f64; 2]| (0..2).all(|k| (p[k] - q[k]).abs() < 1e-9);
+    let mut lines = Vec::new();
+    while let Some(piece) = pieces.pop() {
+        let mut line = piece.to_vec();
+        for _ in 0..2 {
+            while let Some(k) = pieces.iter().position(|piece| piece.iter().any(|&p| same(p, line[line.len() - 1]))) {
+                let [p, q] = pieces.swap_remove(k);
+                line.push(if same(p, line[line.len() - 1]) { q } else { p });
+            }
+            line.reverse();
+        }
+        lines.push(line);
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -32,5 +51,19 @@ mod tests {
         let pieces = zero_line(50, 60, |[x, y]| Some((x - 0.5).hypot(y - 0.5) - 0.3));
         let length: f64 = pieces.iter().map(|[p, q]| (p[0] - q[0]).hypot(p[1] - q[1])).sum();
         assert!((length / (0.6 * std::f64::consts::PI) - 1.0).abs() < 2e-3, "{length}");
+    }
+
+    #[test]
+    fn pieces_of_two_circles_make_two_closed_lines() {
+        let circles = |[x, y]: [f64; 2]| Some(((x - 0.49).hypot(y - 0.26) - 0.2).min((x - 0.49).hypot(y - 0.74) - 0.2));
+        let pieces = zero_line(30, 40, circles);
+        let count = pieces.len();
+        let lines = joined(pieces);
+        assert_eq!(lines.iter().map(|line| line.len() - 1).sum::<usize>(), count);
+        assert_eq!(lines.len(), 2);
+        for line in lines {
+            let [[x0, y0], [x1, y1]] = [line[0], line[line.len() - 1]];
+            assert!((x0 - x1).hypot(y0 - y1) < 1e-9);
+        }
     }
 }

@@ -17,6 +17,7 @@ mod comparison;
 mod contact;
 pub(crate) mod contour;
 mod curve;
+mod file;
 mod frame;
 mod legend;
 mod lines;
@@ -40,6 +41,7 @@ pub use chart::{Chart, Figure};
 pub use comparison::comparison;
 pub use contact::contact;
 pub use curve::{Curve, Style};
+pub use file::{Format, write_picture};
 pub use lines::lines;
 pub use load_curves::load_curves;
 pub use pressure::pressure;
@@ -47,37 +49,3 @@ pub use profiles::profiles;
 pub use section::section;
 pub use snapshot::Snapshot;
 pub use units::Units;
-
-use crate::output::{OutputError, write_file};
-use std::io::Write;
-use std::path::{Path, PathBuf};
-
-/// File format of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Format {
-    /// Pixels, 300 dots per inch.
-    #[default]
-    Png,
-    /// Lines, texts and, for fields, embedded pixels.
-    Svg,
-}
-
-impl Format {
-    /// Ending of a file name.
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Svg => "svg",
-        }
-    }
-}
-
-/// Writes a picture as `<folder>/<name>.png` or `.svg`, whole or not at all; returns its path.
-///
-/// # Errors
-/// [`OutputError`] with the path.
-pub fn write_picture(folder: &Path, name: &str, format: Format, picture: &[u8]) -> Result<PathBuf, OutputError> {
-    let path = folder.join(format!("{name}.{}", format.extension()));
-    write_file(&path, |writer| writer.write_all(picture))?;
-    Ok(path)
-}

@@ -1,130 +1,103 @@
-//! A sheet as a PNG file: drawn three times as large, then averaged, so that every edge is smooth.
+//! A sheet as a PNG file, every edge smooth.
 
-use super::canvas::{Anchor, Canvas, Mark, PIXELS};
+use super::canvas::{Anchor, Canvas, Dash, Mark, PIXELS};
 use super::colour::Colour;
 use super::text;
-use plotters::backend::{BitMapBackend, DrawingBackend};
-use plotters::style::{Color, RGBColor};
-use rayon::prelude::*;
-
-/// Dots along a pixel's side.
-const DOTS: usize = 3;
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Shader, Stroke, StrokeDash, Transform,
+};
 
 /// The PNG file of a sheet at 300 dots per inch.
 pub fn png(canvas: &Canvas) -> Vec<u8> {
-    let [width, height] = canvas.size.map(|length| (length * PIXELS).round() as usize);
-    let mut dots = vec![255; 3 * width * height * DOTS * DOTS];
-    // Images stand below all other marks.
-    canvas.marks.iter().for_each(|mark| lay(&mut dots, [width * DOTS, height * DOTS], mark));
-    let mut backend = BitMapBackend::with_buffer(&mut dots, ((width * DOTS) as u32, (height * DOTS) as u32));
+    let [width, height] = canvas.size.map(|length| (length * PIXELS).round().max(1.0) as u32);
+    let mut sheet = Pixmap::new(width, height).expect("a sheet of paper fits into memory");
+    sheet.fill(Color::WHITE);
     for mark in &canvas.marks {
-        // Drawing into memory cannot fail; what stands outside the sheet is left out.
-        let _ = put(&mut backend, mark);
+        // What has no extent or no place leaves no mark.
+        let _ = put(&mut sheet, mark);
     }
-    drop(backend);
-    encode([width, height], &averaged(&dots, [width, height]))
+    let colours: Vec<u8> = sheet.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
+    encode([width, height].map(|count| count as usize), &colours)
 }
 
-/// Tangent of the least angle at which a line needs a round joint.
-const SHARP: f64 = 0.2;
-
-/// Dots per point.
-const SCALE: f64 = PIXELS * DOTS as f64;
-
-fn dot([x, y]: [f64; 2]) -> (i32, i32) {
-    ((x * SCALE).round() as i32, (y * SCALE).round() as i32)
-}
-
-fn rgb(Colour([r, g, b]): Colour) -> RGBColor {
-    RGBColor(r, g, b)
-}
-
-/// Draws a mark; `None` when the library refuses it.
-fn put(backend: &mut impl DrawingBackend, mark: &Mark) -> Option<()> {
+/// Draws a mark; `None` when there is nothing to draw.
+fn put(sheet: &mut Pixmap, mark: &Mark) -> Option<()> {
+    let scale = Transform::from_scale(PIXELS as f32, PIXELS as f32);
     match mark {
-        Mark::Line { points, width, colour } => {
-            let half = (0.5 * width * SCALE).max(1.0);
-            let style = rgb(*colour).filled();
-            for pair in points.windows(2) {
-                let [[x0, y0], [x1, y1]] = [pair[0], pair[1]].map(|p| p.map(|x| x * SCALE));
-                let length = (x1 - x0).hypot(y1 - y0);
-                if length > 0.0 {
-                    let [nx, ny] = [(y0 - y1) * half / length, (x1 - x0) * half / length];
-                    let corners = [[x0 + nx, y0 + ny], [x1 + nx, y1 + ny], [x1 - nx, y1 - ny], [x0 - nx, y0 - ny]];
-                    backend.fill_polygon(corners.map(|[x, y]| (x.round() as i32, y.round() as i32)), &style).ok()?;
-                }
-            }
-            // Round joints where the line turns; elsewhere its pieces meet without a gap.
-            for corner in points.windows(3) {
-                let [before, after] = [0, 1].map(|k| [0, 1].map(|c| corner[k + 1][c] - corner[k][c]));
-                let along = before[0] * after[0] + before[1] * after[1];
-                let aside = before[0] * after[1] - before[1] * after[0];
-                if aside.abs() > SHARP * along {
-                    backend.draw_circle(dot(corner[1]), half.round() as u32, &style, true).ok()?;
-                }
-            }
+        Mark::Line { points, width, dash, colour } => {
+            let dashes = dash.lengths().map(|lengths| lengths.map(|length| (length * width) as f32).to_vec());
+            let stroke = Stroke {
+                width: *width as f32,
+                line_cap: if *dash == Dash::Dotted { LineCap::Round } else { LineCap::Butt },
+                line_join: LineJoin::Round,
+                dash: dashes.and_then(|lengths| StrokeDash::new(lengths, 0.0)),
+                ..Stroke::default()
+            };
+            sheet.stroke_path(&path(points)?, &paint(*colour), &stroke, scale, None);
         }
         Mark::Area { corners, colour } => {
-            backend.fill_polygon(corners.iter().map(|&corner| dot(corner)), &rgb(*colour).filled()).ok()?;
+            sheet.fill_path(&path(corners)?, &paint(*colour), FillRule::Winding, scale, None);
         }
-        Mark::Disc { centre, radius, colour } => {
-            backend.draw_circle(dot(*centre), (radius * SCALE).round() as u32, &rgb(*colour).filled(), true).ok()?;
+        Mark::Disc { centre: [x, y], radius, colour } => {
+            let circle = PathBuilder::from_circle(*x as f32, *y as f32, *radius as f32)?;
+            sheet.fill_path(&circle, &paint(*colour), FillRule::Winding, scale, None);
         }
-        Mark::Text { text, at, anchor, size, upward, colour } => {
+        Mark::Text { text, at: [x, y], anchor, size, upward, colour } => {
             let before = text::width(text, *size)
                 * match anchor {
                     Anchor::Left => 0.0,
                     Anchor::Centre => 0.5,
                     Anchor::Right => 1.0,
                 };
-            let (x, y) = dot(*at);
-            let colour = rgb(*colour);
-            let mut result = Some(());
-            text::draw(text, size * SCALE, [-before * SCALE, 0.0], |i, j, coverage| {
-                let place = if *upward { (x + j, y - i) } else { (x + i, y + j) };
-                if result.is_some() && coverage > 0.0 {
-                    let style = colour.mix(f64::from(coverage.min(1.0)));
-                    result = backend.draw_pixel(place, style.to_backend_color()).ok();
-                }
+            let [along, down] = if *upward { [-y, *x] } else { [*x, *y] };
+            text::draw(text, size * PIXELS, [(along - before) * PIXELS, down * PIXELS], |i, j, coverage| {
+                // A pixel ends one further than it begins, and begins there once turned.
+                let [i, j] = if *upward { [j, -1 - i] } else { [i, j] };
+                blend(sheet, [i, j], coverage, *colour);
             });
-            result?;
         }
-        Mark::Image { .. } => {}
+        Mark::Image { corner, pixels: [columns, _], colours, .. } => {
+            let [x, y] = corner.map(|c| (c * PIXELS).round() as usize);
+            let across = 4 * sheet.width() as usize;
+            let lines = sheet.data_mut().chunks_exact_mut(across).skip(y);
+            for (line, own) in lines.zip(colours.chunks_exact(3 * columns)) {
+                for (pixel, colour) in line.chunks_exact_mut(4).skip(x).zip(own.chunks_exact(3)) {
+                    pixel[..3].copy_from_slice(colour);
+                }
+            }
+        }
     }
     Some(())
 }
 
-/// Lays an image on the dots; one that reaches beyond the sheet is cut.
-fn lay(dots: &mut [u8], [across, down]: [usize; 2], mark: &Mark) {
-    let Mark::Image { corner, pixels: [columns, rows], colours, .. } = mark else { return };
-    let [x, y] = [dot(*corner).0, dot(*corner).1].map(|c| usize::try_from(c).unwrap_or(0));
-    let (wide, high) = ((columns * DOTS).min(across.saturating_sub(x)), (rows * DOTS).min(down.saturating_sub(y)));
-    dots.par_chunks_mut(3 * across).skip(y).take(high).enumerate().for_each(|(row, line)| {
-        let own = &colours[3 * columns * (row / DOTS)..][..3 * columns];
-        let line = &mut line[3 * x..3 * (x + wide)];
-        for (dots, pixel) in line.chunks_mut(3 * DOTS).zip(own.chunks_exact(3)) {
-            dots.chunks_mut(3).for_each(|dot| dot.copy_from_slice(&pixel[..dot.len()]));
-        }
-    });
+fn paint(Colour([r, g, b]): Colour) -> Paint<'static> {
+    Paint { shader: Shader::SolidColor(Color::from_rgba8(r, g, b, u8::MAX)), ..Paint::default() }
 }
 
-/// The mean of the dots of each pixel.
-fn averaged(dots: &[u8], [width, height]: [usize; 2]) -> Vec<u8> {
-    let line = 3 * width * DOTS;
-    let mut pixels = vec![0; 3 * width * height];
-    pixels.par_chunks_mut(3 * width).zip(dots.par_chunks(line * DOTS)).for_each(|(row, dots)| {
-        let mut sums = vec![0u16; line];
-        for dots in dots.chunks_exact(line) {
-            sums.iter_mut().zip(dots).for_each(|(sum, &dot)| *sum += u16::from(dot));
+/// The path through points, closed if it ends where it begins.
+fn path(points: &[[f64; 2]]) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    for (k, &[x, y]) in points.iter().enumerate() {
+        match k {
+            0 => path.move_to(x as f32, y as f32),
+            _ => path.line_to(x as f32, y as f32),
         }
-        for (pixel, sums) in row.chunks_exact_mut(3).zip(sums.chunks_exact(3 * DOTS)) {
-            for (c, value) in pixel.iter_mut().enumerate() {
-                let sum: u16 = sums[c..].iter().step_by(3).sum();
-                *value = (sum / (DOTS * DOTS) as u16) as u8;
-            }
+    }
+    if points.first() == points.last() {
+        path.close();
+    }
+    path.finish()
+}
+
+/// Covers a part (0 to 1) of a pixel, if it is on the sheet.
+fn blend(sheet: &mut Pixmap, [column, row]: [i32; 2], part: f32, Colour(colour): Colour) {
+    let (width, height) = (sheet.width() as i32, sheet.height() as i32);
+    if (0..width).contains(&column) && (0..height).contains(&row) {
+        let pixel = &mut sheet.data_mut()[4 * (row * width + column) as usize..][..3];
+        for (own, new) in pixel.iter_mut().zip(colour.map(f32::from)) {
+            *own = (f32::from(*own) + part.min(1.0) * (new - f32::from(*own))).round() as u8;
         }
-    });
-    pixels
+    }
 }
 
 /// A PNG file of the pixels that knows its size on paper.
@@ -142,4 +115,56 @@ pub fn encode([width, height]: [usize; 2], pixels: &[u8]) -> Vec<u8> {
     });
     debug_assert!(written.is_ok(), "writing into memory cannot fail");
     file
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pixels from 0 (white) to 1 (black), row by row, of a sheet 48 points = 200 pixels wide and high.
+    fn darkness(draw: impl Fn(&mut Canvas)) -> Vec<Vec<f64>> {
+        let mut canvas = Canvas::new([48.0, 48.0]);
+        draw(&mut canvas);
+        let file = png(&canvas);
+        let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
+        let mut colours = vec![0; 3 * 200 * 200];
+        reader.next_frame(&mut colours).unwrap();
+        colours
+            .chunks(3 * 200)
+            .map(|row| row.iter().step_by(3).map(|&c| 1.0 - f64::from(c) / 255.0).collect())
+            .collect()
+    }
+
+    #[test]
+    fn images_stand_below_other_marks_and_keep_their_pixels() {
+        let colours: Vec<u8> = (0..30 * 20).flat_map(|k| [(k % 251) as u8; 3]).collect();
+        let sheet = darkness(|canvas| {
+            canvas.disc([12.0, 12.0], 1.0, Colour::BLACK);
+            canvas.image([12.0, 12.0], [7.2, 4.8], [30, 20], colours.clone());
+        });
+        assert_eq!(sheet[50][50], 1.0);
+        for (row, column) in (5..20).flat_map(|i| (5..30).map(move |j| (i, j))) {
+            assert_eq!(sheet[50 + row][50 + column], 1.0 - f64::from(colours[3 * (30 * row + column)]) / 255.0);
+        }
+    }
+
+    #[test]
+    fn a_line_is_as_wide_as_it_is_told_wherever_it_stands() {
+        for step in 0..10 {
+            let y = 24.0 + 0.03 * f64::from(step);
+            let sheet = darkness(|canvas| canvas.line(&[[0.0, y], [48.0, y]], 0.6, Colour::BLACK));
+            let width: f64 = sheet.iter().map(|row| row[100]).sum();
+            assert!((width - 2.5).abs() < 0.26, "{width} at {y}");
+        }
+    }
+
+    #[test]
+    fn upward_text_is_level_text_turned() {
+        let level = darkness(|canvas| canvas.text("σₛ/E₂", [24.0, 20.0], Anchor::Centre, 7.5, Colour::BLACK));
+        let upward = darkness(|canvas| canvas.upward("σₛ/E₂", [20.0, 24.0], 7.5, Colour::BLACK));
+        assert!(level.iter().flatten().sum::<f64>() > 100.0);
+        for (row, column) in (0..200).flat_map(|i| (0..200).map(move |j| (i, j))) {
+            assert!((level[row][column] - upward[199 - column][row]).abs() < 0.01);
+        }
+    }
 }

@@ -1,95 +1,87 @@
 //! A sheet as an SVG file: its lines and texts stay lines and texts.
 //!
 //! Texts name the embedded typeface and others of the same widths, so that a viewer without them still shows every
-//! word. Fields are images within the file.
+//! word. Fields are images within the file. The unit of the file is the point.
 
-use super::canvas::{Anchor, Canvas, Mark};
+use super::canvas::{Anchor, Canvas, Dash, Mark};
 use super::colour::Colour;
 use super::{raster, text};
-use plotters::backend::{DrawingBackend, SVGBackend};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontFamily, FontStyle, FontTransform, IntoFont, RGBColor, TextStyle};
-
-/// Units of the file per point: the library draws at whole numbers.
-const SCALE: f64 = 20.0;
-
-/// Half the height of small letters over the size: how far the library lifts text from its anchor.
-const LIFT: f64 = 0.5 * 0.547;
 
 /// The SVG file of a sheet.
 pub fn svg(canvas: &Canvas) -> String {
-    let [width, height] = canvas.size.map(|length| (length * SCALE).round() as u32);
-    let mut drawn = String::new();
-    let mut backend = SVGBackend::with_string(&mut drawn, (width, height));
-    for mark in &canvas.marks {
-        // Drawing into memory cannot fail.
-        let _ = put(&mut backend, mark);
-    }
-    let _ = backend.present();
-    drop(backend);
-    // The library's first line knows no unit of length; images stand below all marks.
-    let body = drawn.split_once('\n').map_or("", |(_, body)| body);
-    let millimetres = canvas.size.map(|length| length * 25.4 / 72.0);
-    let images: String = canvas.marks.iter().filter_map(image).collect();
+    let [width, height] = canvas.size.map(hundredths);
+    let [wide, high] = canvas.size.map(|length| hundredths(length * 25.4 / 72.0));
+    let marks: String = canvas.marks.iter().map(element).collect();
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.2}mm\" height=\"{:.2}mm\" viewBox=\"0 0 {width} {height}\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\"/>\n{images}{body}",
-        millimetres[0], millimetres[1]
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}mm\" height=\"{high}mm\" \
+         viewBox=\"0 0 {width} {height}\" font-family=\"{}\" stroke-linejoin=\"round\">\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\"/>\n{marks}</svg>\n",
+        text::FAMILY
     )
 }
 
-fn unit([x, y]: [f64; 2]) -> (i32, i32) {
-    ((x * SCALE).round() as i32, (y * SCALE).round() as i32)
-}
-
-fn rgb(Colour([r, g, b]): Colour) -> RGBColor {
-    RGBColor(r, g, b)
-}
-
-/// Draws a mark; `None` when the library refuses it.
-fn put(backend: &mut impl DrawingBackend, mark: &Mark) -> Option<()> {
+/// A mark as a line of the file.
+fn element(mark: &Mark) -> String {
     match mark {
-        Mark::Line { points, width, colour } => {
-            let style = rgb(*colour).stroke_width((width * SCALE).round().max(1.0) as u32);
-            backend.draw_path(points.iter().map(|&point| unit(point)), &style).ok()
+        Mark::Line { points, width, dash, colour } => {
+            let dashes = dash.lengths().map_or(String::new(), |lengths| {
+                let [on, off] = lengths.map(|length| hundredths(length * width));
+                format!(" stroke-dasharray=\"{on} {off}\"")
+            });
+            let cap = if *dash == Dash::Dotted { " stroke-linecap=\"round\"" } else { "" };
+            let (path, width, colour) = (path(points), hundredths(*width), hex(*colour));
+            format!("<path d=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{dashes}{cap}/>\n")
         }
-        Mark::Area { corners, colour } => {
-            backend.fill_polygon(corners.iter().map(|&corner| unit(corner)), &rgb(*colour).filled()).ok()
-        }
+        Mark::Area { corners, colour } => format!("<path d=\"{}\" fill=\"{}\"/>\n", path(corners), hex(*colour)),
         Mark::Disc { centre, radius, colour } => {
-            backend.draw_circle(unit(*centre), (radius * SCALE).round() as u32, &rgb(*colour).filled(), true).ok()
+            let ([x, y], radius) = (centre.map(hundredths), hundredths(*radius));
+            format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{}\"/>\n", hex(*colour))
         }
-        Mark::Text { text: words, at: [x, y], anchor, size, upward, colour } => {
-            let h_pos = match anchor {
-                Anchor::Left => HPos::Left,
-                Anchor::Centre => HPos::Center,
-                Anchor::Right => HPos::Right,
+        Mark::Text { text, at, anchor, size, upward, colour } => {
+            let anchor = match anchor {
+                Anchor::Left => "start",
+                Anchor::Centre => "middle",
+                Anchor::Right => "end",
             };
-            let lift = LIFT * size;
-            let (place, turn) = if *upward {
-                ([x + lift, *y], FontTransform::Rotate270)
-            } else {
-                ([*x, y + lift], FontTransform::None)
-            };
-            // The library divides sizes by 1.24.
-            let font = (FontFamily::Name(text::FAMILY), 1.24 * size * SCALE, FontStyle::Normal).into_font();
-            let colour = rgb(*colour);
-            let style = TextStyle::from(font.transform(turn)).color(&colour).pos(Pos::new(h_pos, VPos::Bottom));
-            backend.draw_text(words, &style, unit(place)).ok()
+            let [x, y] = at.map(hundredths);
+            let turn = if *upward { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+            let (size, colour, text) = (hundredths(*size), hex(*colour), escaped(text));
+            format!(
+                "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{turn}>\
+                 {text}</text>\n"
+            )
         }
-        Mark::Image { .. } => Some(()),
+        Mark::Image { corner, size, pixels, colours } => {
+            let ([x, y], [width, height]) = (corner.map(hundredths), size.map(hundredths));
+            let file = base64(&raster::encode(*pixels, colours));
+            format!(
+                "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+                 href=\"data:image/png;base64,{file}\"/>\n"
+            )
+        }
     }
 }
 
-/// An image as an element that holds its PNG file.
-fn image(mark: &Mark) -> Option<String> {
-    let Mark::Image { corner, size, pixels, colours } = mark else { return None };
-    let ([x, y], [width, height]) = (corner.map(|c| c * SCALE), size.map(|c| c * SCALE));
-    let file = base64(&raster::encode(*pixels, colours));
-    Some(format!(
-        "<image x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" preserveAspectRatio=\"none\" \
-         href=\"data:image/png;base64,{file}\"/>\n"
-    ))
+/// Rounded to 0.01 points, finer than any printer; without the sign of −0.
+fn hundredths(x: f64) -> f64 {
+    (100.0 * x).round() / 100.0 + 0.0
+}
+
+fn hex(Colour([r, g, b]): Colour) -> String {
+    format!("#{r:02X}{g:02X}{b:02X}")
+}
+
+/// The path through points, closed if it ends where it begins.
+fn path(points: &[[f64; 2]]) -> String {
+    let places: Vec<String> =
+        points.iter().map(|place| place.map(hundredths)).map(|[x, y]| format!("{x},{y}")).collect();
+    let end = if points.first() == points.last() { "Z" } else { "" };
+    format!("M{}{end}", places.join(" "))
+}
+
+/// Text as it may stand between tags and within quotes.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Base64 of RFC 4648.
@@ -115,5 +107,14 @@ mod tests {
         for (bytes, expected) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
             assert_eq!(base64(bytes.as_bytes()), expected);
         }
+    }
+
+    #[test]
+    fn signs_of_the_file_are_escaped_within_text() {
+        let mut canvas = Canvas::new([50.0, 20.0]);
+        canvas.text("a < b & \"c\" > d", [-0.001, 10.126], Anchor::Left, 7.0, Colour::BLACK);
+        let file = svg(&canvas);
+        assert!(file.contains(">a &lt; b &amp; &quot;c&quot; &gt; d</text>"), "{file}");
+        assert!(file.contains("x=\"0\" y=\"10.13\""), "{file}");
     }
 }

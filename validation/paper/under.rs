@@ -3,7 +3,7 @@
 use super::model::Model;
 use crate::body::{Depth, MeanStress};
 use crate::load::Load;
-use crate::picture::contour::zero_line;
+use crate::picture::contour::{joined, zero_line};
 use crate::stress::{Line, State, StressField};
 use crate::validation::StudyError;
 use ndarray::Array2;
@@ -141,7 +141,7 @@ impl Part {
     pub fn line(&self, quantity: usize, level: f64) -> Vec<[f64; 2]> {
         let index = |part: f64, count: usize| (part * count as f64).round() as usize;
         let value = |[x, z]: [f64; 2]| Some(self.values[[index(z, ROWS), index(x, COLUMNS)]][quantity] - level);
-        let pieces = zero_line(COLUMNS, ROWS, value);
-        pieces.into_iter().flat_map(|[p, q]| [self.place(p), self.place(q), [f64::NAN; 2]]).collect()
+        let place = |line: Vec<[f64; 2]>| line.into_iter().map(|part| self.place(part)).chain([[f64::NAN; 2]]);
+        joined(zero_line(COLUMNS, ROWS, value)).into_iter().flat_map(place).collect()
     }
 }
