@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::canvas::{Canvas, Dash};
 use super::colour::{Colour, ColourMap};
-use super::contour::{joined, zero_line};
+use super::contour::zero_lines;
 use super::map::{Bar, Fill, Map, Over};
 use super::rows::{Largest, Quantity};
 use super::sheet::sheet;
@@ -52,7 +52,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let [bar_along, bar_tau1] = bars;
     let [x, y] = axes();
     let place = |[u, v]: [f64; 2]| [first + u * (last - first), v * depth];
-    let mut over: Vec<Over> = joined(zero_line(200, 140, |part| along(place(part))))
+    let mut over: Vec<Over> = zero_lines(200, 140, |part| along(place(part)))
         .into_iter()
         .map(|line| Over::Line {
             points: line.into_iter().map(place).collect(),

@@ -3,7 +3,7 @@
 use super::model::Model;
 use crate::body::{Depth, MeanStress};
 use crate::load::Load;
-use crate::picture::contour::{joined, zero_line};
+use crate::picture::contour::zero_lines;
 use crate::stress::{Line, State, StressField};
 use crate::validation::StudyError;
 use ndarray::Array2;
@@ -142,6 +142,6 @@ impl Part {
         let index = |part: f64, count: usize| (part * count as f64).round() as usize;
         let value = |[x, z]: [f64; 2]| Some(self.values[[index(z, ROWS), index(x, COLUMNS)]][quantity] - level);
         let place = |line: Vec<[f64; 2]>| line.into_iter().map(|part| self.place(part)).chain([[f64::NAN; 2]]);
-        joined(zero_line(COLUMNS, ROWS, value)).into_iter().flat_map(place).collect()
+        zero_lines(COLUMNS, ROWS, value).into_iter().flat_map(place).collect()
     }
 }
