@@ -11,7 +11,7 @@ use crate::counterbody::Indenters;
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::localized::stress::LocalizedField;
-use crate::localized::{self, CircleRadius, Coupled, Localized, Setup, Stop};
+use crate::localized::{self, CircleRadius, Coupled, Localized, NoIndenters, Setup, Stop};
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::{LevelReading, Reading};
@@ -24,8 +24,8 @@ use std::sync::Arc;
 #[non_exhaustive]
 pub enum ComparisonError {
     /// The localized method knows indenters only.
-    #[error("the localized method knows indenters on a lattice, not a topography")]
-    Topography,
+    #[error(transparent)]
+    NoIndenters(#[from] NoIndenters),
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] LatticeError),
@@ -176,7 +176,7 @@ impl Task {
     /// # Errors
     /// [`ComparisonError`] for a topography, or when a number of points is zero.
     pub fn compare(&self, points: [usize; 2], progress: &mut dyn FnMut(&str)) -> Result<Comparison, ComparisonError> {
-        let indenters = self.problem.counterbody().indenters().ok_or(ComparisonError::Topography)?;
+        let indenters = self.problem.counterbody().indenters().ok_or(NoIndenters)?;
         progress("spectral solution");
         let solve = |points: [usize; 2]| -> Result<Step, LatticeError> {
             Ok(Solver::new(Arc::clone(&self.problem), points, self.settings)?.solve(self.load))
@@ -187,7 +187,7 @@ impl Task {
         let reference = Answer::from(&reading);
         let grid_error = reference.deviation(&Answer::from(&coarse));
         let most = self.indenters.iter().copied().max().unwrap_or(1);
-        let localized = Localized::new(indenters, self.problem.half_space(), most);
+        let localized = Localized::new(&self.problem, most)?;
         let (mesh, start) = localized.mesh(self.load, &self.setup);
         let half = mesh.halved();
         let (mut circles, mut other_rule, mut lattice_sum) = (Vec::new(), Vec::new(), None);
@@ -249,7 +249,7 @@ impl Task {
             return Vec::new();
         }
         let radius = spot.contact_radius();
-        let field = LocalizedField::new(localized, half_space, self.mean);
+        let field = LocalizedField::new(localized, self.mean);
         let whole = StressField::new(spectral.finest(), self.mean);
         let faces = half_space.interface_depths();
         let mut depths: Vec<f64> = [0.25, 0.5, 1.0, 2.0].map(|part| part * radius).to_vec();

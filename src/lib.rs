@@ -76,7 +76,7 @@ pub mod validation;
 
 pub use body::{Depth, HalfSpace, Interface, Layer, Material, MaterialError, MeanStress};
 pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
-pub use lattice::{Cell, Grid, Lattice, LatticeError, ShapeError};
+pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
 pub use load::Load;
 pub use problem::Problem;
 pub use reading::{LevelReading, Reading, StressReading};

@@ -11,10 +11,9 @@
 //! (𝒜²−1)² = 0 gives exp(d𝒜) = cosh d + ½d sinh d (𝒜²−1) + 𝒜 sinh d + ½(d cosh d − sinh d)(𝒜³−𝒜).
 //! A frictionless interface transmits p alone: below it ℓ starts afresh.
 
-use super::Depth;
-use super::Interface;
 use super::minors::{EXTINCT, Minors, PlaneStrain};
 use super::transfer::TransferFunction;
+use super::{Depth, Interface};
 
 /// Amplitudes at one depth for a surface pressure cos(qξ).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,18 +67,11 @@ impl Interior {
     /// Interior at the wavenumber q > 0 (1/length).
     pub fn new(transfer: &TransferFunction, wavenumber: f64) -> Self {
         let substrate = &transfer.substrate;
-        let mut below = substrate;
-        let mut minors = Minors::half_space(below);
-        let mut planes = vec![minors];
-        for layer in transfer.strata.iter().rev() {
-            minors = minors.above(layer.interface, below, &layer.material, wavenumber);
-            planes.push(minors);
-            minors = minors.raised(&layer.material, wavenumber * layer.thickness);
-            below = &layer.material;
-        }
+        let mut planes = Vec::with_capacity(transfer.strata.len() + 1);
+        let surface = transfer.surface(wavenumber, |minors| planes.push(minors));
         planes.reverse();
 
-        let mut functional = Functional::shear(&minors);
+        let mut functional = Functional::shear(&surface);
         let mut bodies = Vec::with_capacity(planes.len());
         let mut top = 0.0;
         for (k, layer) in transfer.strata.iter().enumerate() {

@@ -44,13 +44,13 @@ impl TransferFunction {
 
     /// Compliance ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
     pub fn compliance(&self, wavenumber: f64) -> f64 {
-        let minors = self.surface_minors(wavenumber);
+        let minors = self.surface(wavenumber, |_| ());
         minors.c / minors.n / (self.surface_material().shear * wavenumber)
     }
 
     /// Layer correction T = compliance · G₁q/(1−ν₁) at the wavenumber q > 0; 1 for an uncoated half-space.
     pub fn correction(&self, wavenumber: f64) -> f64 {
-        let minors = self.surface_minors(wavenumber);
+        let minors = self.surface(wavenumber, |_| ());
         minors.c / minors.n / (1.0 - self.surface_material().poisson)
     }
 
@@ -58,13 +58,16 @@ impl TransferFunction {
         self.strata.first().map_or(&self.substrate, |layer| &layer.material)
     }
 
-    fn surface_minors(&self, wavenumber: f64) -> Minors {
+    /// The plane at the surface. `face` hears of those on the way up: at the upper face of the substrate, then at the lower
+    /// face of each layer, seen from inside it.
+    pub(super) fn surface(&self, wavenumber: f64, mut face: impl FnMut(Minors)) -> Minors {
         let mut below = &self.substrate;
         let mut minors = Minors::half_space(below);
+        face(minors);
         for layer in self.strata.iter().rev() {
-            minors = minors
-                .above(layer.interface, below, &layer.material, wavenumber)
-                .raised(&layer.material, wavenumber * layer.thickness);
+            minors = minors.above(layer.interface, below, &layer.material, wavenumber);
+            face(minors);
+            minors = minors.raised(&layer.material, wavenumber * layer.thickness);
             below = &layer.material;
         }
         minors

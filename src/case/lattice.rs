@@ -119,7 +119,7 @@ pub(super) fn build(
             Refusal::new(place, format!("`levels[{}].sites`: {fault}", level - 1), "these sites")
                 .help("the cell is periodic: fractions that differ by integers are one place")
         }
-        LatticeError::FlatCell(..) | LatticeError::NoPoints(..) => flat(section, &error),
+        LatticeError::FlatCell(..) | LatticeError::NoPoints(..) | LatticeError::Site(_) => flat(section, &error),
     })
 }
 

@@ -5,7 +5,7 @@
 //! radius, so of the periodic images of an indenter only the nearest one counts.
 
 use super::{Counterbody, Indenters, Shape};
-use crate::lattice::{Grid, Interpolation, Reduced, resample};
+use crate::lattice::{Grid, Interpolation, LatticeError, Reduced, resample};
 use crate::numeric::array::{field, samples};
 use crate::numeric::sums;
 use ndarray::{Array2, ArrayView2};
@@ -37,17 +37,21 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The counterbody on a grid of its cell: exact for indenters, interpolated between the samples of a topography.
-    pub fn new(counterbody: &Counterbody, grid: Arc<Grid>) -> Self {
-        let points = grid.points();
-        match counterbody {
+    /// The counterbody on a grid of its cell with `points` = [N₁, N₂]: exact for indenters, interpolated between the
+    /// samples of a topography.
+    ///
+    /// # Errors
+    /// [`LatticeError`] when a number of points is zero.
+    pub fn new(counterbody: &Counterbody, points: [usize; 2]) -> Result<Self, LatticeError> {
+        let grid = Arc::new(Grid::new(counterbody.cell(), points)?);
+        Ok(match counterbody {
             Counterbody::Indenters(indenters) => of_indenters(indenters, grid),
             Counterbody::Topography(topography) => {
                 let interpolation = Interpolation::on(grid.cell());
                 let gap = resample(&topography.depths(), topography.points(), points, interpolation);
                 Self { grid, initial_gap: field(points, gap), owner: None, ties: Vec::new(), sites: Vec::new() }
             }
-        }
+        })
     }
 
     /// The grid.
@@ -172,8 +176,7 @@ mod tests {
     use crate::lattice::{Cell, Lattice};
 
     fn on(lattice: Lattice, levels: Vec<Level>, points: [usize; 2]) -> Surface {
-        let grid = Grid::new(lattice.cell(), points).unwrap();
-        Surface::new(&Indenters::new(lattice, levels).unwrap().into(), Arc::new(grid))
+        Surface::new(&Indenters::new(lattice, levels).unwrap().into(), points).unwrap()
     }
 
     fn paraboloid(height: f64) -> Level {

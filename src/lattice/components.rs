@@ -1,7 +1,6 @@
 //! Connected sets of samples of a periodic grid: contact spots, and what is open between or inside them.
 
 use crate::lattice::Grid;
-use std::f64::consts::PI;
 
 /// Samples joined along the grid's lines.
 #[derive(Debug, Clone)]
@@ -101,26 +100,11 @@ pub fn around(grid: &Grid, centre: [f64; 2], reach: f64) -> impl Iterator<Item =
     })
 }
 
-/// Number of contact spots, and the samples along the radius of the disc as large as the one up to which, from the
-/// smallest on, half of the load is carried; `None` without contact.
-pub fn spots(grid: &Grid, pressure: &[f64]) -> Option<(usize, f64)> {
-    let mut spots: Vec<(usize, f64)> = components(grid, |index| pressure[index] > 0.0)
-        .iter()
-        .map(|spot| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum()))
-        .collect();
-    spots.sort_by_key(|(size, _)| *size);
-    let mut rest: f64 = 0.5 * spots.iter().map(|(_, load)| load).sum::<f64>();
-    let middle = spots.iter().find(|(_, load)| {
-        rest -= load;
-        rest <= 0.0
-    })?;
-    Some((spots.len(), (middle.0 as f64 / PI).sqrt()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lattice::Cell;
+    use std::f64::consts::PI;
 
     #[test]
     fn a_spot_across_the_border_is_one_and_a_stripe_wraps() {
@@ -135,21 +119,6 @@ mod tests {
         let near: Vec<_> = around(&grid, centre, 0.1).collect();
         assert!(near.len() == 4 && near.iter().all(|&(index, _)| corner(index)));
         assert!(components(&grid, |index| index / 8 == 3)[0].wraps);
-    }
-
-    #[test]
-    fn half_of_the_load_decides_which_spot_counts() {
-        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
-        let mut pressure = [0.0; 64];
-        assert_eq!(spots(&grid, &pressure), None);
-        // One sample of load 1, two of 1 each, four of 2 each.
-        pressure[0] = 1.0;
-        pressure[16..18].fill(1.0);
-        pressure[36..40].fill(2.0);
-        let disc = |samples: f64| (samples / PI).sqrt();
-        assert_eq!(spots(&grid, &pressure), Some((3, disc(4.0))));
-        pressure[0] = 20.0;
-        assert_eq!(spots(&grid, &pressure), Some((3, disc(1.0))));
     }
 
     #[test]

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum LatticeError {
     /// The cell vectors are parallel, zero or not finite.
-    #[error("the cell vectors ({}, {}) and ({}, {}) span no area", .0[0], .0[1], .1[0], .1[1])]
+    #[error("the cell vectors ({}, {}) and ({}, {}) span no area: give two finite ones that are not parallel", .0[0], .0[1], .1[0], .1[1])]
     FlatCell([f64; 2], [f64; 2]),
     /// A grid without points along a cell vector.
     #[error("a grid of {0} × {1} points has none: give at least one along each cell vector")]
@@ -21,9 +21,12 @@ pub enum LatticeError {
         standard: &'static str,
     },
     /// A level without any site.
-    #[error("level {0} has no site")]
+    #[error("level {0} has no site: give at least one, in fractions of the cell vectors")]
     NoSite(usize),
+    /// A site of a level that is nowhere.
+    #[error("a site of level {0} is not finite: give fractions of the cell vectors")]
+    Site(usize),
     /// Two indenters at one place.
-    #[error("levels {0} and {1} have an indenter at the same place")]
+    #[error("levels {0} and {1} have an indenter at the same place: move one, or leave it out")]
     SharedSite(usize, usize),
 }

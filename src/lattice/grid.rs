@@ -13,10 +13,10 @@ use std::fmt;
 /// A field that does not belong to a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "a field of {} × {} values does not belong to a grid of {} × {} samples",
+    "a field of {} × {} values does not belong to a grid of {} × {} samples: give one value for each",
     .field[0], .field[1], .points[0], .points[1]
 )]
-pub struct ShapeError {
+pub struct NotOnGrid {
     /// Shape of the field.
     pub field: [usize; 2],
     /// Samples of the grid.
@@ -36,8 +36,7 @@ impl Grid {
     /// Grid of `points` = [N₁, N₂] samples along a₁ and a₂.
     ///
     /// # Errors
-    /// [`LatticeError::NoPoints`] when a number of points is zero, [`LatticeError::FlatCell`] when samples stand so much
-    /// denser along one vector than along the other that they span no area.
+    /// [`LatticeError::NoPoints`] when a number of points is zero.
     pub fn new(cell: Cell, points: [usize; 2]) -> Result<Self, LatticeError> {
         if points.contains(&0) {
             return Err(LatticeError::NoPoints(points[0], points[1]));
@@ -62,9 +61,9 @@ impl Grid {
     /// Whether a field of this shape has one value per sample.
     ///
     /// # Errors
-    /// [`ShapeError`] unless it has.
-    pub fn check(&self, field: [usize; 2]) -> Result<(), ShapeError> {
-        if field == self.points { Ok(()) } else { Err(ShapeError { field, points: self.points }) }
+    /// [`NotOnGrid`] unless it has.
+    pub fn check(&self, field: [usize; 2]) -> Result<(), NotOnGrid> {
+        if field == self.points { Ok(()) } else { Err(NotOnGrid { field, points: self.points }) }
     }
 
     /// Number of samples N₁N₂.
@@ -98,7 +97,7 @@ impl Grid {
         [a1.map(|x| x / n1), a2.map(|x| x / n2)]
     }
 
-    /// Distance between neighbouring samples: the longer side of the reduced cell of the samples.
+    /// Distance between neighbouring samples, a length: the longer side of the reduced cell of the samples.
     pub fn spacing(&self) -> f64 {
         let [e1, e2] = self.steps();
         // The samples' cell is a cell as the grid's is.
@@ -133,9 +132,12 @@ impl Grid {
 
     /// Least non-zero wavenumber of the cell, 1/length.
     pub fn least_wavenumber(&self) -> f64 {
-        // The reciprocal cell is a cell: |b₁ × b₂| > 0.
-        let [b1, b2] = self.cell.reciprocal();
-        Cell::new(b1, b2).map_or(0.0, |cell| cell.reduced().shortest_vector())
+        self.cell.dual().reduced().shortest_vector()
+    }
+
+    /// Least wavenumber that the grid cannot hold in all directions, 1/length.
+    pub fn least_aliased(&self) -> f64 {
+        0.5 * self.sampling.shortest_vector()
     }
 }
 

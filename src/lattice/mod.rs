@@ -1,4 +1,4 @@
-//! Bravais cells, where the indenters of each level stand in them, and the grids that sample them.
+//! The periodic plane: cells, the places of the indenters in them, grids of samples, and what is read between them.
 
 mod cell;
 pub(crate) mod components;
@@ -9,6 +9,6 @@ mod sites;
 
 pub use cell::{Cell, Reduced};
 pub use error::LatticeError;
-pub use grid::{Grid, ShapeError};
-pub use interpolation::{Interpolation, resample};
+pub use grid::{Grid, NotOnGrid};
+pub(crate) use interpolation::{Interpolation, resample};
 pub use sites::Lattice;

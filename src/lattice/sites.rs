@@ -62,10 +62,14 @@ impl Lattice {
     /// (any real values; they are brought into [0, 1)).
     ///
     /// # Errors
-    /// [`LatticeError::NoSite`] for a level without site, [`LatticeError::SharedSite`] for two indenters at one place.
+    /// [`LatticeError::NoSite`] for a level without site, [`LatticeError::Site`] for a place that is not finite,
+    /// [`LatticeError::SharedSite`] for two indenters at one place.
     pub fn new(cell: Cell, sites: Vec<Vec<[f64; 2]>>) -> Result<Self, LatticeError> {
         if let Some(level) = sites.iter().position(Vec::is_empty) {
             return Err(LatticeError::NoSite(level + 1));
+        }
+        if let Some(level) = sites.iter().position(|level| level.iter().flatten().any(|s| !s.is_finite())) {
+            return Err(LatticeError::Site(level + 1));
         }
         let sites: Vec<Vec<[f64; 2]>> = sites
             .into_iter()
@@ -93,7 +97,10 @@ impl Lattice {
     }
 
     /// The vector from the place `from` (fractions of a₁, a₂) to the nearest indenter of `level` (from 1) that is not
-    /// there.
+    /// there, a length.
+    ///
+    /// # Panics
+    /// When there is no such level.
     pub fn toward(&self, from: [f64; 2], level: usize) -> [f64; 2] {
         let reduced = self.cell.reduced();
         let other = |site: &[f64; 2]| {

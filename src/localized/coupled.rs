@@ -17,6 +17,7 @@ use super::spot::Spot;
 use super::system::System;
 use super::tables::Tables;
 use crate::load::Load;
+use crate::numeric::array::field;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
@@ -155,8 +156,8 @@ impl Coupled {
                 level: self.system.sites()[m].level,
                 place: self.system.sites()[m].place,
                 mesh: self.mesh,
-                pressure: std::mem::take(&mut patterns.pressures[m]),
-                gap: std::mem::take(&mut gaps[m]),
+                pressure: field([self.mesh.width; 2], std::mem::take(&mut patterns.pressures[m])),
+                gap: field([self.mesh.width; 2], std::mem::take(&mut gaps[m])),
                 circle: self.circles[m].clone(),
                 radius: radii[m],
             })

@@ -8,6 +8,7 @@
 //! P* the loads the sweep had for the others. The last equation falls away under displacement control, with Δδ = 0.
 
 use crate::numeric::linear;
+use crate::numeric::search::largest;
 
 /// What a sweep has found of the levels, one entry per site.
 #[derive(Debug, Clone)]
@@ -31,7 +32,7 @@ impl Sweep {
     /// Largest deviation of the loads found from those used, and of their sum from the wanted one.
     pub fn unrest(&self, wanted: f64) -> f64 {
         let moved = self.found.iter().zip(&self.used).map(|(found, used)| (found - used).abs());
-        moved.fold((self.found.iter().sum::<f64>() - wanted).abs(), f64::max)
+        largest(moved.chain([(self.found.iter().sum::<f64>() - wanted).abs()]))
     }
 
     /// New loads and the change of the penetration; `wanted` is the whole load, `None` under displacement control.

@@ -21,25 +21,25 @@ const ALONE: Setup =
 /// Outer contact radius of each level (0: it does not touch) when all have one penetration and carry the prescribed load
 /// together but do not feel each other (Figs 2b, 4b and Table 1). `None` where contacts would meet.
 pub fn radii(indenters: &Indenters, half_space: &HalfSpace, load: Load) -> Option<Vec<f64>> {
-    let solution = Localized::new(indenters, half_space, 1).solve(load, &ALONE);
+    let solution = Localized::of(indenters, half_space, 1).solve(load, &ALONE);
     // All indenters of a level are alike.
     let own = |level: usize| solution.spots.iter().find(|spot| spot.level == level && spot.touches());
     let radii = (1..=indenters.levels().len()).map(|level| own(level).map_or(0.0, Spot::outer_radius)).collect();
     (solution.stop == Stop::Converged).then_some(radii)
 }
 
-/// Pressure of a single indenter of `level` under `load`: points (distance from the axis, pressure) from the axis to
-/// the edge (Fig. 3). `size`: a length of the order of the contact's or larger. `None` without load or solution.
-pub fn profile(level: Level, half_space: &HalfSpace, load: f64, size: f64) -> Option<Vec<[f64; 2]>> {
+/// Pressure of a single indenter of `level` under a `force`: points (distance from the axis, pressure) from the axis to
+/// the edge (Fig. 3). `size`: a length of the order of the contact's or larger. `None` without force or solution.
+pub fn profile(level: Level, half_space: &HalfSpace, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
     let lattice = Lattice::square(APART * size, 1).ok()?;
-    let mean_pressure = Load::MeanPressure(load / lattice.cell().area());
-    let alone = Indenters::new(lattice, vec![level]).ok().filter(|_| load > 0.0)?;
-    let Solution { spots, stop, .. } = Localized::new(&alone, half_space, 1).solve(mean_pressure, &ALONE);
+    let mean_pressure = Load::MeanPressure(force / lattice.cell().area());
+    let alone = Indenters::new(lattice, vec![level]).ok().filter(|_| force > 0.0)?;
+    let Solution { spots, stop, .. } = Localized::of(&alone, half_space, 1).solve(mean_pressure, &ALONE);
     let spot = &spots[0];
     let middle = spot.mesh.width / 2;
     let edge = spot.outer_radius();
-    let row = (middle..spot.mesh.width).map(|j| middle * spot.mesh.width + j);
-    let points = row.map(|index| [spot.mesh.place(index)[1], spot.pressure[index]]);
+    let place = |j: usize| spot.mesh.place(middle * spot.mesh.width + j)[1];
+    let points = (middle..spot.mesh.width).map(|j| [place(j), spot.pressure[[middle, j]]]);
     let inside = points.filter(|[r, p]| *p > 0.0 && *r < edge).chain([[edge, 0.0]]);
     (stop == Stop::Converged).then(|| inside.collect())
 }

@@ -48,5 +48,5 @@ pub use circle::{Circle, CircleRadius};
 pub use coupled::Coupled;
 pub use setup::Setup;
 pub use solution::{Solution, Stop};
-pub use solver::Localized;
+pub use solver::{Localized, NoIndenters};
 pub use system::System;

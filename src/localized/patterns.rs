@@ -22,7 +22,7 @@ impl Patterns {
             pressures: vec![vec![0.0; mesh.elements()]; sites],
         };
         for (m, spot) in start.into_iter().flat_map(|start| &start.spots).enumerate() {
-            let carried = (0..mesh.elements()).map(|index| spot.mesh.interpolated(&spot.pressure, mesh.place(index)));
+            let carried = (0..mesh.elements()).map(|index| spot.mesh.interpolated(spot.pressures(), mesh.place(index)));
             patterns.pressures[m] = carried.collect();
             let load = patterns.pressures[m].iter().sum::<f64>() * mesh.size * mesh.size;
             patterns.scale(m, if load > 0.0 { spot.load() / load } else { 0.0 }, spot.load());

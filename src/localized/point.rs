@@ -10,6 +10,7 @@
 use super::quadrature::{Bessel, Estimate, hankel};
 use crate::body::{HalfSpace, Layer, TransferFunction};
 use crate::numeric::chebyshev::{self, Chebyshev};
+use crate::numeric::search::largest;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -56,7 +57,7 @@ impl PointKernel {
                 bounds.push((2.0 * last).min(reach));
             }
             let pieces: Vec<_> = bounds.par_windows(2).map(|ends| kernel.fitted(ends[0], ends[1], DEPTH)).collect();
-            kernel.error = pieces.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+            kernel.error = largest(pieces.iter().map(|(_, error)| *error));
             kernel.intervals = pieces.into_iter().flat_map(|(intervals, _)| intervals).collect();
         }
         kernel
@@ -130,14 +131,14 @@ impl PointKernel {
             let size = (1.0 / r + exact.value).abs().max(1e-3 / r);
             ((series.at(x) - exact.value).abs() + exact.error) / size
         });
-        let error = error.fold(0.0, f64::max);
+        let error = largest(error);
         if error < TOLERANCE || depth == 0 {
             return (vec![(b, series)], error);
         }
         let middle = 0.5 * (a + b);
         let ((mut lower, one), (upper, two)) = (self.fitted(a, middle, depth - 1), self.fitted(middle, b, depth - 1));
         lower.extend(upper);
-        (lower, one.max(two))
+        (lower, largest([one, two]))
     }
 }
 

@@ -5,6 +5,7 @@
 //! the load.
 
 use super::mesh::Influence;
+use crate::numeric::search::largest;
 
 /// Iterations at most.
 const ITERATIONS: usize = 400;
@@ -62,9 +63,11 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
     let mut gap = residual(pressure);
     let mut conjugate = Conjugate::new(len);
     for _ in 0..ITERATIONS {
-        let active: Vec<usize> = (0..len).filter(|&i| pressure[i] > 0.0 || gap[i] < 0.0).collect();
-        let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale;
-        let worst = active.iter().filter(counts).map(|&i| gap[i].abs()).fold(0.0, f64::max);
+        // What is not a number is not reached.
+        let moves = |&i: &usize| pressure[i] > 0.0 || gap[i] < 0.0 || gap[i].is_nan();
+        let active: Vec<usize> = (0..len).filter(moves).collect();
+        let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale || gap[i].is_nan();
+        let worst = largest(active.iter().filter(counts).map(|&i| gap[i].abs()));
         if worst <= tolerance * scale {
             return (gap, true);
         }

@@ -102,6 +102,7 @@ impl Solution {
     fn level(&self, level: usize, whole: f64) -> LevelReading {
         let own: Vec<(&Spot, Option<Outline>)> = self.of_level(level).map(|spot| (spot, spot.outline())).collect();
         let count = own.len() as f64;
+        let merged = self.stop == Stop::Merged && own.iter().any(|(spot, _)| spot.touches());
         let load: f64 = own.iter().map(|(spot, _)| spot.load()).sum();
         // √(area/π) of the spots, or a radius of their outlines: means over the indenters, by area.
         let mean = |squares: f64| (squares / count).sqrt();
@@ -121,13 +122,13 @@ impl Solution {
             max_pressure: own.iter().map(|(spot, _)| spot.peak()).fold(0.0, f64::max),
             singular: load > 0.0 && self.system.levels()[level - 1].shape().singular_peak(),
             contact_area: area,
-            contact_radius: Some(contact_radius),
+            contact_radius: (!merged).then_some(contact_radius),
             ring,
             radius_inner: rings.map(|all| mean(all.iter().map(|outline| outline.hole.powi(2)).sum())),
             radius_outer: rings.map(|all| mean(all.iter().map(|outline| mean_radius(&outline.radii).powi(2)).sum())),
-            radius_min: radii().reduce(f64::min),
-            radius_max: radii().reduce(f64::max),
-            merged: self.stop == Stop::Merged,
+            radius_min: radii().reduce(f64::min).filter(|_| !merged),
+            radius_max: radii().reduce(f64::max).filter(|_| !merged),
+            merged,
             resolution: contact_radius / own.iter().map(|(spot, _)| spot.mesh.size).fold(0.0, f64::max),
             ..LevelReading::default()
         }

@@ -9,10 +9,16 @@ use super::system::{COARSE_INDENTERS, System};
 use crate::body::HalfSpace;
 use crate::counterbody::Indenters;
 use crate::load::Load;
+use crate::problem::Problem;
 use std::sync::Arc;
 
 /// Elements along the side of the meshes on which the size of the contacts is found.
 const COARSE: usize = 25;
+
+/// A topography has no indenters to draw circles around.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the localized method needs indenters, and a topography has none: solve it with the spectral method alone")]
+pub struct NoIndenters;
 
 /// The localized method for a system of indenters.
 #[derive(Debug, Clone)]
@@ -21,8 +27,16 @@ pub struct Localized {
 }
 
 impl Localized {
-    /// For `indenters` on `half_space`, with circles of up to `count` of them.
-    pub fn new(indenters: &Indenters, half_space: &HalfSpace, count: usize) -> Self {
+    /// For a problem, with circles of up to `count` indenters.
+    ///
+    /// # Errors
+    /// [`NoIndenters`] for a topography.
+    pub fn new(problem: &Problem, count: usize) -> Result<Self, NoIndenters> {
+        let indenters = problem.counterbody().indenters().ok_or(NoIndenters)?;
+        Ok(Self::of(indenters, problem.half_space(), count))
+    }
+
+    pub(super) fn of(indenters: &Indenters, half_space: &HalfSpace, count: usize) -> Self {
         Self { system: Arc::new(System::new(indenters, half_space, count)) }
     }
 

@@ -11,7 +11,7 @@
 
 use super::quadrature::{Bessel, hankel};
 use super::solution::Solution;
-use crate::body::{Amplitudes, Depth, HalfSpace, Interior, MeanStress, TransferFunction};
+use crate::body::{Amplitudes, Depth, Interior, MeanStress, TransferFunction};
 use crate::numeric::chebyshev::{self, Chebyshev};
 use crate::stress::State;
 use rayon::prelude::*;
@@ -51,8 +51,9 @@ pub struct LocalizedField<'a> {
 }
 
 impl<'a> LocalizedField<'a> {
-    /// Field of `solution` on its `half_space`.
-    pub fn new(solution: &'a Solution, half_space: &HalfSpace, mean: MeanStress) -> Self {
+    /// Field of a solution.
+    pub fn new(solution: &'a Solution, mean: MeanStress) -> Self {
+        let half_space = solution.system().half_space();
         Self { solution, transfer: TransferFunction::new(half_space), mean: mean.lateral(half_space) }
     }
 

@@ -26,7 +26,7 @@ pub struct System {
     sites: Vec<Site>,
     kernel: PointKernel,
     nearest: f64,
-    contact_modulus: f64,
+    half_space: HalfSpace,
 }
 
 impl System {
@@ -54,8 +54,13 @@ impl System {
             kernel: PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest)),
             indenters: indenters.clone(),
             nearest,
-            contact_modulus: half_space.surface_material().contact_modulus(),
+            half_space: half_space.clone(),
         }
+    }
+
+    /// What the indenters press into.
+    pub fn half_space(&self) -> &HalfSpace {
+        &self.half_space
     }
 
     /// Point kernel of the half-space.
@@ -81,7 +86,7 @@ impl System {
 
     /// Contact modulus E* of the material at the surface, a pressure.
     pub fn contact_modulus(&self) -> f64 {
-        self.contact_modulus
+        self.half_space.surface_material().contact_modulus()
     }
 
     /// The unit cell.

@@ -5,7 +5,6 @@ use super::edge::Edge;
 use super::spots::{self, SpotReading};
 use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak};
 use crate::body::TransferFunction;
-use crate::lattice::components;
 use crate::numeric::number::number;
 use crate::numeric::sums;
 use crate::spectral::Contact;
@@ -144,7 +143,7 @@ impl Reading {
                 }
             })
             .collect();
-        let (contact_spots, spot_resolution) = components::spots(grid, pressure).unwrap_or_default();
+        let (contact_spots, spot_resolution) = spots::count(grid, pressure).unwrap_or_default();
         let contact_fraction = contact_area / cell;
         let contact_fraction_uncertainty = located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error;
         let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();

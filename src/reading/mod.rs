@@ -5,14 +5,14 @@
 //! the middle is a **ring**: its area is that in contact. Radii and areas carry an estimate of their discretisation
 //! error.
 
-pub(crate) mod area;
+mod area;
 pub(crate) mod boundary;
 mod contact;
-pub(crate) mod edge;
+mod edge;
 mod errors;
 mod estimate;
 mod level;
-pub(crate) mod peak;
+mod peak;
 mod spots;
 mod stress;
 mod touch;

@@ -1,7 +1,8 @@
 //! The contact spots of a grid: whose they are, whether they have merged, where they are open, and their boundaries.
 
+use super::boundary::{Boundary, Polar, Scale};
+use crate::lattice::Grid;
 use crate::lattice::components::{Component, around, components};
-use crate::reading::boundary::{Boundary, Polar, Scale};
 use crate::spectral::Contact;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -180,4 +181,41 @@ pub fn of_topography(contact: &Contact, scale: &Scale<'_>) -> (Vec<Boundary>, Ve
         spot.indices(grid).for_each(|index| located[index] = true);
     }
     (found.into_iter().flatten().collect(), located)
+}
+
+/// Number of contact spots, and the samples along the radius of the disc as large as the one up to which, from the
+/// smallest on, half of the load is carried; `None` without contact.
+pub fn count(grid: &Grid, pressure: &[f64]) -> Option<(usize, f64)> {
+    let mut spots: Vec<(usize, f64)> = components(grid, |index| pressure[index] > 0.0)
+        .iter()
+        .map(|spot| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum()))
+        .collect();
+    spots.sort_by_key(|(size, _)| *size);
+    let mut rest: f64 = 0.5 * spots.iter().map(|(_, load)| load).sum::<f64>();
+    let middle = spots.iter().find(|(_, load)| {
+        rest -= load;
+        rest <= 0.0
+    })?;
+    Some((spots.len(), (middle.0 as f64 / PI).sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Cell;
+
+    #[test]
+    fn half_of_the_load_decides_which_spot_counts() {
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
+        let mut pressure = [0.0; 64];
+        assert_eq!(count(&grid, &pressure), None);
+        // One sample of load 1, two of 1 each, four of 2 each.
+        pressure[0] = 1.0;
+        pressure[16..18].fill(1.0);
+        pressure[36..40].fill(2.0);
+        let disc = |samples: f64| (samples / PI).sqrt();
+        assert_eq!(count(&grid, &pressure), Some((3, disc(4.0))));
+        pressure[0] = 20.0;
+        assert_eq!(count(&grid, &pressure), Some((3, disc(1.0))));
+    }
 }

@@ -28,7 +28,7 @@ pub use record::StepRecord;
 pub use sampling::Sampling;
 
 use crate::counterbody::Surface;
-use crate::lattice::{Grid, LatticeError};
+use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::numeric::number::number;
 use crate::problem::Problem;
@@ -179,7 +179,7 @@ impl Run {
             Sampling::Points(points) => points,
             Sampling::Accuracy(_) => balanced_points(&cell, 8 * FIRST_POINTS),
         };
-        let complete = Surface::new(self.problem.counterbody(), Arc::new(Grid::new(cell, points)?)).mean();
+        let complete = Surface::new(self.problem.counterbody(), points)?.mean();
         for load in &self.loads {
             if let Load::Penetration(penetration) = *load
                 && penetration >= complete

@@ -54,12 +54,9 @@ impl Solver {
         let problem = problem.into();
         let transfer = TransferFunction::new(problem.half_space());
         let nest = |points| -> Result<Nest, LatticeError> {
-            let grid = Arc::new(Grid::new(problem.cell(), points)?);
-            Ok(Nest {
-                operator: Operator::new(&grid, &transfer),
-                unknowns: Unknowns::new(grid.len()),
-                surface: Arc::new(Surface::new(problem.counterbody(), grid)),
-            })
+            let surface = Surface::new(problem.counterbody(), points)?;
+            let (operator, unknowns) = (Operator::new(surface.grid(), &transfer), Unknowns::new(surface.grid().len()));
+            Ok(Nest { surface: Arc::new(surface), operator, unknowns })
         };
         let nests = nested_points(points, settings.method).into_iter().map(nest).collect::<Result<_, _>>()?;
         Ok(Self { problem, settings, nests })
@@ -108,10 +105,18 @@ impl Solver {
         let coarsest = self.nests.len() - 1;
         let mut convolutions = 0.0;
         let mut change: Option<([usize; 2], Vec<f64>)> = None;
+        // A coarser grid may be beyond complete contact where the finest is not: it has no part in the step, and keeps
+        // its pressure for the next.
+        let mut left_out = Vec::new();
         for index in (1..=coarsest).rev() {
             let nest = &mut self.nests[index];
             let before = nest.unknowns.pressure.clone();
-            convolutions += nest.solve(change, load, self.settings, &mut |_| ()).1 / finest;
+            let (report, work) = nest.solve(change.take(), load, self.settings, &mut |_| ());
+            convolutions += work / finest;
+            if report.stop == Stop::BeyondFullContact {
+                left_out.push((index, before));
+                continue;
+            }
             let mut rise = before;
             sums::update(&mut rise, |i, p| nest.unknowns.pressure[i] - p);
             change = Some((nest.points(), rise));
@@ -133,6 +138,9 @@ impl Solver {
             displacement: field(self.nests[0].points(), displacement),
             coarser: self.nests[1..].iter().take(KEPT).map(kept).collect(),
         };
+        for (index, before) in left_out {
+            self.nests[index].unknowns.pressure = before;
+        }
         if !report.stop.solved() {
             // A spoilt solution is no start for the next step.
             self.nests.iter_mut().for_each(|nest| nest.unknowns.pressure.fill(0.0));

@@ -4,7 +4,7 @@ use super::regions::Regions;
 use super::spectrum::{Spectrum, Wave};
 use super::tensor::State;
 use crate::body::{Amplitudes, Depth, HalfSpace, Interface, Interior, MeanStress, TransferFunction};
-use crate::lattice::{Grid, ShapeError};
+use crate::lattice::{Grid, NotOnGrid};
 use crate::numeric::array::field;
 use crate::numeric::number::number;
 use crate::spectral::Contact;
@@ -69,13 +69,13 @@ impl StressField {
     /// Under any `pressure` on a `half_space`; axes along a₁ and a₂.
     ///
     /// # Errors
-    /// [`ShapeError`] unless the pressure has one value per sample of the grid.
+    /// [`NotOnGrid`] unless the pressure has one value per sample of the grid.
     pub fn under(
         grid: &Arc<Grid>,
         pressure: ArrayView2<'_, f64>,
         half_space: &HalfSpace,
         mean: MeanStress,
-    ) -> Result<Self, ShapeError> {
+    ) -> Result<Self, NotOnGrid> {
         grid.check(pressure.dim().into())?;
         let samples: Vec<f64> = pressure.iter().copied().collect();
         Ok(Self::of_samples(grid, &samples, half_space, mean))

@@ -97,7 +97,7 @@ impl StressField {
     /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
     /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
     fn shallow(&self) -> f64 {
-        let depth = if self.regions.have_edges() { 0.5 * OPEN * OPEN / self.least_aliased() } else { 0.0 };
+        let depth = if self.regions.have_edges() { 0.5 * OPEN * OPEN / self.grid().least_aliased() } else { 0.0 };
         depth.min(self.half_space().faces(1).1)
     }
 }

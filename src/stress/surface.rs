@@ -20,7 +20,6 @@ use super::peak::Peak;
 use super::spectrum::Wave;
 use super::tensor::State;
 use crate::body::{Amplitudes, Depth};
-use crate::lattice::Cell;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
@@ -83,7 +82,7 @@ impl<'a> Skin<'a> {
     /// With `scale` times the usual widths.
     pub fn new(field: &'a StressField, scale: f64) -> Self {
         let depth = Depth::SURFACE;
-        let most = field.least_aliased();
+        let most = field.grid().least_aliased();
         let growth = (field.regions.least_resolution() / 12.0).max(1.0).powf(0.4);
         let [edge, open] = [EDGE * growth, OPEN].map(|c| scale * c / most);
         let factors = field.spectrum.shells.iter().map(|&q| {
@@ -234,15 +233,6 @@ enum Place {
 }
 
 impl StressField {
-    /// Least wavenumber that the grid cannot hold in all directions, 1/length.
-    pub(super) fn least_aliased(&self) -> f64 {
-        let [b1, b2] = self.grid().cell().reciprocal();
-        let [n1, n2] = self.grid().points().map(|n| n as f64);
-        // The aliases of a cell's waves make a cell as its reciprocal does.
-        let aliases = Cell::new(b1.map(|x| n1 * x), b2.map(|x| n2 * x));
-        0.5 * aliases.map_or(0.0, |cell| cell.reduced().shortest_vector())
-    }
-
     /// The largest tension on the surface; `None` where there is no edge: contact is complete, or nowhere.
     pub fn crest(&self) -> Option<Crest> {
         let points = self.grid().points();

@@ -3,11 +3,12 @@
 use crate::common::{PAPER, coated, one_level, paraboloid, solve};
 use crate::{alone, homogeneous, setup, two_layers};
 use percoat::localized::{Localized, Stop};
-use percoat::{HalfSpace, Interface, Lattice, Load};
+use percoat::{HalfSpace, Interface, Lattice, Load, Problem};
 use std::f64::consts::PI;
 
 fn single(half_space: &HalfSpace) -> Localized {
-    Localized::new(&one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(1.0, 0.0)), half_space, 1)
+    let indenters = one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(1.0, 0.0));
+    Localized::new(&Problem::new(indenters, half_space.clone()), 1).unwrap()
 }
 
 /// a = (3PR/4E*)^{1/3}, δ = a²/R, p₀ = 2E*a/(πR), whatever the size of the contact in the cell; errors fall with the
@@ -36,7 +37,7 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
 /// Hertz with E₁* of the coating, whatever the load: the lattice and the layer are far away.
 #[test]
 fn tiny_loads_have_hertzian_contacts() {
-    let localized = Localized::new(&PAPER[0].indenters(), &PAPER[0].half_space(), 7);
+    let localized = Localized::new(&PAPER[0].problem(), 7).unwrap();
     for pressure in [1e-7, 1e-9, 1e-12] {
         let solution = localized.solve(Load::MeanPressure(pressure), &setup(7, 24));
         assert_eq!(solution.stop, Stop::Converged);
@@ -98,7 +99,7 @@ fn an_indenter_alone_on_a_coating_obeys_its_integral_equation() {
 #[test]
 fn levels_without_mutual_effect_share_the_load_of_isolated_laws() {
     let paper = PAPER[0];
-    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 1);
+    let localized = Localized::new(&paper.problem(), 1).unwrap();
     let solution = localized.solve(Load::MeanPressure(paper.pressure), &alone(48));
     for (found, expected) in solution.levels().iter().zip([0.3964, 0.3791, 0.3607]) {
         assert!((found.max_pressure - expected).abs() < 2e-4, "{found:?}");
@@ -109,7 +110,7 @@ fn levels_without_mutual_effect_share_the_load_of_isolated_laws() {
 #[test]
 fn the_penetration_found_under_a_load_gives_the_load_back() {
     let paper = PAPER[1];
-    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 37);
+    let localized = Localized::new(&paper.problem(), 37).unwrap();
     for setup in [setup(37, 24), alone(24)] {
         let loaded = localized.solve(Load::MeanPressure(paper.pressure), &setup);
         let pressed = localized.solve(Load::Penetration(loaded.penetration), &setup);
@@ -123,7 +124,7 @@ fn the_penetration_found_under_a_load_gives_the_load_back() {
 #[test]
 fn levels_come_into_contact_one_after_the_other() {
     let paper = PAPER[0];
-    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 37);
+    let localized = Localized::new(&paper.problem(), 37).unwrap();
     let touching = |pressure: f64| {
         let solution = localized.solve(Load::MeanPressure(pressure), &setup(37, 24));
         assert_eq!(solution.stop, Stop::Converged);
@@ -137,7 +138,7 @@ fn levels_come_into_contact_one_after_the_other() {
 #[test]
 fn the_additional_displacement_of_eq_8_is_the_penetration() {
     for half_space in [PAPER[0].half_space(), two_layers()] {
-        let localized = Localized::new(&PAPER[0].indenters(), &half_space, 37);
+        let localized = Localized::new(&Problem::new(PAPER[0].indenters(), half_space), 37).unwrap();
         let solution = localized.solve(Load::MeanPressure(0.02), &setup(37, 24));
         let additional = solution.additional_displacement();
         assert!((additional / solution.penetration - 1.0).abs() < 1e-6, "{additional} {}", solution.penetration);
@@ -147,7 +148,7 @@ fn the_additional_displacement_of_eq_8_is_the_penetration() {
 /// Far beyond complete contact: elements grow with the contact, their number does not.
 #[test]
 fn a_penetration_out_of_reach_comes_to_an_end() {
-    let localized = Localized::new(&PAPER[0].indenters(), &PAPER[0].half_space(), 7);
+    let localized = Localized::new(&PAPER[0].problem(), 7).unwrap();
     let solution = localized.solve(Load::Penetration(0.1), &setup(7, 8));
     assert!(solution.stop != Stop::Converged && solution.stop != Stop::Rim);
     assert!(solution.spots[0].mesh.width < 30);
@@ -156,7 +157,7 @@ fn a_penetration_out_of_reach_comes_to_an_end() {
 #[test]
 fn contacts_that_meet_are_reported() {
     let indenters = one_level(Lattice::hexagonal(1.0, 1).unwrap(), paraboloid(0.8, 0.0));
-    let localized = Localized::new(&indenters, &homogeneous(), 7);
+    let localized = Localized::new(&Problem::new(indenters, homogeneous()), 7).unwrap();
     // At p̄ = 0.4 E* spots are hexagons that fill nine tenths of the cell and still stand apart.
     assert_eq!(localized.solve(Load::MeanPressure(0.4), &setup(7, 24)).stop, Stop::Converged);
     assert_eq!(localized.solve(Load::MeanPressure(1.2), &setup(7, 24)).stop, Stop::Merged);
@@ -167,7 +168,7 @@ fn contacts_that_meet_are_reported() {
 fn load_balanced_circles_need_few_indenters_and_area_balanced_ones_many() {
     let paper = PAPER[0];
     let load = Load::MeanPressure(0.03);
-    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 451);
+    let localized = Localized::new(&paper.problem(), 451).unwrap();
     let (_, spectral) = solve(&paper.problem(), [384, 384], load);
     let deviation = |setup| {
         let solution = localized.solve(load, &setup);

@@ -144,8 +144,9 @@ fn levels_of_several_indenters_on_an_oblique_lattice_carry_their_own_loads_whate
     let indenters = Indenters::new(Lattice::new(cell, sites).unwrap(), PAPER[0].levels()).unwrap();
     let half_space = coated(3.0, 0.2, [0.2, 0.3], Interface::Frictionless);
     let load = Load::MeanPressure(0.02);
-    let localized = Localized::new(&indenters, &half_space, 37);
-    let (_, spectral) = solve(&Problem::new(indenters, half_space), [256, 256], load);
+    let problem = Problem::new(indenters, half_space);
+    let localized = Localized::new(&problem, 37).unwrap();
+    let (_, spectral) = solve(&problem, [256, 256], load);
     for inside in [1, 7, 37] {
         let setup = Setup { radius: CircleRadius::LatticeSum, ..setup(inside, 48) };
         let solution = localized.solve(load, &setup);
@@ -164,7 +165,7 @@ fn levels_of_several_indenters_on_an_oblique_lattice_carry_their_own_loads_whate
 #[test]
 fn a_penetration_gives_the_load_back_that_led_to_it() {
     let paper = PAPER[1];
-    let localized = Localized::new(&paper.indenters(), &paper.half_space(), 7);
+    let localized = Localized::new(&paper.problem(), 7).unwrap();
     let setup = Setup { radius: CircleRadius::LatticeSum, ..setup(7, 24) };
     let loaded = localized.solve(Load::MeanPressure(paper.pressure), &setup);
     let pressed = localized.solve(Load::Penetration(loaded.penetration), &setup);

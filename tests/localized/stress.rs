@@ -9,12 +9,11 @@ use percoat::{Depth, HalfSpace, Interface, Lattice, Load, MeanStress, Problem, S
 /// On the axis, ζ = z/a, ν = 0: σ_z = −p₀/(1+ζ²), σ_r = −(1+ν)(1 − ζ atan(1/ζ))p₀ + ½p₀/(1+ζ²).
 #[test]
 fn stresses_under_an_indenter_alone_are_hertzian() {
-    let half_space = homogeneous();
     let indenters = one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(1.0, 0.0));
-    let localized = Localized::new(&indenters, &half_space, 1);
+    let localized = Localized::new(&Problem::new(indenters, homogeneous()), 1).unwrap();
     let load = 4.0 / 3.0 / localized.system().cell_area();
     let solution = localized.solve(Load::MeanPressure(load), &alone(48));
-    let field = LocalizedField::new(&solution, &half_space, MeanStress::Confined);
+    let field = LocalizedField::new(&solution, MeanStress::Confined);
     let p0 = 2.0 / std::f64::consts::PI;
     for zeta in [0.1f64, 0.3, 0.5, 1.0, 3.0] {
         let state = field.points(0, Depth { z: zeta, material: 1 }, &[[0.0, 0.0]]).unwrap()[0];
@@ -37,12 +36,11 @@ fn stresses_agree_with_the_spectral_field() {
     ];
     for (half_space, interface) in cases {
         let load = Load::MeanPressure(0.02);
-        let localized = Localized::new(&PAPER[0].indenters(), &half_space, 439);
-        let solution = localized.solve(load, &setup(439, 32));
         let problem = Problem::new(PAPER[0].indenters(), half_space.clone());
+        let solution = Localized::new(&problem, 439).unwrap().solve(load, &setup(439, 32));
         let (spectral, reading) = solve(&problem, [384, 384], load);
         for mean in [MeanStress::Confined, MeanStress::HalfSpace] {
-            let field = LocalizedField::new(&solution, &half_space, mean);
+            let field = LocalizedField::new(&solution, mean);
             let whole = StressField::new(spectral.finest(), mean);
             let depths = [
                 Depth { z: 0.08, material: 1 },

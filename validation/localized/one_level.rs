@@ -6,6 +6,7 @@ use crate::lattice::Lattice;
 use crate::load::Load;
 use crate::localized::{CircleRadius, Localized, Setup, Stop};
 use crate::picture::{Curve, Style};
+use crate::problem::Problem;
 use crate::validation::draw::curve;
 use crate::validation::exact::lattice_sums::TRIANGULAR;
 use crate::validation::exact::{Localization, Sums};
@@ -22,7 +23,8 @@ const SETUP: Setup = Setup { indenters: 7, elements: 48, radius: CircleRadius::L
 pub fn one_level(outcome: &mut Outcome) -> Result<Vec<Curve>, StudyError> {
     let lattice = Lattice::hexagonal(1.0, 1)?;
     let indenters = Indenters::new(lattice, vec![Level::new(Shape::Paraboloid { radius: RADIUS }, 0.0)?])?;
-    let localized = Localized::new(&indenters, &HalfSpace::new(vec![], Material::from_young(1.0, 0.0)?), 91);
+    let localized =
+        Localized::new(&Problem::new(indenters, HalfSpace::new(vec![], Material::from_young(1.0, 0.0)?)), 91)?;
     let system = localized.system();
     let (prescribed, load) = (Load::MeanPressure(MEAN_PRESSURE), MEAN_PRESSURE * system.cell_area());
     let (mesh, start) = localized.mesh(prescribed, &SETUP);

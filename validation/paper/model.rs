@@ -128,8 +128,7 @@ impl Model {
         indenters: usize,
         elements: usize,
     ) -> Result<(Localized, localized::Solution), StudyError> {
-        let counterbody = self.case.counterbody().indenters().ok_or("no indenters")?;
-        let method = Localized::new(counterbody, self.case.half_space(), indenters);
+        let method = Localized::new(self.case.problem(), indenters)?;
         let setup = Setup { indenters, elements, radius: CircleRadius::LoadBalanced, mutual_effect: true };
         let solution = method.solve(Load::MeanPressure(mean_pressure), &setup);
         if solution.stop != Stop::Converged {

@@ -129,7 +129,7 @@ pub fn counted(spot: &Spot) -> f64 {
     let inside = |i: i32, j: i32| {
         let [row, column] = [i + middle, j + middle].map(|k| usize::try_from(k).ok());
         let place = row.zip(column).filter(|(row, column)| row.max(column) < &spot.mesh.width);
-        place.is_some_and(|(row, column)| spot.pressure[row * spot.mesh.width + column] > 0.0)
+        place.is_some_and(|(row, column)| spot.pressure[[row, column]] > 0.0)
     };
     outline(middle, 0.0, inside)
 }

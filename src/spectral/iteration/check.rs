@@ -4,12 +4,14 @@ use super::certificate::Certificate;
 use super::problem::GridProblem;
 use super::unknowns::Unknowns;
 use crate::load::Load;
+use crate::numeric::search::largest;
 use crate::numeric::sums;
 
 /// Largest energy gap of a converged solution, over the tolerance.
 pub const ENERGY_GAP: f64 = 20.0;
 /// Deepest penetration outside contact of a converged solution, over the tolerance.
 pub const PENETRATION: f64 = 10.0;
+
 /// How the iterate stands, from one convolution.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Check {
@@ -33,7 +35,7 @@ impl Check {
 
     /// One number that falls as the criteria do.
     pub(super) fn measure(&self) -> f64 {
-        self.criteria().into_iter().fold(0.0, f64::max)
+        largest(self.criteria())
     }
 
     /// What must fall below the tolerance.

@@ -19,9 +19,7 @@ impl GridProblem<'_> {
         let done = |stop, residual| Report { stop, route, iterations: 0, residual };
         let gap = self.initial_gap;
         if self.load.value() <= 0.0 {
-            unknowns.pressure.fill(0.0);
-            unknowns.gap.copy_from_slice(gap);
-            unknowns.penetration = self.load.value().min(0.0);
+            unknowns.rest(gap, if let Load::Penetration(penetration) = self.load { penetration } else { 0.0 });
             return done(Stop::NoContact, 0.0);
         }
         match self.load {
@@ -35,10 +33,8 @@ impl GridProblem<'_> {
             Load::MeanPressure(_) => iterate(self, 0, unknowns),
             Load::Penetration(penetration) => {
                 if penetration >= sums::mean(gap) {
-                    // Of the step before nothing must pass for an answer: the surface at rest, pushed in as prescribed.
-                    unknowns.pressure.fill(0.0);
-                    sums::update(&mut unknowns.gap, |i, _| gap[i] - penetration);
-                    unknowns.penetration = penetration;
+                    // Of the step before nothing must pass for an answer.
+                    unknowns.rest(gap, penetration);
                     return done(Stop::BeyondFullContact, f64::INFINITY);
                 }
                 let report = iterate(self, 0, unknowns);

@@ -33,6 +33,13 @@ impl Unknowns {
         }
     }
 
+    /// The surface at rest, with this penetration of an indenter that it does not feel.
+    pub(super) fn rest(&mut self, initial_gap: &[f64], penetration: f64) {
+        self.pressure.fill(0.0);
+        sums::update(&mut self.gap, |i, _| initial_gap[i] - penetration);
+        self.penetration = penetration;
+    }
+
     /// Clips the pressure at zero and, under load control, scales it to the mean; uniform when nothing is left.
     pub(super) fn admit(&mut self, load: Load) {
         sums::update(&mut self.pressure, |_, p| p.max(0.0));
