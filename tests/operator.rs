@@ -4,7 +4,7 @@ mod common;
 
 use common::Random;
 use percoat::body::TransferFunction;
-use percoat::spectral::iteration::Compliance;
+use percoat::spectral::Compliance;
 use percoat::spectral::operator::Operator;
 use percoat::{Cell, Grid, Interface};
 use std::f64::consts::TAU;

@@ -10,8 +10,8 @@
 //! outside can stand themselves, as a lattice sum. Contact means w + f − δ
 //! = 0 with one penetration δ for all levels, and all pressures together carry p̄, Eq. (5).
 //!
-//! It shares nothing with the spectral solver but the indenters' shapes, the transfer function and general numerics (least
-//! squares, FFT), so that each checks the other; also the boundary of a contact is read in its own way (`outline`, from
+//! It shares nothing with the spectral solver but the indenters' shapes, the layered half-space (transfer function and
+//! amplitudes) and general numerics, so that each checks the other; also the boundary of a contact is read in its own way (`outline`, from
 //! pressures and gaps with slopes of their own, where the spectral reading knows how a gap opens). In the order of building:
 //!
 //! - `quadrature`, [`point`]: K by adaptive quadrature of the layer correction, tabulated;

@@ -6,8 +6,8 @@
 //! σ_rr = (1/2π) ∫ [s_qq (J₀ − J₁/x) + s_tt J₁/x] q dq,  σ_tt = (1/2π) ∫ [s_qq J₁/x + s_tt (J₀ − J₁/x)] q dq.
 //!
 //! Elements of the spot itself act as forces at the 2 × 2 points of Gauss' rule, which errs by 1e-4 of an element's
-//! stress from a depth of two elements on; those of its neighbours as forces at their centres. The pressure outside the circle is p̄ everywhere, whose lateral stress is named by
-//! [`MeanStress`], minus p̄ on the disc: the same integrals with R J₁(qR) in the place of q/2π.
+//! stress from a depth of two elements on; those of its neighbours as forces at their centres. The pressure outside the
+//! circle is p̄ everywhere, whose lateral stress is named by [`MeanStress`], minus p̄ on the disc: the same integrals with R J₁(qR) in the place of q/2π.
 
 use super::quadrature::{Bessel, hankel};
 use super::solution::Solution;
@@ -76,7 +76,7 @@ impl<'a> LocalizedField<'a> {
         let kernel = ForceStress::new(|r| self.under_force(depth, r), depth.z, reach);
         let mean_pressure = self.solution.mean_pressure;
         let states = points.par_iter().map(|&[x, y]| {
-            let mut state = State { zz: 0.0, ..State::default() };
+            let mut state = State::default();
             for &([u, v], force) in &forces {
                 add(&mut state, kernel.at((x - u).hypot(y - v)), [x - u, y - v], force);
             }
@@ -113,7 +113,7 @@ impl<'a> LocalizedField<'a> {
         forces
     }
 
-    /// Amplitudes at a depth, over the wavenumber.
+    /// Amplitudes at a depth, as a function of the wavenumber.
     fn amplitudes(&self, depth: Depth) -> impl Fn(f64) -> Amplitudes + use<'_> {
         move |q| Interior::new(&self.transfer, q).at(depth)
     }
@@ -173,7 +173,7 @@ fn add(state: &mut State, stress: Cylindrical, [x, y]: [f64; 2], factor: f64) {
 }
 
 impl ForceStress {
-    /// Series on [0, z], [z, 2z], … up to `reach`, of the function `exact` of the distance.
+    /// Series on [0, z/2], [z/2, 0.8 z] and so on by 1.6 up to `reach`, of the function `exact` of the distance.
     fn new(exact: impl Fn(f64) -> Cylindrical + Sync, z: f64, reach: f64) -> Self {
         let mut bounds = vec![0.0, 0.5 * z];
         while bounds[bounds.len() - 1] < reach {

@@ -1,5 +1,5 @@
-//! General numerics that the physics rests on: sums whose order is fixed, small systems, lines around an axis, and numbers
-//! as a person reads them.
+//! General numerics that the physics rests on: sums whose order is fixed, small systems, quadrature, Chebyshev series,
+//! maxima, lines around an axis, fields as arrays, and numbers as a person reads them.
 
 pub mod array;
 pub mod chebyshev;

@@ -3,7 +3,8 @@
 //! Along every line of samples contact is a set of intervals. At a distance d inside an end p² falls nearly as d, at a
 //! distance d outside g^{2/3} rises nearly as d: the end is the mean of the roots of two parabolas, one fitted to p² on
 //! the one side, one to g^{2/3} on the other, each without the outermost sample. The lengths, averaged over the lines
-//! of both directions, give the fraction of the cell. What the two roots differ measures their error. Between intervals of few samples the end is halfway.
+//! of both directions, give the fraction of the cell. What the two roots differ measures their error. Between intervals
+//! of few samples the end is halfway.
 
 use crate::lattice::Grid;
 use crate::numeric::least_squares;

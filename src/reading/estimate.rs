@@ -171,16 +171,16 @@ fn between(
     let apex = APEX * apex;
     let load = fine.mean_pressure * law(Resolved::load, largest);
     let depth = fine.penetration.abs() * law(Resolved::penetration, largest);
-    let mean_pressure = estimate(MEAN_PRESSURE, load, &|step| Some(step.mean_pressure));
-    let penetration = estimate(PENETRATION, depth, &|step| Some(step.penetration));
+    let mean_pressure = estimate(MEAN_PRESSURE, load, &|reading| Some(reading.mean_pressure));
+    let penetration = estimate(PENETRATION, depth, &|reading| Some(reading.penetration));
     let peak = fine.max_pressure * law(Resolved::peak, smallest);
     let highest = if fine.levels.is_empty() { PEAK } else { HIGHEST };
     let levels = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
     let errors = Errors {
         mean_pressure: prescribed(mean_pressure, by_load),
         penetration: prescribed(penetration, !by_load).map(|error| error + apex),
-        contact_fraction: estimate(AREA, fine.contact_fraction_uncertainty, &|step| Some(step.contact_fraction)),
-        max_pressure: estimate(highest, peak, &|step| step.finite_peak()),
+        contact_fraction: estimate(AREA, fine.contact_fraction_uncertainty, &|reading| Some(reading.contact_fraction)),
+        max_pressure: estimate(highest, peak, &|reading| reading.finite_peak()),
     };
     (errors, levels)
 }

@@ -8,16 +8,16 @@ use super::LevelErrors;
 pub struct LevelReading {
     /// Level, from 1.
     pub level: usize,
-    /// Force on one indenter.
+    /// Force on one indenter: a pressure times an area.
     pub load: f64,
     /// Share of the whole load that the level carries.
     pub load_share: f64,
-    /// Peak pressure, between the samples.
+    /// Peak pressure, between the samples; in the unit of Young's modulus.
     pub max_pressure: f64,
     /// Whether the peak pressure is infinite, see [`crate::counterbody::Shape::singular_peak`]: `max_pressure` is then
     /// only what the grid resolves of it. Never for a level without load.
     pub singular: bool,
-    /// Contact area of one indenter.
+    /// Contact area of one indenter, a length squared.
     pub contact_area: f64,
     /// √(area/π), a length; `None` for merged contacts.
     pub contact_radius: Option<f64>,
@@ -46,7 +46,7 @@ pub struct LevelReading {
 /// What the reading of a level's boundaries on one grid says of its own errors.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Uncertainty {
-    /// Of the contact area.
+    /// Of the contact area, a length squared.
     pub area: f64,
     /// Of the contact radius, a length.
     pub radius: Option<f64>,

@@ -141,7 +141,10 @@ impl StressField {
         state
     }
 
-    /// States at the points (x, y) of one depth: the sum over waves itself.
+    /// States at the points (x, y), lengths, of one depth: the sum over waves itself.
+    ///
+    /// # Panics
+    /// When the depth is in a material that is not there.
     pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<State> {
         self.points_within(depth, points, REACH)
     }
@@ -177,6 +180,9 @@ impl StressField {
 
     /// States on the whole plane, on [n₁, n₂] `points` of the cell; waves that a grid coarser than the pressure's
     /// cannot hold are left out.
+    ///
+    /// # Panics
+    /// When a number of points is zero, or the depth in a material that is not there.
     pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
         let amplitudes = self.amplitudes(depth, REACH);
         let coarser = points != self.grid.points();
@@ -186,22 +192,24 @@ impl StressField {
             .filter(|wave| !coarser || (0..2).all(|k| 2 * wave.index[k].unsigned_abs() < points[k] as u32))
             .collect();
         let mean = self.mean(depth).components();
+        let fourier = Fourier::new(points);
         let mut all = Array3::zeros([mean.len(), points[0], points[1]]);
         for (c, mut component) in all.outer_iter_mut().enumerate() {
             let value = |wave: &Wave| components(wave, &amplitudes[wave.shell as usize], wave.coefficient)[c];
-            component.assign(&field(points, self.synthesised(&waves, points, mean[c], value)));
+            component.assign(&field(points, self.synthesised(&fourier, &waves, mean[c], value)));
         }
         Plane { depth, components: all }
     }
 
-    /// mean + Re Σ value(wave) e^{iq·x} at [n₁, n₂] `points` of the cell, a₂ fastest.
+    /// mean + Re Σ value(wave) e^{iq·x} at the points of the cell that the transform is planned for, a₂ fastest.
     pub(super) fn synthesised(
         &self,
+        fourier: &Fourier,
         waves: &[&Wave],
-        points: [usize; 2],
         mean: f64,
         value: impl Fn(&Wave) -> Complex64,
     ) -> Vec<f64> {
+        let points = fourier.points();
         let [n1, n2] = points.map(|n| n as i32);
         let place = |[k1, k2]: [i32; 2]| {
             let (k1, k2) = (k1.rem_euclid(n1), k2.rem_euclid(n2));
@@ -219,7 +227,7 @@ impl StressField {
             }
         }
         spectrum[0] += mean;
-        Fourier::new(points).synthesise(spectrum)
+        fourier.synthesise(spectrum)
     }
 }
 

@@ -41,7 +41,7 @@ pub struct Maxima {
     pub crest: Option<Crest>,
     /// Samples along the radius of a disc as large as the smallest contact spot.
     pub resolution: f64,
-    /// Of the samples, a length.
+    /// Distance between neighbouring samples, a length.
     pub spacing: f64,
 }
 
@@ -186,7 +186,7 @@ impl StressField {
     /// Depths at which planes are searched, ascending, faces first and last.
     fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
         let (top, bottom) = self.half_space().faces(material);
-        let least = 0.1 * small;
+        let least = 0.1 * if small > 0.0 { small } else { self.grid().spacing() };
         // Below some six radii and a few coating thicknesses stresses only fall.
         let reach = 6.0 * large + 3.0 * top;
         let most = if bottom.is_finite() { 0.5 * (bottom - top) } else { reach };

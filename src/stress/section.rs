@@ -86,6 +86,9 @@ struct Trace<'a> {
 
 impl StressField {
     /// States on a vertical section: for each depth those at the points of the line.
+    ///
+    /// # Panics
+    /// When a depth is in a material that is not there.
     pub fn section(&self, line: &Line, depths: &[Depth]) -> Section {
         let trace = Trace::new(self, *line);
         let rows = trace.rows(depths);

@@ -20,6 +20,7 @@ use super::peak::Peak;
 use super::spectrum::Wave;
 use super::tensor::State;
 use crate::body::{Amplitudes, Depth};
+use crate::spectral::fourier::Fourier;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
@@ -141,9 +142,9 @@ impl<'a> Skin<'a> {
     /// At all samples of the grid.
     fn everywhere(&self) -> [Vec<f64>; 11] {
         let waves: Vec<&Wave> = self.field.spectrum.waves.iter().collect();
-        let (points, mean) = (self.field.grid().points(), self.mean());
+        let (fourier, mean) = (Fourier::new(self.field.grid().points()), self.mean());
         std::array::from_fn(|c| {
-            self.field.synthesised(&waves, points, mean[c], |wave| self.terms(wave, wave.coefficient)[c])
+            self.field.synthesised(&fourier, &waves, mean[c], |wave| self.terms(wave, wave.coefficient)[c])
         })
     }
 

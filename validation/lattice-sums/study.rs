@@ -13,7 +13,7 @@ use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use crate::body::{HalfSpace, Material, TransferFunction};
 use crate::lattice::{Cell, Grid};
 use crate::picture::{Axis, Chart, Figure, Style};
-use crate::spectral::iteration::Compliance;
+use crate::spectral::Compliance;
 use crate::spectral::operator::Operator;
 use crate::validation::exact::lattice_sums::{SQUARE, TRIANGULAR, coated_triangular};
 use crate::validation::exact::{Coating, Sums};

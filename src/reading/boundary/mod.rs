@@ -31,13 +31,13 @@ use std::f64::consts::{PI, TAU};
 /// A closed boundary ρ(θ) around an indenter's axis, and the hole of a ring.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boundary {
-    /// Radii at equally spaced angles from θ = 0, lengths.
+    /// Radii at 360 equally spaced angles from θ = 0, the direction of x; lengths.
     pub radii: Vec<f64>,
     /// Those of a hole, empty without one.
     pub hole: Vec<f64>,
     /// Estimated error of the mean radius, a length.
     pub error: f64,
-    /// That of the mean radius of the hole.
+    /// That of the mean radius of the hole, a length.
     pub hole_error: f64,
 }
 
@@ -45,7 +45,7 @@ impl Boundary {
     /// Boundary of the contact among `samples` (in contact and around it).
     ///
     /// `None` when the spot has too few samples for a fit, or no simple boundary around the axis.
-    pub fn locate(samples: &[Polar], scale: &Scale<'_>) -> Option<Self> {
+    pub(crate) fn locate(samples: &[Polar], scale: &Scale<'_>) -> Option<Self> {
         let (radii, error) = located(samples, scale, Rim::Outer)?;
         let mut boundary = Self { radii, hole: Vec::new(), error, hole_error: 0.0 };
         if samples.iter().any(|sample| sample.hole) {
@@ -57,22 +57,22 @@ impl Boundary {
         Some(boundary)
     }
 
-    /// ρ(θ), linear between the angles.
+    /// ρ(θ), linear between the angles; a length.
     pub fn radius(&self, theta: f64) -> f64 {
         closed_line::radius(&self.radii, theta)
     }
 
-    /// Radius of the hole at an angle; 0 without one.
+    /// Radius of the hole at an angle, a length; 0 without one.
     pub fn hole_radius(&self, theta: f64) -> f64 {
         if self.hole.is_empty() { 0.0 } else { closed_line::radius(&self.hole, theta) }
     }
 
-    /// Area in contact, ½∮ρ² dθ without the hole.
+    /// Area in contact, ½∮ρ² dθ without the hole; a length squared.
     pub fn area(&self) -> f64 {
         PI * (self.mean_radius().powi(2) - self.mean_hole_radius().powi(2))
     }
 
-    /// Estimated error of the area.
+    /// Estimated error of the area, a length squared.
     pub fn area_error(&self) -> f64 {
         TAU * (self.mean_radius() * self.error + self.mean_hole_radius() * self.hole_error)
     }
@@ -87,7 +87,7 @@ impl Boundary {
         mean_radius(&self.hole)
     }
 
-    /// Smallest and largest radius.
+    /// Smallest and largest radius, lengths.
     pub fn extremes(&self) -> (f64, f64) {
         let least = self.radii.iter().copied().fold(f64::INFINITY, f64::min);
         (least, self.radii.iter().copied().fold(0.0, f64::max))

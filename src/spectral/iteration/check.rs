@@ -8,9 +8,9 @@ use crate::numeric::search::largest;
 use crate::numeric::sums;
 
 /// Largest energy gap of a converged solution, over the tolerance.
-pub const ENERGY_GAP: f64 = 20.0;
+const ENERGY_GAP: f64 = 20.0;
 /// Deepest penetration outside contact of a converged solution, over the tolerance.
-pub const PENETRATION: f64 = 10.0;
+const PENETRATION: f64 = 10.0;
 
 /// How the iterate stands, from one convolution.
 #[derive(Debug, Clone, Copy)]
@@ -46,7 +46,7 @@ impl Check {
 
 impl Certificate {
     /// Certificate of `unknowns.pressure`; leaves the fresh gap, penetration and displacement w = C p behind.
-    pub fn new(problem: &mut GridProblem<'_>, unknowns: &mut Unknowns, displacement: &mut [f64]) -> Self {
+    pub(crate) fn new(problem: &mut GridProblem<'_>, unknowns: &mut Unknowns, displacement: &mut [f64]) -> Self {
         problem.compliance.displacement(&unknowns.pressure, displacement);
         unknowns.gap.copy_from_slice(displacement);
         judge(problem, unknowns).certificate

@@ -30,7 +30,6 @@ mod stopping;
 mod unknowns;
 
 pub use certificate::Certificate;
-pub use check::{ENERGY_GAP, PENETRATION};
 pub use problem::{Compliance, GridProblem};
 pub use report::{Progress, Report, Route, Stop};
 pub use settings::{Method, Settings};

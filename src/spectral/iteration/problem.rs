@@ -5,7 +5,8 @@ use super::settings::Settings;
 use crate::load::Load;
 use std::fmt;
 
-/// The half-space as an iteration meets it: symmetric linear maps between fields of one grid, one value per sample.
+/// The half-space as an iteration meets it: symmetric linear maps between fields of one grid, one value per sample, a₂
+/// fastest. Implementations may panic when a field has another number of samples.
 pub trait Compliance {
     /// w = C p: displacement into the body with zero mean (a length), from pressure.
     fn displacement(&mut self, pressure: &[f64], displacement: &mut [f64]);

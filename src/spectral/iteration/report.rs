@@ -8,7 +8,8 @@ use std::fmt;
 pub enum Stop {
     /// ε < tolerance, energy gap < 20 tolerance and penetration outside contact < 10 tolerance · δ.
     Converged,
-    /// Over the last window of iterations the criteria's mean was not below 0.9 of the window's before, half as long.
+    /// Over the last window of iterations the mean of what must fall below the tolerance was not below 0.9 of that over
+    /// the window before, half as long.
     Stalled,
     /// As many iterations as allowed, tolerance not reached.
     IterationLimit,
@@ -17,7 +18,8 @@ pub enum Stop {
     /// At the prescribed penetration at most four samples are in contact, a touching indenter (of a topography, in
     /// all): contact is no wider than the grid's spacing, and its load a matter of where the samples lie.
     Unresolved,
-    /// The prescribed penetration is not below the mean of the initial gap f, where contact is complete: no finite load reaches it.
+    /// The prescribed penetration is not below the mean of the initial gap f, where contact is complete: no finite load
+    /// reaches it.
     BeyondFullContact,
 }
 

@@ -18,8 +18,8 @@ pub enum Method {
 pub struct Settings {
     /// Which method starts; the preconditioned one falls back to the other when it stalls.
     pub method: Method,
-    /// Bound on ε; the energy gap of a converged solution is below [`ENERGY_GAP`](super::ENERGY_GAP) times it, the deepest penetration
-    /// outside contact below [`PENETRATION`](super::PENETRATION) times it and δ.
+    /// Bound on ε, greater than 0; the energy gap of a converged solution is below 20 times it, the deepest penetration
+    /// outside contact below 10 times it and δ. What is not greater than 0 is never reached.
     pub tolerance: f64,
     /// Largest number of iterations on one grid.
     pub max_iterations: usize,
