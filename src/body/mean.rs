@@ -1,31 +1,31 @@
 //! Stress under the mean pressure p̄, the component q = 0 that the periodic problem alone leaves open in the plane.
-//!
-//! σ_zz = −p̄ everywhere; the shears vanish. The lateral stress σ_xx = σ_yy depends on what surrounds the periodic
-//! system:
-//!
-//! - **confined**: no mean lateral strain, σ_xx = −ν/(1−ν) p̄ in each material.
-//! - **half-space**: the centre of a disc loaded by p̄ that is wide against every thickness. In the substrate σ_xx =
-//!   −(1+2ν₂)p̄/2, with the lateral strain ε₂ = −p̄(1−2ν₂)(1+ν₂)/(2E₂), which is imposed on each layer whose way down
-//!   to the substrate carries shear (bonded or spring: the load is wide against the length over which a spring slips):
-//!   σ_xx = Eε₂/(1−ν) − νp̄/(1−ν). Layers above a frictionless interface are a laminate of their own, a wide sheet
-//!   whose loaded disc wants to spread: with A₁₁ = Σ Eh/(1−ν²) and T = Σ hνp̄/(1−ν) its strain is ε = T/(2A₁₁) (a disc
-//!   in an infinite sheet; for one layer σ_xx = −νp̄/2).
-//!
-//! **A spring of any stiffness is bonded here, a frictionless interface is not**, though the one is the limit of the other:
-//! "wide" and "k_t → 0" do not commute. Under a disc of radius R the layers above a spring obey A₁₁ 𝓛v = k_t v away from
-//! the rim, v their radial displacement against the substrate's, 𝓛v = v″ + v′/r − v/r², while at the rim v′ jumps by
-//! −2(ε_f − ε₂), ε_f the strain of the laminate on its own. So v is a I₁(r/ℓ) inside and b K₁(r/ℓ) outside, and at the
-//! centre
-//!
-//! ε = ε₂ + (ε_f − ε₂) ρK₁(ρ),  ρ = R/ℓ,  ℓ = √(A₁₁/k_t).
-//!
-//! ρK₁(ρ) is 1 at ρ = 0 and √(πρ/2) e^{−ρ} far off: the load is wide against the **slip length** ℓ ([`MeanStress::slip_lengths`])
-//! and the layers follow the substrate, or it is narrow and they spread on their own. `half-space` means R → ∞ with k_t
-//! fixed. Where ℓ is longer than the cell a case is warned, for then only loads of many cells are wide.
 
 use super::{HalfSpace, Interface, Layer, Material};
 
 /// What the mean lateral stress is.
+///
+/// σ_zz = −p̄ everywhere; the shears vanish. The lateral stress σ_xx = σ_yy depends on what surrounds the periodic
+/// system:
+///
+/// - **confined**: no mean lateral strain, σ_xx = −ν/(1−ν) p̄ in each material.
+/// - **half-space**: the centre of a disc loaded by p̄ that is wide against every thickness. In the substrate σ_xx =
+///   −(1+2ν₂)p̄/2, with the lateral strain ε₂ = −p̄(1−2ν₂)(1+ν₂)/(2E₂), which is imposed on each layer whose way down
+///   to the substrate carries shear (bonded or spring: the load is wide against the length over which a spring slips):
+///   σ_xx = Eε₂/(1−ν) − νp̄/(1−ν). Layers above a frictionless interface are a laminate of their own, a wide sheet
+///   whose loaded disc wants to spread: with A₁₁ = Σ Eh/(1−ν²) and T = Σ hνp̄/(1−ν) its strain is ε = T/(2A₁₁) (a disc
+///   in an infinite sheet; for one layer σ_xx = −νp̄/2).
+///
+/// **A spring of any stiffness is bonded here, a frictionless interface is not**, though the one is the limit of the other:
+/// "wide" and "k_t → 0" do not commute. Under a disc of radius R the layers above a spring obey A₁₁ 𝓛v = k_t v away from
+/// the rim, v their radial displacement against the substrate's, 𝓛v = v″ + v′/r − v/r², while at the rim v′ jumps by
+/// −2(ε_f − ε₂), ε_f the strain of the laminate on its own. So v is a I₁(r/ℓ) inside and b K₁(r/ℓ) outside, and at the
+/// centre
+///
+/// ε = ε₂ + (ε_f − ε₂) ρK₁(ρ),  ρ = R/ℓ,  ℓ = √(A₁₁/k_t).
+///
+/// ρK₁(ρ) is 1 at ρ = 0 and √(πρ/2) e^{−ρ} far off: the load is wide against the **slip length** ℓ ([`Self::slip_lengths`])
+/// and the layers follow the substrate, or it is narrow and they spread on their own. `half-space` means R → ∞ with k_t
+/// fixed. Where ℓ is longer than the cell a case is warned, for then only loads of many cells are wide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 #[non_exhaustive]

@@ -2,6 +2,27 @@
 
 /// Estimated errors of the scalars of a load step, each in the unit of its quantity; `None` where there is no
 /// coarser grid to compare with or no such quantity.
+///
+/// On the way to a solution the nested grids have solved the same load step with a half, a quarter, … of the points.
+/// Quantities converge at second order, a cusp of the pressure slower; errors oscillate as the edge of contact moves
+/// among the samples, so that two grids can agree by chance. The estimate is therefore 1.5 to 4 times the largest of
+///
+/// |q(h) − q(2h)|,  |q(h) − q(4h)|/4,  what n samples along a contact radius leave open:
+///
+/// | quantity | relative |
+/// |---|---|
+/// | peak pressure | 0.1 n⁻² + n⁻⁴ for profiles rᵏ with k ≥ 2; 0.25 n^{1−k} for the cusps of 1 < k < 2 |
+/// | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
+/// | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
+/// | penetration | 0.01 n⁻², and under a topography what its apex rises above the highest sample |
+/// | areas, radii, asymmetry, fraction in contact | what the reading of the boundary says of itself |
+///
+/// A topography stands where its highest sample does: prescribed its penetration, the errors of the others are those in
+/// that position, and the apex is the error of the penetration.
+///
+/// The numbers are read off seven hundred random cases solved again with four times the points; that the estimates hold
+/// in 95 % of others is shown in `validation/discretisation`. What is prescribed has no error, the peak under a tip is
+/// infinite and has none either.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Errors {

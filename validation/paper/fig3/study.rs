@@ -44,10 +44,10 @@ fn run() -> Result<Outcome, StudyError> {
     let (mut panels, mut pressures, mut found) = (Vec::new(), Vec::new(), Vec::new());
     for (title, name, file) in [("(a)", "fig3a", "pressure-a"), ("(b)", "fig3b", "pressure-b")] {
         let model = Model::new(name, &[])?;
-        let (curves, table, observables) = profiles(&model, file)?;
+        let (curves, table, reading) = profiles(&model, file)?;
         panels.push(chart(title, curves));
         pressures.push(table);
-        found.push(observables);
+        found.push(reading);
         outcome.published.push(model.methods(
             if file.ends_with('a') { "methods-a" } else { "methods-b" },
             LOAD,
