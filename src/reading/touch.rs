@@ -57,10 +57,9 @@ mod tests {
     use crate::problem::Problem;
     use crate::spectral::Settings;
 
-    /// χ = 2, h/l = 0.5, ν 0.2/0.3, R = 0.8 l, steps 0.01 l: levels 2 and 3 touch at p̄/E₂ = 0.00094 and 0.00365
-    /// (converged periodic solution of the case of Fig. 2).
+    /// A case like that of Fig. 2, whose loads of first touch `validation/paper/fig2` has.
     #[test]
-    fn levels_of_the_default_case_touch_at_their_loads() {
+    fn a_level_carries_load_above_its_first_touch_and_none_below() {
         let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height).unwrap();
         let levels = [0.02, 0.01, 0.0].map(level).to_vec();
         let indenters = Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), levels).unwrap();
@@ -68,9 +67,14 @@ mod tests {
         let coating = Material::from_shear(2.0 * substrate.shear(), 0.2).unwrap();
         let half_space = HalfSpace::new(vec![Layer::new(coating, 0.5, Interface::Bonded).unwrap()], substrate);
         let problem = Problem::new(indenters, half_space);
-        let touches = first_touches(&mut Solver::new(problem, [96, 96], Settings::default()).unwrap());
+        let mut solver = Solver::new(problem, [96, 96], Settings::default()).unwrap();
+        let touches = first_touches(&mut solver);
         assert_eq!(touches[0], Some(0.0));
-        assert!((touches[1].unwrap() / 0.00094 - 1.0).abs() < 0.02, "{touches:?}");
-        assert!((touches[2].unwrap() / 0.00365 - 1.0).abs() < 0.02, "{touches:?}");
+        for level in [1, 2] {
+            let touch = touches[level].unwrap();
+            let mut load =
+                |pressure| Reading::of(solver.solve(Load::MeanPressure(pressure)).finest()).levels[level].load;
+            assert!(load(touch / RATIO) == 0.0 && load(touch * RATIO) > 0.0, "level {}: {touches:?}", level + 1);
+        }
     }
 }
