@@ -1,4 +1,5 @@
-//! What must not change the answer: where the origin is, how the cell is chosen, units, and how a layer is counted.
+//! What must not change the answer: where the origin is, how the cell is chosen, units, and how a layer is counted; and that
+//! the cases tested are those of the paper.
 
 mod common;
 
@@ -145,5 +146,30 @@ fn a_layer_counted_as_two_is_the_same_layer() {
         ] {
             assert!((a - b).abs() < 1e-12 * (1.0 + inside.sqq.abs()), "q = {q}: {a} {b}");
         }
+    }
+}
+
+/// What the tests take from the paper is what the program carries with it, up to a common height.
+#[cfg(feature = "cli")]
+#[test]
+fn the_cases_of_the_tests_are_the_embedded_ones() {
+    use percoat::case::{Case, embedded};
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-12;
+    for paper in PAPER {
+        let name = paper.name;
+        let case = Case::read(&embedded::source(name).unwrap(), &[]).unwrap();
+        let (own, embedded) = (paper.indenters(), case.counterbody().indenters().unwrap());
+        assert_eq!(own.lattice(), embedded.lattice(), "{name}");
+        assert!(own.levels().iter().zip(embedded.levels()).all(|(a, b)| a.shape() == b.shape()), "{name}");
+        assert_eq!(own.levels().len(), embedded.levels().len(), "{name}");
+        assert!(own.drops().iter().zip(embedded.drops()).all(|(&a, b)| close(a, b)), "{name}: {embedded}");
+        let (own, embedded) = (paper.half_space(), case.half_space());
+        let ([mine], [theirs]) = (own.layers(), embedded.layers()) else { panic!("{name}: one layer") };
+        assert_eq!((mine.thickness(), mine.interface()), (theirs.thickness(), theirs.interface()), "{name}");
+        for (a, b) in own.materials().zip(embedded.materials()) {
+            assert!(close(a.shear(), b.shear()) && close(a.poisson(), b.poisson()), "{name}: {embedded}");
+        }
+        assert_eq!(case.load.quantity(), "mean_pressure");
+        assert!(case.load.values().iter().any(|&load| close(load, paper.pressure)), "{name}: {:?}", case.load);
     }
 }

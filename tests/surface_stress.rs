@@ -11,13 +11,12 @@
 
 mod common;
 
-use common::{Random, coated, one_level, paraboloid, solve};
-use ndarray::Array2;
+use common::{Hills, Random, coated, one_level, paraboloid, solve};
 use percoat::validation::exact::hertz::{Stresses, edge_tension, largest_shear};
 use percoat::validation::exact::lattice_sums::TRIANGULAR;
 use percoat::{
     Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Level, Line, Load, Material, MeanStress, Problem, Shape,
-    StressField, Topography,
+    StressField,
 };
 use std::f64::consts::PI;
 
@@ -258,7 +257,7 @@ impl Contact {
         };
         let cell = Cell::hexagonal(1.0).unwrap();
         let problem = if name == "topography" {
-            Problem::new(Topography::new(cell, hills(random, 4 * points)).unwrap(), half_space)
+            Problem::new(Hills::random(random, 8, 3, 0.02).topography(4 * points), half_space)
         } else {
             let lattice = Lattice::new(cell, vec![vec![[0, 1].map(|_| random.unit())]]).unwrap();
             Problem::new(one_level(lattice, Level::new(shape, 0.0).unwrap()), half_space)
@@ -286,21 +285,6 @@ impl Contact {
             Some((maxima.tension().value, tension)),
         ])
     }
-}
-
-/// Waves of one to three per period with random phases, n² heights.
-fn hills(random: &mut Random, n: usize) -> Array2<f64> {
-    let waves: Vec<[f64; 4]> = (0..8)
-        .map(|_| {
-            let [k1, k2] = [0, 1].map(|_| (7.0 * random.unit()).floor() - 3.0);
-            [k1, k2, random.unit(), 0.02 / (1.0 + k1 * k1 + k2 * k2)]
-        })
-        .collect();
-    let height = |(i, j): (usize, usize)| {
-        let (s, t) = (i as f64 / n as f64, j as f64 / n as f64);
-        waves.iter().map(|[k1, k2, phase, size]| size * (2.0 * PI * (k1 * s + k2 * t + phase)).cos()).sum()
-    };
-    Array2::from_shape_fn([n, n], height)
 }
 
 /// How many of `count` random contacts err by more than they state, against a grid four times as fine, and the median of

@@ -2,37 +2,14 @@
 
 mod common;
 
-use common::{Random, coated};
-use ndarray::Array2;
-use percoat::{Cell, Interface, Load, Problem, Settings, Solver, Topography};
-use std::f64::consts::TAU;
+use common::{Hills, Random, coated};
+use percoat::{Interface, Load, Problem, Settings, Solver};
 
 const CASES: usize = 40;
 const POINTS: usize = 64;
 /// Points of the reference over those of the case.
 const FINER: usize = 4;
 const QUANTITIES: [&str; 4] = ["mean pressure", "penetration", "contact fraction", "largest pressure"];
-
-/// Smooth hills: ten waves of one to four per period with random phases, so that no apex stands on a sample.
-struct Hills(Vec<[f64; 4]>);
-
-impl Hills {
-    fn random(random: &mut Random) -> Self {
-        let wave = |_| {
-            let [k1, k2] = [0, 1].map(|_| (9.0 * random.unit()).floor() - 4.0);
-            [k1, k2, random.unit(), 0.01 / (1.0 + k1 * k1 + k2 * k2)]
-        };
-        Self((0..10).map(wave).collect())
-    }
-
-    fn topography(&self, n: usize) -> Topography {
-        let height = |(i, j): (usize, usize)| {
-            let (s, t) = (i as f64 / n as f64, j as f64 / n as f64);
-            self.0.iter().map(|[k1, k2, phase, size]| size * (TAU * (k1 * s + k2 * t + phase)).cos()).sum()
-        };
-        Topography::new(Cell::hexagonal(1.0).unwrap(), Array2::from_shape_fn([n; 2], height)).unwrap()
-    }
-}
 
 /// The highest sample of a topography.
 fn highest(problem: &Problem) -> f64 {
@@ -48,7 +25,7 @@ fn stated_errors_of_topographies_hold_and_say_something() {
     let mut random = Random(67);
     let mut ratios = [const { Vec::new() }; 4];
     for _ in 0..CASES {
-        let hills = Hills::random(&mut random);
+        let hills = Hills::random(&mut random, 10, 4, 0.01);
         let interface = random.pick(&[Interface::Bonded, Interface::Frictionless]);
         let half_space = coated(random.log(0.2, 5.0), random.log(0.03, 0.5), [0.3, 0.3], interface);
         let problems =

@@ -1,10 +1,12 @@
 //! Cases that several tests share.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
+use ndarray::Array2;
 use percoat::{
-    HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Reading, Settings, Shape, Solver,
-    Step,
+    Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Reading, Settings, Shape,
+    Solver, Step, Topography,
 };
+use std::f64::consts::TAU;
 
 /// Parameters of one of the paper's three-level cases, in units of l and E₂.
 #[derive(Debug, Clone, Copy)]
@@ -134,5 +136,30 @@ impl Random {
 
     pub fn pick<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[(self.unit() * choices.len() as f64) as usize]
+    }
+}
+
+/// Smooth hills on a hexagonal cell of period 1: waves with random phases, so that no apex stands on a sample.
+#[derive(Debug)]
+pub struct Hills(Vec<[f64; 4]>);
+
+impl Hills {
+    /// `count` waves of up to `most` periods along each cell vector; `height` is that of the longest.
+    pub fn random(random: &mut Random, count: usize, most: u32, height: f64) -> Self {
+        let most = f64::from(most);
+        let mut wave = || {
+            let [k1, k2] = [0, 1].map(|_| ((2.0 * most + 1.0) * random.unit()).floor() - most);
+            [k1, k2, random.unit(), height / (1.0 + k1 * k1 + k2 * k2)]
+        };
+        Self((0..count).map(|_| wave()).collect())
+    }
+
+    /// Their heights on n × n samples.
+    pub fn topography(&self, n: usize) -> Topography {
+        let height = |(i, j): (usize, usize)| {
+            let (s, t) = (i as f64 / n as f64, j as f64 / n as f64);
+            self.0.iter().map(|[k1, k2, phase, size]| size * (TAU * (k1 * s + k2 * t + phase)).cos()).sum()
+        };
+        Topography::new(Cell::hexagonal(1.0).unwrap(), Array2::from_shape_fn([n; 2], height)).unwrap()
     }
 }
