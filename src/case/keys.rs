@@ -60,6 +60,17 @@ impl Keys {
         self.all.iter().find(|key| key.name == name)
     }
 
+    /// The keys of the tables inside one of its keys; none for a key it does not know.
+    pub(super) fn within(&self, name: &str) -> &'static Self {
+        self.get(name).map_or(&NONE, |key| key.holds)
+    }
+
+    /// Keys that cannot stand beside this one in the table.
+    pub(super) fn excluded(&self, name: &str) -> Vec<&'static str> {
+        let Some(key) = self.get(name) else { return Vec::new() };
+        self.all.iter().filter(|other| key.excludes(other)).map(|other| other.name).collect()
+    }
+
     /// This table and all inside it, each with its path.
     pub(super) fn tables(&'static self, path: &str) -> Vec<(String, &'static Self)> {
         let inside = self.all.iter().flat_map(|key| match path {
@@ -75,15 +86,6 @@ impl Keys {
 pub(super) fn homes(name: &str) -> Vec<String> {
     let tables = CASE.tables("").into_iter().skip(1);
     tables.filter(|(_, keys)| keys.get(name).is_some()).map(|(path, _)| path).collect()
-}
-
-/// Keys that cannot stand beside this one.
-pub(super) fn excluded(name: &str) -> Vec<&'static str> {
-    let beside = |keys: &'static Keys| {
-        let others = |key: &'static Key| keys.all.iter().filter(|other| key.excludes(other)).map(|other| other.name);
-        keys.get(name).into_iter().flat_map(others)
-    };
-    CASE.tables("").into_iter().flat_map(|(_, keys)| beside(keys)).collect()
 }
 
 static NONE: Keys = Keys::new(&[]);
@@ -257,10 +259,10 @@ mod tests {
 
     #[test]
     fn sizes_of_one_shape_exclude_those_of_the_others() {
-        assert_eq!(excluded("slope"), ["radius", "coefficient", "exponent"]);
-        assert_eq!(excluded("exponent"), ["radius", "slope"]);
-        assert_eq!(excluded("period"), ["a1", "a2"]);
-        assert_eq!((excluded("levels"), excluded("surface")), (vec!["surface"], vec!["levels"]));
-        assert!(excluded("height").is_empty());
+        assert_eq!(LEVELS.excluded("slope"), ["radius", "coefficient", "exponent"]);
+        assert_eq!(LEVELS.excluded("exponent"), ["radius", "slope"]);
+        assert_eq!(LATTICE.excluded("period"), ["a1", "a2"]);
+        assert_eq!((CASE.excluded("levels"), CASE.excluded("surface")), (vec!["surface"], vec!["levels"]));
+        assert!(LEVELS.excluded("height").is_empty() && LOCALIZED.excluded("radius").is_empty());
     }
 }

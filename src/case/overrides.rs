@@ -3,7 +3,7 @@
 //! KEY is a dotted path, items of lists counted from 0; VALUE is TOML, a bare word counts as text.
 
 use super::error::Refusal;
-use super::keys;
+use super::keys::{self, Keys};
 use super::node::{Entry, Node, Table, Value};
 use super::place::Place;
 
@@ -54,7 +54,7 @@ impl Override {
 
     /// Set the value in the case's tree.
     pub(super) fn apply(self, root: &mut Table) -> Result<(), Refusal> {
-        set_in_table(root, "", &self.steps, self.value)
+        set_in_table(root, &keys::CASE, "", &self.steps, self.value)
     }
 }
 
@@ -100,35 +100,43 @@ fn is_bare_word(value: &str) -> bool {
         && !value.contains(['"', '[', '{', '\n', '='])
 }
 
-fn set_in_table(table: &mut Table, path: &str, steps: &[Step], value: Node) -> Result<(), Refusal> {
+/// Sets a value inside a `table` that has these `keys`.
+fn set_in_table(
+    table: &mut Table,
+    keys: &'static Keys,
+    path: &str,
+    steps: &[Step],
+    value: Node,
+) -> Result<(), Refusal> {
     // A path has a step at least, and `set_in_node` passes on only what is left of it.
     let [step, rest @ ..] = steps else { return Ok(()) };
     let path = if path.is_empty() { step.name.clone() } else { format!("{path}.{}", step.name) };
     let next = match (rest.first(), table.get_mut(&step.name)) {
         (None, _) => value,
-        (Some(_), Some(node)) => return set_in_node(node, &path, rest, value),
+        (Some(_), Some(node)) => return set_in_node(node, keys.within(&step.name), &path, rest, value),
         (Some(next), None) if next.index().is_some() => {
             let message = format!("`{path}` has no item {}: the case has no `{path}`", next.name);
             return Err(Refusal::new(next.place, message, "no such item"));
         }
         (Some(_), None) => {
             let mut created = Table::default();
-            set_in_table(&mut created, &path, rest, value)?;
+            set_in_table(&mut created, keys.within(&step.name), &path, rest, value)?;
             Node { value: Value::Table(created), place: step.place }
         }
     };
-    keys::excluded(&step.name).into_iter().for_each(|other| table.remove(other));
+    keys.excluded(&step.name).into_iter().for_each(|other| table.remove(other));
     table.insert(Entry { key: step.name.clone(), key_place: step.place, node: next });
     Ok(())
 }
 
-fn set_in_node(node: &mut Node, path: &str, steps: &[Step], value: Node) -> Result<(), Refusal> {
+/// Sets a value inside a table with these `keys`, or inside one of a list of such tables.
+fn set_in_node(node: &mut Node, keys: &'static Keys, path: &str, steps: &[Step], value: Node) -> Result<(), Refusal> {
     let Some((step, rest)) = steps.split_first() else {
         *node = value;
         return Ok(());
     };
     match &mut node.value {
-        Value::Table(table) => set_in_table(table, path, steps, value),
+        Value::Table(table) => set_in_table(table, keys, path, steps, value),
         Value::List(items) => {
             let count = items.len();
             let allowed = match count {
@@ -137,7 +145,7 @@ fn set_in_node(node: &mut Node, path: &str, steps: &[Step], value: Node) -> Resu
                 _ => format!("its items are 0 to {}", count - 1),
             };
             match step.index().map(|index| (index, items.get_mut(index))) {
-                Some((index, Some(item))) => set_in_node(item, &format!("{path}[{index}]"), rest, value),
+                Some((index, Some(item))) => set_in_node(item, keys, &format!("{path}[{index}]"), rest, value),
                 Some((index, None)) => {
                     let message = format!("`{path}` has no item {index}: {allowed}");
                     Err(Refusal::new(step.place, message, "no such item").help("items are counted from 0"))
@@ -218,6 +226,17 @@ mod tests {
         let root = set("[[levels]]\ncoefficient = 1\nexponent = 3\nheight = 1\n", "levels.0.slope=0.1").unwrap();
         assert_eq!(value(&root, &["levels", "0", "exponent"]), None);
         assert_eq!(value(&root, &["levels", "0", "height"]), Some(&Value::Integer(1)));
+    }
+
+    /// Faults are to be told, not cleared away.
+    #[test]
+    fn keys_that_exclude_each_other_elsewhere_stay() {
+        let root = set("[substrate]\nshear_ratio = 1\n", "substrate.young=2").unwrap();
+        assert_eq!(value(&root, &["substrate", "shear_ratio"]), Some(&Value::Integer(1)));
+        let root = set("[localized]\nslope = 1\n", "localized.radius=area-balanced").unwrap();
+        assert_eq!(value(&root, &["localized", "slope"]), Some(&Value::Integer(1)));
+        let root = set("[stress]\naccuracy = 1\n", "stress.volume.points=8").unwrap();
+        assert_eq!(value(&root, &["stress", "accuracy"]), Some(&Value::Integer(1)));
     }
 
     #[test]

@@ -8,47 +8,8 @@ use crate::body::Interface;
 use crate::run::Sampling;
 use serde_json::{Value, json};
 
-const RICH: &str = r#"
-    title = "every section"
-    lattice = { kind = "oblique", a1 = [1, 0], a2 = [0.25, 1.5] }
-    levels = [
-        { shape = "sphere", radius = 2, height = 0.1, sites = [[0, 0], [0.5, 0.5]] },
-        { shape = "cone", slope = 0.3, sites = [[0.5, 0.0]] },
-        { shape = "power", coefficient = 1.5, exponent = 3, height = -1e-7, sites = [[0.0, 0.5]] },
-    ]
-    [[layers]]
-    thickness = 0.1
-    young = 3e11
-    poisson = 0
-    interface = { tangential_stiffness = 2.5, normal_stiffness = 4 }
-    [[layers]]
-    thickness = 0.2
-    shear_ratio = 0.3
-    poisson = 0.5
-    interface = "frictionless"
-    [substrate]
-    young = 2e11
-    poisson = 0.3
-    [load]
-    penetration = { from = 1e-3, to = 0.1, steps = 3, spacing = "log" }
-    [grid]
-    accuracy = 1e-3
-    [solver]
-    method = "polonsky-keer"
-    tolerance = 1e-10
-    max_iterations = 7
-    [stress]
-    planes = [0, 0.1]
-    mean = "half-space"
-    section = { from = "level 1", toward = "level 3", length = 1, depth = 0.5 }
-    points = [[0, 0, 0.1]]
-    volume = { depth = 1, rows = 4, points = 8 }
-    [localized]
-    indenters = [7]
-    elements = 10
-    radius = "area-balanced"
-    mutual_effect = false
-"#;
+/// A case with every section.
+const RICH: &str = include_str!("../../tests/common/rich.toml");
 
 fn source(text: &str) -> Source {
     Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: PathBuf::new() }
@@ -74,11 +35,11 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     let head = b"{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2)}";
     let file = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &[0; 32]].concat();
     std::fs::write(folder.path().join("surface.npy"), file).unwrap();
-    let range = RICH.replace("penetration =", "mean_pressure =");
+    let other = RICH.replace("mean_pressure =", "penetration =").replace("points = [24, 36]", "accuracy = 1e-3");
     let surface = "lattice = { kind = \"square\", period = 1 }\nsurface = { heights = \"surface.npy\" }\n\
                    substrate = { young = 1, poisson = 0.3 }\nload = { mean_pressure = 1e-3 }\ngrid = { points = 2 }\n";
     let mut found = BTreeSet::new();
-    for text in embedded::all().iter().map(|(_, text)| *text).chain([RICH, &range, surface]) {
+    for text in embedded::all().iter().map(|(_, text)| *text).chain([RICH, &other, surface]) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
         Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"));
         collect(&node::Value::Table(node::Table::parse(text).unwrap()), "", &mut found);
@@ -137,11 +98,11 @@ fn a_case_has_the_keys_of_its_file_in_json() {
     let case = serde_json::to_value(read(RICH, &[]).unwrap()).unwrap();
     assert_eq!(case["lattice"], json!({ "kind": "oblique", "a1": [1.0, 0.0], "a2": [0.25, 1.5] }));
     assert_eq!(case["levels"][1], json!({ "shape": "cone", "slope": 0.3, "height": 0.0, "sites": [[0.5, 0.0]] }));
-    assert_eq!(case["layers"][0]["interface"], json!({ "tangential_stiffness": 2.5, "normal_stiffness": 4.0 }));
+    assert_eq!(case["layers"][0]["interface"], json!({ "tangential_stiffness": 2.5e11, "normal_stiffness": 4e12 }));
     assert_eq!(case["layers"][0]["young"], json!(3e11));
     assert_eq!(case["layers"][1]["interface"], json!("frictionless"));
-    assert_eq!(case["load"], json!({ "penetration": [1e-3, 0.01, 0.1] }));
-    assert_eq!(case["grid"], json!({ "accuracy": 1e-3 }));
+    assert_eq!(case["load"], json!({ "mean_pressure": [1e8, 1e9, 1e10] }));
+    assert_eq!(case["grid"], json!({ "points": [24, 36] }));
     assert_eq!(case["solver"]["method"], json!("polonsky-keer"));
     assert_eq!(case["stress"]["section"]["toward"], json!("level 3"));
     assert_eq!(case["stress"]["mean"], json!("half-space"));
@@ -162,6 +123,63 @@ fn what_is_not_said_has_its_default() {
     let case = read(&coated, &[]).unwrap();
     assert_eq!(case.half_space().layers()[0].interface(), Interface::Bonded);
     assert_eq!(case.stress.map(|stress| stress.planes), Some(vec![]));
+}
+
+/// The texts of the keys say what a value is when it is not given: "512 when not given", "\"bonded\" (when not given)".
+#[test]
+fn the_defaults_that_the_keys_state_are_those_of_a_case() {
+    let text = "[lattice]\nkind = \"square\"\nperiod = 2\n[[levels]]\nshape = \"cone\"\nslope = 0.1\n\
+                [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n[stress]\nvolume = { depth = 1 }\n\
+                [[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n";
+    let written: toml::Table = read(text, &[]).unwrap().to_toml().parse().unwrap();
+    let found = |path: &str| {
+        path.split('.').try_fold(toml::Value::Table(written.clone()), |value, key| match value {
+            toml::Value::Array(items) => items[0].get(key).cloned(),
+            table => table.get(key).cloned(),
+        })
+    };
+    let mut compared = Vec::new();
+    for (path, keys) in keys::CASE.tables("") {
+        for key in keys.all {
+            let Some((before, _)) = key.what.split_once(" when not given").or(key.what.split_once(" (when not given)"))
+            else {
+                continue;
+            };
+            let stated = before.rsplit([';', ':']).flat_map(|part| [part, part.rsplit(',').next().unwrap_or(part)]);
+            let stated = stated.map(|part| part.trim().replace("10⁻⁸", "1e-8"));
+            let mut stated = stated.filter_map(|part| format!("value = {part}").parse::<toml::Table>().ok());
+            let (path, Some(stated)) = (join(&path, key.name), stated.next()) else { continue };
+            let Some(value) = found(&path) else { continue };
+            let all = |value: &toml::Value| match value {
+                // One number of points for both directions.
+                toml::Value::Array(items) if items[0] == stated["value"] => items.iter().all(|item| *item == items[0]),
+                toml::Value::Float(x) => {
+                    Some(*x) == stated["value"].as_float().or(stated["value"].as_integer().map(|n| n as f64))
+                }
+                value => *value == stated["value"],
+            };
+            assert!(all(&value), "{path} is {value}: {}", key.what);
+            compared.push(path);
+        }
+    }
+    assert_eq!(
+        compared,
+        [
+            "levels.height",
+            "layers.interface",
+            "grid.points",
+            "solver.method",
+            "solver.tolerance",
+            "solver.max_iterations",
+            "stress.mean",
+            "stress.volume.rows",
+            "stress.volume.points",
+            "localized.indenters",
+            "localized.elements",
+            "localized.radius",
+            "localized.mutual_effect",
+        ]
+    );
 }
 
 #[test]
