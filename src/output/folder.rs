@@ -99,14 +99,17 @@ impl RunFolder {
     /// [`OutputError`] with the path that cannot be moved.
     pub fn begin_finer(&self) -> Result<Option<PathBuf>, OutputError> {
         let staging = self.staging();
-        if !staging.join(steps_log::NAME).is_file() {
+        if !has_steps(&staging) {
             return Ok(None);
         }
         let coarser = staging.join(COARSER);
         let aside = if remove_own(&coarser, &|_| false)? { None } else { set_aside(&coarser, &self.folder)? };
         make_folder(&coarser)?;
-        let of_steps = |name: &&String| self.names.contains(name) || is_partial(name) || *name == steps_log::NAME;
-        for name in names(&staging)?.iter().filter(of_steps) {
+        let of_steps = |name: &&String| self.names.contains(name) || is_partial(name);
+        let names = names(&staging)?;
+        // What the log lists is beside it when it comes.
+        let log = names.iter().filter(|name| *name == steps_log::NAME);
+        for name in names.iter().filter(of_steps).chain(log) {
             let path = staging.join(name);
             fs::rename(&path, coarser.join(name)).map_err(|error| OutputError::new(&path, error))?;
         }
@@ -137,8 +140,8 @@ impl RunFolder {
         if !staging.exists() {
             return Ok(None);
         }
-        let has_steps = [staging.clone(), staging.join(COARSER)].iter().any(|at| at.join(steps_log::NAME).is_file());
-        if !has_steps && remove_gathered(&staging, self.writer, &|name| self.names.iter().any(|own| own == name))? {
+        let steps = has_steps(&staging) || has_steps(&staging.join(COARSER));
+        if !steps && remove_gathered(&staging, self.writer, &|name| self.names.iter().any(|own| own == name))? {
             return Ok(None);
         }
         set_aside(&staging, &self.folder)
@@ -154,6 +157,12 @@ impl RunFolder {
         let staging = self.staging();
         fs::rename(&new, &staging).map_err(|error| OutputError::new(&staging, error))
     }
+}
+
+/// Whether steps have been finished where a result is gathered. A summary is one too: earlier versions of percoat wrote
+/// it after every step, and no log.
+fn has_steps(folder: &Path) -> bool {
+    [steps_log::NAME, "summary.json"].iter().any(|name| folder.join(name).is_file())
 }
 
 /// The list of a folder, with the adopted names on it.
@@ -209,4 +218,55 @@ fn lock(folder: &Path) -> Result<File, FolderError> {
     let written = file.set_len(0).and_then(|()| writeln!(file, "process {}", std::process::id()));
     written.map_err(failed)?;
     Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan() -> Plan {
+        Plan { names: vec!["summary.json".to_owned()], ..Plan::new(Writer::Solve) }
+    }
+
+    /// The grid before was finished, the finer one is not.
+    #[test]
+    fn steps_of_a_coarser_grid_alone_are_set_aside_after_a_kill() {
+        let place = tempfile::tempdir().unwrap();
+        let claim = RunFolder::claim(place.path(), &plan()).unwrap();
+        for name in ["steps.jsonl", "contact.partial/gap.0001.npy"] {
+            let path = claim.staging().join(name);
+            make_folder(path.parent().unwrap()).unwrap();
+            write_text(&path, "{}\n").unwrap();
+        }
+        assert_eq!(claim.begin_finer().unwrap(), None);
+        assert_eq!(names(&claim.staging()).unwrap(), [MARK, COARSER]);
+        drop(claim);
+        let again = RunFolder::claim(place.path(), &plan()).unwrap();
+        let aside = again.set_aside().unwrap();
+        assert!(
+            ["steps.jsonl", "contact.partial/gap.0001.npy"].iter().all(|name| aside.join(COARSER).join(name).is_file())
+        );
+        assert_eq!(names(&again.staging()).unwrap(), [MARK]);
+    }
+
+    #[test]
+    fn steps_that_only_a_summary_tells_of_are_set_aside() {
+        let place = tempfile::tempdir().unwrap();
+        let claim = RunFolder::claim(place.path(), &plan()).unwrap();
+        make_folder(&claim.staging().join("contact.partial")).unwrap();
+        write_text(&claim.staging().join("summary.json"), "{}\n").unwrap();
+        drop(claim);
+        let again = RunFolder::claim(place.path(), &plan()).unwrap();
+        assert!(again.set_aside().is_some_and(|aside| aside.join("summary.json").is_file()));
+    }
+
+    #[test]
+    fn nothing_is_set_aside_where_no_step_was_finished() {
+        let place = tempfile::tempdir().unwrap();
+        let claim = RunFolder::claim(place.path(), &plan()).unwrap();
+        make_folder(&claim.staging().join("contact.partial")).unwrap();
+        drop(claim);
+        assert_eq!(RunFolder::claim(place.path(), &plan()).unwrap().set_aside(), None);
+        assert_eq!(names(place.path()).unwrap(), [OWN, "unfinished"]);
+    }
 }

@@ -87,7 +87,7 @@ impl Manifest {
 
     /// As indented JSON.
     pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        serde_json::to_string_pretty(self).expect("names, checksums and writers are texts") + "\n"
     }
 
     /// The files of all other writers, and those of this one whose names are not in `scope`.

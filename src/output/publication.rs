@@ -349,7 +349,7 @@ mod tests {
     #[test]
     fn a_finer_grid_keeps_the_coarser_steps_until_it_is_published() {
         let folder = tempfile::tempdir().unwrap();
-        let run = gathered(folder.path(), &["case.toml", "summary.json"], "coarse");
+        let run = gathered(folder.path(), &["case.toml", "stress.npz"], "coarse");
         run.begin_finer().unwrap();
         assert!(!run.staging().join("coarser").exists(), "no step is done");
         fs::write(run.staging().join("steps.jsonl"), "coarse").unwrap();

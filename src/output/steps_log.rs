@@ -1,8 +1,9 @@
 //! `steps.jsonl`: every step of an unfinished run, one line each, appended as it is done.
 //!
-//! A line is the step as it will stand in `summary.json`. Whatever ends the run, the lines that end are whole steps.
+//! A line is the step as it will stand in `summary.json`. Whatever ends the run, the lines that end are whole steps, and
+//! the file has one at least: where it stands, a step is finished.
 
-use super::OutputError;
+use super::{OutputError, write_text};
 use crate::run::StepRecord;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
@@ -15,7 +16,7 @@ pub(super) const NAME: &str = "steps.jsonl";
 #[derive(Debug)]
 pub struct StepsLog {
     path: PathBuf,
-    /// Open from the first step on: where the file stands, a step is finished.
+    /// Open from the first step on.
     file: Option<File>,
 }
 
@@ -30,16 +31,17 @@ impl StepsLog {
     /// # Errors
     /// [`OutputError`] when it cannot be written, or when the first one finds steps there already.
     pub fn add(&mut self, record: &StepRecord) -> Result<(), OutputError> {
-        // Numbers and texts: nothing that JSON could refuse.
-        let line = serde_json::to_string(record).unwrap_or_default() + "\n";
-        self.append(&line).map_err(|error| OutputError::new(&self.path, error))
-    }
-
-    fn append(&mut self, line: &str) -> io::Result<()> {
-        let file = match &mut self.file {
-            Some(file) => file,
-            none => none.insert(OpenOptions::new().write(true).create_new(true).open(&self.path)?),
-        };
-        file.write_all(line.as_bytes())
+        let line = serde_json::to_string(record).expect("a step is numbers and texts under names") + "\n";
+        let failed = |error| OutputError::new(&self.path, error);
+        match &mut self.file {
+            Some(file) => file.write_all(line.as_bytes()).map_err(failed),
+            None if self.path.exists() => Err(failed(io::ErrorKind::AlreadyExists.into())),
+            None => {
+                // The first line and the file come at once.
+                write_text(&self.path, &line)?;
+                self.file = Some(OpenOptions::new().append(true).open(&self.path).map_err(failed)?);
+                Ok(())
+            }
+        }
     }
 }
