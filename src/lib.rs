@@ -20,7 +20,7 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → lattice → body → counterbody → problem → load → spectral → stress → reading → localized → comparison → run
+//! numeric → lattice → body → counterbody → problem → load → spectral → stress → reading → localized → run → comparison
 //! → case → output → picture → validation
 //! ```
 //!

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every source file of the library by its module path, without its tests and comments.
+/// Every source file of the library and its command by its module path, without its tests and comments.
 fn sources() -> BTreeMap<String, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut sources = BTreeMap::new();
@@ -13,7 +13,7 @@ fn sources() -> BTreeMap<String, String> {
         for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
             let stem = path.file_stem().unwrap().to_string_lossy().replace('-', "_");
             let own = if module.is_empty() { stem.clone() } else { format!("{module}::{stem}") };
-            if path.is_dir() && own != "command" {
+            if path.is_dir() {
                 folders.push((path, own));
             } else if path.extension().is_some_and(|ending| ending == "rs") && own != "main" {
                 let name = if ["mod", "study"].contains(&&stem[..]) { module.clone() } else { own };
@@ -41,15 +41,49 @@ fn named(text: &str, module: &str, is_folder: bool) -> Vec<String> {
         let own = if is_folder { up(parent) } else { parent.to_owned() };
         if deeper { (at + 2 * word.len(), up(&own)) } else { (at + word.len(), own) }
     });
-    let mut paths = Vec::new();
-    for (at, base) in starts.chain(above) {
-        let path: String = text[at..].chars().take_while(|c| c.is_alphanumeric() || "_:".contains(*c)).collect();
-        let group = text[at + path.len()..].strip_prefix('{').and_then(|rest| rest.split('}').next());
-        for item in group.map_or(vec![String::new()], |group| group.split(',').map(|s| s.trim().to_owned()).collect()) {
-            paths.push(format!("{base}::{path}{item}").trim_matches(':').to_owned());
+    starts.chain(above).flat_map(|(at, base)| expanded(&base, &text[at..])).collect()
+}
+
+/// The paths that a text begins with, below `base`: one, or those of a group in braces, which may hold others.
+fn expanded(base: &str, text: &str) -> Vec<String> {
+    let path: String = text.chars().take_while(|c| c.is_alphanumeric() || "_:".contains(*c)).collect();
+    let whole = format!("{base}::{path}").trim_matches(':').to_owned();
+    let Some(group) = text[path.len()..].strip_prefix('{') else { return vec![whole] };
+    let (mut items, mut depth) = (vec![String::new()], 0);
+    for c in group.chars() {
+        match c {
+            '}' if depth == 0 => break,
+            ',' if depth == 0 => {
+                items.push(String::new());
+                continue;
+            }
+            '{' => depth += 1,
+            '}' => depth -= 1,
+            _ => {}
         }
+        items.last_mut().unwrap().push(c);
     }
-    paths
+    items
+        .iter()
+        .map(|item| item.trim())
+        .filter(|item| !item.is_empty())
+        .flat_map(|item| expanded(&whole, item))
+        .collect()
+}
+
+#[test]
+fn groups_within_groups_are_named_one_by_one() {
+    let text = "use crate::body::{self, minors::{Minors, deep::Deep}, Layer};\nuse super::{\n    x::Y,\n    z,\n};\n";
+    let mut names = named(text, "run::accuracy", false);
+    names.sort();
+    let wanted =
+        ["body::Layer", "body::minors::Minors", "body::minors::deep::Deep", "body::self", "run::x::Y", "run::z"];
+    assert_eq!(names, wanted);
+}
+
+/// Whether a module stands in the arrow: the library's own file names all, the command uses the library from outside.
+fn in_library(path: &str) -> bool {
+    path != "lib" && path.split("::").next() != Some("command")
 }
 
 #[test]
@@ -58,10 +92,11 @@ fn every_module_uses_only_what_stands_to_its_left() {
     let arrow = lib.split("```text").nth(1).and_then(|rest| rest.split("```").next()).expect("the arrow of modules");
     let order: Vec<&str> = arrow.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let place = |module: &str| order.iter().position(|name| *name == module);
+    let sources: BTreeMap<String, String> = sources().into_iter().filter(|(path, _)| in_library(path)).collect();
     let modules: BTreeSet<String> =
-        sources().keys().filter_map(|path| path.split("::").next().map(str::to_owned)).filter(|m| m != "lib").collect();
+        sources.keys().filter_map(|path| path.split("::").next().map(str::to_owned)).collect();
     assert_eq!(modules, order.iter().map(|name| (*name).to_owned()).collect(), "modules of the arrow");
-    for (path, text) in sources().iter().filter(|(path, _)| *path != "lib") {
+    for (path, text) in &sources {
         let own = path.split("::").next().and_then(place).unwrap();
         for used in named(text, path, false).iter().filter_map(|path| place(path.split("::").next()?)) {
             assert!(used <= own, "{path} uses {}, which stands to the right of it", order[used]);

@@ -3,16 +3,21 @@
 mod common;
 
 use common::{PAPER, one_level, paraboloid};
-use percoat::run::accuracy::{End, change};
-use percoat::run::{Recorder, Run, RunError, Sampling, StepRecord, StressRequest};
-use percoat::{HalfSpace, Lattice, Load, Material, Problem, Solver, Step, StressField};
+use percoat::run::{End, Recorder, Run, RunError, Sampling, StepRecord, StressRequest, change};
+use percoat::{Cell, HalfSpace, Lattice, Load, Material, Problem, Solver, Step, StressField};
 
-/// Writes down what it hears, and cannot go on at the step `fails`.
-#[derive(Default)]
+/// Writes down what it hears, and cannot go on at the step `fails`. It has room for so many points along a side.
 struct Diary {
     heard: Vec<String>,
     iterations: usize,
     fails: Option<usize>,
+    room: usize,
+}
+
+impl Default for Diary {
+    fn default() -> Self {
+        Self { heard: Vec::new(), iterations: 0, fails: None, room: usize::MAX }
+    }
 }
 
 #[derive(Debug, thiserror::Error)]
@@ -21,6 +26,10 @@ struct Full;
 
 impl Recorder for Diary {
     type Error = Full;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        points.iter().all(|&n| n <= self.room)
+    }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), Full> {
         self.heard.push(format!("grid {}", solver.grid().points()[0]));
@@ -63,7 +72,7 @@ fn run(sampling: Sampling) -> Run {
 fn a_recorder_hears_of_grids_steps_and_stresses_in_their_order() {
     let mut diary = Diary::default();
     let stressed = Run { stress: Some(StressRequest::default()), ..run(Sampling::Points([48, 48])) };
-    let outcome = stressed.solve(&mut diary, &|_| true).unwrap();
+    let outcome = stressed.solve(&mut diary).unwrap();
     assert_eq!(diary.heard, ["grid 48", "stresses", "step 0.01", "stresses", "step 0.02"]);
     let iterations: usize = outcome.steps.iter().map(|step| step.report.iterations).sum();
     assert_eq!(diary.iterations, iterations);
@@ -74,7 +83,7 @@ fn a_recorder_hears_of_grids_steps_and_stresses_in_their_order() {
 #[test]
 fn a_recorder_that_cannot_go_on_ends_the_run() {
     let mut diary = Diary { fails: Some(2), ..Diary::default() };
-    let error = run(Sampling::Points([48, 48])).solve(&mut diary, &|_| true).unwrap_err();
+    let error = run(Sampling::Points([48, 48])).solve(&mut diary).unwrap_err();
     assert!(matches!(&error, RunError::Recorder(Full)), "{error}");
     assert_eq!(diary.heard, ["grid 48", "step 0.01"]);
 }
@@ -83,18 +92,18 @@ fn a_recorder_that_cannot_go_on_ends_the_run() {
 #[test]
 fn a_refinement_goes_on_until_the_accuracy_is_reached_or_there_is_no_room() {
     let mut diary = Diary::default();
-    let outcome = run(Sampling::Accuracy(1e-4)).solve(&mut diary, &|_| true).unwrap();
+    let outcome = run(Sampling::Accuracy(1e-4)).solve(&mut diary).unwrap();
     let grids: Vec<&String> = diary.heard.iter().filter(|heard| heard.starts_with("grid")).collect();
     assert!(grids.len() > 2, "{:?}", diary.heard);
     assert_eq!((outcome.end, outcome.is_accurate()), (Some(End::Reached), true));
     assert!(outcome.change.unwrap() < 1e-4);
-    let on = |points| run(Sampling::Points(points)).solve(&mut (), &|_| true).unwrap().steps;
+    let on = |points| run(Sampling::Points(points)).solve(&mut ()).unwrap().steps;
     let [n1, n2] = outcome.points;
     let again = change(&on([n1 / 2, n2 / 2]), &on([n1, n2]));
     assert_eq!(outcome.change, Some(again));
 
     let first = diary.heard[0].trim_start_matches("grid ").parse::<usize>().unwrap();
-    let narrow = run(Sampling::Accuracy(1e-4)).solve(&mut (), &|points| points[0] <= 2 * first).unwrap();
+    let narrow = run(Sampling::Accuracy(1e-4)).solve(&mut Diary { room: 2 * first, ..Diary::default() }).unwrap();
     assert_eq!((narrow.end, narrow.points[0], narrow.converged()), (Some(End::Room), 2 * first, false));
     assert!(narrow.warnings.iter().any(|warning| warning.contains("accuracy")), "{:?}", narrow.warnings);
 }
@@ -102,11 +111,36 @@ fn a_refinement_goes_on_until_the_accuracy_is_reached_or_there_is_no_room() {
 /// What is no number is no agreement.
 #[test]
 fn a_number_that_is_none_counts_as_a_change() {
-    let steps = run(Sampling::Points([48, 48])).solve(&mut (), &|_| true).unwrap().steps;
+    let steps = run(Sampling::Points([48, 48])).solve(&mut ()).unwrap().steps;
     assert_eq!(change(&steps, &steps), 0.0);
     let mut spoilt = steps.clone();
     spoilt[0].reading.max_pressure = f64::NAN;
     assert!(change(&steps, &spoilt).is_nan() && change(&spoilt, &steps).is_nan());
+}
+
+/// Contact that one grid has and the other has not is no agreement either.
+#[test]
+fn contact_that_comes_or_goes_with_the_grid_counts_as_a_change() {
+    let unloaded = Run { loads: vec![Load::MeanPressure(0.0)], ..run(Sampling::Points([48, 48])) };
+    let apart = unloaded.solve(&mut ()).unwrap().steps;
+    let touching = run(Sampling::Points([48, 48])).solve(&mut ()).unwrap().steps;
+    assert_eq!(change(&apart, &apart), 0.0);
+    assert_eq!(change(&touching, &apart), f64::INFINITY);
+    assert!(change(&apart, &touching) >= 1.0);
+}
+
+/// Nothing is begun of it.
+#[test]
+fn a_cell_too_oblong_for_any_grid_is_refused_by_check_and_by_solve() {
+    let substrate = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+    let lattice = Lattice::new(Cell::new([1000.0, 0.0], [0.0, 1.0]).unwrap(), vec![vec![[0.0, 0.0]]]).unwrap();
+    let problem = Problem::new(one_level(lattice, paraboloid(0.8, 0.0)), substrate);
+    let oblong = Run::new(problem, vec![Load::MeanPressure(0.01)], Sampling::Accuracy(1e-3));
+    assert!(matches!(oblong.check(), Err(RunError::TooOblong(_))));
+    let mut diary = Diary::default();
+    assert!(matches!(oblong.solve(&mut diary), Err(RunError::TooOblong(_))));
+    assert!(diary.heard.is_empty());
+    assert!(Run { sampling: Sampling::Points([1024, 16]), ..oblong }.check().is_ok());
 }
 
 /// Refused before anything is solved, on the grid of the run.

@@ -12,7 +12,7 @@ use super::reader::{POSITIVE, TableAt, ValueAt};
 use crate::body::{HalfSpace, Interface};
 use crate::counterbody::Level;
 use crate::lattice::Cell;
-use crate::run::Sampling;
+use crate::run::{Refinement, Sampling};
 
 /// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
 pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
@@ -117,14 +117,17 @@ pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -
     Ok(())
 }
 
-/// Samples as dense along one vector as along the other, to a factor.
+/// Samples as dense along one vector as along the other, to a factor; for a refinement a grid that is.
 pub(super) fn grid(
     grid: Sampling,
     section: Option<&TableAt<'_>>,
     lattice: &TableAt<'_>,
     cell: Cell,
 ) -> Result<(), Refusal> {
-    let Sampling::Points([n1, n2]) = grid else { return aspect(lattice, cell) };
+    let Sampling::Points([n1, n2]) = grid else {
+        let refuse = |error| Refusal::new(lattice.place(), format!("`grid.accuracy`: {error}"), "this cell");
+        return Refinement::grids(&cell).map(drop).map_err(refuse);
+    };
     let [a1, a2] = cell.vectors().map(|[x, y]| x.hypot(y));
     let (first, second) = (a1 / n1 as f64, a2 / n2 as f64);
     if first.max(second) <= DENSER * first.min(second) {
@@ -135,16 +138,6 @@ pub(super) fn grid(
     let what = format!("samples stand {} apart along a₁ and {} along a₂", short(first), short(second));
     Err(Refusal::new(place, format!("`grid.points`: {what}"), format!("{n1} × {n2} points"))
         .help("at most a factor of 1000 is allowed between them: give each vector its own points = [n1, n2]"))
-}
-
-fn aspect(lattice: &TableAt<'_>, cell: Cell) -> Result<(), Refusal> {
-    let [a1, a2] = cell.vectors().map(|[x, y]| x.hypot(y));
-    if a1.max(a2) <= DENSER * a1.min(a2) {
-        return Ok(());
-    }
-    let what = format!("the cell is {} by {}", short(a1), short(a2));
-    Err(Refusal::new(lattice.place(), format!("`grid.accuracy`: {what}"), "this cell")
-        .help("grids are refined for cells up to 1000 times as long as wide: give grid.points instead"))
 }
 
 fn short(x: f64) -> String {

@@ -8,8 +8,8 @@ use super::{Case, Room, StressSection};
 use crate::body::HalfSpace;
 use crate::localized::Setup;
 use crate::numeric::number::number;
-use crate::run::accuracy::{MOST_POINTS, balanced_points};
-use crate::run::{SECTION, Sampling};
+use crate::run::places::SECTION;
+use crate::run::{Refinement, Sampling, TooOblong};
 use crate::spectral::{self, fourier::fast_points};
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -150,18 +150,18 @@ pub fn largest_points(case: &Case, points: [usize; 2], room: Room, job: Job) -> 
 }
 
 /// The largest grid that `case` may be solved on: its own, or the last one of a refinement.
-pub fn finest_points(case: &Case) -> [usize; 2] {
+///
+/// # Errors
+/// [`TooOblong`] when a refinement has none.
+pub fn finest_points(case: &Case) -> Result<[usize; 2], TooOblong> {
+    grids(case).map(|grids| grids[grids.len() - 1])
+}
+
+/// The grids that `case` may be solved on, the coarsest first.
+fn grids(case: &Case) -> Result<Vec<[usize; 2]>, TooOblong> {
     match case.grid {
-        Sampling::Points(points) => points,
-        Sampling::Accuracy(_) => {
-            let cell = case.counterbody().cell();
-            let finer = |points: &usize| Some(2 * points);
-            std::iter::successors(Some(crate::run::accuracy::FIRST_POINTS), finer)
-                .map(|points| balanced_points(&cell, points))
-                .take_while(|points| points.iter().all(|&n| n <= MOST_POINTS))
-                .last()
-                .unwrap_or(balanced_points(&cell, crate::run::accuracy::FIRST_POINTS))
-        }
+        Sampling::Points(points) => Ok(vec![points]),
+        Sampling::Accuracy(_) => Refinement::grids(&case.counterbody().cell()),
     }
 }
 
@@ -173,11 +173,10 @@ pub fn fits(case: &Case, points: [usize; 2], room: Room, job: Job) -> bool {
 /// Why there is no room for a job on `case`, and what would fit; `None` if there is. A refinement is held to its first
 /// grid: its later ones are judged as they come ([`fits`]).
 pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
-    let (points, key) = match case.grid {
-        Sampling::Points(points) => (points, "grid.points"),
-        Sampling::Accuracy(_) => {
-            (balanced_points(&case.counterbody().cell(), crate::run::accuracy::FIRST_POINTS), "grid.accuracy")
-        }
+    let key = if matches!(case.grid, Sampling::Accuracy(_)) { "grid.accuracy" } else { "grid.points" };
+    let points = match grids(case) {
+        Ok(grids) => grids[0],
+        Err(error) => return Some(format!("{key}: {error}")),
     };
     let needs = needs(case, points, job);
     let what = if needs.memory > room.memory {

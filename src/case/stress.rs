@@ -9,7 +9,8 @@ use super::reader::{TableAt, ValueAt};
 use crate::body::MeanStress;
 use crate::counterbody::Counterbody;
 use crate::lattice::Lattice;
-use crate::run::{SECTION, StressRequest, Volume};
+use crate::run::places::SECTION;
+use crate::run::{SectionRequest, StressRequest, Volume};
 use crate::stress::Line;
 
 /// The section `[stress]`.
@@ -65,11 +66,14 @@ impl Serialize for Toward {
 impl StressSection {
     /// What a run on `counterbody` is asked for.
     pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
-        let line = |cut: Cut| Some((cut.line(counterbody.indenters()?.lattice()), cut.depth));
+        let section = |cut: Cut| {
+            let line = cut.line(counterbody.indenters()?.lattice());
+            Some(SectionRequest { line, depth: cut.depth })
+        };
         StressRequest {
             mean: self.mean,
             planes: self.planes.clone(),
-            section: self.section.and_then(line),
+            section: self.section.and_then(section),
             points: self.points.clone(),
             volume: self.volume,
         }

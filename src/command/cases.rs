@@ -1,11 +1,12 @@
 //! `percoat cases`: the embedded example cases.
 
-use super::{Failure, Outcome};
+use super::ending::{Ending, Failure};
+use super::terminal;
 use percoat::case::{Case, embedded};
 use std::io::Write;
 
-pub fn run(name: Option<&str>, set: &[String]) -> Result<Outcome, Failure> {
-    let mut out = std::io::stdout().lock();
+pub fn run(name: Option<&str>, set: &[String]) -> Result<Ending, Failure> {
+    let mut out = terminal::out();
     match name {
         Some(name) => {
             let Some(text) = embedded::find(name) else {
@@ -37,5 +38,5 @@ pub fn run(name: Option<&str>, set: &[String]) -> Result<Outcome, Failure> {
             }
         }
     }
-    Ok(Outcome::Done)
+    Ok(Ending::Done)
 }

@@ -1,25 +1,25 @@
 //! `percoat check`: what a case means, without solving it.
 
-use super::solve::room_or_refusal;
-use super::terminal::tell;
-use super::{Failure, Outcome, read_changed};
+use super::ending::{Ending, Failure};
+use super::input::read_case;
+use super::room::Allowed;
+use super::terminal::{self, tell};
 use percoat::case::resources::{Job, Needs, bytes, finest_points, needs};
 use percoat::case::{Case, Room, foreseen, plausibility};
 use percoat::output::number;
 use percoat::reading::first_touches;
-use percoat::run::Sampling;
-use percoat::run::accuracy::balanced_points;
+use percoat::run::{Sampling, balanced_points};
 use percoat::{Grid, Solver};
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
-    let (case, name) = read_changed(Some(path), set)?;
+pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
+    let (case, name) = read_case(Some(path), set)?;
     let job = Job::Solve { pictures: true };
-    let room = room_or_refusal(&case, &Path::new("out").join(&name), job)?;
+    let Allowed { room, .. } = Allowed::new(&case, &Path::new("out").join(&name), job)?;
     case.run().check()?;
-    let mut out = std::io::stdout().lock();
+    let mut out = terminal::out();
     let title = if case.title.is_empty() { &name } else { &case.title };
     writeln!(out, "{title}\n\n{}\n\n{}\n", case.counterbody(), case.half_space())?;
     match case.grid {
@@ -41,12 +41,12 @@ pub fn run(path: &Path, set: &[String]) -> Result<Outcome, Failure> {
     for doubt in [plausibility::of_case(&case), foreseen(&case, &touches)].concat() {
         tell!("warning: {doubt}");
     }
-    Ok(Outcome::Done)
+    Ok(Ending::Done)
 }
 
 /// Memory and disk that solving the case takes, with pictures and without.
 fn write_needs(out: &mut impl Write, case: &Case, room: Room) -> Result<(), Failure> {
-    let points = finest_points(case);
+    let points = finest_points(case).map_err(|error| Failure::Refused(error.to_string()))?;
     let Needs { memory, disk, disk_while_running } = needs(case, points, Job::Solve { pictures: true });
     let free = if room.disk == u64::MAX { String::new() } else { format!(", {} free", bytes(room.disk)) };
     let most = if matches!(case.grid, Sampling::Accuracy(_)) { "at most " } else { "" };

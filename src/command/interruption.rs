@@ -24,16 +24,27 @@ pub enum Saved {
     Result(PathBuf),
 }
 
+impl Saved {
+    /// Whether anything of the run is on disk.
+    fn anything(&self) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Steps { done, folder, .. } => *done > 0 || RunFolder::coarser(folder).is_some(),
+            Self::Result(_) => true,
+        }
+    }
+}
+
 impl fmt::Display for Saved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Steps { of, .. } if !self.anything() => {
+                write!(f, "none of {of} steps is finished, nothing is saved")
+            }
             Self::Steps { done, of, folder } => {
-                let coarser = RunFolder::coarser(folder);
-                match done {
-                    0 if coarser.is_none() => write!(f, "none of {of} steps is finished, nothing is saved")?,
-                    _ => write!(f, "{done} of {of} steps saved in {}", folder.display())?,
-                }
-                coarser.map_or(Ok(()), |path| write!(f, ", all of them on a coarser grid in {}", path.display()))
+                write!(f, "{done} of {of} steps saved in {}", folder.display())?;
+                RunFolder::coarser(folder)
+                    .map_or(Ok(()), |path| write!(f, ", all of them on a coarser grid in {}", path.display()))
             }
             Self::Nothing => f.write_str("nothing is saved"),
             Self::Result(folder) => write!(f, "the whole result is saved in {}", folder.display()),
@@ -92,7 +103,7 @@ pub fn steps(done: usize, of: usize, folder: &Path) {
 /// Says what is saved of a run that fails.
 pub fn tell_saved() {
     let saved = hold();
-    if matches!(*saved, Saved::Steps { done: 1.., .. }) {
+    if saved.anything() {
         tell!("{saved}");
     }
 }

@@ -1,15 +1,17 @@
 //! `percoat kernel`: the layered half-space's response, one JSON line a wavenumber.
 
-use super::{Failure, Outcome, read_changed};
+use super::ending::{Ending, Failure};
+use super::input::read_case;
+use super::terminal;
 use percoat::body::{Depth, HalfSpace, Interior, TransferFunction};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;
 
-pub fn run(case: Option<&Path>, wavenumbers: &[f64], depths: &[f64], set: &[String]) -> Result<Outcome, Failure> {
-    let (case, _) = read_changed(case, set)?;
+pub fn run(case: Option<&Path>, wavenumbers: &[f64], depths: &[f64], set: &[String]) -> Result<Ending, Failure> {
+    let (case, _) = read_case(case, set)?;
     let transfer = TransferFunction::new(case.half_space());
-    let mut out = std::io::stdout().lock();
+    let mut out = terminal::out();
     for &wavenumber in wavenumbers {
         let mut line = json!({
             "wavenumber": wavenumber,
@@ -23,7 +25,7 @@ pub fn run(case: Option<&Path>, wavenumbers: &[f64], depths: &[f64], set: &[Stri
         }
         writeln!(out, "{line}")?;
     }
-    Ok(Outcome::Done)
+    Ok(Ending::Done)
 }
 
 /// Amplitudes at the depth `z`: one row, or on an interface one for each side.

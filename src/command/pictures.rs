@@ -1,11 +1,11 @@
 //! The pictures of a run, drawn without being asked.
 
-use super::Failure;
+use super::ending::Failure;
 use clap::Args;
-use percoat::localized::isolated;
+use percoat::Section;
+use percoat::comparison::alone;
 use percoat::picture::{self, Canvas, Format, Snapshot, write_picture};
 use percoat::run::StepRecord;
-use percoat::{Level, Load, Section};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -60,13 +60,12 @@ impl PictureOptions {
         type Draw<'a> = &'a (dyn Fn() -> Option<Canvas> + Sync);
         let touching = last.reading.mean_pressure > 0.0;
         let touching_section = section.filter(|_| touching);
-        let apart = steps.last().is_some_and(stand_apart);
         let pictures: [(&str, Draw); 6] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),
             ("contact", &|| {
-                touching.then(|| picture::contact(last, apart.then(|| isolated_radii(last)).flatten().as_deref()))?
+                touching.then(|| picture::contact(last, alone::radii(last.problem(), &last.reading).as_deref()))?
             }),
-            ("profiles", &|| picture::profiles(last, apart.then(|| isolated_profiles(last)).as_deref())),
+            ("profiles", &|| picture::profiles(last, alone::profiles(last.problem(), &last.reading).as_deref())),
             ("section", &|| Some(picture::section(last, touching_section?))),
             ("lines", &|| Some(picture::lines(last, touching_section?))),
             ("curve", &|| picture::load_curves(&last.title, last.problem(), steps)),
@@ -82,30 +81,4 @@ impl PictureOptions {
         }
         Ok(())
     }
-}
-
-/// Largest fraction in contact at which indenters are still drawn as if each were alone: beyond it their contacts would
-/// reach far into each other's cells, which says nothing and takes minutes to find.
-const MOST_CONTACT: f64 = 0.5;
-
-/// Whether the contacts of a step stand apart, so that each can be compared with one alone.
-fn stand_apart(step: &StepRecord) -> bool {
-    step.reading.contact_fraction < MOST_CONTACT && !step.reading.levels.iter().any(|level| level.merged)
-}
-
-/// Contact radius of each level without the mutual effect of the indenters.
-fn isolated_radii(last: &Snapshot) -> Option<Vec<f64>> {
-    let problem = last.problem();
-    let load = Load::MeanPressure(last.reading.mean_pressure);
-    isolated::radii(problem.counterbody().indenters()?, problem.half_space(), load)
-}
-
-/// Pressure of each level's indenter alone under the load it carries.
-fn isolated_profiles(last: &Snapshot) -> Vec<Vec<[f64; 2]>> {
-    let problem = last.problem();
-    let size = problem.cell().reduced().longer_side();
-    let loads = last.reading.levels.iter().map(|level| level.load);
-    let profile =
-        |(level, load): (&Level, f64)| isolated::profile(*level, problem.half_space(), load, size).unwrap_or_default();
-    problem.counterbody().levels().iter().zip(loads).map(profile).collect()
 }

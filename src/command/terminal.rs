@@ -2,7 +2,7 @@
 
 use std::env;
 use std::ffi::OsString;
-use std::io::{IsTerminal, Write};
+use std::io::{self, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 
 use clap::ColorChoice;
@@ -15,6 +15,31 @@ macro_rules! tell {
     }};
 }
 pub(super) use tell;
+
+/// Standard output. Whoever reads it may stop reading; the command then goes on to its end and its exit code.
+pub struct Out(StdoutLock<'static>);
+
+/// Standard output, for one writer.
+pub fn out() -> Out {
+    Out(io::stdout().lock())
+}
+
+impl Write for Out {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        unless_unread(self.0.write(bytes), bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        unless_unread(self.0.flush(), ())
+    }
+}
+
+fn unless_unread<T>(result: io::Result<T>, otherwise: T) -> io::Result<T> {
+    match result {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(otherwise),
+        result => result,
+    }
+}
 
 /// Empties the line of the terminal.
 pub fn clear_line() {

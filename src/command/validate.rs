@@ -1,8 +1,9 @@
 //! `percoat validate`: the studies, their verdicts, and a report of them.
 
+use super::ending::{Ending, Failure};
 use super::interruption::{self, Saved};
-use super::terminal::tell;
-use super::{Failure, Outcome, Studies, terminal};
+use super::options::Studies;
+use super::terminal::{self, tell};
 use percoat::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
 use percoat::picture::{Format, write_picture};
 use percoat::validation::paper::table;
@@ -14,7 +15,7 @@ use std::time::Instant;
 /// The paper's page with the statements of the run.
 const PAGE: &str = "paper/README.md";
 
-pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Result<Outcome, Failure> {
+pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Result<Ending, Failure> {
     let studies: Vec<&'static Study> = match name {
         Some(name) => validation::named(name),
         None => STUDIES.iter().collect(),
@@ -83,7 +84,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
         print(&report, &folder.join(path), started)?;
     }
     let as_expected = differences.is_none_or(|differences| differences.is_empty());
-    Ok(if report.holds() && as_expected { Outcome::Done } else { Outcome::Failed })
+    Ok(if report.holds() && as_expected { Ending::Done } else { Ending::Failed })
 }
 
 fn unknown(name: &str) -> Failure {
@@ -131,7 +132,7 @@ impl Gathered {
 }
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {
-    let mut out = std::io::stdout().lock();
+    let mut out = terminal::out();
     writeln!(out, "{}\n\n{}", report.table(), report.summary())?;
     writeln!(out, "{:.1} s; report in {}", started.elapsed().as_secs_f64(), path.display())?;
     Ok(())

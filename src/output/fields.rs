@@ -5,18 +5,28 @@ use crate::counterbody::Surface;
 use crate::spectral::Step;
 use ndarray::Array2;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Fields of the load steps solved so far, kept on disk.
 #[derive(Debug)]
-pub struct Fields(StepArrays);
+pub struct Fields {
+    arrays: StepArrays,
+    /// The undeformed counterbody on the grid of the steps.
+    surface: Arc<Surface>,
+}
 
 impl Fields {
-    /// No steps yet; `folder` is where the result is gathered.
+    /// No steps yet on the grid of `surface`; `folder` is where the result is gathered.
     ///
     /// # Errors
     /// [`OutputError`] when there are fields already, or no room for them.
-    pub fn new(folder: &Path) -> Result<Self, OutputError> {
-        Ok(Self(StepArrays::new(folder, "contact")?))
+    pub fn new(folder: &Path, surface: Arc<Surface>) -> Result<Self, OutputError> {
+        Ok(Self { arrays: StepArrays::new(folder, "contact")?, surface })
+    }
+
+    /// Number of load steps so far.
+    pub fn steps(&self) -> usize {
+        self.arrays.steps()
     }
 
     /// Puts the fields of the next step on disk; its `mean_pressure` is known.
@@ -24,27 +34,28 @@ impl Fields {
     /// # Errors
     /// [`OutputError`] when one cannot be written.
     pub fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<(), OutputError> {
-        self.0.next_step();
-        self.0.add("mean_pressure", &[], [mean_pressure])?;
-        self.0.add("penetration", &[], [step.penetration()])?;
+        self.arrays.next_step();
+        self.arrays.add("mean_pressure", &[], [mean_pressure])?;
+        self.arrays.add("penetration", &[], [step.penetration()])?;
         for (name, field) in [("pressure", step.pressure()), ("displacement", step.displacement()), ("gap", step.gap())]
         {
-            self.0.add(name, field.shape(), field.iter().copied())?;
+            self.arrays.add(name, field.shape(), field.iter().copied())?;
         }
         Ok(())
     }
 
-    /// Gathers all steps in `contact.npz`, with the places of the samples of `surface` and whose they are.
+    /// Gathers all steps in `contact.npz`, with the places of the samples and whose they are.
     ///
     /// # Errors
     /// [`OutputError`] when the archive cannot be written; what waits then stays.
-    pub fn finish(self, surface: &Surface) -> Result<(), OutputError> {
+    pub fn finish(self) -> Result<(), OutputError> {
+        let surface = &self.surface;
         let grid = surface.grid();
         let (points, samples) = (grid.points(), 0..grid.len());
         let position = |axis: usize| samples.clone().map(move |i| grid.cell().point(grid.fractions(i))[axis]);
         let level = |site: &u32| surface.sites()[*site as usize].level as i32;
         let levels = surface.owner().map_or(Array2::zeros(points), |owner| owner.map(level));
-        self.0.finish(|archive| {
+        self.arrays.finish(|archive| {
             let [a1, a2] = grid.cell().vectors();
             archive.array("a1", &[2], a1)?;
             archive.array("a2", &[2], a2)?;

@@ -9,7 +9,7 @@
 //!    is refused; so is a folder in which another run is writing, which a lock on `.percoat/lock` tells: the system
 //!    takes it away however a process ends.
 //! 2. **Gather** ([`RunFolder::staging`]). `solve` writes into `unfinished/`, every file under a temporary name that is
-//!    changed when it is complete. Each load step appends its line to `steps.jsonl`; its fields
+//!    changed when it is complete. A [`Recording`] appends a line to `steps.jsonl` for each load step; its fields
 //!    stand as `.npy` files in `contact.partial/` and `stress.partial/` until `contact.npz` and `stress.npz` are made of
 //!    them. Where a finer grid follows, the steps of the coarser one stand in `coarser/`. The result of an earlier run
 //!    stays as it is all the while.
@@ -32,6 +32,7 @@ mod manifest;
 mod npz;
 mod number;
 mod publication;
+mod recording;
 mod steps;
 mod steps_log;
 mod stress;
@@ -45,6 +46,7 @@ pub use folder::{Plan, RunFolder};
 pub use layout::FolderError;
 pub use manifest::{Scope, Writer};
 pub use number::number;
+pub use recording::Recording;
 pub use steps::StepArrays;
 pub use steps_log::StepsLog;
 pub use stress::Stresses;

@@ -3,7 +3,7 @@
 
 use super::{OutputError, StepArrays, write_volume};
 use crate::body::Depth;
-use crate::run::Places;
+use crate::run::{Places, SectionRows, VolumePlanes};
 use crate::stress::{Section, State, StressField};
 use std::path::{Path, PathBuf};
 
@@ -36,16 +36,14 @@ impl Stresses {
     /// [`OutputError`] when they cannot be written.
     pub fn add(&mut self, field: &StressField) -> Result<(), OutputError> {
         self.arrays.next_step();
-        let points = field.grid().points();
-        for (number, &depth) in (1..).zip(&self.places.planes) {
-            let states = field.plane(depth, points).states();
+        for (number, plane) in (1..).zip(self.places.on_planes(field)) {
+            let states = plane.states();
             for (c, name) in COMPONENTS.iter().enumerate() {
                 let values = states.iter().map(|state| component(state, c));
                 self.arrays.add_part(&format!("planes_{name}"), number, states.shape(), values)?;
             }
         }
-        if let Some((line, depths)) = &self.places.section {
-            let section = field.section(line, depths);
+        if let Some(section) = self.places.on_section(field) {
             for (c, name) in COMPONENTS.iter().enumerate() {
                 let values = section.states.iter().map(|state| component(state, c));
                 self.arrays.add(&format!("section_{name}"), section.states.shape(), values)?;
@@ -53,37 +51,31 @@ impl Stresses {
             self.section = Some(section);
         }
         if !self.places.points.is_empty() {
-            let at = |&(place, depth): &([f64; 2], Depth)| field.points(depth, &[place])[0];
-            let states: Vec<State> = self.places.points.iter().map(at).collect();
+            let states = self.places.at_points(field);
             for (c, name) in COMPONENTS.iter().enumerate() {
                 let values = states.iter().map(|state| component(state, c));
                 self.arrays.add(&format!("points_{name}"), &[states.len()], values)?;
             }
         }
-        if let Some((depths, points)) = &self.places.volume {
+        if let Some(VolumePlanes { depths, points }) = &self.places.volume {
             let name = format!("stress.{:04}.vts", self.arrays.steps());
             write_volume(&self.folder.join(name), field, depths, *points)?;
         }
         Ok(())
     }
 
-    /// Takes what the last step's section shows.
-    pub fn take_section(&mut self) -> Option<Section> {
-        self.section.take()
-    }
-
-    /// Gathers all steps in `stress.npz`.
+    /// Gathers all steps in `stress.npz`; what the section shows of the last one.
     ///
     /// # Errors
     /// [`OutputError`] when the archive cannot be written; what waits then stays.
-    pub fn finish(self) -> Result<(), OutputError> {
+    pub fn finish(self) -> Result<Option<Section>, OutputError> {
         let Places { planes, section, points, .. } = &self.places;
         let materials = |depths: &[Depth]| depths.iter().map(|depth| depth.material as i32).collect::<Vec<_>>();
         let zs = |depths: &[Depth]| depths.iter().map(|depth| depth.z).collect::<Vec<_>>();
         self.arrays.finish(|archive| {
             archive.array("planes_z", &[planes.len()], zs(planes))?;
             archive.array("planes_side", &[planes.len()], materials(planes))?;
-            if let Some((line, depths)) = section {
+            if let Some(SectionRows { line, depths }) = section {
                 let places: Vec<[f64; 2]> = line.places();
                 archive.array("section_s", &[line.points], line.distances())?;
                 archive.array("section_x", &[line.points], places.iter().map(|place| place[0]))?;
@@ -92,12 +84,17 @@ impl Stresses {
                 archive.array("section_side", &[depths.len()], materials(depths))?;
             }
             if !points.is_empty() {
-                let xyz = points.iter().flat_map(|&([x, y], depth)| [x, y, depth.z]);
+                let xyz = points.iter().flat_map(|point| [point.place[0], point.place[1], point.depth.z]);
                 archive.array("points_xyz", &[points.len(), 3], xyz)?;
-                archive.array("points_side", &[points.len()], points.iter().map(|(_, depth)| depth.material as i32))?;
+                archive.array(
+                    "points_side",
+                    &[points.len()],
+                    points.iter().map(|point| point.depth.material as i32),
+                )?;
             }
             Ok(())
-        })
+        })?;
+        Ok(self.section)
     }
 }
 

@@ -13,8 +13,6 @@ pub struct Summary<'a, C: Serialize> {
     pub title: &'a str,
     /// The case as run.
     pub case: &'a C,
-    /// Whether all load steps are there.
-    pub complete: bool,
     /// What a reader should know before trusting the numbers.
     pub warnings: &'a [String],
     /// Change of what is read off between the two finest grids, where an accuracy was asked for.
@@ -27,7 +25,7 @@ pub struct Summary<'a, C: Serialize> {
 impl<C: Serialize> Summary<'_, C> {
     /// As indented JSON.
     pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        serde_json::to_string_pretty(self).expect("a case and its steps are numbers and texts under names") + "\n"
     }
 }
 
@@ -51,7 +49,7 @@ pub fn curve(steps: &[StepRecord]) -> String {
 /// Names and values of a step's scalars.
 pub fn row(step: &StepRecord) -> Vec<(String, String)> {
     let mut cells = Vec::new();
-    flatten("", &serde_json::to_value(step).unwrap_or_default(), &mut cells);
+    flatten("", &serde_json::to_value(step).expect("a step is numbers and texts under names"), &mut cells);
     cells
 }
 

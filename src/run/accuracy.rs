@@ -7,10 +7,10 @@ use crate::reading::Reading;
 use crate::spectral::fourier::fast_points;
 use std::fmt;
 
-/// Points along the shorter cell vector at which a refinement starts.
-pub const FIRST_POINTS: usize = 96;
+/// Points along the shorter cell vector at which a refinement starts, fewer where the cell is too oblong for them.
+const FIRST_POINTS: usize = 96;
 /// Points along the longer cell vector beyond which it gives up.
-pub const MOST_POINTS: usize = 4096;
+const MOST_POINTS: usize = 4096;
 /// Points along the shorter cell vector of the first grid, at least.
 const LEAST_POINTS: usize = 12;
 
@@ -65,9 +65,11 @@ impl fmt::Display for End {
 /// Finer and finer grids until results change by less than an accuracy, or for another reason to [`End`].
 #[derive(Debug, Clone)]
 pub struct Refinement {
-    cell: Cell,
     accuracy: f64,
-    points: usize,
+    /// See [`Refinement::grids`].
+    grids: Vec<[usize; 2]>,
+    /// Which of them is the present one.
+    at: usize,
     changes: Vec<f64>,
 }
 
@@ -76,46 +78,54 @@ impl Refinement {
     ///
     /// # Errors
     /// [`TooOblong`] when not even the first grid is allowed.
-    pub fn new(cell: Cell, accuracy: f64) -> Result<Self, TooOblong> {
+    pub fn new(cell: &Cell, accuracy: f64) -> Result<Self, TooOblong> {
+        Ok(Self { accuracy, grids: Self::grids(cell)?, at: 0, changes: Vec::new() })
+    }
+
+    /// Every grid in reach on a cell, the first one at least: each twice as fine as the one before, as dense along both
+    /// cell vectors.
+    ///
+    /// # Errors
+    /// [`TooOblong`] when there is none.
+    pub fn grids(cell: &Cell) -> Result<Vec<[usize; 2]>, TooOblong> {
         let lengths = cell.vectors().map(|a| a[0].hypot(a[1]));
         let ratio = lengths[0].max(lengths[1]) / lengths[0].min(lengths[1]);
         let first = FIRST_POINTS.min((MOST_POINTS as f64 / ratio) as usize);
         if first < LEAST_POINTS {
             return Err(TooOblong(ratio));
         }
-        Ok(Self { cell, accuracy, points: first, changes: Vec::new() })
+        let grids = (0..).map(|times| balanced_points(cell, first << times));
+        Ok(grids.take_while(|points| points.iter().all(|&n| n <= MOST_POINTS)).collect())
     }
 
     /// The present grid.
     pub fn points(&self) -> [usize; 2] {
-        balanced_points(&self.cell, self.points)
+        self.grids[self.at]
     }
 
     /// Goes on to the next grid, after the change that the present one brought (none on the first), unless it ends.
     /// `fits` tells whether there is room for a grid.
     pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<End> {
         self.changes.extend(change);
-        let finer = balanced_points(&self.cell, 2 * self.points);
-        let end = if self.changes.last().is_some_and(|&change| change < self.accuracy) {
-            End::Reached
-        } else if finer.iter().any(|&n| n > MOST_POINTS) {
-            End::Finest
-        } else if self.stagnates() {
-            End::Stagnates
-        } else if !fits(finer) {
-            End::Room
-        } else {
-            self.points *= 2;
-            return None;
-        };
-        Some(end)
+        let finer = self.grids.get(self.at + 1);
+        if self.changes.last().is_some_and(|&change| change < self.accuracy) {
+            return Some(End::Reached);
+        }
+        match finer {
+            None => Some(End::Finest),
+            Some(_) if self.stagnates() => Some(End::Stagnates),
+            Some(&finer) if !fits(finer) => Some(End::Room),
+            Some(_) => {
+                self.at += 1;
+                None
+            }
+        }
     }
 
     fn stagnates(&self) -> bool {
         let [.., first, second, last] = self.changes[..] else { return false };
         let fall = (second / first).min(last / second);
-        let grids = (1..).map(|times| balanced_points(&self.cell, self.points << times));
-        let in_reach = grids.take_while(|points| points.iter().all(|&n| n <= MOST_POINTS)).count();
+        let in_reach = self.grids.len() - self.at - 1;
         let best = last * fall.powi(in_reach as i32);
         // What is not a number stagnates too.
         best.partial_cmp(&self.accuracy) != Some(std::cmp::Ordering::Less)
@@ -124,7 +134,8 @@ impl Refinement {
 
 fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
     if fine.max_pressure <= 0.0 {
-        return 0.0;
+        // Contact that has gone is no small change.
+        return if coarse.max_pressure <= 0.0 { 0.0 } else { f64::INFINITY };
     }
     let peak = if fine.singular() { 0.0 } else { (fine.max_pressure - coarse.max_pressure).abs() };
     let penetration = ((fine.penetration - coarse.penetration) / fine.penetration).abs();
@@ -163,7 +174,7 @@ mod tests {
     fn a_refinement_says_why_it_ends() {
         let square = Cell::square(1.0).unwrap();
         let run = |changes: &[f64], most: usize| {
-            let mut refinement = Refinement::new(square, 1e-3).unwrap();
+            let mut refinement = Refinement::new(&square, 1e-3).unwrap();
             let mut rest = changes.iter().copied();
             let mut change = None;
             loop {
@@ -182,9 +193,10 @@ mod tests {
 
     #[test]
     fn the_first_grid_is_bounded_and_a_needle_refused() {
-        let oblong = |ratio: f64| Refinement::new(Cell::new([ratio, 0.0], [0.0, 1.0]).unwrap(), 1e-3);
-        assert_eq!(oblong(4.0).unwrap().points(), [384, 96]);
-        assert!(oblong(100.0).unwrap().points().iter().all(|&n| n <= MOST_POINTS));
-        assert!(oblong(1000.0).is_err());
+        let grids = |ratio: f64| Refinement::grids(&Cell::new([ratio, 0.0], [0.0, 1.0]).unwrap());
+        assert_eq!(grids(1.0).unwrap(), [96, 192, 384, 768, 1536, 3072].map(|n| [n; 2]));
+        assert_eq!(grids(4.0).unwrap()[0], [384, 96]);
+        assert!([30.0, 100.0, 300.0].iter().all(|&ratio| grids(ratio).unwrap()[0][0] <= MOST_POINTS));
+        assert!(grids(1000.0).is_err() && grids(1e40).is_err());
     }
 }

@@ -13,9 +13,9 @@ use crate::reading::FEW_SAMPLES;
 use std::f64::consts::PI;
 
 /// Slope of a flank beyond which strains are not small.
-pub const STEEP: f64 = 0.5;
+pub(crate) const STEEP: f64 = 0.5;
 /// Peak pressure over E* beyond which strains are not small.
-pub const HIGH: f64 = 1.0 / 3.0;
+pub(crate) const HIGH: f64 = 1.0 / 3.0;
 /// A larger error of the stresses on the surface than this is worth a warning.
 const WORTH_SAYING: f64 = 0.02;
 
@@ -128,7 +128,7 @@ fn high_pressure(problem: &Problem, steps: &[StepRecord]) -> Option<String> {
 }
 
 /// That the flank of a level is steep at the edge of a contact of radius a.
-pub fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
+pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
     let told = match shape {
         Shape::Paraboloid { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
         Shape::Sphere { radius } if a >= radius => {
@@ -145,7 +145,7 @@ pub fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
 }
 
 /// A ratio with two digits.
-pub fn part(x: f64) -> String {
+pub(crate) fn part(x: f64) -> String {
     if (0.01..1000.0).contains(&x) { format!("{x:.2}") } else { format!("{x:.1e}") }
 }
 

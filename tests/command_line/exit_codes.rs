@@ -2,6 +2,7 @@
 
 use crate::program::{Desk, Folder};
 use std::collections::BTreeSet;
+use std::process::{Command, Stdio};
 
 #[test]
 fn a_misspelt_key_is_refused_with_its_place_and_a_suggestion() {
@@ -51,10 +52,27 @@ fn too_few_iterations_are_told_and_what_is_there_is_written() {
     let short = Folder(desk.path("short"));
     let steps = short.steps();
     assert_eq!((&steps[0]["converged"], &steps[0]["stop_reason"]), (&false.into(), &"iteration limit".into()));
-    assert_eq!(short.summary()["complete"], true);
     assert_eq!(short.contact().field("pressure").shape, [1, 64, 64]);
     assert_eq!(short.text("curve.csv").lines().count(), 2);
     assert!(!short.names().contains("contact.partial"));
+}
+
+/// As in `percoat solve | head -1`.
+#[test]
+fn who_stops_reading_still_learns_that_a_run_has_not_converged() {
+    let desk = Desk::new();
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
+        .args(["solve", "-o", "short", "--no-pictures", "--set", "grid.points=64", "--set", "solver.max_iterations=2"])
+        .current_dir(desk.path("."))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("warning: not converged: step 1"), "{said}");
 }
 
 #[test]

@@ -60,7 +60,6 @@ fn an_accuracy_leaves_out_what_is_infinite_and_says_when_it_is_not_reached() {
     let answer = accuracy("1e-9");
     answer.complains(3, &["grid.accuracy is not reached", "the last change was", "too slowly"]);
     let summary = Folder(desk.path("cone")).summary();
-    assert_eq!(summary["complete"], true);
     assert!(number(&summary, "/accuracy") > 1e-9);
 }
 

@@ -74,7 +74,7 @@ fn check_refuses_a_penetration_that_solve_refuses() {
     let settings = ["--set=grid.points=64", "--set=load.penetration=[0.01, 0.2]"];
     for command in ["check", "solve"] {
         let answer = desk.percoat(&[&[command, "fig2"], &settings[..]].concat());
-        answer.complains(2, &["penetration = 0.2 is out of reach", "complete"]);
+        answer.complains(2, &["load.penetration = 0.2 is out of reach", "complete"]);
         assert_eq!(answer.out, "");
     }
 }

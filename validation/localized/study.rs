@@ -117,8 +117,10 @@ fn coated(
         problem: Arc::new(Problem::new(indenters, half_space.clone())),
         load: Load::MeanPressure(mean_pressure),
         settings: Settings::default(),
-        setup: SETUP,
         indenters: INDENTERS.to_vec(),
+        elements: SETUP.elements,
+        rule: SETUP.radius,
+        mutual_effect: SETUP.mutual_effect,
         mean: MeanStress::Confined,
     };
     let compared = task.compare([POINTS; 2], &mut |_| ())?;

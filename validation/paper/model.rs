@@ -6,7 +6,7 @@ use crate::comparison::Answer;
 use crate::counterbody::{Level, Shape};
 use crate::load::Load;
 use crate::localized::{self, CircleRadius, Localized, Setup, Stop};
-use crate::run::accuracy::balanced_points;
+use crate::run::balanced_points;
 use crate::spectral::{Settings, Solver};
 use crate::validation::exact::Coating;
 use crate::validation::steps::Steps;

@@ -1,0 +1,96 @@
+//! How a command ends: the exit codes are 0 done, 1 a validation failed, 2 refused, 3 not converged, 4 input or output
+//! failed; 130 interrupted.
+
+use super::terminal::{self, tell};
+use percoat::case::CaseError;
+use percoat::output::{FolderError, OutputError};
+use percoat::run::RunError;
+use std::convert::Infallible;
+use std::path::PathBuf;
+
+/// How a command that did its work ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// As it should.
+    Done,
+    /// A check of the validation fails.
+    #[cfg(feature = "validate")]
+    Failed,
+    /// Everything computed is written and marked.
+    NotConverged,
+}
+
+impl Ending {
+    /// What the shell is told.
+    pub fn code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            #[cfg(feature = "validate")]
+            Self::Failed => 1,
+            Self::NotConverged => 3,
+        }
+    }
+}
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The case is refused.
+    #[error("{}", .0.render(terminal::coloured()).trim_end())]
+    Case(Box<CaseError>),
+    /// The command line, or what it asks for, is refused.
+    #[error("{0}")]
+    Refused(String),
+    /// A file cannot be read.
+    #[error("cannot read {}: {error}", path.display())]
+    Input { path: PathBuf, error: std::io::Error },
+    /// A file cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Standard output cannot be written.
+    #[error("cannot write standard output: {0}")]
+    Print(#[from] std::io::Error),
+}
+
+impl From<FolderError> for Failure {
+    fn from(error: FolderError) -> Self {
+        match error {
+            FolderError::Output(error) => Self::Output(error),
+            refused => Self::Refused(refused.to_string()),
+        }
+    }
+}
+
+impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failure {
+    fn from(error: RunError<E>) -> Self {
+        match error {
+            // Its own words say more than that the run cannot be recorded.
+            RunError::Recorder(error) => error.into(),
+            refused => Self::Refused(refused.to_string()),
+        }
+    }
+}
+
+impl From<Infallible> for Failure {
+    fn from(never: Infallible) -> Self {
+        match never {}
+    }
+}
+
+impl Failure {
+    /// Says why, on standard error.
+    pub fn tell(&self) {
+        match self {
+            Self::Case(_) => tell!("{self}"),
+            _ => tell!("error: {self}"),
+        }
+    }
+
+    /// What the shell is told.
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::Case(_) | Self::Refused(_) => 2,
+            Self::Input { .. } | Self::Output(_) | Self::Print(_) => 4,
+        }
+    }
+}

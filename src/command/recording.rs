@@ -1,0 +1,92 @@
+//! A run that is recorded, as the person who waits for it sees it.
+
+use super::interruption;
+use super::options::Common;
+use super::room::Allowed;
+use super::terminal::{self, tell};
+use indicatif::{ProgressBar, ProgressStyle};
+use percoat::output::{OutputError, Recording, RunFolder};
+use percoat::run::{Recorder, Run, StepRecord};
+use percoat::{Progress, Section, Solver, Step, StressField};
+
+/// Records a run and shows how far it is.
+pub struct Shown<'a> {
+    recording: Recording<'a>,
+    claim: &'a RunFolder,
+    allowed: Allowed<'a>,
+    common: &'a Common,
+    /// Number of all load steps.
+    steps: usize,
+    progress: ProgressBar,
+}
+
+impl<'a> Shown<'a> {
+    /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it.
+    pub fn new(claim: &'a RunFolder, run: &Run, case: String, allowed: Allowed<'a>, common: &'a Common) -> Self {
+        let recording = Recording::new(claim, run, case);
+        Self { recording, claim, allowed, common, steps: run.loads.len(), progress: ProgressBar::hidden() }
+    }
+
+    /// Gathers the fields of all steps; what the section shows of the last one.
+    pub fn finish(self) -> Result<Option<Section>, OutputError> {
+        self.progress.finish_and_clear();
+        self.recording.finish()
+    }
+
+    fn progress(&self) -> ProgressBar {
+        if !self.common.shows_progress() {
+            return ProgressBar::hidden();
+        }
+        let style = ProgressStyle::with_template("{bar:24} step {pos}/{len}  {msg}");
+        ProgressBar::new(self.steps as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    }
+
+    /// What a signal to end is answered with.
+    fn tell_interruption(&self) {
+        interruption::steps(self.recording.steps(), self.steps, &self.claim.staging());
+    }
+}
+
+impl Recorder for Shown<'_> {
+    type Error = OutputError;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        self.allowed.fits(points)
+    }
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
+        if self.common.verbose {
+            tell!("{}\n{solver}", solver.problem());
+        }
+        self.recording.begin(solver)?;
+        terminal::tell_aside(self.recording.set_aside(), self.common.quiet);
+        self.tell_interruption();
+        self.progress.finish_and_clear();
+        self.progress = self.progress();
+        Ok(())
+    }
+
+    fn iteration(&mut self, progress: Progress) {
+        self.progress.set_message(format!("iteration {}, ε = {:.1e}", progress.iteration, progress.residual));
+    }
+
+    fn stresses(&mut self) {
+        self.progress.set_message("stresses");
+    }
+
+    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
+        if self.common.verbose {
+            tell!("{}\n{}\n{}", record.reading, record.report, record.certificate);
+        }
+        self.recording.step(step, record, field)?;
+        self.tell_interruption();
+        self.progress.inc(1);
+        Ok(())
+    }
+
+    fn refined(&mut self, points: [usize; 2], change: f64) {
+        if self.common.verbose {
+            tell!("{points:?} points: change {change:.2e}");
+        }
+    }
+}

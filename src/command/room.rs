@@ -1,0 +1,39 @@
+//! The room that a job may take.
+
+use super::ending::Failure;
+use percoat::case::resources::{Job, fits, refusal};
+use percoat::case::{Case, Room};
+use percoat::run::Recorder;
+use std::convert::Infallible;
+use std::path::Path;
+
+/// What there is for a job on a case.
+#[derive(Debug, Clone, Copy)]
+pub struct Allowed<'a> {
+    case: &'a Case,
+    job: Job,
+    /// Memory and disk.
+    pub room: Room,
+}
+
+impl<'a> Allowed<'a> {
+    /// For a job that writes into `folder`; what does not find enough is refused before any is taken.
+    pub fn new(case: &'a Case, folder: &Path, job: Job) -> Result<Self, Failure> {
+        let room = Room::on_this_machine(folder);
+        refusal(case, room, job).map_or(Ok(Self { case, job, room }), |why| Err(Failure::Refused(why)))
+    }
+
+    /// Whether a grid finds room.
+    pub fn fits(&self, points: [usize; 2]) -> bool {
+        fits(self.case, points, self.room, self.job)
+    }
+}
+
+/// Keeps nothing of a run but that it finds room.
+impl Recorder for Allowed<'_> {
+    type Error = Infallible;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        Allowed::fits(self, points)
+    }
+}

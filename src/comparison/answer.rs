@@ -1,0 +1,66 @@
+//! What a method says of a load step, and how far it is from what another says.
+
+use crate::localized;
+use crate::numeric::search::largest;
+use crate::reading::{LevelReading, Reading};
+
+/// Largest deviation of any level in contact from a reference; relative but for the share.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Deviation {
+    /// Of the penetration, relative.
+    pub penetration: f64,
+    /// Of the load on one indenter, relative.
+    pub load: f64,
+    /// Of the share of the whole load, absolute.
+    pub load_share: f64,
+    /// Of the peak pressure, relative.
+    pub max_pressure: f64,
+    /// Of the contact radius, relative.
+    pub contact_radius: f64,
+}
+
+/// What any method says of a load step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// Penetration δ, a length.
+    pub penetration: f64,
+    /// From the highest level down.
+    pub levels: Vec<LevelReading>,
+}
+
+impl Answer {
+    /// Deviation of this answer from `reference`. A level that touches in one of them only deviates by all of it; the
+    /// radius of merged contacts is not a number.
+    pub fn deviation(&self, reference: &Self) -> Deviation {
+        let relative = |a: f64, b: f64| match (a, b) {
+            _ if a == b => 0.0,
+            _ if a == 0.0 || b == 0.0 => 1.0,
+            _ => (a / b - 1.0).abs(),
+        };
+        let worst = |of: &dyn Fn(&LevelReading, &LevelReading) -> f64| {
+            let pairs = self.levels.iter().zip(&reference.levels);
+            largest(pairs.filter(|(a, b)| a.load > 0.0 || b.load > 0.0).map(|(a, b)| of(a, b)))
+        };
+        let radius = |level: &LevelReading| level.contact_radius.unwrap_or(f64::NAN);
+        Deviation {
+            penetration: relative(self.penetration, reference.penetration),
+            load: worst(&|a, b| relative(a.load, b.load)),
+            load_share: worst(&|a, b| (a.load_share - b.load_share).abs()),
+            max_pressure: worst(&|a, b| relative(a.max_pressure, b.max_pressure)),
+            contact_radius: worst(&|a, b| relative(radius(a), radius(b))),
+        }
+    }
+}
+
+impl From<&Reading> for Answer {
+    fn from(reading: &Reading) -> Self {
+        Self { penetration: reading.penetration, levels: reading.levels.clone() }
+    }
+}
+
+impl From<&localized::Solution> for Answer {
+    fn from(solution: &localized::Solution) -> Self {
+        Self { penetration: solution.penetration, levels: solution.levels() }
+    }
+}

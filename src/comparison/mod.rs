@@ -1,0 +1,129 @@
+//! Spectral and localized solution of one case side by side.
+//!
+//! Three things differ between them: the grid of the one, the elements of the other, and what the circle leaves out.
+//! Each method is therefore solved at two resolutions, half and full; what a quantity changes between them bounds its
+//! discretisation error, since both converge at first order or faster. What remains of the difference is the error of
+//! localization. The circles have both radius rules, on the same elements, and the smallest also the lattice sum of what
+//! is outside it.
+
+pub mod alone;
+mod answer;
+mod task;
+
+pub use answer::{Answer, Deviation};
+pub use task::{ComparisonError, Task};
+
+use crate::body::Depth;
+use crate::localized::{CircleRadius, Stop};
+use crate::reading::{FEW_SAMPLES, Reading};
+use crate::run::StepRecord;
+use crate::spectral::Step;
+use crate::stress::State;
+
+/// One circle held against the spectral solution.
+#[derive(Debug, Clone)]
+pub struct CircleComparison {
+    /// Indenters inside, whole shells.
+    pub indenters: usize,
+    /// How the solution ended.
+    pub stop: Stop,
+    /// What it says.
+    pub answer: Answer,
+    /// Radius R of the circle, level by level, a length; infinite without mutual effect.
+    pub radii: Vec<f64>,
+    /// Additional displacement w_a, Eq. (8).
+    pub additional_displacement: f64,
+    /// Deviation from the spectral solution.
+    pub difference: Deviation,
+    /// Change from half the number of elements.
+    pub mesh_error: Deviation,
+}
+
+/// Stresses of both methods at one point under the first indenter of the highest level.
+#[derive(Debug, Clone, Copy)]
+pub struct StressPair {
+    /// Place from the indenter's axis, lengths.
+    pub place: [f64; 2],
+    /// Depth and material.
+    pub depth: Depth,
+    /// Spectral state.
+    pub spectral: State,
+    /// Localized state; without displacements.
+    pub localized: State,
+}
+
+impl StressPair {
+    /// Largest difference of a stress component, a pressure.
+    pub fn difference(&self) -> f64 {
+        let (a, b) = (self.spectral.components(), self.localized.components());
+        (0..6).map(|c| (a[c] - b[c]).abs()).fold(0.0, f64::max)
+    }
+}
+
+/// Both solutions of a load step.
+#[derive(Debug)]
+pub struct Comparison {
+    /// Spectral solution.
+    pub step: Step,
+    /// What is read off it, with its estimated discretisation errors.
+    pub reading: Reading,
+    /// Change from half the points.
+    pub grid_error: Deviation,
+    /// The rule asked for: how large the circles are.
+    pub rule: CircleRadius,
+    /// Whether the indenters around the one looked at act on it.
+    pub mutual_effect: bool,
+    /// Elements across the largest contact.
+    pub elements: usize,
+    /// Circles under the rule asked for.
+    pub circles: Vec<CircleComparison>,
+    /// The same circles under the other rule.
+    pub other_rule: Vec<CircleComparison>,
+    /// The first circle with the lattice sum outside; `None` without mutual effect or where all have it.
+    pub lattice_sum: Option<CircleComparison>,
+    /// Stresses with the last circle, the rule asked for.
+    pub stresses: Vec<StressPair>,
+}
+
+impl Comparison {
+    /// The spectral solution as a run records it.
+    pub fn spectral(&self) -> StepRecord {
+        StepRecord::new(&self.step, self.reading.clone())
+    }
+
+    /// Whether the spectral solution and all circles under the rule asked for have converged.
+    pub fn converged(&self) -> bool {
+        self.spectral().converged() && self.circles.iter().all(|circle| circle.stop == Stop::Converged)
+    }
+
+    /// The circles under each rule: the one asked for, the other one, the lattice sum.
+    pub fn rules(&self) -> [(CircleRadius, &[CircleComparison]); 3] {
+        [
+            (self.rule, &self.circles),
+            (self.rule.other(), &self.other_rule),
+            (CircleRadius::LatticeSum, self.lattice_sum.as_slice()),
+        ]
+    }
+
+    /// What makes the comparison doubtful, a sentence each.
+    pub fn warnings(&self) -> Vec<String> {
+        let rules = self.rules();
+        let circles = rules.iter().flat_map(|(rule, circles)| circles.iter().map(move |circle| (rule, circle)));
+        let mut warnings: Vec<String> = circles
+            .filter(|(_, circle)| circle.stop != Stop::Converged)
+            .map(|(rule, circle)| format!("{} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop))
+            .collect();
+        if !self.spectral().converged() {
+            warnings.push(format!("the spectral solution has not converged: {}", self.step.report));
+        }
+        let samples = self.reading.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
+        let fewest = samples.fold(f64::INFINITY, f64::min);
+        if fewest < FEW_SAMPLES {
+            warnings.push(format!(
+                "a contact radius has only {fewest:.1} samples in the spectral solution: differences from it are those of \
+                 the grid; raise grid.points"
+            ));
+        }
+        warnings
+    }
+}

@@ -1,0 +1,127 @@
+//! What a run leaves on disk while it goes on: its case, every finished step with its fields, and stresses.
+
+use super::{Fields, OutputError, RunFolder, StepsLog, Stresses, write_text};
+use crate::run::{Places, Recorder, Run, StepRecord};
+use crate::spectral::{Solver, Step};
+use crate::stress::{Section, StressField};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Records a run where its result is gathered.
+#[derive(Debug)]
+pub struct Recording<'a> {
+    claim: &'a RunFolder,
+    /// Content of `case.toml`.
+    case: String,
+    places: Option<Places>,
+    /// None before the first grid.
+    files: Option<Files>,
+    set_aside: Option<PathBuf>,
+}
+
+/// Files of the steps on one grid.
+#[derive(Debug)]
+struct Files {
+    fields: Fields,
+    stresses: Option<Stresses>,
+    log: StepsLog,
+}
+
+impl<'a> Recording<'a> {
+    /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it.
+    pub fn new(claim: &'a RunFolder, run: &Run, case: String) -> Self {
+        Self { claim, case, places: run.places(), files: None, set_aside: None }
+    }
+
+    /// Number of load steps that are finished on the present grid.
+    pub fn steps(&self) -> usize {
+        self.files.as_ref().map_or(0, |files| files.fields.steps())
+    }
+
+    /// Where files of somebody else stand now that were in the way of the present grid.
+    pub fn set_aside(&self) -> Option<&Path> {
+        self.set_aside.as_deref()
+    }
+
+    /// Gathers the fields of all steps; what the section shows of the last one.
+    ///
+    /// # Errors
+    /// [`OutputError`] when an archive cannot be written, or when no grid has been begun.
+    pub fn finish(self) -> Result<Option<Section>, OutputError> {
+        let Files { fields, stresses, .. } = self.files.ok_or_else(|| nothing(self.claim))?;
+        fields.finish()?;
+        stresses.map_or(Ok(None), Stresses::finish)
+    }
+}
+
+/// What a recording without a grid lacks.
+fn nothing(claim: &RunFolder) -> OutputError {
+    OutputError::new(&claim.staging(), io::Error::other("no grid has been begun"))
+}
+
+impl Recorder for Recording<'_> {
+    type Error = OutputError;
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
+        self.files = None;
+        let folder = self.claim.staging();
+        self.set_aside = self.claim.begin_finer()?;
+        write_text(&folder.join("case.toml"), &self.case)?;
+        let stresses = self.places.clone().map(|places| Stresses::new(&folder, places));
+        let fields = Fields::new(&folder, Arc::clone(solver.surface()))?;
+        self.files = Some(Files { fields, stresses: stresses.transpose()?, log: StepsLog::new(&folder) });
+        Ok(())
+    }
+
+    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
+        let files = self.files.as_mut().ok_or_else(|| nothing(self.claim))?;
+        files.fields.add(step, record.reading.mean_pressure)?;
+        if let (Some(stresses), Some(field)) = (&mut files.stresses, field) {
+            stresses.add(field)?;
+        }
+        files.log.add(record)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::{Indenters, Level, Shape};
+    use crate::lattice::Lattice;
+    use crate::load::Load;
+    use crate::output::{Plan, Writer};
+    use crate::problem::Problem;
+    use crate::run::{Sampling, StressRequest};
+
+    fn two_steps() -> Run {
+        let level = Level::new(Shape::Paraboloid { radius: 0.8 }, 0.0).unwrap();
+        let indenters = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
+        let half_space = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let loads = [0.01, 0.02].map(Load::MeanPressure).to_vec();
+        Run::new(Problem::new(indenters, half_space), loads, Sampling::Points([16, 16]))
+    }
+
+    #[test]
+    fn a_recording_without_the_command_line_has_every_step_and_what_was_asked_for() {
+        let planes = StressRequest { planes: vec![0.1], ..StressRequest::default() };
+        let run = Run { stress: Some(planes), ..two_steps() };
+        let place = tempfile::tempdir().unwrap();
+        let claim = RunFolder::claim(place.path(), &Plan::new(Writer::Solve)).unwrap();
+        let mut recording = Recording::new(&claim, &run, "title = \"\"\n".to_owned());
+        run.solve(&mut recording).unwrap();
+        assert_eq!((recording.steps(), recording.set_aside()), (2, None));
+        assert!(recording.finish().unwrap().is_none(), "no section was asked for");
+        let files = ["case.toml", "contact.npz", "stress.npz", "steps.jsonl"].map(|name| claim.staging().join(name));
+        assert!(files.iter().all(|file| file.is_file()));
+        assert_eq!(std::fs::read_to_string(&files[3]).unwrap().lines().count(), 2);
+    }
+
+    #[test]
+    fn a_recording_of_nothing_cannot_be_finished() {
+        let place = tempfile::tempdir().unwrap();
+        let claim = RunFolder::claim(place.path(), &Plan::new(Writer::Solve)).unwrap();
+        assert!(Recording::new(&claim, &two_steps(), String::new()).finish().is_err());
+    }
+}

@@ -1,0 +1,54 @@
+//! What hears of a run while it goes on, and says whether it may.
+
+use super::StepRecord;
+use crate::spectral::{Progress, Solver, Step};
+use crate::stress::StressField;
+use std::convert::Infallible;
+use std::error::Error;
+
+/// What hears of a run while it goes on.
+pub trait Recorder {
+    /// Why it cannot go on.
+    type Error: Error + Send + Sync + 'static;
+
+    /// Whether there is room for a finer grid of `points`; without it a refinement ends.
+    fn fits(&self, points: [usize; 2]) -> bool {
+        let _ = points;
+        true
+    }
+
+    /// A grid begins. What was solved before is a coarser solution of the same steps.
+    ///
+    /// # Errors
+    /// Ends the run.
+    fn begin(&mut self, solver: &Solver) -> Result<(), Self::Error> {
+        let _ = solver;
+        Ok(())
+    }
+
+    /// An iteration on the finest grid is done.
+    fn iteration(&mut self, progress: Progress) {
+        let _ = progress;
+    }
+
+    /// The stresses of a step begin.
+    fn stresses(&mut self) {}
+
+    /// A step is done; `field` where stresses are wanted.
+    ///
+    /// # Errors
+    /// Ends the run.
+    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Self::Error> {
+        let _ = (step, record, field);
+        Ok(())
+    }
+
+    /// All steps on a grid of `points` are done, with this change from the next coarser one.
+    fn refined(&mut self, points: [usize; 2], change: f64) {
+        let _ = (points, change);
+    }
+}
+
+impl Recorder for () {
+    type Error = Infallible;
+}
