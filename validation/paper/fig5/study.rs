@@ -6,9 +6,13 @@ use super::{Claim, Test, pinned};
 use crate::body::MeanStress;
 use crate::load::Load;
 use crate::picture::{Axis, Chart, Figure, Style};
+use crate::run::{Recorder, Run, Sampling, StepRecord};
+use crate::spectral::Step;
 use crate::stress::StressField;
 use crate::validation::draw::{curve, figure, linear};
 use crate::validation::{Check, Data, Outcome, Study, StudyError, Tolerance};
+use std::convert::Infallible;
+use std::sync::Arc;
 
 pub const STUDY: Study = Study {
     name: "paper/fig5",
@@ -27,7 +31,7 @@ const ONE_LEVEL: [&str; 2] =
 /// First touches of levels 2 and 3 on 1024 points (192 points give the same).
 const TOUCHES: [f64; 2] = [0.0179, 0.0759];
 
-/// One model's first level over all loads: radius and peak.
+/// One model's first level over all loads.
 struct Course {
     radius: Vec<f64>,
     peak: Vec<f64>,
@@ -35,22 +39,44 @@ struct Course {
     shear: Vec<[f64; 3]>,
 }
 
+/// Searches τ₁ in the coating at every so many load steps, and keeps it with its depth.
+#[derive(Default)]
+struct Search {
+    steps: usize,
+    found: Vec<[f64; 2]>,
+}
+
+impl Recorder for Search {
+    type Error = Infallible;
+
+    fn step(&mut self, step: &Step, record: &StepRecord, _: Option<&StressField>) -> Result<(), Infallible> {
+        if let (0, Some(radius)) = (self.steps % STRESSES, record.reading.levels[0].contact_radius) {
+            let field = StressField::new(step.finest(), MeanStress::Confined);
+            let peak = field.maxima([radius, radius]).materials[0].tau1;
+            self.found.push([peak.value, peak.position[2]]);
+        }
+        self.steps += 1;
+        Ok(())
+    }
+}
+
 impl Course {
     fn new(model: &Model, loads: &[f64], stresses: bool) -> Result<Self, StudyError> {
-        let mut steps = model.steps(POINTS)?;
-        let mut course = Self { radius: Vec::new(), peak: Vec::new(), shear: Vec::new() };
-        for (i, &load) in loads.iter().enumerate() {
-            let (step, found) = steps.solve(Load::MeanPressure(load))?;
-            let radius = found.levels[0].contact_radius.ok_or("merged contacts")?;
-            course.radius.push(radius);
-            course.peak.push(found.levels[0].max_pressure);
-            if stresses && i % STRESSES == 0 {
-                let field = StressField::new(step.finest(), MeanStress::Confined);
-                let peak = field.maxima([radius, radius]).materials[0].tau1;
-                course.shear.push([load, peak.value, peak.position[2] / model.thickness()]);
-            }
+        let steps = loads.iter().map(|&load| Load::MeanPressure(load)).collect();
+        let run = Run::new(Arc::clone(model.case().problem()), steps, Sampling::Points([POINTS; 2]));
+        let mut search = Search::default();
+        let outcome = if stresses { run.solve(&mut search)? } else { run.solve(&mut ())? };
+        if !outcome.converged() {
+            return Err("a load step has not converged".into());
         }
-        Ok(course)
+        let first = || outcome.steps.iter().map(|step| &step.reading.levels[0]);
+        let radius: Option<Vec<f64>> = first().map(|level| level.contact_radius).collect();
+        let shear = loads.iter().step_by(STRESSES).zip(search.found);
+        Ok(Self {
+            radius: radius.ok_or("merged contacts")?,
+            peak: first().map(|level| level.max_pressure).collect(),
+            shear: shear.map(|(&load, [tau1, z])| [load, tau1, z / model.thickness()]).collect(),
+        })
     }
 }
 
