@@ -5,8 +5,7 @@ mod common;
 
 use common::{PAPER, one_level, paraboloid, relative_difference, solve};
 use ndarray::{Array2, Axis};
-use percoat::body::{Interior, TransferFunction};
-use percoat::{Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, Problem};
+use percoat::{Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, Problem};
 
 const LOAD: Load = Load::MeanPressure(0.06);
 
@@ -121,31 +120,6 @@ fn units_scale_the_answer_and_leave_the_iteration_alone() {
         assert!((b.max_pressure / pressure / a.max_pressure - 1.0).abs() < 1e-9);
         assert!((b.load / (pressure * length * length) / a.load - 1.0).abs() < 1e-9);
         assert!((b.contact_radius.unwrap() / length / a.contact_radius.unwrap() - 1.0).abs() < 1e-7);
-    }
-}
-
-#[test]
-fn a_layer_counted_as_two_is_the_same_layer() {
-    let whole = common::coated(7.0, 0.3, [0.1, 0.45], Interface::Frictionless);
-    let [layer] = whole.layers() else { panic!("one layer") };
-    let part = |thickness, interface| Layer::new(layer.material(), thickness, interface).unwrap();
-    let halves = vec![part(0.1, Interface::Bonded), part(0.2, Interface::Frictionless)];
-    let split = HalfSpace::new(halves, whole.substrate());
-    let (whole, split) = (TransferFunction::new(&whole), TransferFunction::new(&split));
-    for q in [1e-6, 1e-2, 0.7, 3.0, 40.0, 2000.0] {
-        assert!((whole.compliance(q) / split.compliance(q) - 1.0).abs() < 1e-14);
-        let inside = Interior::new(&whole, q).at(Depth { z: 0.25, material: 1 });
-        let above = Interior::new(&split, q).at(Depth { z: 0.25, material: 2 });
-        for (a, b) in [
-            (inside.szz, above.szz),
-            (inside.sqz, above.sqz),
-            (inside.sqq, above.sqq),
-            (inside.stt, above.stt),
-            (inside.uz * q, above.uz * q),
-            (inside.uq * q, above.uq * q),
-        ] {
-            assert!((a - b).abs() < 1e-12 * (1.0 + inside.sqq.abs()), "q = {q}: {a} {b}");
-        }
     }
 }
 

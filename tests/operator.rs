@@ -70,23 +70,3 @@ fn the_preconditioner_inverts_the_operator() {
     operator.precondition(&displacement, &mut back);
     assert!(common::relative_difference(&back, &pressure) < 1e-13);
 }
-
-/// ⟨a, C b⟩ = ⟨C a, b⟩, and ⟨a, C a⟩ > 0 whatever a.
-#[test]
-fn the_operator_is_symmetric_and_positive() {
-    let half_space = common::coated(40.0, 0.01, [0.0, 0.5], Interface::Bonded);
-    let grid = Arc::new(Grid::new(Cell::new([1.0, 0.0], [0.3, 1.1]).unwrap(), [14, 15]).unwrap());
-    let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
-    let mut random = Random(9);
-    let mut field = || -> Vec<f64> { (0..210).map(|_| random.unit() - 0.5).collect() };
-    let (a, b) = (field(), field());
-    let mut image = |x: &[f64]| {
-        let mut w = vec![0.0; 210];
-        operator.displacement(x, &mut w);
-        w
-    };
-    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-    let (ca, cb) = (image(&a), image(&b));
-    assert!((dot(&a, &cb) - dot(&ca, &b)).abs() < 1e-13 * dot(&a, &ca));
-    assert!(dot(&a, &ca) > 0.0);
-}

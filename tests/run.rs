@@ -4,7 +4,7 @@ mod common;
 
 use common::{PAPER, one_level, paraboloid};
 use percoat::run::{End, Recorder, Run, RunError, Sampling, StepRecord, StressRequest, change};
-use percoat::{Cell, HalfSpace, Lattice, Load, Material, Problem, Solver, Step, StressField};
+use percoat::{Cell, Lattice, Load, Problem, Solver, Step, StressField};
 
 /// Writes down what it hears, and cannot go on at the step `fails`. It has room for so many points along a side.
 struct Diary {
@@ -60,7 +60,7 @@ impl Recorder for Diary {
 }
 
 fn problem() -> Problem {
-    let substrate = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+    let substrate = common::bare();
     Problem::new(one_level(Lattice::square(1.0, 1).unwrap(), paraboloid(0.8, 0.0)), substrate)
 }
 
@@ -132,7 +132,7 @@ fn contact_that_comes_or_goes_with_the_grid_counts_as_a_change() {
 /// Nothing is begun of it.
 #[test]
 fn a_cell_too_oblong_for_any_grid_is_refused_by_check_and_by_solve() {
-    let substrate = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+    let substrate = common::bare();
     let lattice = Lattice::new(Cell::new([1000.0, 0.0], [0.0, 1.0]).unwrap(), vec![vec![[0.0, 0.0]]]).unwrap();
     let problem = Problem::new(one_level(lattice, paraboloid(0.8, 0.0)), substrate);
     let oblong = Run::new(problem, vec![Load::MeanPressure(0.01)], Sampling::Accuracy(1e-3));

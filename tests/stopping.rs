@@ -2,16 +2,12 @@
 
 mod common;
 
-use common::{PAPER, Random, one_level, paraboloid};
+use common::{PAPER, Random, bare, one_level, paraboloid};
 use ndarray::Array2;
 use percoat::{
     Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, Method, Problem, Route, Settings, Solver,
     Step, Stop, Topography,
 };
-
-fn bare() -> HalfSpace {
-    HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap())
-}
 
 fn one_indenter(cell: Cell, place: [f64; 2], radius: f64) -> Indenters {
     one_level(Lattice::new(cell, vec![vec![place]]).unwrap(), paraboloid(radius, 0.0))

@@ -44,7 +44,7 @@ fn points_are_the_direct_sum_over_wavevectors() {
     let half_space = two_layers(Interface::Spring { tangential: 2.0, normal: 9.0 });
     let transfer = TransferFunction::new(&half_space);
     for (cell, [n1, n2]) in
-        [(Cell::hexagonal(1.0).unwrap(), [6, 6]), (Cell::new([1.0, 0.2], [0.4, 0.9]).unwrap(), [7, 6])]
+        [(Cell::hexagonal(1.0).unwrap(), [6, 6]), (Cell::new([1.0, 0.2], [0.4, 0.9]).unwrap(), [6, 7])]
     {
         let grid = grid(cell, [n1, n2]);
         let pressure = noise([n1, n2]);
@@ -114,6 +114,21 @@ fn planes_and_sections_agree_with_points() {
         for index in [0, 7, 100, 323] {
             let point = field.points(depth, &[cell.point(grid.fractions(index))])[0];
             assert!(worst(&plane.state([index / 18, index % 18]), &point) < 1e-12, "plane at {depth:?}");
+        }
+    }
+    // Points that are not the pressure's, fewer and more, also on a cell whose shortest waves have large indices.
+    let skewed = self::field(
+        &self::grid(Cell::new([1.0, 0.0], [7.0, 0.3]).unwrap(), [5, 6]),
+        &noise([5, 6]),
+        &half_space,
+        MeanStress::Confined,
+    );
+    for (field, points) in [(&field, [12, 20]), (&field, [24, 25]), (&field, [8, 8]), (&skewed, [4, 9])] {
+        let plane = field.plane(depths[1], points);
+        for [i, j] in [[0, 0], [1, 2], [3, 7]] {
+            let place = field.grid().cell().point([i as f64 / points[0] as f64, j as f64 / points[1] as f64]);
+            let point = field.points(depths[1], &[place])[0];
+            assert!(worst(&plane.state([i, j]), &point) < 1e-12, "plane of {points:?} points");
         }
     }
     // Along a lattice direction, and along one that is incommensurate with it.
@@ -272,22 +287,6 @@ fn a_layer_counted_as_two_has_the_same_stresses() {
     }
 }
 
-#[test]
-fn a_spring_lies_between_its_limits() {
-    let grid = grid(Cell::square(1.0).unwrap(), [12, 12]);
-    let pressure = noise([12, 12]);
-    let at = |interface| {
-        let half_space = common::coated(3.0, 0.1, [0.2, 0.3], interface);
-        let field = field(&grid, &pressure, &half_space, MeanStress::Confined);
-        field.points(Depth { z: 0.1, material: 1 }, &[[0.31, 0.17]])[0]
-    };
-    let spring = |tangential| at(Interface::Spring { tangential, normal: f64::INFINITY });
-    assert!(worst(&spring(1e12), &at(Interface::Bonded)) < 1e-9);
-    assert!(worst(&spring(1e-12), &at(Interface::Frictionless)) < 1e-9);
-    let shear = [1e3, 10.0, 1.0, 0.1].map(|k| spring(k).xz.abs());
-    assert!(shear.windows(2).all(|pair| pair[0] > pair[1]), "softer springs carry less shear: {shear:?}");
-}
-
 /// A Hertzian contact in the middle of the cell, on a bare half-space; `validation/hertz-stresses` has the values.
 #[test]
 fn the_largest_shear_is_on_the_axis_and_the_largest_tension_at_the_edge_acts_along_the_radius() {
@@ -296,7 +295,7 @@ fn the_largest_shear_is_on_the_axis_and_the_largest_tension_at_the_edge_acts_alo
         let [s, t] = [i, j].map(|k| k as f64 / n as f64 - 0.5);
         (1.0 - (s * s + t * t) / (radius * radius)).max(0.0).sqrt()
     });
-    let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+    let bare = common::bare();
     let grid = grid(Cell::square(1.0).unwrap(), [n, n]);
     let maxima = field(&grid, &pressure, &bare, MeanStress::HalfSpace).maxima([radius, radius]);
     let from_axis = |position: [f64; 3]| [position[0] - 0.5, position[1] - 0.5];

@@ -280,7 +280,7 @@ impl Contact {
         let coarser = under(step.coarser().first()?);
         let [tau1, tension] = maxima.errors(&coarser);
         Some([
-            Some((crest.peak.value, crest.scale * crest.error(coarser.crest.as_ref()))),
+            Some((crest.peak.value, crest.scale * maxima.surface_error(Some(&coarser)))),
             Some((maxima.tau1().value, tau1)).filter(|_| !reading.singular()),
             Some((maxima.tension().value, tension)),
         ])

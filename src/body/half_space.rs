@@ -3,7 +3,6 @@
 use super::{Depth, Material, MaterialError};
 use crate::numeric::number::number;
 use std::fmt;
-use std::ops::RangeInclusive;
 
 /// How the lower face of a layer holds to what lies below it. Interfaces never open: tension is carried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,29 +132,26 @@ impl HalfSpace {
         (below(&self.layers[..material - 1]), bottom)
     }
 
-    /// The depth z ≥ 0 in its material, or, on an interface, in both: above, then below.
+    /// The depth z ≥ 0 in its material, or, on an interface, to rounding, in both: above, then below.
     pub fn depths(&self, z: f64) -> Vec<Depth> {
-        self.materials_at(z).map(|material| Depth { z, material }).collect()
-    }
-
-    /// Depths down to `depth` > 0, a length, by `rows` equal intervals; both sides of each interface are among them.
-    pub fn rows(&self, depth: f64, rows: usize) -> Vec<Depth> {
-        let mut depths: Vec<f64> = (0..=rows).map(|row| row as f64 * depth / rows as f64).collect();
-        depths.extend(self.interface_depths().into_iter().filter(|&face| face <= depth));
-        depths.sort_by(f64::total_cmp);
-        // A row that is an interface but for rounding is that interface.
-        depths.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * depth);
-        depths.into_iter().flat_map(|z| self.depths(z)).collect()
-    }
-
-    /// Materials (from 1; the substrate is layers + 1) that the depth z ≥ 0 belongs to: on an interface, to rounding,
-    /// both.
-    pub fn materials_at(&self, z: f64) -> RangeInclusive<usize> {
         let faces = self.interface_depths();
         let tolerance = 1e-12;
         let above = faces.iter().filter(|&&face| face * (1.0 + tolerance) < z).count();
         let below = faces.iter().filter(|&&face| face * (1.0 - tolerance) <= z).count();
-        above + 1..=below + 1
+        (above + 1..=below + 1).map(|material| Depth { z, material }).collect()
+    }
+
+    /// Depths down to `depth` > 0, a length, by `rows` equal intervals; both sides of each interface are among them.
+    pub fn rows(&self, depth: f64, rows: usize) -> Vec<Depth> {
+        let mut depths = self.interface_depths();
+        depths.retain(|&face| face <= depth);
+        // A row below the surface that is an interface but for rounding is that interface.
+        let is_face = |z: f64| z > 0.0 && depths.iter().any(|face| (face - z).abs() < 1e-9 * depth);
+        let rows = (0..=rows).map(|row| row as f64 * depth / rows as f64);
+        let others: Vec<f64> = rows.filter(|&z| !is_face(z)).collect();
+        depths.extend(others);
+        depths.sort_by(f64::total_cmp);
+        depths.into_iter().flat_map(|z| self.depths(z)).collect()
     }
 }
 
@@ -184,8 +180,22 @@ mod tests {
         let material = Material::from_shear(1.0, 0.3).unwrap();
         let layers = [0.1, 0.2].map(|h| Layer::new(material, h, Interface::Bonded).unwrap());
         let half_space = HalfSpace::new(layers.to_vec(), material);
-        let sides = [0.0, 0.1, 0.2, 0.3, 0.1 + 0.2, 5.0].map(|z| half_space.materials_at(z));
-        assert_eq!(sides, [1..=1, 1..=2, 2..=2, 2..=3, 2..=3, 3..=3]);
+        let sides = |z: f64| half_space.depths(z).into_iter().map(|depth| depth.material).collect::<Vec<usize>>();
+        let found = [0.0, 0.1, 0.2, 0.3, 0.1 + 0.2, 5.0].map(sides);
+        assert_eq!(found, [vec![1], vec![1, 2], vec![2], vec![2, 3], vec![2, 3], vec![3]]);
+    }
+
+    #[test]
+    fn rows_keep_both_sides_of_every_interface() {
+        let material = Material::from_shear(1.0, 0.3).unwrap();
+        // Just beside a row, and so near to the surface that no row tells it apart.
+        for thickness in [0.333_333_333_4, 0.333_333_333_3, 1.0 / 3.0, 1e-11, 1.0] {
+            let layer = Layer::new(material, thickness, Interface::Bonded).unwrap();
+            let rows = HalfSpace::new(vec![layer], material).rows(1.0, 3);
+            let sides: Vec<usize> = rows.iter().filter(|at| at.z == thickness).map(|at| at.material).collect();
+            assert_eq!(sides, [1, 2], "{thickness}: {rows:?}");
+            assert_eq!(rows.len(), if thickness < 1e-9 { 6 } else { 5 }, "{thickness}: {rows:?}");
+        }
     }
 
     #[test]

@@ -49,9 +49,7 @@ impl MeanStress {
                 .collect(),
         }
     }
-}
 
-impl MeanStress {
     /// Slip length ℓ = √(A₁₁/k_t) of the spring under each layer, `None` under a layer without one: over it the shear that a
     /// spring carries makes the layers above follow what is below. A length.
     pub fn slip_lengths(half_space: &HalfSpace) -> Vec<Option<f64>> {
@@ -155,48 +153,5 @@ mod tests {
         let lengths = MeanStress::slip_lengths(&coated(&[Interface::Frictionless, spring(2.0), spring(f64::INFINITY)]));
         assert!((lengths[1].unwrap() - (stiffness / 2.0).sqrt()).abs() < 1e-15);
         assert_eq!((lengths[0], lengths[2]), (None, None));
-    }
-
-    /// The shear-lag equation of the module's head by finite differences: layers above a spring under a disc of radius R.
-    fn strain_by_differences(ratio: f64) -> f64 {
-        // Unknowns v at r = i·step, in units in which ε_f − ε₂ = 1 and ℓ = 1; v = 0 at the axis and far outside.
-        let (rim, per_rim) = (ratio, 400);
-        let step = rim / per_rim as f64;
-        let count = per_rim + (30.0 / step).ceil() as usize;
-        let (mut slope, mut value) = (vec![0.0; count], vec![0.0; count]);
-        for i in 1..count {
-            let n = i as f64;
-            let (below, above) = (1.0 - 0.5 / n, 1.0 + 0.5 / n);
-            let diagonal = -2.0 - 1.0 / (n * n) - step * step;
-            let load = if i == per_rim { -2.0 * step } else { 0.0 };
-            let pivot = diagonal - below * slope[i - 1];
-            slope[i] = above / pivot;
-            value[i] = (load - below * value[i - 1]) / pivot;
-        }
-        let mut v = 0.0;
-        for i in (1..count).rev() {
-            v = value[i] - slope[i] * v;
-        }
-        v / step
-    }
-
-    /// ρK₁(ρ) = ∫₀^∞ ρ cosh t e^{−ρ cosh t} dt, the trapezoidal rule.
-    fn narrowness(ratio: f64) -> f64 {
-        let term = |k: i32| {
-            let cosh = (0.01 * f64::from(k)).cosh();
-            ratio * cosh * (-ratio * cosh).exp()
-        };
-        0.01 * (0.5 * term(0) + (1..2000).map(term).sum::<f64>())
-    }
-
-    #[test]
-    fn a_load_must_be_wide_against_the_slip_length_for_layers_to_follow() {
-        for ratio in [0.3, 1.0, 3.0] {
-            // The scheme is of second order, with 400 steps to the rim.
-            let (numeric, exact) = (strain_by_differences(ratio), narrowness(ratio));
-            assert!((numeric - exact).abs() < 3e-3 * exact.max(0.1), "ρ = {ratio}: {numeric} {exact}");
-        }
-        // Narrow loads see a frictionless interface, wide ones a bonded one.
-        assert!((narrowness(1e-3) - 1.0).abs() < 1e-5 && narrowness(20.0) < 1e-7);
     }
 }

@@ -176,19 +176,6 @@ mod tests {
     }
 
     #[test]
-    fn two_raises_are_one() {
-        let (layer, base) = (material(40.0, 0.1), material(1.0, 0.4));
-        let bottom = Minors::half_space(&base).above(Interface::Bonded, &base, &layer, 1.0);
-        let once = bottom.raised(&layer, 1.7);
-        let twice = bottom.raised(&layer, 0.9).raised(&layer, 0.8);
-        for (one, two) in
-            [(once.a, twice.a), (once.b, twice.b), (once.c, twice.c), (once.d, twice.d), (once.n, twice.n)]
-        {
-            assert!((one * (once.exponent - twice.exponent).exp() - two).abs() < 1e-14);
-        }
-    }
-
-    #[test]
     fn minors_keep_their_plucker_relation() {
         let (layer, base) = (material(0.03, 0.5), material(1.0, 0.3));
         let spring = Interface::Spring { tangential: 0.2, normal: 7.0 };

@@ -110,7 +110,7 @@ fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs
 
 /// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.
 fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u64, u64, u64) {
-    let sides = |z: &f64| half_space.materials_at(*z).count() as u64;
+    let sides = |z: &f64| half_space.depths(*z).len() as u64;
     let planes: u64 = stress.planes.iter().map(sides).sum();
     let section = if stress.section.is_some() { (SECTION[0] * SECTION[1]) as u64 } else { 0 };
     let volume = stress.volume.map_or(0, |volume| {

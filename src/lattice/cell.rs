@@ -12,14 +12,18 @@ pub struct Cell {
     a2: [f64; 2],
 }
 
+/// No vector of a cell is longer than so many of the other one: whole multiples are kept in 32 bits.
+const LONGEST: f64 = 1e9;
+
 impl Cell {
     /// Cell spanned by `a1` and `a2` (lengths in the case's unit).
     ///
     /// # Errors
-    /// [`LatticeError::FlatCell`] when the vectors span no area or are not finite.
+    /// [`LatticeError::FlatCell`] when the vectors span no area or are not finite, or one is longer than 10⁹ of the other.
     pub fn new(a1: [f64; 2], a2: [f64; 2]) -> Result<Self, LatticeError> {
         let sine = cross(a1, a2) / (norm(a1) * norm(a2));
-        if !(sine.is_finite() && sine.abs() > 1e-6) {
+        let ratio = norm(a1) / norm(a2);
+        if !(sine.is_finite() && sine.abs() > 1e-6 && (1.0 / LONGEST..=LONGEST).contains(&ratio)) {
             return Err(LatticeError::FlatCell(a1, a2));
         }
         Ok(Self { a1, a2 })
@@ -112,11 +116,6 @@ impl Reduced {
     /// A shortest lattice vector.
     pub fn short(&self) -> [f64; 2] {
         if norm(self.cell.a1) <= norm(self.cell.a2) { self.cell.a1 } else { self.cell.a2 }
-    }
-
-    /// Length of the shortest lattice vector.
-    pub fn shortest_vector(&self) -> f64 {
-        norm(self.short())
     }
 
     /// Length of the longer one of r₁ and r₂.

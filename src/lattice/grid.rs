@@ -6,7 +6,8 @@
 //! index range is a parallelogram that breaks the lattice's symmetry, the set of shortest aliases (the first Brillouin
 //! zone of the sampling lattice) keeps it.
 
-use crate::lattice::{Cell, LatticeError, Reduced};
+use super::cell::norm;
+use super::{Cell, LatticeError, Reduced};
 use crate::numeric::number::number;
 use std::fmt;
 
@@ -132,12 +133,12 @@ impl Grid {
 
     /// Least non-zero wavenumber of the cell, 1/length.
     pub fn least_wavenumber(&self) -> f64 {
-        self.cell.dual().reduced().shortest_vector()
+        norm(self.cell.dual().reduced().short())
     }
 
     /// Least wavenumber that the grid cannot hold in all directions, 1/length.
     pub fn least_aliased(&self) -> f64 {
-        0.5 * self.sampling.shortest_vector()
+        0.5 * norm(self.sampling.short())
     }
 }
 

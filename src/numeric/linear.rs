@@ -1,14 +1,20 @@
 //! Small dense systems of linear equations by Gauss' elimination with row exchange.
 
+use super::search::largest;
+
+/// A pivot below this part of its row's largest entry is what rounding left of zero.
+const SINGULAR: f64 = 1e-13;
+
 /// x with Σₖ aᵢₖ xₖ = bᵢ, aᵢₖ = `rows[i][k]`, bᵢ = `right[i]`; `None` when the matrix is singular to working precision.
 pub fn solve(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
     let n = right.len();
+    let mut scales: Vec<f64> = rows.iter().map(|row| largest(row.iter().map(|x| x.abs()))).collect();
     for k in 0..n {
         let pivot = (k..n).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()))?;
         rows.swap(k, pivot);
         right.swap(k, pivot);
-        let scale = rows[k].iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        if rows[k][k].abs() <= 1e-15 * scale || !scale.is_finite() {
+        scales.swap(k, pivot);
+        if rows[k][k].abs() <= SINGULAR * scales[k] || !rows[k][k].is_finite() {
             return None;
         }
         let (head, tail) = rows.split_at_mut(k + 1);
@@ -38,5 +44,7 @@ mod tests {
             assert!((found - expected).abs() < 1e-14, "{x:?}");
         }
         assert!(solve(vec![vec![1.0, 2.0], vec![2.0, 4.0]], vec![1.0, 2.0]).is_none());
+        assert!(solve(vec![vec![0.1, 0.7], vec![0.3, 2.1]], vec![1.0, 2.0]).is_none(), "rounding leaves −1e-16");
+        assert!(solve(vec![vec![f64::NAN]], vec![1.0]).is_none());
     }
 }

@@ -26,6 +26,13 @@ pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
     numbers.into_iter().fold(0.0, |most, x| if most.is_nan() || x <= most { most } else { x })
 }
 
+/// Index and value of the largest of some numbers: of those that are equal to rounding, as symmetric places have them, the
+/// first one. What is not a number is larger than any.
+pub fn first_largest(numbers: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
+    let behind = |next: f64, best: f64| best.is_nan() || next <= best + 1e-12 * next.abs();
+    numbers.enumerate().reduce(|best, next| if behind(next.1, best.1) { best } else { next })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -41,5 +48,7 @@ mod tests {
         assert_eq!(largest([0.1, 0.3, 0.2]), 0.3);
         assert_eq!(largest([]), 0.0);
         assert!(largest([0.1, f64::NAN, 5.0]).is_nan());
+        assert_eq!(first_largest([0.1, 0.3, 0.3 + 1e-16, 0.2].into_iter()), Some((1, 0.3)));
+        assert_eq!(first_largest([0.1, f64::NAN, 5.0].into_iter()).map(|(index, _)| index), Some(1));
     }
 }

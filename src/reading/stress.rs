@@ -51,7 +51,7 @@ impl StressReading {
             max_tension: maxima.tension(),
             materials: maxima.materials.clone(),
             faces: maxima.faces.clone(),
-            surface_error: maxima.crest.map_or(0.0, |crest| crest.error(coarser.and_then(|all| all.crest.as_ref()))),
+            surface_error: maxima.surface_error(coarser),
             errors: StressErrors {
                 max_tau1: errors.map(|errors| errors[0]).filter(|_| tip.is_none()),
                 max_tension: errors.map(|errors| errors[1]),

@@ -323,18 +323,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn results_do_not_depend_on_the_number_of_threads() {
-        let fourier = Fourier::new([60, 48]);
-        let multiplier = fourier.multiplier(|[k1, k2]| 1.0 / (1.0 + (k1.min(60 - k1) + k2) as f64));
-        let input = noise(60 * 48);
-        let run = |threads: usize| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let mut output = vec![0.0; input.len()];
-            pool.install(|| fourier.convolve(&multiplier, &input, &mut output, &mut fourier.workspace()));
-            output
-        };
-        assert_eq!(run(1), run(3));
-    }
 }

@@ -129,6 +129,8 @@ impl Solver {
         let mut displacement = vec![0.0; nest.surface.grid().len()];
         let certificate = nest.certificate(load, self.settings, &mut displacement);
         let kept = |nest: &Nest| nest.contact(&self.problem);
+        let part = |(index, _): &(usize, &Nest)| left_out.iter().all(|(out, _)| out != index);
+        let coarser = (1..).zip(&self.nests[1..]).take(KEPT).take_while(part);
         let step = Step {
             load,
             report,
@@ -136,7 +138,7 @@ impl Solver {
             convolutions: convolutions + work / finest + 1.0,
             finest: kept(&self.nests[0]),
             displacement: field(self.nests[0].points(), displacement),
-            coarser: self.nests[1..].iter().take(KEPT).map(kept).collect(),
+            coarser: coarser.map(|(_, nest)| kept(nest)).collect(),
         };
         for (index, before) in left_out {
             self.nests[index].unknowns.pressure = before;

@@ -35,7 +35,7 @@ impl Step {
     }
 
     /// The same load step as the next two coarser grids have solved it on the way, the finer one first; none for the
-    /// baseline method and on grids too coarse for any.
+    /// baseline method, on grids too coarse for any, and from a grid on whose contact would be more than complete.
     pub fn coarser(&self) -> &[Contact] {
         &self.coarser
     }

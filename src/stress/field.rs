@@ -7,6 +7,7 @@ use crate::body::{Amplitudes, Depth, HalfSpace, Interface, Interior, MeanStress,
 use crate::lattice::{Grid, NotOnGrid};
 use crate::numeric::array::field;
 use crate::numeric::number::number;
+use crate::numeric::sums;
 use crate::spectral::Contact;
 use crate::spectral::fourier::Fourier;
 use ndarray::{Array2, Array3, ArrayView2};
@@ -17,8 +18,6 @@ use std::sync::Arc;
 
 /// Largest qz of a wave that still counts: its stresses are below e^{−60} of the pressure.
 pub(super) const REACH: f64 = 60.0;
-/// Waves summed at a time; fixed, so that sums do not depend on the number of threads.
-pub(super) const BLOCK: usize = 4096;
 
 /// The stress field of one load step.
 #[derive(Debug)]
@@ -153,59 +152,45 @@ impl StressField {
     pub(super) fn points_within(&self, depth: Depth, points: &[[f64; 2]], reach: f64) -> Vec<State> {
         let amplitudes = self.amplitudes(depth, reach);
         let waves = self.waves(amplitudes.len());
-        let mean = self.mean(depth);
-        points
-            .iter()
-            .map(|&[x, y]| {
-                let blocks: Vec<[f64; 9]> = waves
-                    .par_chunks(BLOCK)
-                    .map(|block| {
-                        let mut sum = [0.0; 9];
-                        for wave in block {
-                            let value = wave.coefficient * Complex64::cis(wave.q[0] * x + wave.q[1] * y);
-                            let terms = components(wave, &amplitudes[wave.shell as usize], value);
-                            sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term.re);
-                        }
-                        sum
-                    })
-                    .collect();
-                let mut total = mean.components();
-                for block in blocks {
-                    total.iter_mut().zip(block).for_each(|(total, part)| *total += part);
-                }
-                State::from_components(total)
-            })
-            .collect()
+        let mean = self.mean(depth).components();
+        let at = |&place: &[f64; 2]| {
+            let sum = sums::of(waves.len(), |i| {
+                let wave = &waves[i];
+                components(wave, &amplitudes[wave.shell as usize], wave.at(place)).map(|term| term.re)
+            });
+            State::from_components(std::array::from_fn(|c| mean[c] + sum[c]))
+        };
+        points.iter().map(at).collect()
     }
 
-    /// States on the whole plane, on [n₁, n₂] `points` of the cell; waves that a grid coarser than the pressure's
-    /// cannot hold are left out.
+    /// States on the whole plane, at [n₁, n₂] `points` of the cell, which need not be those of the pressure's grid.
     ///
     /// # Panics
     /// When a number of points is zero, or the depth in a material that is not there.
     pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
-        let amplitudes = self.amplitudes(depth, REACH);
-        let coarser = points != self.grid.points();
-        let waves: Vec<&Wave> = self
-            .waves(amplitudes.len())
-            .iter()
-            .filter(|wave| !coarser || (0..2).all(|k| 2 * wave.index[k].unsigned_abs() < points[k] as u32))
-            .collect();
+        self.plane_within(depth, points, REACH)
+    }
+
+    /// States on the whole plane from the waves with qz up to `reach`.
+    pub(super) fn plane_within(&self, depth: Depth, points: [usize; 2], reach: f64) -> Plane {
+        let amplitudes = self.amplitudes(depth, reach);
+        let waves = self.waves(amplitudes.len());
         let mean = self.mean(depth).components();
         let fourier = Fourier::new(points);
         let mut all = Array3::zeros([mean.len(), points[0], points[1]]);
         for (c, mut component) in all.outer_iter_mut().enumerate() {
             let value = |wave: &Wave| components(wave, &amplitudes[wave.shell as usize], wave.coefficient)[c];
-            component.assign(&field(points, self.synthesised(&fourier, &waves, mean[c], value)));
+            component.assign(&field(points, self.synthesised(&fourier, waves, mean[c], value)));
         }
         Plane { depth, components: all }
     }
 
-    /// mean + Re Σ value(wave) e^{iq·x} at the points of the cell that the transform is planned for, a₂ fastest.
+    /// mean + Re Σ value(wave) e^{iq·x} at the points of the cell that the transform is planned for, a₂ fastest: exact
+    /// there, however few they are, as waves that look alike at the points add up.
     pub(super) fn synthesised(
         &self,
         fourier: &Fourier,
-        waves: &[&Wave],
+        waves: &[Wave],
         mean: f64,
         value: impl Fn(&Wave) -> Complex64,
     ) -> Vec<f64> {
@@ -228,6 +213,19 @@ impl StressField {
         }
         spectrum[0] += mean;
         fourier.synthesise(spectrum)
+    }
+}
+
+impl fmt::Display for StressField {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "stress field of {} plane waves in {} shells, {} materials, mean pressure {}",
+            self.spectrum.waves.len(),
+            self.spectrum.shells.len(),
+            self.materials(),
+            number(self.spectrum.mean)
+        )
     }
 }
 
@@ -273,17 +271,4 @@ fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64) -> Vec<(
         }
     }
     states
-}
-
-impl fmt::Display for StressField {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "stress field of {} plane waves in {} shells, {} materials, mean pressure {}",
-            self.spectrum.waves.len(),
-            self.spectrum.shells.len(),
-            self.materials(),
-            number(self.spectrum.mean)
-        )
-    }
 }

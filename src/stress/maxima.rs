@@ -9,14 +9,13 @@
 //! On the surface itself, and within two samples of it, the series converges slowly. There the samples of the pressure's
 //! own grid are taken as they are, but the largest tension on the surface is that of its [`Crest`].
 
-use super::field::{Plane, StressField};
+use super::field::StressField;
 use super::peak::Peak;
 use super::surface::Crest;
 use super::tensor::State;
 use crate::body::Depth;
-use crate::numeric::search::golden_maximum;
+use crate::numeric::search::{first_largest, golden_maximum};
 use crate::spectral::fourier::fast_points;
-use ndarray::Array2;
 
 /// Maxima over a material or a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +27,19 @@ pub struct Extremes {
     /// Largest principal stress σ₁; negative where nothing is in tension.
     #[cfg_attr(feature = "serde", serde(rename = "max_tension"))]
     pub tension: Peak,
+}
+
+impl Extremes {
+    fn of(peak: impl Fn(Quantity) -> Peak) -> Self {
+        Self { tau1: peak(Quantity::Tau1), tension: peak(Quantity::Tension) }
+    }
+
+    fn get(&self, quantity: Quantity) -> Peak {
+        match quantity {
+            Quantity::Tau1 => self.tau1,
+            Quantity::Tension => self.tension,
+        }
+    }
 }
 
 /// All maxima of a field.
@@ -48,12 +60,20 @@ pub struct Maxima {
 impl Maxima {
     /// The largest τ₁ of all.
     pub fn tau1(&self) -> Peak {
-        self.largest(|extremes| extremes.tau1)
+        self.largest(Quantity::Tau1)
     }
 
     /// The largest tension of all.
     pub fn tension(&self) -> Peak {
-        self.largest(|extremes| extremes.tension)
+        self.largest(Quantity::Tension)
+    }
+
+    /// Estimated relative error of the largest tension on the surface, also from the next `coarser` grid where there is
+    /// one; 0 where contact has no edge.
+    pub fn surface_error(&self, coarser: Option<&Self>) -> f64 {
+        // Where the coarser grid sees no edge, its largest tension is that of a sample.
+        let tension = coarser.and_then(|coarser| coarser.faces.first()).map(|surface| surface.tension.value);
+        self.crest.map_or(0.0, |crest| crest.error(tension))
     }
 
     /// Estimated errors of the largest τ₁ and the largest tension, pressures: twice the change from the next `coarser`
@@ -62,8 +82,8 @@ impl Maxima {
     /// For a tension on the surface, what its [`Crest`] says of itself. Read off fifty random contacts; that they hold in
     /// 95 % of fifty others is tested.
     pub fn errors(&self, coarser: &Self) -> [f64; 2] {
-        let error = |largest: fn(&Self) -> Peak, deep: f64, scale: f64| {
-            let (fine, coarse) = (largest(self), largest(coarser));
+        let error = |quantity: Quantity, deep: f64, scale: f64| {
+            let (fine, coarse) = (self.largest(quantity), coarser.largest(quantity));
             let open = if fine.position[2] < NEAR * self.spacing {
                 SHALLOW / self.resolution
             } else {
@@ -72,18 +92,17 @@ impl Maxima {
             SAFETY * (fine.value - coarse.value).abs() + open * scale.max(fine.value.abs())
         };
         let tension = match self.crest {
-            Some(crest) if crest.peak == self.tension() => crest.scale * crest.error(coarser.crest.as_ref()),
-            crest => error(Self::tension, DEEP[1], crest.map_or(0.0, |crest| crest.scale)),
+            Some(crest) if crest.peak == self.tension() => crest.scale * self.surface_error(Some(coarser)),
+            crest => error(Quantity::Tension, DEEP[1], crest.map_or(0.0, |crest| crest.scale)),
         };
-        [error(Self::tau1, DEEP[0], 0.0), tension]
+        [error(Quantity::Tau1, DEEP[0], 0.0), tension]
     }
 
-    fn largest(&self, quantity: impl Fn(&Extremes) -> Peak) -> Peak {
-        let all = self.materials.iter().map(quantity);
+    fn largest(&self, quantity: Quantity) -> Peak {
         // There is always a substrate.
         let none =
             Peak { value: f64::NEG_INFINITY, position: [0.0; 3], material: self.materials.len(), direction: [0.0; 3] };
-        all.fold(none, |best, peak| if peak.value > best.value { peak } else { best })
+        self.materials.iter().map(|extremes| extremes.get(quantity)).fold(none, Peak::higher)
     }
 }
 
@@ -99,7 +118,7 @@ const DEEP: [f64; 2] = [0.03, 0.1];
 const RATIO: f64 = 1.35;
 /// Waves with qz beyond this are left out of the search: e^{−25} of the pressure.
 const REACH: f64 = 25.0;
-/// Planes leave out waves with qz beyond this.
+/// The same on planes, whose largest samples the search starts from.
 const PLANE_REACH: f64 = 10.0;
 
 /// Relative accuracy of a depth.
@@ -146,38 +165,28 @@ impl StressField {
             if let Some(crest) = crest {
                 candidates[0][Quantity::Tension as usize].value = crest.peak.value;
             }
-            let (top, bottom) = self.half_space().faces(material);
-            let peaks =
-                |index: usize, quantity: Quantity| self.face_peak(&candidates[index][quantity as usize], quantity);
-            let face = |index: usize| Extremes {
-                tau1: peaks(index, Quantity::Tau1),
-                tension: peaks(index, Quantity::Tension),
-            };
-            let mut own = vec![face(0)];
-            if let Some(crest) = crest {
-                own[0].tension = crest.peak;
-            }
-            if bottom.is_finite() {
-                own.push(face(depths.len() - 1));
-            }
-            let best = |quantity: Quantity| {
-                let index = (0..depths.len())
-                    .max_by(|&a, &b| {
-                        candidates[a][quantity as usize].value.total_cmp(&candidates[b][quantity as usize].value)
-                    })
-                    .unwrap_or(0);
-                let inside = match crest {
+            let on_face = |index: usize| {
+                Extremes::of(|quantity| match crest {
                     Some(crest) if index == 0 && quantity == Quantity::Tension => crest.peak,
-                    _ => self.refined(&candidates[index][quantity as usize], quantity, &depths, index, [top, bottom]),
-                };
-                let on_faces = own.iter().map(|extremes| match quantity {
-                    Quantity::Tau1 => extremes.tau1,
-                    Quantity::Tension => extremes.tension,
-                });
-                on_faces.fold(inside, |best, peak| if peak.value > best.value { peak } else { best })
+                    _ => self.face_peak(&candidates[index][quantity as usize], quantity),
+                })
             };
-            materials.push(Extremes { tau1: best(Quantity::Tau1), tension: best(Quantity::Tension) });
-            faces.extend(own);
+            let is_finite = self.half_space().faces(material).1.is_finite();
+            let own: Vec<(usize, Extremes)> = [Some(0), is_finite.then_some(depths.len() - 1)]
+                .into_iter()
+                .flatten()
+                .map(|k| (k, on_face(k)))
+                .collect();
+            materials.push(Extremes::of(|quantity| {
+                let value = |index: usize| candidates[index][quantity as usize].value;
+                let best = (0..depths.len()).max_by(|&a, &b| value(a).total_cmp(&value(b))).unwrap_or(0);
+                let inside = match own.iter().find(|&&(index, _)| index == best) {
+                    Some((_, extremes)) => extremes.get(quantity),
+                    None => self.refined(&candidates[best][quantity as usize], quantity, &depths, best),
+                };
+                own.iter().map(|(_, extremes)| extremes.get(quantity)).fold(inside, Peak::higher)
+            }));
+            faces.extend(own.into_iter().map(|(_, extremes)| extremes));
         }
         let (resolution, spacing) = (self.regions.least_resolution(), self.grid().spacing());
         Maxima { materials, faces, crest, resolution, spacing }
@@ -187,8 +196,8 @@ impl StressField {
     fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
         let (top, bottom) = self.half_space().faces(material);
         let least = 0.1 * if small > 0.0 { small } else { self.grid().spacing() };
-        // Below some six radii and a few coating thicknesses stresses only fall.
-        let reach = 6.0 * large + 3.0 * top;
+        // Below some six radii, or the cell, and a few coating thicknesses stresses only fall.
+        let reach = 6.0 * large.min(self.grid().cell().reduced().longer_side()) + 3.0 * top;
         let most = if bottom.is_finite() { 0.5 * (bottom - top) } else { reach };
         let mut depths = vec![top];
         let mut distance = least;
@@ -210,17 +219,21 @@ impl StressField {
     /// The best samples of the plane at a depth, for τ₁ and σ₁.
     fn candidates(&self, depth: Depth, radius: f64) -> [Candidate; 2] {
         let grid = self.grid();
-        let [e1, e2] = grid.steps();
-        let steps = [e1[0].hypot(e1[1]), e2[0].hypot(e2[1])];
+        let lengths = grid.cell().vectors().map(|[x, y]| x.hypot(y));
         let points = [0, 1].map(|k| {
-            let n = grid.points()[k];
-            let length = steps[k] * n as f64;
+            let (n, length) = (grid.points()[k], lengths[k]);
             let needed = (PLANE_REACH * length / (std::f64::consts::PI * depth.z)).max(8.0 * length / radius);
             if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
         });
-        let plane = self.plane(depth, points);
-        let states = plane.states();
-        [Quantity::Tau1, Quantity::Tension].map(|quantity| best_sample(&plane, &states, quantity, self, steps))
+        let states = self.plane_within(depth, points, PLANE_REACH).states();
+        let [n1, n2] = points.map(|n| n as f64);
+        [Quantity::Tau1, Quantity::Tension].map(|quantity| {
+            let values = states.iter().map(|state| quantity.of(state));
+            let (index, value) = first_largest(values).unwrap_or((0, f64::NEG_INFINITY));
+            let (i, j) = (index / points[1], index % points[1]);
+            let place = grid.cell().point([i as f64 / n1, j as f64 / n2]);
+            Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) }
+        })
     }
 
     /// The peak on a face: between the samples of the plane by the exact sum, or, where that converges slowly, the
@@ -233,16 +246,9 @@ impl StressField {
     }
 
     /// The best peak near the candidate of plane `index`, the depth between those of the neighbouring planes.
-    fn refined(
-        &self,
-        candidate: &Candidate,
-        quantity: Quantity,
-        depths: &[f64],
-        index: usize,
-        faces: [f64; 2],
-    ) -> Peak {
-        if candidate.depth.z < NEAR * self.grid().spacing() || faces.contains(&candidate.depth.z) {
-            return self.face_peak(candidate, quantity);
+    fn refined(&self, candidate: &Candidate, quantity: Quantity, depths: &[f64], index: usize) -> Peak {
+        if candidate.depth.z < NEAR * self.grid().spacing() {
+            return self.peak(candidate);
         }
         let low = depths[index.saturating_sub(1)];
         let high = depths.get(index + 1).copied().unwrap_or(candidate.depth.z);
@@ -311,25 +317,4 @@ impl StressField {
             *candidate
         }
     }
-}
-
-fn best_sample(
-    plane: &Plane,
-    states: &Array2<State>,
-    quantity: Quantity,
-    field: &StressField,
-    steps: [f64; 2],
-) -> Candidate {
-    let mut best = (f64::NEG_INFINITY, 0);
-    for (index, state) in states.iter().enumerate() {
-        let value = quantity.of(state);
-        // Equal values, to rounding, of symmetric places: the first one.
-        if value > best.0 + 1e-12 * value.abs() {
-            best = (value, index);
-        }
-    }
-    let [n1, n2] = plane.points();
-    let place = field.grid().cell().point([(best.1 / n2) as f64 / n1 as f64, (best.1 % n2) as f64 / n2 as f64]);
-    let scale = [0, 1].map(|k| steps[k] * field.grid().points()[k] as f64 / [n1, n2][k] as f64);
-    Candidate { value: best.0, depth: plane.depth, place, step: 0.5 * scale[0].min(scale[1]) }
 }

@@ -14,6 +14,11 @@ pub struct Peak {
 }
 
 impl Peak {
+    /// The larger of two, this one of equals; what is not a number is larger than any.
+    pub(super) fn higher(self, other: Self) -> Self {
+        if self.value.is_nan() || other.value <= self.value { self } else { other }
+    }
+
     /// The value where it is finite.
     pub fn finite(&self) -> Option<f64> {
         self.value.is_finite().then_some(self.value)

@@ -121,9 +121,7 @@ impl<'a> Trace<'a> {
             if wavenumbers.last().is_none_or(|last| kappa > last + tie) {
                 wavenumbers.push(kappa);
             }
-            let phase = wave.q[0] * line.origin[0] + wave.q[1] * line.origin[1];
-            let coefficient = wave.coefficient * Complex64::cis(phase);
-            waves[number as usize] = (wavenumbers.len() as u32 - 1, coefficient);
+            waves[number as usize] = (wavenumbers.len() as u32 - 1, wave.at(line.origin));
         }
         let skin = field.regions.have_edges().then(|| Skin::new(field, 1.0));
         Self { field, line, wavenumbers, waves, skin }

@@ -15,13 +15,14 @@
 //! itself, smoothed to the fourth order with e^{−OPEN²/2} of the shortest waves.
 
 use super::edge::Edge;
-use super::field::{BLOCK, REACH, StressField, components};
+use super::field::{REACH, StressField, components};
 use super::peak::Peak;
 use super::spectrum::Wave;
 use super::tensor::State;
 use crate::body::{Amplitudes, Depth};
+use crate::numeric::search::{first_largest, largest};
+use crate::numeric::sums;
 use crate::spectral::fourier::Fourier;
-use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 
 /// Width of the Gaussian near an edge, times the least wavenumber that the grid cannot hold.
@@ -50,7 +51,6 @@ pub(super) type Smooth = [f64; 11];
 #[derive(Debug)]
 pub(super) struct Skin<'a> {
     field: &'a StressField,
-    depth: Depth,
     amplitudes: Vec<Amplitudes>,
     /// Per shell: the Gaussian near edges, both factors of the stresses.
     factors: Vec<[f64; 3]>,
@@ -72,9 +72,9 @@ pub struct Crest {
 }
 
 impl Crest {
-    /// Estimated relative error, also from the crest of the next coarser grid where there is one.
-    pub fn error(&self, coarser: Option<&Self>) -> f64 {
-        let change = coarser.map_or(0.0, |coarser| (coarser.peak.value - self.peak.value).abs());
+    /// Estimated relative error, also from the largest tension on the surface of the next coarser grid where there is one.
+    pub fn error(&self, coarser: Option<f64>) -> f64 {
+        let change = coarser.map_or(0.0, |tension| (tension - self.peak.value).abs());
         SAFETY * (self.uncertainty + change / FALL) / self.scale
     }
 }
@@ -82,7 +82,6 @@ impl Crest {
 impl<'a> Skin<'a> {
     /// With `scale` times the usual widths.
     pub fn new(field: &'a StressField, scale: f64) -> Self {
-        let depth = Depth::SURFACE;
         let most = field.grid().least_aliased();
         let growth = (field.regions.least_resolution() / 12.0).max(1.0).powf(0.4);
         let [edge, open] = [EDGE * growth, OPEN].map(|c| scale * c / most);
@@ -90,8 +89,8 @@ impl<'a> Skin<'a> {
             let gaussian = (-0.5 * q * q * edge * edge).exp();
             [gaussian, fourth(q * edge), fourth(q * open)]
         });
-        let (factors, amplitudes) = (factors.collect(), field.amplitudes(depth, REACH));
-        Self { field, depth, amplitudes, factors, width: edge, edge: Edge::new() }
+        let (factors, amplitudes) = (factors.collect(), field.amplitudes(Depth::SURFACE, REACH));
+        Self { field, amplitudes, factors, width: edge, edge: Edge::new() }
     }
 
     /// The parts of a wave whose pressure is the real part of `value`, in the order of [`Smooth`].
@@ -119,32 +118,23 @@ impl<'a> Skin<'a> {
 
     /// What the mean pressure adds.
     pub fn mean(&self) -> Smooth {
-        let State { xx, yy, zz, .. } = self.field.mean(self.depth);
+        let State { xx, yy, zz, .. } = self.field.mean(Depth::SURFACE);
         [-zz, 0.0, 0.0, xx, yy, 0.0, -zz, xx, yy, 0.0, -zz]
     }
 
     /// At a place (x, y): the sum over waves itself.
-    fn at(&self, [x, y]: [f64; 2]) -> Smooth {
-        let part = |block: &[Wave]| {
-            let mut sum = [0.0; 11];
-            for wave in block {
-                let value = wave.coefficient * Complex64::cis(wave.q[0] * x + wave.q[1] * y);
-                sum.iter_mut().zip(self.terms(wave, value)).for_each(|(sum, term)| *sum += term.re);
-            }
-            sum
-        };
-        let blocks: Vec<Smooth> = self.field.spectrum.waves.par_chunks(BLOCK).map(part).collect();
-        let mut total = self.mean();
-        blocks.iter().for_each(|block| total.iter_mut().zip(block).for_each(|(total, part)| *total += part));
-        total
+    fn at(&self, place: [f64; 2]) -> Smooth {
+        let (waves, mean) = (&self.field.spectrum.waves, self.mean());
+        let sum = sums::of(waves.len(), |i| self.terms(&waves[i], waves[i].at(place)).map(|term| term.re));
+        std::array::from_fn(|c| mean[c] + sum[c])
     }
 
     /// At all samples of the grid.
     fn everywhere(&self) -> [Vec<f64>; 11] {
-        let waves: Vec<&Wave> = self.field.spectrum.waves.iter().collect();
+        let waves = &self.field.spectrum.waves;
         let (fourier, mean) = (Fourier::new(self.field.grid().points()), self.mean());
         std::array::from_fn(|c| {
-            self.field.synthesised(&fourier, &waves, mean[c], |wave| self.terms(wave, wave.coefficient)[c])
+            self.field.synthesised(&fourier, waves, mean[c], |wave| self.terms(wave, wave.coefficient)[c])
         })
     }
 
@@ -201,10 +191,10 @@ impl<'a> Skin<'a> {
     }
 
     /// The largest tension at places of which some stand at edges.
-    fn largest(&self, places: &[(Place, [f64; 2])]) -> Option<(Place, [f64; 2], State)> {
-        let read = |&(kind, place): &(Place, [f64; 2])| match kind {
-            Place::Open => (kind, place, self.state(&self.at(place))),
-            Place::Edge => {
+    fn largest(&self, places: &[(Kind, [f64; 2])]) -> Option<(Kind, [f64; 2], State)> {
+        let read = |&(kind, place): &(Kind, [f64; 2])| match kind {
+            Kind::Open => (kind, place, self.state(&self.at(place))),
+            Kind::Edge => {
                 let place = self.onto_edge(place);
                 (kind, place, self.state_on_edge(&self.at(place)))
             }
@@ -228,7 +218,7 @@ fn fourth(qw: f64) -> f64 {
 
 /// What stands at a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum Kind {
     Open,
     Edge,
 }
@@ -263,24 +253,21 @@ impl StressField {
         edges.sort_by(|a, b| b.0.total_cmp(&a.0));
 
         let open = |index: usize| skin.state(&at(index)).s1();
-        let highest = (0..regions.of.len()).map(|index| (open(index), index)).reduce(|best, next| {
-            // Equal values, to rounding, of symmetric places: the first one.
-            if next.0 > best.0 + 1e-12 * next.0.abs() { next } else { best }
-        })?;
-        let mut finalists = vec![(Place::Open, place(highest.1))];
-        finalists.extend(edges.iter().take(FINALISTS).map(|&(_, place, _)| (Place::Edge, place)));
+        let (highest, _) = first_largest((0..regions.of.len()).map(open))?;
+        let mut finalists = vec![(Kind::Open, place(highest))];
+        finalists.extend(edges.iter().take(FINALISTS).map(|&(_, place, _)| (Kind::Edge, place)));
         let (kind, place, state) = skin.largest(&finalists)?;
         let value = state.s1();
         // How far the tension at an edge that few samples see may reach above the largest one; at least so far at it all.
-        let usual = TENSION * everywhere[10].iter().copied().fold(0.0, f64::max);
+        let usual = TENSION * largest(everywhere[10].iter().copied());
         drop(everywhere);
         let spread = OTHER.iter().filter_map(|&scale| Skin::new(self, scale).largest(&finalists));
         let spread: f64 = spread.map(|(.., other)| (other.s1() - value).abs()).sum();
-        let unlike = if kind == Place::Edge { skin.at(place)[6].abs() * skin.unlike() } else { 0.0 };
+        let unlike = if kind == Kind::Edge { skin.at(place)[6].abs() * skin.unlike() } else { 0.0 };
         let few = |&(tension, _, resolution): &(f64, [f64; 2], f64)| {
             tension + FEW / (resolution * resolution) * usual.max(tension.abs()) - value
         };
-        let few = edges.iter().map(few).fold(0.0, f64::max);
+        let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();
         let peak = Peak { value, position: [place[0], place[1], 0.0], material: 1, direction };
         Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })

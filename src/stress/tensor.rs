@@ -56,9 +56,10 @@ impl State {
         if j2 == 0.0 {
             return [mean; 3];
         }
-        let j3 = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
         let radius = (j2 / 3.0).sqrt();
-        let angle = (0.5 * j3 / (radius * radius * radius)).clamp(-1.0, 1.0).acos() / 3.0;
+        let [a, b, c, xy, xz, yz] = [a, b, c, xy, xz, yz].map(|s| s / radius);
+        let j3 = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+        let angle = (0.5 * j3).clamp(-1.0, 1.0).acos() / 3.0;
         let third = std::f64::consts::TAU / 3.0;
         let first = 2.0 * radius * angle.cos();
         let last = 2.0 * radius * (angle + third).cos();
@@ -150,6 +151,9 @@ mod tests {
             assert!((found - expected).abs() < 1e-14);
         }
         assert!((state.tau1() - 2.5).abs() < 1e-14);
+        // The cube of so small a stress is zero.
+        let tiny = State::from_components(state.components().map(|s| 1e-120 * s));
+        assert!((tiny.tau1() / 2.5e-120 - 1.0).abs() < 1e-13, "{tiny}");
         assert!((state.mises() - 19f64.sqrt()).abs() < 1e-13);
         let direction = state.s1_direction();
         assert!((0..3).all(|i| (direction[i] - frame[0][i]).abs() < 1e-13));

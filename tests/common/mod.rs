@@ -84,6 +84,11 @@ pub fn paraboloid(radius: f64, height: f64) -> Level {
     Level::new(Shape::Paraboloid { radius }, height).unwrap()
 }
 
+/// The uncoated half-space, E = 1, ν = 0.3.
+pub fn bare() -> HalfSpace {
+    HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap())
+}
+
 /// One layer on a substrate with E₂ = 1; χ = G₁/G₂.
 pub fn coated(chi: f64, thickness: f64, poisson: [f64; 2], interface: Interface) -> HalfSpace {
     let substrate = Material::from_young(1.0, poisson[1]).unwrap();

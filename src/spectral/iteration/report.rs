@@ -9,11 +9,11 @@ pub enum Stop {
     /// ε < tolerance, energy gap < 20 tolerance and penetration outside contact < 10 tolerance · δ.
     Converged,
     /// Over the last window of iterations the mean of what must fall below the tolerance was not below 0.9 of that over
-    /// the window before, half as long.
+    /// the window before, half as long; or the load is no finite number.
     Stalled,
     /// As many iterations as allowed, tolerance not reached.
     IterationLimit,
-    /// Nothing to solve: the load or the penetration is zero.
+    /// Nothing to solve: the load or the penetration is not above zero.
     NoContact,
     /// At the prescribed penetration at most four samples are in contact, a touching indenter (of a topography, in
     /// all): contact is no wider than the grid's spacing, and its load a matter of where the samples lie.
@@ -47,7 +47,7 @@ impl fmt::Display for Stop {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Route {
-    /// The preconditioned method, or nothing to solve.
+    /// The method asked for is the preconditioned one, and it has led there or had nothing to solve.
     Direct,
     /// The baseline, as asked for.
     Baseline,

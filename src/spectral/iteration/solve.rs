@@ -18,6 +18,10 @@ impl GridProblem<'_> {
         };
         let done = |stop, residual| Report { stop, route, iterations: 0, residual };
         let gap = self.initial_gap;
+        if !self.load.value().is_finite() {
+            unknowns.rest(gap, 0.0);
+            return done(Stop::Stalled, f64::INFINITY);
+        }
         if self.load.value() <= 0.0 {
             unknowns.rest(gap, if let Load::Penetration(penetration) = self.load { penetration } else { 0.0 });
             return done(Stop::NoContact, 0.0);
