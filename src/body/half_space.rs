@@ -21,6 +21,17 @@ pub enum Interface {
     },
 }
 
+impl Interface {
+    /// Jumps of displacement that a unit of tangential and of normal traction makes, in the units of the layer above:
+    /// Gq/k_t and Gq/k_n for its shear modulus times the wavenumber, `stiffness`; zero unless it is a spring.
+    pub(super) fn jumps(self, stiffness: f64) -> [f64; 2] {
+        match self {
+            Self::Spring { tangential, normal } => [stiffness / tangential, stiffness / normal],
+            Self::Bonded | Self::Frictionless => [0.0; 2],
+        }
+    }
+}
+
 impl fmt::Display for Interface {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

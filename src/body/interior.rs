@@ -192,12 +192,7 @@ impl Functional {
 
     /// The functional just below an interface that carries shear, in the units of the material below.
     fn below(self, interface: Interface, above: &PlaneStrain, below: &PlaneStrain, wavenumber: f64) -> Self {
-        let (slip, closure) = match interface {
-            Interface::Spring { tangential, normal } => {
-                (above.shear * wavenumber / tangential, above.shear * wavenumber / normal)
-            }
-            Interface::Bonded | Interface::Frictionless => (0.0, 0.0),
-        };
+        let [slip, closure] = interface.jumps(above.shear * wavenumber);
         let ratio = above.shear / below.shear;
         Self {
             u: ratio * self.u,

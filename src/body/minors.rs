@@ -68,8 +68,8 @@ impl Minors {
         let Self { n, a, b, c, d, exponent } = scaled;
         match interface {
             Interface::Bonded => scaled,
-            Interface::Spring { tangential, normal } => {
-                let (slip, closure) = (above.shear * wavenumber / tangential, above.shear * wavenumber / normal);
+            Interface::Spring { .. } => {
+                let [slip, closure] = interface.jumps(above.shear * wavenumber);
                 Self {
                     n,
                     a: a + slip * n,

@@ -92,11 +92,7 @@ impl Shape {
     ///
     /// Under f = c rⁿ it goes as r^{n−1}: infinite for n < 1, as ln 1/r for n = 1, a finite cusp for 1 < n < 2.
     pub fn singular_peak(&self) -> bool {
-        match *self {
-            Self::Paraboloid { .. } | Self::Sphere { .. } => false,
-            Self::Cone { .. } => true,
-            Self::Power { exponent, .. } => exponent <= 1.0,
-        }
+        self.exponent() <= 1.0
     }
 
     /// Exponent n of the profile near the apex, f ~ rⁿ.

@@ -78,7 +78,8 @@ pub fn components(grid: &Grid, members: impl Fn(usize) -> bool) -> Vec<Component
     found
 }
 
-/// Samples closer than `reach` to `centre`, each once, with their places relative to it.
+/// Samples closer than `reach` to `centre`, each once, with their places relative to it; those half a cell away, which
+/// stand on both sides, are left out.
 pub fn around(grid: &Grid, centre: [f64; 2], reach: f64) -> impl Iterator<Item = (usize, [f64; 2])> {
     let n = grid.points().map(|n| n as f64);
     let middle = grid.cell().fractions(centre);

@@ -1,6 +1,5 @@
-//! Bravais cells, and where the indenters of each level stand in them.
+//! Where the indenters of each level stand in the cell.
 //!
-//! A cell is spanned by **a**₁, **a**₂; its reciprocal vectors satisfy **a**ᵢ·**b**ⱼ = 2π δᵢⱼ.
 //! With the lattice period l (distance of neighbouring indenters whatever their level):
 //!
 //! | lattice | levels | cell | sites of levels 1, 2, … in fractions of a₁, a₂ |

@@ -7,8 +7,6 @@ use super::fourier::{Fourier, Multiplier, Workspace};
 use super::iteration::Compliance;
 use crate::body::TransferFunction;
 use crate::lattice::Grid;
-use std::fmt;
-use std::sync::Arc;
 
 /// What a diagonal operator does to the mean of a field (q = 0).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,7 +21,6 @@ enum ZeroMode {
 /// Displacement operator of a layered half-space on a grid, with its preconditioner.
 #[derive(Debug)]
 pub struct Operator {
-    grid: Arc<Grid>,
     fourier: Fourier,
     compliance: Multiplier,
     stiffness: Multiplier,
@@ -33,7 +30,7 @@ pub struct Operator {
 
 impl Operator {
     /// Operator of the half-space with the given transfer function.
-    pub fn new(grid: &Arc<Grid>, transfer: &TransferFunction) -> Self {
+    pub fn new(grid: &Grid, transfer: &TransferFunction) -> Self {
         let fourier = Fourier::new(grid.points());
         let mean = |zero: ZeroMode| match zero {
             ZeroMode::ZeroMean => 0.0,
@@ -45,12 +42,7 @@ impl Operator {
         });
         let stiffness = compliance.inverse(mean(ZeroMode::LikeSmallest));
         let workspace = fourier.workspace();
-        Self { grid: Arc::clone(grid), fourier, compliance, stiffness, workspace, convolutions: 0 }
-    }
-
-    /// The grid the operator acts on.
-    pub fn grid(&self) -> &Grid {
-        &self.grid
+        Self { fourier, compliance, stiffness, workspace, convolutions: 0 }
     }
 
     /// Convolutions done so far.
@@ -69,11 +61,5 @@ impl Compliance for Operator {
     fn precondition(&mut self, gap: &[f64], result: &mut [f64]) {
         self.convolutions += 1;
         self.fourier.convolve(&self.stiffness, gap, result, &mut self.workspace);
-    }
-}
-
-impl fmt::Display for Operator {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "operator on {}, {} convolutions done", self.grid, self.convolutions)
     }
 }

@@ -117,7 +117,7 @@ const DEEP: [f64; 2] = [0.03, 0.1];
 /// Ratio of successive distances from a face.
 const RATIO: f64 = 1.35;
 /// Waves with qz beyond this are left out of the search: e^{−25} of the pressure.
-const REACH: f64 = 25.0;
+const SEARCH_REACH: f64 = 25.0;
 /// The same on planes, whose largest samples the search starts from.
 const PLANE_REACH: f64 = 10.0;
 
@@ -267,7 +267,7 @@ impl StressField {
     /// A candidate as it is, with the direction of σ₁ there.
     fn peak(&self, candidate: &Candidate) -> Peak {
         let [x, y] = candidate.place;
-        let direction = self.points_within(candidate.depth, &[[x, y]], REACH)[0].s1_direction();
+        let direction = self.points_within(candidate.depth, &[[x, y]], SEARCH_REACH)[0].s1_direction();
         Peak {
             value: candidate.value,
             position: [x, y, candidate.depth.z],
@@ -285,7 +285,7 @@ impl StressField {
             let around: Vec<[f64; 2]> =
                 (0..9).map(|k| [x + (f64::from(k / 3) - 1.0) * step, y + (f64::from(k % 3) - 1.0) * step]).collect();
             let values: Vec<f64> =
-                self.points_within(best.depth, &around, REACH).iter().map(|state| quantity.of(state)).collect();
+                self.points_within(best.depth, &around, SEARCH_REACH).iter().map(|state| quantity.of(state)).collect();
             let highest = (0..9).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(4);
             best.value = values[highest];
             best.place = around[highest];
@@ -296,7 +296,7 @@ impl StressField {
                     if curvature < 0.0 { (-slope / curvature).clamp(-1.0, 1.0) * step } else { 0.0 }
                 });
                 let moved = [x + dx, y + dy];
-                let value = quantity.of(&self.points_within(best.depth, &[moved], REACH)[0]);
+                let value = quantity.of(&self.points_within(best.depth, &[moved], SEARCH_REACH)[0]);
                 if value > best.value {
                     (best.value, best.place) = (value, moved);
                 }
@@ -309,7 +309,8 @@ impl StressField {
     /// Moves a candidate in depth within [low, high] by golden sections.
     fn vertically(&self, candidate: &Candidate, quantity: Quantity, [low, high]: [f64; 2]) -> Candidate {
         let material = candidate.depth.material;
-        let value = |z: f64| quantity.of(&self.points_within(Depth { z, material }, &[candidate.place], REACH)[0]);
+        let value =
+            |z: f64| quantity.of(&self.points_within(Depth { z, material }, &[candidate.place], SEARCH_REACH)[0]);
         let [z, found] = golden_maximum([low, high], DEPTH_TOLERANCE, value);
         if found > candidate.value {
             Candidate { value: found, depth: Depth { z, material }, ..*candidate }
