@@ -12,18 +12,19 @@ pub struct Cell {
     a2: [f64; 2],
 }
 
-/// No vector of a cell is longer than so many of the other one: whole multiples are kept in 32 bits.
-const LONGEST: f64 = 1e9;
+/// No vector of a cell reaches along the other one so many times as far as that is long: multiples are kept in 32 bits.
+const FARTHEST: f64 = 1e9;
 
 impl Cell {
     /// Cell spanned by `a1` and `a2` (lengths in the case's unit).
     ///
     /// # Errors
-    /// [`LatticeError::FlatCell`] when the vectors span no area or are not finite, or one is longer than 10⁹ of the other.
+    /// [`LatticeError::FlatCell`] when the vectors span no area or are not finite, or one reaches along the other more than
+    /// 10⁹ times as far as that is long.
     pub fn new(a1: [f64; 2], a2: [f64; 2]) -> Result<Self, LatticeError> {
         let sine = cross(a1, a2) / (norm(a1) * norm(a2));
-        let ratio = norm(a1) / norm(a2);
-        if !(sine.is_finite() && sine.abs() > 1e-6 && (1.0 / LONGEST..=LONGEST).contains(&ratio)) {
+        let along = dot(a1, a2).abs() / dot(a1, a1).min(dot(a2, a2));
+        if !(sine.is_finite() && sine.abs() > 1e-6 && along < FARTHEST) {
             return Err(LatticeError::FlatCell(a1, a2));
         }
         Ok(Self { a1, a2 })
@@ -82,7 +83,6 @@ impl Cell {
     /// The reduced basis of the same lattice (Lagrange–Gauss): its shortest vector, and the shortest one that
     /// completes it.
     pub fn reduced(&self) -> Reduced {
-        let dot = |u: [f64; 2], v: [f64; 2]| u[0] * v[0] + u[1] * v[1];
         let (mut short, mut long) = ((self.a1, [1, 0]), (self.a2, [0, 1]));
         loop {
             if dot(long.0, long.0) < dot(short.0, short.0) {
@@ -184,6 +184,10 @@ impl fmt::Display for Cell {
 
 fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[1] - a[1] * b[0]
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
 }
 
 pub(super) fn norm(a: [f64; 2]) -> f64 {

@@ -175,6 +175,7 @@ mod tests {
     fn flat_cells_and_shared_sites_are_refused() {
         assert!(matches!(Cell::new([1.0, 1.0], [2.0, 2.0]), Err(LatticeError::FlatCell(..))));
         assert!(matches!(Cell::hexagonal(0.0), Err(LatticeError::FlatCell(..))));
+        assert!(matches!(Cell::new([1e-10, 0.0], [1.0, 1.0]), Err(LatticeError::FlatCell(..))));
         assert!(matches!(Lattice::hexagonal(1.0, 2), Err(LatticeError::NoStandardSites { levels: 2, .. })));
         let cell = Cell::square(1.0).unwrap();
         assert_eq!(Lattice::new(cell, vec![vec![[0.0, 0.0]], vec![[1.0, 0.0]]]), Err(LatticeError::SharedSite(1, 2)));
