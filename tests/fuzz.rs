@@ -266,9 +266,9 @@ fn holds_together(case: &Case) {
     for text in [plausibility::of_case(case), foreseen(case, &[])].concat() {
         assert!(!text.is_empty() && !text.to_lowercase().contains("nan"), "{text}");
     }
-    let points = resources::finest_points(case).expect("a case that is refined has a grid");
+    let grids = case.grid.grids(&cell).expect("a case that is refined has a grid");
     for job in [Job::Solve { pictures: true }, Job::Compare { pictures: true }] {
-        let needs = resources::needs(case, points, job);
+        let needs = resources::needs(case, grids[grids.len() - 1], job);
         assert!(needs.memory > 0 && resources::bytes(needs.memory).contains('B'));
         assert!(0 < needs.disk && needs.disk <= needs.disk_while_running);
         // What fits the machine at hand is not what is tested: half of what is needed never fits.

@@ -118,6 +118,33 @@ fn a_number_that_is_none_counts_as_a_change() {
     assert!(change(&steps, &spoilt).is_nan() && change(&spoilt, &steps).is_nan());
 }
 
+/// Neither are stresses that are none; under a tip they are infinite, which is no fault.
+#[test]
+fn stresses_that_are_no_number_are_neither_agreement_nor_converged() {
+    let stressed = Run { stress: Some(StressRequest::default()), ..run(Sampling::Points([48, 48])) };
+    let steps = stressed.solve(&mut ()).unwrap().steps;
+    let with = |value: f64| {
+        let mut steps = steps.clone();
+        steps[0].stress.as_mut().unwrap().max_tau1.value = value;
+        steps
+    };
+    assert_eq!(change(&steps, &steps), 0.0);
+    assert_eq!(change(&with(f64::INFINITY), &with(f64::INFINITY)), 0.0);
+    assert!(with(f64::INFINITY)[0].converged());
+    assert!(change(&steps, &with(f64::NAN)).is_nan() && change(&with(f64::NAN), &steps).is_nan());
+    assert!(!with(f64::NAN)[0].converged());
+    assert_eq!(with(f64::NAN)[0].stop_reason(), "not a number");
+}
+
+#[test]
+fn a_run_without_loads_is_refused() {
+    for sampling in [Sampling::Points([48, 48]), Sampling::Accuracy(0.01)] {
+        let mut diary = Diary::default();
+        let error = Run { loads: vec![], ..run(sampling) }.solve(&mut diary).unwrap_err();
+        assert!(matches!(error, RunError::NoLoads) && diary.heard.is_empty(), "{error}");
+    }
+}
+
 /// Contact that one grid has and the other has not is no agreement either.
 #[test]
 fn contact_that_comes_or_goes_with_the_grid_counts_as_a_change() {

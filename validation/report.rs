@@ -53,7 +53,7 @@ impl Report {
     /// All checks as one table.
     pub fn table(&self) -> String {
         let rows: Vec<Vec<String>> = self.results.iter().flat_map(|(study, result)| rows(study, result)).collect();
-        table::render_with(&COLUMNS.map(str::to_owned), &rows, 2)
+        table::render(&COLUMNS, &rows, 2)
     }
 
     /// Rows of the paper's table of statements, study by study.

@@ -25,13 +25,8 @@ pub fn all() -> &'static [(&'static str, &'static str)] {
     &CASES
 }
 
-/// Text of an embedded case.
-pub fn find(name: &str) -> Option<&'static str> {
-    CASES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
-}
-
 /// An embedded case, ready to be read.
 pub fn source(name: &str) -> Option<Source> {
-    let text = find(name)?.to_owned();
-    Some(Source { name: format!("embedded case {name}"), text, folder: PathBuf::new() })
+    let (_, text) = CASES.iter().find(|(known, _)| *known == name)?;
+    Some(Source { name: format!("embedded case {name}"), text: (*text).to_owned(), folder: PathBuf::new() })
 }

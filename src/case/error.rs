@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
 
+use super::Source;
 use super::place::Place;
 
 /// A refusal while its place is still a span of one of several sources.
@@ -36,24 +37,6 @@ impl Refusal {
     }
 }
 
-/// The texts a case is read from: the file first, then every `--set`.
-#[derive(Debug)]
-pub(super) struct Sources<'a>(Vec<(&'a str, &'a str)>);
-
-impl<'a> Sources<'a> {
-    /// Sources of one file and its overrides.
-    pub(super) fn new(name: &'a str, text: &'a str, overrides: &'a [String]) -> Self {
-        let overrides = overrides.iter().map(|text| ("--set", text.as_str()));
-        Self(std::iter::once((name, text)).chain(overrides).collect())
-    }
-
-    /// The refusal together with the text it points into.
-    pub(super) fn error(&self, refusal: Refusal) -> CaseError {
-        let (name, text) = self.0[refusal.place.source];
-        CaseError::new(name, text, refusal)
-    }
-}
-
 /// Why a case was refused: one fault, with the place in the case file or in the `--set` where it stands.
 ///
 /// `Display` gives plain text; [`CaseError::render`] also in colour.
@@ -69,9 +52,14 @@ struct Excerpt {
 }
 
 impl CaseError {
-    /// Error about `text`, shown under `name`. A span over several lines is cut to its first one.
-    pub(super) fn new(name: &str, text: &str, refusal: Refusal) -> Self {
-        let Place { start, end, .. } = refusal.place;
+    /// The refusal with the text it points into, the file's or that of a `--set`. A span over several lines is cut to its
+    /// first one.
+    pub(super) fn new(file: &Source, overrides: &[String], refusal: Refusal) -> Self {
+        let Place { source, start, end } = refusal.place;
+        let (name, text) = match source {
+            0 => (&file.name[..], &file.text),
+            number => ("--set", &overrides[number - 1]),
+        };
         let boundary = |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
         let start = boundary(start);
         let line = text[start..].find(['\r', '\n']).map_or(text.len(), |length| start + length);

@@ -1,6 +1,7 @@
 //! What estimates by the formulas of single contacts foresee of a case, for those who have not solved it.
 
 use super::{Case, LoadSection};
+use crate::body::HalfSpace;
 use crate::counterbody::{Level, Shape};
 use crate::lattice::Grid;
 use crate::numeric::number::number;
@@ -15,7 +16,7 @@ pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
     steep_flank(case).into_iter().chain(few_samples(case, touches)).collect()
 }
 
-/// A flank that is steep at the highest load, by Hertz's formulas.
+/// A flank that is steep at the highest load, beside cones, whose flank is their own.
 fn steep_flank(case: &Case) -> Option<String> {
     let (Some(indenters), LoadSection::MeanPressure(loads)) = (case.counterbody().indenters(), &case.load) else {
         return None;
@@ -24,20 +25,17 @@ fn steep_flank(case: &Case) -> Option<String> {
     let load = loads.iter().copied().fold(0.0, f64::max);
     let sites: usize = lattice.sites().iter().map(Vec::len).sum();
     let force = load * lattice.cell().area() / sites as f64;
-    let modulus =
-        case.half_space().substrate().contact_modulus().max(case.half_space().surface_material().contact_modulus());
-    let estimates = (1..).zip(indenters.levels()).filter_map(|(number, level): (usize, &Level)| {
-        let (Shape::Paraboloid { radius } | Shape::Sphere { radius }) = level.shape() else { return None };
-        Some((number, level.shape(), (0.75 * force * radius / modulus).cbrt()))
-    });
-    let mut steep = estimates.filter(|&(_, shape, radius)| shape.slope(radius) > STEEP);
-    steep.next().map(|(number, shape, radius)| flank("by Hertz's formulas", number, shape, radius))
+    let modulus = stiffer_modulus(case.half_space());
+    let levels = (1..).zip(indenters.levels().iter().map(Level::shape));
+    let flanks = levels.filter(|(_, shape)| !matches!(shape, Shape::Cone { .. }));
+    let mut estimates = flanks.map(|(number, shape)| (number, shape, radius(force, modulus, power_law(shape))));
+    let (number, shape, radius) =
+        estimates.find(|&(_, shape, radius): &(usize, Shape, f64)| shape.slope(radius) > STEEP)?;
+    Some(flank("by the formulas of a single contact", number, shape, radius))
 }
 
-/// Few samples along the contact radius of the highest level at the lowest load on the grid of the case.
-///
-/// The load lies on the levels that touch; each contact is that of a single power-law indenter c rⁿ on a half-space,
-/// δ = κ_n c aⁿ, P = 2E* δ a n/(n + 1), with the larger E* of surface and substrate: the smaller radius.
+/// Few samples along the contact radius of the highest level at the lowest load on the grid of the case. The load lies on
+/// the levels that touch.
 fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
     let (Some(indenters), Sampling::Points(points)) = (case.counterbody().indenters(), &case.grid) else {
         return None;
@@ -46,15 +44,8 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
     let grid = Grid::new(lattice.cell(), *points).ok()?;
     let (number_of_highest, highest) =
         (1..).zip(indenters.levels()).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
-    // A sphere is a paraboloid where its contact is small.
-    let (c, n) = match highest.shape() {
-        Shape::Paraboloid { radius } | Shape::Sphere { radius } => (0.5 / radius, 2.0),
-        Shape::Cone { slope } => (slope, 1.0),
-        Shape::Power { coefficient, exponent } => (coefficient, exponent),
-    };
+    let (c, n) = power_law(highest.shape());
     let lowest = |values: &[f64]| values.iter().copied().filter(|load| *load > 0.0).reduce(f64::min);
-    let body = case.half_space();
-    let modulus = body.substrate().contact_modulus().max(body.surface_material().contact_modulus());
     let (load, radius) = match &case.load {
         LoadSection::MeanPressure(loads) => {
             let load = lowest(loads)?;
@@ -63,7 +54,7 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
             let sites = lattice.sites().iter().enumerate().filter(|(level, _)| touching(*level));
             let sites = sites.map(|(_, sites)| sites.len()).sum::<usize>().max(1);
             let force = load * lattice.cell().area() / sites as f64;
-            (load, (force * (n + 1.0) / (2.0 * n * modulus * kappa(n) * c)).powf(1.0 / (n + 1.0)))
+            (load, radius(force, stiffer_modulus(case.half_space()), (c, n)))
         }
         LoadSection::Penetration(depths) => {
             let depth = lowest(depths)?;
@@ -79,6 +70,25 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
             number(load)
         )
     })
+}
+
+/// c and n of the profile c rⁿ. A sphere is a paraboloid where its contact is small.
+fn power_law(shape: Shape) -> (f64, f64) {
+    match shape {
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => (0.5 / radius, 2.0),
+        Shape::Cone { slope } => (slope, 1.0),
+        Shape::Power { coefficient, exponent } => (coefficient, exponent),
+    }
+}
+
+/// Contact radius of a single indenter c rⁿ on a half-space: δ = κ_n c aⁿ, P = 2E* δ a n/(n + 1).
+fn radius(force: f64, modulus: f64, (c, n): (f64, f64)) -> f64 {
+    (force * (n + 1.0) / (2.0 * n * modulus * kappa(n) * c)).powf(1.0 / (n + 1.0))
+}
+
+/// The larger E* of surface and substrate, with which the radius is the smaller one.
+fn stiffer_modulus(half_space: &HalfSpace) -> f64 {
+    half_space.substrate().contact_modulus().max(half_space.surface_material().contact_modulus())
 }
 
 /// κ_n = √π Γ(n/2+1)/Γ((n+1)/2) = n ∫₀^{π/2} sinⁿ⁻¹θ dθ = ∫ (sin θ/θ)ⁿ⁻¹ dt over t = θⁿ, to a thousandth.

@@ -19,10 +19,10 @@ pub(super) fn read(section: Option<&TableAt<'_>>, file: Option<[usize; 2]>) -> R
     let Some(section) = section else { return Ok(Sampling::Points(default)) };
     section.only()?;
     match (section.optional("points"), section.optional("accuracy"), file) {
-        (Some(_), Some(accuracy), _) => Err(section.both(["points", "accuracy"], accuracy.place())),
+        (Some(_), Some(accuracy), _) => Err(section.both(["points", "accuracy"], accuracy.node.place)),
         (None, Some(accuracy), Some(_)) => {
             let message = "`grid.accuracy` has no place beside [surface]: its grid is that of the file";
-            Err(Refusal::new(accuracy.place(), message, "not used here").help("remove it"))
+            Err(Refusal::new(accuracy.node.place, message, "not used here").help("remove it"))
         }
         (None, Some(accuracy), None) => {
             accuracy.number((Bound::Excluded(0.0), Bound::Included(0.1))).map(Sampling::Accuracy)
@@ -36,7 +36,7 @@ pub(super) fn read(section: Option<&TableAt<'_>>, file: Option<[usize; 2]>) -> R
 /// An integer for both directions, or one for each.
 fn each(value: &ValueAt<'_>, read: fn(&ValueAt<'_>) -> Result<usize, Refusal>) -> Result<[usize; 2], Refusal> {
     const WANTED: &str = "an integer or [n1, n2]";
-    match value.bare() {
+    match &value.node.value {
         Value::Integer(_) => read(value).map(|n| [n; 2]),
         Value::List(_) => match &value.list(WANTED, WANTED)?[..] {
             [n1, n2] => Ok([read(n1)?, read(n2)?]),

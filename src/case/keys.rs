@@ -9,7 +9,7 @@ pub(super) struct Keys {
     /// Every key, in the order in which they are told.
     pub(super) all: &'static [Key],
     /// Keys that one may look for here, and why they have no place.
-    pub(super) foreign: &'static [(&'static str, &'static str)],
+    pub(super) misplaced: &'static [(&'static str, &'static str)],
 }
 
 /// A key of a table.
@@ -52,7 +52,7 @@ impl Key {
 
 impl Keys {
     const fn new(all: &'static [Key]) -> Self {
-        Self { all, foreign: &[] }
+        Self { all, misplaced: &[] }
     }
 
     /// A key by its name.
@@ -112,7 +112,7 @@ static LATTICE: Keys = Keys {
         key("a1", "a cell vector [x, y]").of(&["oblique"]),
         key("a2", "a cell vector [x, y]").of(&["oblique"]),
     ],
-    foreign: &[
+    misplaced: &[
         ("a1", "the cell of a hexagonal or square lattice follows from `period`"),
         ("a2", "the cell of a hexagonal or square lattice follows from `period`"),
         ("period", "the cell of an oblique lattice is given by `a1` and `a2`"),
@@ -129,7 +129,7 @@ static LEVELS: Keys = Keys {
         key("height", "protrusion of the apices, a length of which only differences matter; 0 when not given"),
         key("sites", "[[s1, s2], …] in fractions of a₁, a₂; the lattice's standard ones when not given"),
     ],
-    foreign: &[
+    misplaced: &[
         ("radius", "`radius` is a size of a paraboloid or a sphere"),
         ("slope", "`slope` is the size of a cone"),
         ("coefficient", "`coefficient` is a size of a power profile c rⁿ"),
@@ -154,7 +154,7 @@ static SPRING: Keys = Keys::new(&[
 
 static SUBSTRATE: Keys = Keys {
     all: &[key("young", "Young's modulus, a pressure"), key("poisson", "Poisson's ratio, between 0 and 0.5")],
-    foreign: &[("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")],
+    misplaced: &[("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")],
 };
 
 pub(super) static LOAD: Keys = Keys::new(&[

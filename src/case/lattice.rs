@@ -85,7 +85,7 @@ pub(super) fn build(
     let absent = levels.iter().position(|level| level.sites.is_none());
     if let (Some(given), Some(absent)) = (given, absent) {
         let message = format!("`levels[{absent}].sites` is missing, while `levels[{given}]` has its sites");
-        return Err(Refusal::new(level_sections[absent].place(), message, "no `sites` in this level")
+        return Err(Refusal::new(level_sections[absent].place, message, "no `sites` in this level")
             .help("give every level its sites, or none"));
     }
     let mut count = 0;
@@ -94,23 +94,23 @@ pub(super) fn build(
         if count > MOST_INDENTERS {
             let message =
                 format!("the cell must hold at most {MOST_INDENTERS} indenters: with `levels` up to here {count}");
-            return Err(Refusal::new(section.place(), message, "too many sites"));
+            return Err(Refusal::new(section.place, message, "too many sites"));
         }
     }
     build_cell(lattice, section)?;
     lattice.build(levels).map_err(|error| match error {
         LatticeError::NoStandardSites { .. } if matches!(lattice, LatticeSection::Oblique { .. }) => {
-            Refusal::new(level_sections[0].place(), "`levels[0].sites` is missing", "no `sites` in this level")
+            Refusal::new(level_sections[0].place, "`levels[0].sites` is missing", "no `sites` in this level")
                 .help("an oblique cell has no standard sites: give each level its own, in fractions of a1, a2: sites = [[0.0, 0.0]]")
         }
         LatticeError::NoStandardSites { lattice, levels, standard } => {
-            let place = level_sections.last().map_or(section.place(), TableAt::place);
+            let place = level_sections.last().map_or(section.place, |section| section.place);
             let message = format!("`levels`: a {lattice} lattice has standard sites for {standard} levels, not {levels}");
             Refusal::new(place, message, format!("received {levels} [[levels]]"))
                 .help("or give every level its own, in fractions of the cell's vectors: sites = [[0.0, 0.0]]")
         }
         LatticeError::NoSite(level) | LatticeError::SharedSite(_, level) => {
-            let place = level_sections[level - 1].optional("sites").map_or(section.place(), |sites| sites.place());
+            let place = level_sections[level - 1].optional("sites").map_or(section.place, |sites| sites.node.place);
             let fault = match error {
                 LatticeError::SharedSite(other, _) if other == level => "two of them are the same place".to_owned(),
                 LatticeError::SharedSite(other, _) => format!("`levels[{}]` has one at the same place", other - 1),
@@ -135,9 +135,9 @@ pub(super) fn build_cell(lattice: &LatticeSection, section: &TableAt<'_>) -> Res
 
 fn flat(section: &TableAt<'_>, error: &LatticeError) -> Refusal {
     match section.optional("a2") {
-        Some(a2) => Refusal::new(a2.place(), format!("`{}`: {error}", a2.path()), "no cell")
+        Some(a2) => Refusal::new(a2.node.place, format!("`{}`: {error}", a2.path), "no cell")
             .help("give two vectors that are not parallel"),
-        None => Refusal::new(section.place(), format!("`{}`: {error}", section.path("period")), "no cell")
+        None => Refusal::new(section.place, format!("`{}`: {error}", section.path("period")), "no cell")
             .help("choose a unit in which the period is not as small or large"),
     }
 }

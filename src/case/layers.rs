@@ -9,6 +9,9 @@ use super::node::Value;
 use super::reader::{TableAt, ValueAt};
 use crate::body::{HalfSpace, Interface, Layer, Material, MaterialError};
 
+/// Most layers a case can have.
+pub(super) const MOST: usize = 200;
+
 /// One section of `[[layers]]`, from the surface down.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LayerSection {
@@ -91,7 +94,7 @@ pub(super) fn build(
     substrate_section: &TableAt<'_>,
 ) -> Result<HalfSpace, Refusal> {
     let refuse = |section: &TableAt<'_>, key: &str, error: MaterialError| {
-        let place = section.optional(key).map_or(section.place(), |value| value.place());
+        let place = section.optional(key).map_or(section.place, |value| value.node.place);
         Refusal::new(place, format!("`{}`: {error}", section.path(key)), "this material")
     };
     let base = Material::from_young(substrate.young, substrate.poisson)
@@ -110,7 +113,7 @@ fn poisson(section: &TableAt<'_>) -> Result<f64, Refusal> {
 
 fn interface(value: &ValueAt<'_>) -> Result<Interface, Refusal> {
     const WANTED: &str = "\"bonded\", \"frictionless\" or { tangential_stiffness = …, normal_stiffness = … }";
-    match value.bare() {
+    match &value.node.value {
         Value::Text(_) => {
             let choices = [("bonded", Interface::Bonded), ("frictionless", Interface::Frictionless)];
             value.choice(&choices).map_err(|refusal| refusal.or_help(format!("or a spring: {WANTED}")))
@@ -135,9 +138,8 @@ const NO_PRESSURE: &str =
 
 /// A stiffness; `without` says what to do instead of 0.
 fn rigidity(value: &ValueAt<'_>, without: &str) -> Result<f64, Refusal> {
-    limits::size(value).map_err(|refusal| match *value.bare() {
-        Value::Integer(0) => refusal.help(without),
-        Value::Float(0.0) => refusal.help(without),
+    limits::size(value).map_err(|refusal| match value.node.value {
+        Value::Integer(0) | Value::Float(0.0) => refusal.help(without),
         Value::Float(stiffness) if stiffness.is_infinite() => {
             refusal.help("leave the key out: an absent stiffness is rigid")
         }

@@ -8,7 +8,7 @@ use super::reader::TableAt;
 use crate::counterbody::{Level, Shape};
 
 /// Most levels a case can have.
-const MOST: usize = 200;
+pub(super) const MOST: usize = 200;
 
 /// One section of `[[levels]]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,41 +33,27 @@ enum ShapeKeys {
     Power { coefficient: f64, exponent: f64 },
 }
 
-/// Every level of the case.
-pub(super) fn read(sections: &[TableAt<'_>]) -> Result<Vec<LevelSection>, Refusal> {
-    if let Some(section) = sections.get(MOST) {
-        let message = format!("`levels` must be at most {MOST} sections, not {}", sections.len());
-        return Err(Refusal::new(section.place(), message, "one too many"));
-    }
-    sections.iter().map(LevelSection::read).collect()
-}
-
 impl LevelSection {
-    fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        let shape = shape(section)?;
+    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
+        let kind = section.required("shape")?;
+        let kind = kind.choice(&[("paraboloid", 0), ("sphere", 1), ("cone", 2), ("power", 3)])?;
+        section.only()?;
+        let size = |key| limits::size(&section.required(key)?);
+        let shape = match kind {
+            0 => Shape::Paraboloid { radius: size("radius")? },
+            1 => Shape::Sphere { radius: size("radius")? },
+            2 => Shape::Cone { slope: size("slope")? },
+            _ => Shape::Power { coefficient: size("coefficient")?, exponent: size("exponent")? },
+        };
         let height = section.optional("height").map_or(Ok(0.0), |height| limits::place(&height))?;
         Ok(Self { shape, height, sites: sites(section)? })
     }
 
     /// The level as the core knows it.
     pub(super) fn build(&self, section: &TableAt<'_>) -> Result<Level, Refusal> {
-        Level::new(self.shape, self.height).map_err(|error| {
-            Refusal::new(section.place(), format!("`{}`: {error}", section.path("shape")), "this level")
-        })
+        Level::new(self.shape, self.height)
+            .map_err(|error| Refusal::new(section.place, format!("`{}`: {error}", section.path("shape")), "this level"))
     }
-}
-
-fn shape(section: &TableAt<'_>) -> Result<Shape, Refusal> {
-    let kind = section.required("shape")?;
-    let kind = kind.choice(&[("paraboloid", 0), ("sphere", 1), ("cone", 2), ("power", 3)])?;
-    section.only()?;
-    let size = |key| limits::size(&section.required(key)?);
-    Ok(match kind {
-        0 => Shape::Paraboloid { radius: size("radius")? },
-        1 => Shape::Sphere { radius: size("radius")? },
-        2 => Shape::Cone { slope: size("slope")? },
-        _ => Shape::Power { coefficient: size("coefficient")?, exponent: size("exponent")? },
-    })
 }
 
 fn sites(section: &TableAt<'_>) -> Result<Option<Vec<[f64; 2]>>, Refusal> {

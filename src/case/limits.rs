@@ -12,7 +12,7 @@ use super::reader::{POSITIVE, TableAt, ValueAt};
 use crate::body::{HalfSpace, Interface};
 use crate::counterbody::Level;
 use crate::lattice::Cell;
-use crate::run::{Refinement, Sampling};
+use crate::run::Sampling;
 
 /// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
 pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
@@ -58,7 +58,7 @@ pub(super) fn layers(half_space: &HalfSpace, sections: &[TableAt<'_>], cell: Cel
     let substrate = half_space.substrate().shear();
     for (layer, section) in half_space.layers().iter().zip(sections) {
         let refuse = |key: &str, what: String, help: &str| {
-            let place = section.optional(key).map_or(section.place(), |value| value.place());
+            let place = section.optional(key).map_or(section.place, |value| value.node.place);
             Refusal::new(place, format!("`{}`: {what}", section.path(key)), "beyond double precision").help(help)
         };
         let shear = layer.material().shear();
@@ -110,7 +110,7 @@ pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -
         if !CARRIED.contains(&rise) {
             let what =
                 format!("at the distance {} of the cell's side the profile rises by {}", plain(reach), plain(rise));
-            return Err(Refusal::new(section.place(), format!("`{}`: {what}", section.path("shape")), "this level")
+            return Err(Refusal::new(section.place, format!("`{}`: {what}", section.path("shape")), "this level")
                 .help(format!("between 1e-60 and 1e60 is allowed: {WHY}")));
         }
     }
@@ -120,13 +120,14 @@ pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -
 /// Samples as dense along one vector as along the other, to a factor; for a refinement a grid that is.
 pub(super) fn grid(
     grid: Sampling,
+    file: Option<[usize; 2]>,
     section: Option<&TableAt<'_>>,
     lattice: &TableAt<'_>,
     cell: Cell,
 ) -> Result<(), Refusal> {
     let Sampling::Points([n1, n2]) = grid else {
-        let refuse = |error| Refusal::new(lattice.place(), format!("`grid.accuracy`: {error}"), "this cell");
-        return Refinement::grids(&cell).map(drop).map_err(refuse);
+        let refuse = |error| Refusal::new(lattice.place, format!("`grid.accuracy`: {error}"), "this cell");
+        return grid.grids(&cell).map(drop).map_err(refuse);
     };
     let [a1, a2] = cell.vectors().map(|[x, y]| x.hypot(y));
     let (first, second) = (a1 / n1 as f64, a2 / n2 as f64);
@@ -134,10 +135,14 @@ pub(super) fn grid(
         return Ok(());
     }
     let points = section.and_then(|section| section.optional("points"));
-    let place = points.map_or(lattice.place(), |value| value.place());
+    let place = points.map_or(lattice.place, |value| value.node.place);
     let what = format!("samples stand {} apart along a₁ and {} along a₂", short(first), short(second));
+    let advice = match file {
+        Some(_) => "resample the file",
+        None => "give each vector its own points = [n1, n2]",
+    };
     Err(Refusal::new(place, format!("`grid.points`: {what}"), format!("{n1} × {n2} points"))
-        .help("at most a factor of 1000 is allowed between them: give each vector its own points = [n1, n2]"))
+        .help(format!("at most a factor of 1000 is allowed between them: {advice}")))
 }
 
 fn short(x: f64) -> String {

@@ -60,7 +60,7 @@ impl LoadSection {
 
 fn steps(value: &ValueAt<'_>) -> Result<Vec<f64>, Refusal> {
     const WANTED: &str = "a number, a list of numbers or { from = …, to = …, steps = … }";
-    match value.bare() {
+    match &value.node.value {
         Value::Integer(_) | Value::Float(_) => Ok(vec![limits::size_or_zero(value)?]),
         Value::List(items) if (1..=MOST).contains(&items.len()) => {
             value.list(WANTED, WANTED)?.iter().map(limits::size_or_zero).collect()

@@ -6,6 +6,9 @@ use super::error::Refusal;
 use super::reader::TableAt;
 use crate::localized::CircleRadius;
 
+/// Most circles that a case can ask for.
+const CIRCLES: usize = 100;
+
 /// The section `[localized]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LocalizedSection {
@@ -32,11 +35,11 @@ impl LocalizedSection {
         section.only()?;
         if let Some(indenters) = section.optional("indenters") {
             const WANTED: &str = "a list of at least one integer";
-            let circles = indenters.list(WANTED, "for example indenters = [7, 13]")?;
-            if circles.is_empty() {
-                return Err(indenters.refuse(WANTED).help("for example indenters = [7, 13]"));
+            const HELP: &str = "for example indenters = [7, 13]";
+            localized.indenters = indenters.items(WANTED, HELP, CIRCLES, |circle| circle.integer(1..=10_000))?;
+            if localized.indenters.is_empty() {
+                return Err(indenters.refuse(WANTED).help(HELP));
             }
-            localized.indenters = circles.iter().map(|circle| circle.integer(1..=10_000)).collect::<Result<_, _>>()?;
         }
         if let Some(elements) = section.optional("elements") {
             localized.elements = elements.integer(4..=1000)?;

@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use super::error::{CaseError, Refusal, Sources};
+use super::error::{CaseError, Refusal};
 use super::node::Table;
-use super::overrides::Override;
 use super::place::Place;
 use super::reader::TableAt;
 use super::surface::Heights;
@@ -12,7 +11,7 @@ use super::{
     LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection,
     SurfaceSection,
 };
-use super::{grid, keys, lattice, layers, levels, limits, solver};
+use super::{grid, keys, lattice, layers, levels, limits, overrides, solver};
 use crate::body::HalfSpace;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
 use crate::numeric::array::field;
@@ -62,8 +61,7 @@ impl Case {
     /// # Errors
     /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
     pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
-        let sources = Sources::new(&source.name, &source.text, overrides);
-        read(source, overrides).map_err(|refusal| sources.error(refusal))
+        read(source, overrides).map_err(|refusal| CaseError::new(source, overrides, refusal))
     }
 
     /// The case as TOML, complete with its defaults; it reads back equal.
@@ -119,7 +117,7 @@ fn readable(line: &str) -> String {
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let mut root = Table::parse(&source.text)?;
     for (number, text) in (1..).zip(overrides) {
-        Override::parse(text, number)?.apply(&mut root)?;
+        overrides::apply(text, number, &mut root)?;
     }
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &keys::CASE, Place::new(0, end..end));
@@ -132,15 +130,14 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
 
     let lattice_section = root.required_section("lattice", "[lattice]\nkind = \"hexagonal\"\nperiod = 1.0")?;
     let lattice = LatticeSection::read(&lattice_section)?;
-    let level_sections = root.sections("levels")?;
-    let levels = levels::read(&level_sections)?;
+    let level_sections = root.sections("levels", levels::MOST)?;
+    let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read).collect::<Result<_, _>>()?;
     let surface = match (&level_sections[..], root.section("surface")?) {
         ([], Some(section)) => Some(SurfaceSection::read(&section, &source.folder)?),
         ([_, ..], None) => None,
-        ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.place())),
+        ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.place)),
         ([], None) => {
-            let refusal =
-                Refusal::new(root.place(), "the case has neither [[levels]] nor [surface]", "none up to here");
+            let refusal = Refusal::new(root.place, "the case has neither [[levels]] nor [surface]", "none up to here");
             let example = "[[levels]]\nshape = \"paraboloid\"\nradius = 0.8\nheight = 0.0";
             return Err(refusal.help(format!("add a level, for example\n{example}")));
         }
@@ -161,8 +158,8 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     };
     // Both were checked key by key.
     let counterbody = counterbody
-        .map_err(|error| Refusal::new(lattice_section.place(), format!("`lattice`: {error}"), "no counterbody"))?;
-    let layer_sections = root.sections("layers")?;
+        .map_err(|error| Refusal::new(lattice_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
+    let layer_sections = root.sections("layers", layers::MOST)?;
     let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
     let substrate_section = root.required_section("substrate", "[substrate]\nyoung = 1.0\npoisson = 0.3")?;
     let substrate = SubstrateSection::read(&substrate_section)?;
@@ -174,7 +171,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let file_points = counterbody.topography().map(Topography::points);
     let grid_section = root.section("grid")?;
     let sampling = grid::read(grid_section.as_ref(), file_points)?;
-    limits::grid(sampling, grid_section.as_ref(), &lattice_section, counterbody.cell())?;
+    limits::grid(sampling, file_points, grid_section.as_ref(), &lattice_section, counterbody.cell())?;
     Ok(Case {
         title,
         lattice,

@@ -19,7 +19,7 @@ pub(super) struct Node {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
     Text(String),
-    /// An integer that fits; a larger one is kept as the nearest float.
+    /// An integer that fits; a larger one is kept as the nearest float, in hexadecimal, octal or binary as an infinite one.
     Integer(i64),
     /// Also the not finite ones: refusing them is the reader's task.
     Float(f64),
@@ -133,7 +133,8 @@ impl Origin {
             DeValue::String(text) => Value::Text(text.to_string()),
             DeValue::Integer(integer) => match i64::from_str_radix(integer.as_str(), integer.radix()) {
                 Ok(value) => Value::Integer(value),
-                Err(_) => Value::Float(integer.as_str().parse().unwrap_or(f64::INFINITY)),
+                Err(_) if integer.radix() == 10 => Value::Float(integer.as_str().parse().unwrap_or(f64::INFINITY)),
+                Err(_) => Value::Float(f64::INFINITY),
             },
             // The parser lets only numbers through.
             DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
@@ -210,6 +211,7 @@ mod tests {
         assert_eq!(value("0x10"), Value::Integer(16));
         assert_eq!(value("210e9"), Value::Float(210e9));
         assert_eq!(value("100000000000000000000"), Value::Float(1e20));
+        assert_eq!(value("0x10000000000000000"), Value::Float(f64::INFINITY));
         assert_eq!(value("-inf"), Value::Float(f64::NEG_INFINITY));
         assert!(matches!(value("+nan"), Value::Float(x) if x.is_nan()));
     }

@@ -1,11 +1,11 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
 use super::{Case, LoadSection};
-use crate::body::{HalfSpace, Interface, MeanStress};
+use crate::body::{HalfSpace, Interface, Layer, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
 use crate::numeric::number::number;
-use crate::run::warnings::{HIGH, STEEP, part};
+use crate::run::warnings::{HIGH, STEEP, ratio};
 
 /// Lengths of one case that differ by more than this are hardly in one unit.
 const APART: f64 = 1e4;
@@ -33,13 +33,13 @@ fn pressures(load: &LoadSection, half_space: &HalfSpace) -> Option<String> {
     let names = (1..=half_space.layers().len()).map(|number| format!("layer {number}"));
     let materials = layers.zip(names).chain([(half_space.substrate(), "the substrate".to_owned())]);
     let (material, name) = materials.min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
-    let ratio = highest / material.young();
-    (ratio > HIGH).then(|| {
+    let part = highest / material.young();
+    (part > HIGH).then(|| {
         format!(
             "load.mean_pressure = {} is {} of Young's modulus {} of {name}: strains are not small any more; are load and \
              moduli in one unit, not one in MPa and the other in GPa?",
             number(highest),
-            part(ratio),
+            ratio(part),
             number(material.young())
         )
     })
@@ -74,7 +74,7 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
             "{key} = {} is {} times the side {} of the cell: are all lengths in one unit, not some in metres and others in \
              micrometres?",
             number(length),
-            part(length / side),
+            ratio(length / side),
             number(side)
         )
     })
@@ -132,24 +132,20 @@ fn topography(topography: &Topography) -> Option<String> {
 /// Springs that slip over more than the cell: the wide disc of `mean = "half-space"` must be wider than that.
 fn slipping(half_space: &HalfSpace, cell: Cell) -> Vec<String> {
     let side = cell.reduced().longer_side();
-    let lengths = MeanStress::slip_lengths(half_space).into_iter().enumerate();
-    lengths
-        .filter_map(|(index, length)| Some((index, length.filter(|&length| length > side)?)))
-        .map(|(index, length)| {
-            let Interface::Spring { tangential, .. } = half_space.layers()[index].interface() else {
-                return String::new();
-            };
-            format!(
-                "stress.mean = \"half-space\": the spring under layer {} (tangential stiffness {}) slips over {}, {} times \
-                 the cell: the layers above follow the substrate only where the load is several times wider than that; \
-                 under a narrower one they spread as above a frictionless interface",
-                index + 1,
-                number(tangential),
-                number(length),
-                part(length / side)
-            )
-        })
-        .collect()
+    let layers = (1..).zip(half_space.layers()).zip(MeanStress::slip_lengths(half_space));
+    let slips = layers.filter_map(|((layer, above), length): ((usize, &Layer), Option<f64>)| {
+        let Interface::Spring { tangential, .. } = above.interface() else { return None };
+        let length = length.filter(|&length| length > side)?;
+        Some(format!(
+            "stress.mean = \"half-space\": the spring under layer {layer} (tangential stiffness {}) slips over {}, {} times \
+             the cell: the layers above follow the substrate only where the load is several times wider than that; \
+             under a narrower one they spread as above a frictionless interface",
+            number(tangential),
+            number(length),
+            ratio(length / side)
+        ))
+    });
+    slips.collect()
 }
 
 #[cfg(test)]
@@ -180,7 +176,7 @@ mod tests {
             (&["levels.0.radius=1e-6"], &["levels[0].radius = 1.0000e-6"]),
             (&["levels.0.height=1e9"], &["only differences of heights matter"]),
             (&["levels.0.slope=3", "levels.0.shape=cone"], &["levels[0].slope", "cone"]),
-            (&["levels.2.radius=0.05"], &["level 3", "Hertz"]),
+            (&["levels.2.radius=0.05"], &["level 3", "of a single contact"]),
             (
                 &["lattice.period=1e-6", "levels.0.shape=power", "levels.0.coefficient=0.6", "levels.0.exponent=2"],
                 &["levels[0]: the side of the cell over the slope of c·rⁿ there = 0.83333", "metres"],

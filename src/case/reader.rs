@@ -16,27 +16,23 @@ pub(super) const POSITIVE: (Bound<f64>, Bound<f64>) = (Bound::Excluded(0.0), Bou
 pub(super) struct TableAt<'a> {
     table: &'a Table,
     keys: &'static Keys,
-    place: Place,
+    /// Where it begins.
+    pub(super) place: Place,
     path: String,
 }
 
 /// A value of the case with its path, such as `layers[0].poisson`, and the keys of the tables it may hold.
 #[derive(Debug)]
 pub(super) struct ValueAt<'a> {
-    node: &'a Node,
+    pub(super) node: &'a Node,
     keys: &'static Keys,
-    path: String,
+    pub(super) path: String,
 }
 
 impl<'a> TableAt<'a> {
     /// A table that stands in no other, such as the whole case; `end` is where its text ends.
     pub(super) fn root(table: &'a Table, keys: &'static Keys, end: Place) -> Self {
         Self { table, keys, place: end, path: String::new() }
-    }
-
-    /// Where the table begins.
-    pub(super) fn place(&self) -> Place {
-        self.place
     }
 
     /// Full path of a key of this table.
@@ -72,11 +68,15 @@ impl<'a> TableAt<'a> {
         })
     }
 
-    /// The tables of a list, [[key]], none if it is not there.
-    pub(super) fn sections(&self, key: &str) -> Result<Vec<TableAt<'a>>, Refusal> {
+    /// The tables of a list, [[key]], none if it is not there; more than `most` are refused.
+    pub(super) fn sections(&self, key: &str, most: usize) -> Result<Vec<TableAt<'a>>, Refusal> {
         let Some(value) = self.optional(key) else { return Ok(Vec::new()) };
         let help = format!("write each one as a section of its own, [[{key}]] in double brackets");
-        value.list("a list of tables", &help)?.iter().map(|item| item.table(&help)).collect()
+        let sections = value.list("a list of tables", &help)?;
+        let sections: Vec<Self> = sections.iter().map(|item| item.table(&help)).collect::<Result<_, _>>()?;
+        let Some(section) = sections.get(most) else { return Ok(sections) };
+        let message = format!("`{key}` must be at most {most} sections, not {}", sections.len());
+        Err(Refusal::new(section.place, message, "one too many"))
     }
 
     /// Refuse keys that the table does not have, or not for its kind.
@@ -90,7 +90,7 @@ impl<'a> TableAt<'a> {
             return Ok(());
         };
         let (key, path) = (entry.key.as_str(), self.path(&entry.key));
-        if let Some((_, why)) = self.keys.foreign.iter().find(|(foreign, _)| *foreign == key) {
+        if let Some((_, why)) = self.keys.misplaced.iter().find(|(misplaced, _)| *misplaced == key) {
             return Err(Refusal::new(entry.key_place, format!("`{path}` has no place here: {why}"), "not used here")
                 .help(format!("remove it; allowed here: {}", known.join(", "))));
         }
@@ -112,7 +112,7 @@ impl<'a> TableAt<'a> {
         match (self.optional(a), self.optional(b)) {
             (Some(value), None) => Ok((0, value)),
             (None, Some(value)) => Ok((1, value)),
-            (Some(_), Some(second)) => Err(self.both(keys, second.place())),
+            (Some(_), Some(second)) => Err(self.both(keys, second.node.place)),
             (None, None) => {
                 let message = format!("`{}` or `{}` is missing", self.path(a), self.path(b));
                 let label = format!("either `{a}` or `{b}` is missing here");
@@ -129,21 +129,6 @@ impl<'a> TableAt<'a> {
 }
 
 impl<'a> ValueAt<'a> {
-    /// Where the value stands.
-    pub(super) fn place(&self) -> Place {
-        self.node.place
-    }
-
-    /// Full path of the value, such as `layers[0].poisson`.
-    pub(super) fn path(&self) -> &str {
-        &self.path
-    }
-
-    /// The bare value.
-    pub(super) fn bare(&self) -> &'a Value {
-        &self.node.value
-    }
-
     /// Refusal of the value: "`path` must be `wanted`, not …".
     pub(super) fn refuse(&self, wanted: impl std::fmt::Display) -> Refusal {
         let received = self.node.value.describe();
@@ -213,6 +198,21 @@ impl<'a> ValueAt<'a> {
         Ok(items.iter().enumerate().map(item).collect())
     }
 
+    /// The items of a list of at most `most`, each as `read` has it; `wanted` and `help` as of a [list](Self::list).
+    pub(super) fn items<T>(
+        &self,
+        wanted: &str,
+        help: &str,
+        most: usize,
+        read: impl FnMut(&Self) -> Result<T, Refusal>,
+    ) -> Result<Vec<T>, Refusal> {
+        let items = self.list(wanted, help)?;
+        if items.len() > most {
+            return Err(self.refuse(format!("a list of at most {most} items")));
+        }
+        items.iter().map(read).collect()
+    }
+
     /// The table of the value; `help` says how to write it.
     pub(super) fn table(&self, help: &str) -> Result<TableAt<'a>, Refusal> {
         match &self.node.value {
@@ -251,24 +251,19 @@ fn alternatives(names: &[impl AsRef<str>], quote: char) -> String {
 
 /// "a number greater than 0 and at most 0.1".
 fn describe(range: &impl RangeBounds<f64>) -> String {
-    let low = match range.start_bound() {
-        Bound::Included(low) => Some(format!("at least {}", plain(*low))),
-        Bound::Excluded(low) => Some(format!("greater than {}", plain(*low))),
+    let told = |bound: Bound<&f64>, included, excluded| match bound {
+        Bound::Included(x) => Some((included, plain(*x))),
+        Bound::Excluded(x) => Some((excluded, plain(*x))),
         Bound::Unbounded => None,
     };
-    let high = match range.end_bound() {
-        Bound::Included(high) => Some(format!("at most {}", plain(*high))),
-        Bound::Excluded(high) => Some(format!("less than {}", plain(*high))),
-        Bound::Unbounded => None,
-    };
-    match (range.start_bound(), range.end_bound(), low, high) {
-        (Bound::Included(low), Bound::Included(high), ..) => {
-            format!("a number between {} and {}", plain(*low), plain(*high))
-        }
-        (_, _, Some(low), Some(high)) => format!("a number {low} and {high}"),
-        (Bound::Included(low), ..) => format!("a finite number of at least {}", plain(*low)),
-        (_, _, Some(bound), None) | (_, _, None, Some(bound)) => format!("a finite number {bound}"),
-        (_, _, None, None) => "a finite number".to_owned(),
+    let low = told(range.start_bound(), "at least", "greater than");
+    let high = told(range.end_bound(), "at most", "less than");
+    match (low, high) {
+        (Some(("at least", low)), Some(("at most", high))) => format!("a number between {low} and {high}"),
+        (Some((above, low)), Some((below, high))) => format!("a number {above} {low} and {below} {high}"),
+        (Some(("at least", low)), None) => format!("a finite number of at least {low}"),
+        (Some((word, bound)), None) | (None, Some((word, bound))) => format!("a finite number {word} {bound}"),
+        (None, None) => "a finite number".to_owned(),
     }
 }
 

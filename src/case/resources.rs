@@ -8,8 +8,8 @@ use super::{Case, Room, StressSection};
 use crate::body::HalfSpace;
 use crate::localized::Setup;
 use crate::numeric::number::number;
+use crate::run::Sampling;
 use crate::run::places::SECTION;
-use crate::run::{Refinement, Sampling, TooOblong};
 use crate::spectral::{self, fourier::fast_points};
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -64,7 +64,8 @@ pub struct Needs {
 }
 
 impl Needs {
-    fn fit(&self, room: Room) -> bool {
+    /// Whether there is room for it.
+    pub fn fit(&self, room: Room) -> bool {
         self.memory <= room.memory && self.disk_while_running <= room.disk
     }
 }
@@ -146,35 +147,14 @@ pub fn largest_points(case: &Case, points: [usize; 2], room: Room, job: Job) -> 
         let middle = low + (high - low) / 2;
         if fits(middle) { low = middle } else { high = middle }
     }
-    Some(shaped(low)).filter(|&points| needs(case, points, job).fit(room))
-}
-
-/// The largest grid that `case` may be solved on: its own, or the last one of a refinement.
-///
-/// # Errors
-/// [`TooOblong`] when a refinement has none.
-pub fn finest_points(case: &Case) -> Result<[usize; 2], TooOblong> {
-    grids(case).map(|grids| grids[grids.len() - 1])
-}
-
-/// The grids that `case` may be solved on, the coarsest first.
-fn grids(case: &Case) -> Result<Vec<[usize; 2]>, TooOblong> {
-    match case.grid {
-        Sampling::Points(points) => Ok(vec![points]),
-        Sampling::Accuracy(_) => Refinement::grids(&case.counterbody().cell()),
-    }
-}
-
-/// Whether a job on `case` finds room on a grid of `points`.
-pub fn fits(case: &Case, points: [usize; 2], room: Room, job: Job) -> bool {
-    needs(case, points, job).fit(room)
+    Some(shaped(low))
 }
 
 /// Why there is no room for a job on `case`, and what would fit; `None` if there is. A refinement is held to its first
-/// grid: its later ones are judged as they come ([`fits`]).
+/// grid: its later ones are judged as they come ([`Needs::fit`]).
 pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
     let key = if matches!(case.grid, Sampling::Accuracy(_)) { "grid.accuracy" } else { "grid.points" };
-    let points = match grids(case) {
+    let points = match case.grid.grids(&case.counterbody().cell()) {
         Ok(grids) => grids[0],
         Err(error) => return Some(format!("{key}: {error}")),
     };
@@ -286,27 +266,17 @@ mod tests {
             let ratio = points[0] as f64 / points[1] as f64;
             assert!((ratio / 2.0 - 1.0).abs() < 0.05, "{points:?}");
             assert_eq!(points.map(fast_points), points);
-            assert!(fits(&case, points, room, SOLVE));
+            assert!(needs(&case, points, SOLVE).fit(room));
             let larger = points.map(|n| fast_points(n + n / 20));
-            assert!(!fits(&case, larger, room, SOLVE), "{points:?} is not the largest");
+            assert!(!needs(&case, larger, SOLVE).fit(room), "{points:?} is not the largest");
         }
         assert_eq!(largest_points(&case, [64, 64], Room { memory: MEBIBYTE, ..room }, SOLVE), None);
     }
 
     #[test]
-    fn a_refusal_names_what_is_needed_and_what_fits() {
-        let wide = case(&["grid.points=16384"]);
-        let room = Room { memory: 1000 * MEBIBYTE, disk: u64::MAX };
-        let drawn = Job::Solve { pictures: true };
-        let said = refusal(&wide, room, drawn).unwrap();
-        assert!(said.contains("16384 × 16384") && said.contains("1000 MiB are available"), "{said}");
-        assert!(said.contains("the largest grid that fits is grid.points = ["), "{said}");
-        let said = refusal(&wide, Room { memory: u64::MAX, disk: 2000 * MEBIBYTE }, drawn).unwrap();
-        assert!(said.contains("of disk") && said.contains("2000 MiB are free"), "{said}");
-        assert_eq!(refusal(&wide, Room { memory: 1 << 50, disk: 1 << 50 }, drawn), None);
-
+    fn steps_that_no_disk_holds_on_any_grid_are_said_to_be_too_many() {
         let many = case(&["grid.points=4", "load.mean_pressure={from=0.01,to=0.06,steps=1000}"]);
-        let said = refusal(&many, Room { disk: MEBIBYTE, ..room }, SOLVE).unwrap();
+        let said = refusal(&many, Room { memory: 1000 * MEBIBYTE, disk: MEBIBYTE }, SOLVE).unwrap();
         assert!(said.contains("fewer load steps"), "{said}");
     }
 

@@ -10,7 +10,7 @@ use crate::body::MeanStress;
 use crate::counterbody::Counterbody;
 use crate::lattice::Lattice;
 use crate::run::places::SECTION;
-use crate::run::{SectionRequest, StressRequest, Volume};
+use crate::run::{self, StressRequest, Volume};
 use crate::stress::Line;
 
 /// The section `[stress]`.
@@ -46,34 +46,26 @@ pub struct Cut {
 }
 
 /// Where a cut runs.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Toward {
     /// Toward the nearest other indenter of this level, from 1.
-    Level(usize),
+    Level(#[serde(serialize_with = "write_level")] usize),
     /// Along this direction, of any length.
     Direction([f64; 2]),
-}
-
-impl Serialize for Toward {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Level(level) => write_level(level, serializer),
-            Self::Direction(direction) => direction.serialize(serializer),
-        }
-    }
 }
 
 impl StressSection {
     /// What a run on `counterbody` is asked for.
     pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
-        let section = |cut: Cut| {
+        let cut = |cut: Cut| {
             let line = cut.line(counterbody.indenters()?.lattice());
-            Some(SectionRequest { line, depth: cut.depth })
+            Some(run::Cut { line, depth: cut.depth })
         };
         StressRequest {
             mean: self.mean,
             planes: self.planes.clone(),
-            section: self.section.and_then(section),
+            cut: self.section.and_then(cut),
             points: self.points.clone(),
             volume: self.volume,
         }
@@ -82,14 +74,9 @@ impl StressSection {
     /// Read the section of a case with this many levels (none: a surface from a file).
     pub(super) fn read(section: &TableAt<'_>, levels: usize) -> Result<Self, Refusal> {
         section.only()?;
-        let planes = match section.optional("planes") {
-            Some(value) => {
-                let depths = value.list("a list of depths", "for example planes = [0.0, 0.5]")?;
-                at_most(&value, depths.len(), PLANES)?;
-                depths.iter().map(limits::size_or_zero).collect::<Result<_, _>>()?
-            }
-            None => Vec::new(),
-        };
+        let planes = section.optional("planes").map_or(Ok(Vec::new()), |value| {
+            value.items("a list of depths", "for example planes = [0.0, 0.5]", PLANES, limits::size_or_zero)
+        })?;
         let mean = match section.optional("mean") {
             Some(value) => {
                 value.choice(&[("confined", MeanStress::Confined), ("half-space", MeanStress::HalfSpace)])?
@@ -97,14 +84,9 @@ impl StressSection {
             None => MeanStress::Confined,
         };
         let cut = section.optional("section").map(|value| Cut::read(&value, levels)).transpose()?;
-        let points = match section.optional("points") {
-            Some(value) => {
-                let points = value.list("a list of points", "for example points = [[0.0, 0.0, 0.1]]")?;
-                at_most(&value, points.len(), POINTS)?;
-                points.iter().map(point).collect::<Result<_, _>>()?
-            }
-            None => Vec::new(),
-        };
+        let points = section.optional("points").map_or(Ok(Vec::new()), |value| {
+            value.items("a list of points", "for example points = [[0.0, 0.0, 0.1]]", POINTS, point)
+        })?;
         let volume = section.optional("volume").map(|value| volume(&value)).transpose()?;
         Ok(Self { planes, mean, section: cut, points, volume })
     }
@@ -113,10 +95,6 @@ impl StressSection {
 /// Most planes and points that a case can ask for.
 const PLANES: usize = 1000;
 const POINTS: usize = 100_000;
-
-fn at_most(value: &ValueAt<'_>, count: usize, most: usize) -> Result<(), Refusal> {
-    if count <= most { Ok(()) } else { Err(value.refuse(format!("a list of at most {most} items"))) }
-}
 
 /// A point [x, y, z] at or below the surface.
 fn point(value: &ValueAt<'_>) -> Result<[f64; 3], Refusal> {
@@ -154,8 +132,8 @@ impl Cut {
 
     fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
         if levels == 0 {
-            let message = format!("`{}` has no place beside [surface]: a cut runs between levels", value.path());
-            return Err(Refusal::new(value.place(), message, "no levels in this case").help("remove it"));
+            let message = format!("`{}` has no place beside [surface]: a cut runs between levels", value.path);
+            return Err(Refusal::new(value.node.place, message, "no levels in this case").help("remove it"));
         }
         let section = value.table("{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }")?;
         section.only()?;
@@ -171,7 +149,7 @@ impl Cut {
 impl Toward {
     fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
         const WANTED: &str = "a level such as \"level 2\", or a direction [x, y]";
-        if !matches!(value.bare(), Value::List(_)) {
+        if !matches!(value.node.value, Value::List(_)) {
             return level(value, levels).map(Self::Level);
         }
         let items = value.list(WANTED, WANTED)?;

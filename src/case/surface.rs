@@ -8,9 +8,9 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::limits::CARRIED;
-use super::machine::available_memory;
 use super::npy::Head;
 use super::reader::{TableAt, ValueAt};
+use super::room::available_memory;
 
 /// The section `[surface]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -47,7 +47,7 @@ impl Heights {
     fn read(path: &Path, written: &ValueAt<'_>) -> Result<Self, Refusal> {
         let shown = path.display();
         let refuse = |what: String, label: String| {
-            Refusal::new(written.place(), format!("`{}`: {what}", written.path()), label)
+            Refusal::new(written.node.place, format!("`{}`: {what}", written.path), label)
                 .help(format!("needed: {WANTED}"))
         };
         let unreadable = |error| refuse(format!("cannot read {shown}: {error}"), "this file".into());
@@ -57,14 +57,14 @@ impl Heights {
         let head = Head::read(&mut reader)
             .map_err(|error| refuse(format!("{shown} is not a NumPy file: {error}"), "this file".into()))?;
 
-        let &[n1, n2] = &head.shape[..] else { return Err(refuse_shape(&refuse, path, &head.shape)) };
-        if !(2..=32768).contains(&n1) || !(2..=32768).contains(&n2) {
-            return Err(refuse_shape(&refuse, path, &head.shape));
-        }
-        let Head { kind, .. } = &head;
-        let decode = head
-            .decode()
-            .ok_or_else(|| refuse(format!("{shown} holds values of type {kind}"), format!("type {kind}")))?;
+        let &[n1 @ 2..=32768, n2 @ 2..=32768] = &head.shape[..] else {
+            let sizes: Vec<String> = head.shape.iter().map(u64::to_string).collect();
+            let shape = format!("shape ({})", sizes.join(", "));
+            let what = format!("{shown} holds an array of {shape}; n1 and n2 must lie between 2 and 32768");
+            return Err(refuse(what, shape));
+        };
+        let kind = format!("type {}", head.kind);
+        let decode = head.decode().ok_or_else(|| refuse(format!("{shown} holds values of {kind}"), kind))?;
         let truncated = || refuse(format!("{shown} ends before its {n1} × {n2} values"), "truncated".into());
         if bytes < 8 * n1 * n2 {
             return Err(truncated());
@@ -92,13 +92,6 @@ impl Heights {
             }
         }
     }
-}
-
-fn refuse_shape(refuse: &dyn Fn(String, String) -> Refusal, path: &Path, shape: &[u64]) -> Refusal {
-    let sizes: Vec<String> = shape.iter().map(u64::to_string).collect();
-    let shape = format!("({})", sizes.join(", "));
-    let what = format!("{} holds an array of shape {shape}; n1 and n2 must lie between 2 and 32768", path.display());
-    refuse(what, format!("shape {shape}"))
 }
 
 #[cfg(test)]

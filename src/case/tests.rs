@@ -20,13 +20,8 @@ fn read(text: &str, overrides: &[&str]) -> Result<Case, CaseError> {
     Case::read(&source(text), &overrides)
 }
 
-#[test]
-fn every_embedded_case_is_read() {
-    assert!(embedded::find(embedded::DEFAULT).is_some());
-    for (name, _) in embedded::all() {
-        let case = Case::read(&embedded::source(name).unwrap(), &[]).unwrap_or_else(|error| panic!("{error}"));
-        assert!(!case.title.is_empty(), "{name} has no title");
-    }
+fn fig2() -> String {
+    embedded::source("fig2").unwrap().text
 }
 
 #[test]
@@ -184,7 +179,7 @@ fn the_defaults_that_the_keys_state_are_those_of_a_case() {
 
 #[test]
 fn the_shear_ratio_is_that_to_the_substrate() {
-    let case = read(embedded::find("fig2").unwrap(), &[]).unwrap();
+    let case = read(&fig2(), &[]).unwrap();
     let half_space = case.half_space();
     let ratio = half_space.layers()[0].material().shear() / half_space.substrate().shear();
     assert!((ratio - 2.0).abs() < 1e-15);
@@ -192,9 +187,8 @@ fn the_shear_ratio_is_that_to_the_substrate() {
 
 #[test]
 fn explicit_sites_stand_in_the_cell_whose_side_is_the_period() {
-    let fig2 = embedded::find("fig2").unwrap();
     let side = |overrides: &[&str]| {
-        let [x, y] = read(fig2, overrides).unwrap().counterbody().cell().vectors()[0];
+        let [x, y] = read(&fig2(), overrides).unwrap().counterbody().cell().vectors()[0];
         x.hypot(y)
     };
     assert!((side(&[]) - 3f64.sqrt()).abs() < 1e-15);
@@ -204,12 +198,22 @@ fn explicit_sites_stand_in_the_cell_whose_side_is_the_period() {
 
 #[test]
 fn overrides_come_one_after_another_and_are_checked_like_the_file() {
-    let fig2 = embedded::find("fig2").unwrap();
-    let case = read(fig2, &["load.penetration=[0, 0.1]", "solver.method=polonsky-keer", "grid.points=[64,48]"]);
+    let fig2 = fig2();
+    let case = read(&fig2, &["load.penetration=[0, 0.1]", "solver.method=polonsky-keer", "grid.points=[64,48]"]);
     let case = case.unwrap();
     assert_eq!(case.load, LoadSection::Penetration(vec![0.0, 0.1]));
     assert_eq!(case.grid, Sampling::Points([64, 48]));
-    assert_eq!(read(fig2, &["levels.1.height=0.5", "levels.1.height=0.4"]).unwrap().levels[1].height, 0.4);
-    let error = read(fig2, &["title=x", "substrate.poisson=0.6"]).unwrap_err();
+    assert_eq!(read(&fig2, &["levels.1.height=0.5", "levels.1.height=0.4"]).unwrap().levels[1].height, 0.4);
+    let error = read(&fig2, &["title=x", "substrate.poisson=0.6"]).unwrap_err();
     assert!(error.to_string().contains("--set:1:19"), "{error}");
+}
+
+#[test]
+fn layers_and_circles_without_end_are_refused() {
+    let layers = fig2() + &"[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n".repeat(200);
+    let error = read(&layers, &[]).unwrap_err();
+    assert_eq!(error.message(), "`layers` must be at most 200 sections, not 201");
+    let circles = format!("localized.indenters=[{}]", "7,".repeat(101));
+    let error = read(&fig2(), &[&circles]).unwrap_err();
+    assert!(error.message().starts_with("`localized.indenters` must be a list of at most 100 items"), "{error}");
 }

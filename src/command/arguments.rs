@@ -54,7 +54,7 @@ pub enum Command {
         #[command(flatten)]
         changes: Changes,
     },
-    /// Say what a case means: cell, grid, materials, memory, first touch loads; solves nothing at full size
+    /// Say what a case means: cell, grid, materials, memory, first touch loads; solves no load step
     Check {
         /// Case file, or the name of an embedded case
         case: PathBuf,
@@ -93,7 +93,7 @@ impl Arguments {
         read.map_err(|error| {
             let typed: Vec<String> =
                 std::env::args_os().skip(1).map(|arg| arg.to_string_lossy().into_owned()).collect();
-            match without_effect::explained(&error, &typed) {
+            match without_effect::explained(&error, &typed, &Self::command()) {
                 Some(message) => tell!("error: {message}"),
                 // Help that nobody reads is no fault.
                 None => drop(error.print()),
@@ -125,7 +125,7 @@ fn depth(text: &str) -> Result<f64, String> {
 
 fn number(text: &str, allowed: impl Fn(f64) -> bool, wanted: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
-        Ok(x) if x.is_finite() && allowed(x) => Ok(x),
+        Ok(x) if allowed(x) => Ok(x),
         _ => Err(format!("must be {wanted}")),
     }
 }

@@ -9,19 +9,16 @@ pub fn run(name: Option<&str>, set: &[String]) -> Result<Ending, Failure> {
     let mut out = terminal::out();
     match name {
         Some(name) => {
-            let Some(text) = embedded::find(name) else {
+            let Some(source) = embedded::source(name) else {
                 let names: Vec<&str> = embedded::all().iter().map(|(name, _)| *name).collect();
-                return Err(Failure::Refused(format!(
-                    "there is no embedded case {name}; there are {}",
-                    names.join(", ")
-                )));
+                let names = names.join(", ");
+                return Err(Failure::Refused(format!("there is no embedded case {name}; there are {names}")));
             };
-            match (embedded::source(name), set) {
-                (Some(source), [_, ..]) => {
-                    let case = Case::read(&source, set).map_err(|error| Failure::Case(Box::new(error)))?;
-                    write!(out, "# {name} with {}\n\n{}", set.join(", ").replace('\n', " "), case.to_toml())?;
-                }
-                _ => write!(out, "{text}")?,
+            if set.is_empty() {
+                write!(out, "{}", source.text)?;
+            } else {
+                let case = Case::read(&source, set)?;
+                write!(out, "# {name} with {}\n\n{}", set.join(", ").replace('\n', " "), case.to_toml())?;
             }
         }
         None if !set.is_empty() => {

@@ -1,10 +1,10 @@
 //! `percoat check`: what a case means, without solving it.
 
+use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
-use super::room::Allowed;
 use super::terminal::{self, tell};
-use percoat::case::resources::{Job, Needs, bytes, finest_points, needs};
+use percoat::case::resources::{Job, Needs, bytes, needs};
 use percoat::case::{Case, Room, foreseen, plausibility};
 use percoat::output::number;
 use percoat::reading::first_touches;
@@ -24,29 +24,27 @@ pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
     writeln!(out, "{title}\n\n{}\n\n{}\n", case.counterbody(), case.half_space())?;
     match case.grid {
         Sampling::Points(points) => {
-            let grid =
-                Grid::new(case.counterbody().cell(), points).map_err(|error| Failure::Refused(error.to_string()))?;
-            writeln!(out, "{grid}")?;
+            writeln!(out, "{}", Grid::new(case.counterbody().cell(), points).map_err(Failure::refused)?)?;
         }
         Sampling::Accuracy(accuracy) => writeln!(out, "grid: refined until results change by less than {accuracy}")?,
     }
-    write_needs(&mut out, &case, room)?;
+    let grids = case.grid.grids(&case.counterbody().cell()).map_err(Failure::refused)?;
+    write_needs(&mut out, &case, grids[grids.len() - 1], room)?;
     let (name, values) = (case.load.quantity(), case.load.values());
     let [first, last] = [values[0], values[values.len() - 1]].map(number);
     match values.len() {
         1 => writeln!(out, "load: {name} {first}")?,
         count => writeln!(out, "load: {name} {first} … {last}, {count} steps")?,
     }
-    let touches = write_touches(&mut out, &case)?;
+    let touches = write_touches(&mut out, &case, grids[0])?;
     for doubt in [plausibility::of_case(&case), foreseen(&case, &touches)].concat() {
         tell!("warning: {doubt}");
     }
     Ok(Ending::Done)
 }
 
-/// Memory and disk that solving the case takes, with pictures and without.
-fn write_needs(out: &mut impl Write, case: &Case, room: Room) -> Result<(), Failure> {
-    let points = finest_points(case).map_err(|error| Failure::Refused(error.to_string()))?;
+/// Memory and disk that solving the case takes on its finest grid, with pictures and without.
+fn write_needs(out: &mut impl Write, case: &Case, points: [usize; 2], room: Room) -> Result<(), Failure> {
     let Needs { memory, disk, disk_while_running } = needs(case, points, Job::Solve { pictures: true });
     let free = if room.disk == u64::MAX { String::new() } else { format!(", {} free", bytes(room.disk)) };
     let most = if matches!(case.grid, Sampling::Accuracy(_)) { "at most " } else { "" };
@@ -64,14 +62,16 @@ fn write_needs(out: &mut impl Write, case: &Case, room: Room) -> Result<(), Fail
 /// Points along the shorter cell vector on which the first touches are looked for.
 const POINTS: usize = 192;
 
-/// The mean pressures at which the levels first touch, also as lines; none for a topography.
-fn write_touches(out: &mut impl Write, case: &Case) -> Result<Vec<Option<f64>>, Failure> {
+/// The mean pressures at which the levels first touch, also as lines; none for a topography. `first` is the coarsest grid
+/// of the case, for which there is room.
+fn write_touches(out: &mut impl Write, case: &Case, first: [usize; 2]) -> Result<Vec<Option<f64>>, Failure> {
     if case.counterbody().indenters().is_none() {
         return Ok(Vec::new());
     }
-    let points = balanced_points(&case.counterbody().cell(), POINTS);
-    let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)
-        .map_err(|error| Failure::Refused(error.to_string()))?;
+    let [n1, n2] = balanced_points(&case.counterbody().cell(), POINTS);
+    // Along a long cell they would be many.
+    let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
+    let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver).map_err(Failure::refused)?;
     writeln!(out, "first touch, on {} × {} samples:", points[0], points[1])?;
     let touches = first_touches(&mut solver);
     for (level, touch) in (1..).zip(&touches) {

@@ -1,16 +1,17 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
+use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
-use super::interruption::{self, Saved};
+use super::interruption;
 use super::options::Common;
 use super::pictures::PictureOptions;
-use super::room::Allowed;
 use super::terminal::{self, tell};
 use indicatif::ProgressBar;
+use percoat::case::plausibility;
 use percoat::case::resources::Job;
 use percoat::comparison::Task;
-use percoat::output::{CompareFile, Plan, RunFolder, Writer, table, write_text};
+use percoat::output::{Plan, RunFolder, Writer, compare_json, table, write_text};
 use percoat::run::{End, Run, Sampling};
 use percoat::{MeanStress, picture};
 use std::io::Write;
@@ -29,15 +30,14 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
     let loads = case.load.loads();
-    let Some(&load) = loads.last() else { return Err(Failure::Refused("the case has no load step".to_owned())) };
+    let load = loads[loads.len() - 1];
     let run = Run { loads: vec![load], stress: None, ..case.run() };
     let job = Job::Compare { pictures: pictures.wanted() };
     let mut allowed = Allowed::new(&case, &folder, job)?;
     run.check()?;
     interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
-    let plan = Plan { names, ..Plan::new(Writer::Compare) };
-    let claim = RunFolder::claim(&folder, &plan)?;
+    let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Compare) })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let localized = &case.localized;
     let task = Task {
@@ -57,7 +57,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
             (refined.points, refined.end.unwrap_or(End::Reached))
         }
     };
-    let progress = if common.shows_progress() { ProgressBar::new_spinner() } else { ProgressBar::hidden() };
+    let progress = common.bar(ProgressBar::new_spinner());
     let comparison = task.compare(points, &mut |what| {
         progress.set_message(what.to_owned());
         progress.tick();
@@ -66,17 +66,13 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         }
     });
     progress.finish_and_clear();
-    let comparison = comparison.map_err(|error| Failure::Refused(error.to_string()))?;
+    let comparison = comparison.map_err(Failure::refused)?;
 
-    let file = CompareFile::new(&comparison, &case.title, &case, loads.len()).to_json();
-    write_text(&claim.staging().join("compare.json"), &file)?;
+    write_text(&claim.staging().join("compare.json"), &compare_json(&comparison, &case, loads.len()))?;
     pictures.write(&claim.staging(), "comparison", || {
         picture::comparison(&case.title, case.problem(), &comparison, comparison.rule)
     })?;
-    let mut saved = interruption::hold();
-    terminal::tell_aside(claim.publish()?.as_deref(), common.quiet);
-    *saved = Saved::Result(folder.clone());
-    drop(saved);
+    interruption::publish(claim, &folder, common.quiet)?;
     if !common.quiet {
         let mut out = terminal::out();
         if !case.title.is_empty() {
@@ -91,7 +87,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         }
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
     }
-    let mut warnings = comparison.warnings();
+    let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
     if end != End::Reached {
         warnings.push(format!("grid.accuracy is not reached: {end}"));
     }

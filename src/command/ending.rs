@@ -6,6 +6,7 @@ use percoat::case::CaseError;
 use percoat::output::{FolderError, OutputError};
 use percoat::run::RunError;
 use std::convert::Infallible;
+use std::fmt;
 use std::path::PathBuf;
 
 /// How a command that did its work ended.
@@ -37,7 +38,7 @@ impl Ending {
 pub enum Failure {
     /// The case is refused.
     #[error("{}", .0.render(terminal::coloured()).trim_end())]
-    Case(Box<CaseError>),
+    Case(#[from] CaseError),
     /// The command line, or what it asks for, is refused.
     #[error("{0}")]
     Refused(String),
@@ -56,7 +57,7 @@ impl From<FolderError> for Failure {
     fn from(error: FolderError) -> Self {
         match error {
             FolderError::Output(error) => Self::Output(error),
-            refused => Self::Refused(refused.to_string()),
+            refused => Self::refused(refused),
         }
     }
 }
@@ -66,7 +67,7 @@ impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failu
         match error {
             // Its own words say more than that the run cannot be recorded.
             RunError::Recorder(error) => error.into(),
-            refused => Self::Refused(refused.to_string()),
+            refused => Self::refused(refused),
         }
     }
 }
@@ -78,6 +79,11 @@ impl From<Infallible> for Failure {
 }
 
 impl Failure {
+    /// What is asked for is refused, for this reason.
+    pub fn refused(reason: impl fmt::Display) -> Self {
+        Self::Refused(reason.to_string())
+    }
+
     /// Says why, on standard error.
     pub fn tell(&self) {
         match self {

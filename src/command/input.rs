@@ -27,6 +27,5 @@ pub fn read_case(case: Option<&Path>, set: &[String]) -> Result<(Case, String), 
             _ => Failure::Input { path: path.to_owned(), error },
         })?,
     };
-    let case = Case::read(&source, set).map_err(|error| Failure::Case(Box::new(error)))?;
-    Ok((case, name))
+    Ok((Case::read(&source, set)?, name))
 }

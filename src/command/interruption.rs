@@ -1,7 +1,7 @@
 //! Ctrl-C, SIGTERM and a hang-up: the command ends at once and says what it has saved.
 
 use super::terminal::{self, tell};
-use percoat::output::RunFolder;
+use percoat::output::{OutputError, RunFolder};
 use std::fmt;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -95,9 +95,14 @@ pub fn hold() -> MutexGuard<'static, Saved> {
     SAVED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// So many load steps are on disk.
-pub fn steps(done: usize, of: usize, folder: &Path) {
-    *hold() = Saved::Steps { done, of, folder: folder.to_owned() };
+/// Puts a result into its `folder`, in the place of the one before; a signal waits until it is there.
+pub fn publish(claim: RunFolder, folder: &Path, quiet: bool) -> Result<(), OutputError> {
+    let mut saved = hold();
+    let aside = claim.publish()?;
+    *saved = Saved::Result(folder.to_owned());
+    drop(saved);
+    terminal::tell_aside(aside.as_deref(), quiet);
+    Ok(())
 }
 
 /// Says what is saved of a run that fails.

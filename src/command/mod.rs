@@ -1,5 +1,6 @@
 //! Commands: what the user types, and how it ends.
 
+mod allowed;
 mod arguments;
 mod cases;
 mod check;
@@ -11,8 +12,7 @@ mod kernel;
 mod options;
 mod pictures;
 mod plan;
-mod recording;
-mod room;
+mod shown;
 mod solve;
 mod terminal;
 #[cfg(feature = "validate")]

@@ -2,6 +2,7 @@
 
 use super::terminal;
 use clap::Args;
+use indicatif::ProgressBar;
 use std::path::PathBuf;
 
 /// Options of the commands that solve a case into a folder.
@@ -25,9 +26,9 @@ pub struct Common {
 }
 
 impl Common {
-    /// Whether progress is drawn.
-    pub fn shows_progress(&self) -> bool {
-        !self.quiet && !self.verbose && terminal::moves()
+    /// The bar where progress is drawn; elsewhere a hidden one.
+    pub fn bar(&self, bar: ProgressBar) -> ProgressBar {
+        if self.quiet || self.verbose || !terminal::moves() { ProgressBar::hidden() } else { bar }
     }
 }
 

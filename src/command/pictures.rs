@@ -16,15 +16,14 @@ pub struct PictureOptions {
     #[arg(long, conflicts_with = "pictures")]
     no_pictures: bool,
     /// Format of the pictures: png, svg, or both
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_enum, default_value = "png")]
-    pictures: Vec<PictureFormat>,
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = format, default_value = "png")]
+    pictures: Vec<Format>,
 }
 
-/// Format of a picture as it is typed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-enum PictureFormat {
-    Png,
-    Svg,
+const FORMATS: [Format; 2] = [Format::Png, Format::Svg];
+
+fn format(ending: &str) -> Result<Format, &'static str> {
+    FORMATS.into_iter().find(|format| format.extension() == ending).ok_or("must be png or svg")
 }
 
 impl PictureOptions {
@@ -41,9 +40,7 @@ impl PictureOptions {
 
     /// The formats asked for; none without pictures.
     fn formats(&self) -> Vec<Format> {
-        let formats = [(PictureFormat::Png, Format::Png), (PictureFormat::Svg, Format::Svg)];
-        let asked = formats.into_iter().filter(|(typed, _)| self.wanted() && self.pictures.contains(typed));
-        asked.map(|(_, format)| format).collect()
+        FORMATS.into_iter().filter(|format| self.wanted() && self.pictures.contains(format)).collect()
     }
 
     /// Draws what a solved step shows, a section of its stresses if there is one, and the steps before it.

@@ -5,7 +5,7 @@ use percoat::case::Case;
 use percoat::output::{Plan, Writer};
 
 /// What a run of the case may write.
-pub fn plan(case: &Case, steps: usize, pictures: &PictureOptions) -> Plan {
+pub fn may_write(case: &Case, steps: usize, pictures: &PictureOptions) -> Plan {
     let mut names = ["case.toml", "contact.npz", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
     let mut drawn = vec!["pressure", "contact", "profiles"];
     if let Some(stress) = &case.stress {

@@ -1,18 +1,18 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
+use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
-use super::interruption::{self, Saved};
+use super::interruption;
 use super::options::Common;
 use super::pictures::PictureOptions;
-use super::plan::plan;
-use super::recording::Shown;
-use super::room::Allowed;
+use super::plan::may_write;
+use super::shown::Shown;
 use super::terminal::{self, tell};
 use indicatif::ProgressBar;
 use percoat::case::plausibility;
 use percoat::case::resources::Job;
-use percoat::output::summary::{Summary, curve};
+use percoat::output::summary::{curve, summary};
 use percoat::output::{RunFolder, table, write_text};
 use percoat::picture::Snapshot;
 use percoat::run::StepRecord;
@@ -29,7 +29,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let allowed = Allowed::new(&case, &folder, job)?;
     run.check()?;
     interruption::watch();
-    let claim = RunFolder::claim(&folder, &plan(&case, run.loads.len(), pictures))?;
+    let claim = RunFolder::claim(&folder, may_write(&case, run.loads.len(), pictures))?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let mut recording = Shown::new(&claim, &run, case.to_toml(), allowed, common);
     let outcome = run.solve(&mut recording)?;
@@ -43,11 +43,10 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         pictures.draw(&claim.staging(), &snapshot, section.as_ref(), steps)?;
         spinner.finish_and_clear();
     }
-    let (percoat, title) = (env!("CARGO_PKG_VERSION"), &case.title[..]);
-    let summary = Summary { percoat, title, case: &case, warnings: &warnings, accuracy: outcome.change, steps };
-    write_text(&claim.staging().join("summary.json"), &summary.to_json())?;
+    let summary = summary(&case, &warnings, outcome.change, steps);
+    write_text(&claim.staging().join("summary.json"), &summary)?;
     write_text(&claim.staging().join("curve.csv"), &curve(steps))?;
-    publish(claim, &folder, common)?;
+    interruption::publish(claim, &folder, common.quiet)?;
     if !common.quiet {
         print(&case.title, steps, outcome.change)?;
         writeln!(terminal::out(), "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
@@ -60,21 +59,9 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
 
 /// A sign of life while something without steps goes on.
 fn spinner(what: &str, common: &Common) -> ProgressBar {
-    if !common.shows_progress() {
-        return ProgressBar::hidden();
-    }
-    let spinner = ProgressBar::new_spinner().with_message(what.to_owned());
+    let spinner = common.bar(ProgressBar::new_spinner()).with_message(what.to_owned());
     spinner.enable_steady_tick(Duration::from_millis(200));
     spinner
-}
-
-/// The result takes the place of the one before.
-fn publish(claim: RunFolder, folder: &Path, common: &Common) -> Result<(), Failure> {
-    let mut saved = interruption::hold();
-    let aside = claim.publish()?;
-    *saved = Saved::Result(folder.to_owned());
-    terminal::tell_aside(aside.as_deref(), common.quiet);
-    Ok(())
 }
 
 fn print(title: &str, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {

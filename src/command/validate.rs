@@ -1,7 +1,7 @@
 //! `percoat validate`: the studies, their verdicts, and a report of them.
 
 use super::ending::{Ending, Failure};
-use super::interruption::{self, Saved};
+use super::interruption;
 use super::options::Studies;
 use super::terminal::{self, tell};
 use percoat::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
@@ -31,7 +31,9 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     let within = name.map_or_else(String::new, |name| format!("{name}/"));
     let path = format!("{within}REPORT.md");
     interruption::watch();
-    let mut claim = RunFolder::claim(&folder, &plan(&folder, &path, within, &studies))?;
+    let mut claim = RunFolder::claim(&folder, may_write(&folder, &path, within, &studies))?;
+    // Without a study of the paper that comes to its end there is no new page.
+    claim.keeps(PAGE.to_owned());
     terminal::tell_aside(claim.set_aside(), options.quiet);
     let progress = !options.quiet && !options.verbose && terminal::moves();
     let started = Instant::now();
@@ -67,11 +69,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     if !statements.is_empty() {
         result.text(PAGE, &table::renewed(&statements))?;
     }
-    let mut saved = interruption::hold();
-    let aside = claim.publish()?;
-    *saved = Saved::Result(folder.clone());
-    drop(saved);
-    terminal::tell_aside(aside.as_deref(), options.quiet);
+    interruption::publish(claim, &folder, options.quiet)?;
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let differences = expected.map(|expected| {
         let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));
@@ -93,7 +91,7 @@ fn unknown(name: &str) -> Failure {
 }
 
 /// What the studies may write, known before they are run.
-fn plan(folder: &Path, report: &str, within: String, studies: &[&Study]) -> Plan {
+fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) -> Plan {
     let mut names = vec![report.to_owned()];
     let of_study = |study: &&Study| study.files.iter().map(|file| format!("{}/{file}", study.name)).collect::<Vec<_>>();
     names.extend(studies.iter().flat_map(of_study));

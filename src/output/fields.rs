@@ -1,6 +1,7 @@
 //! `contact.npz`: the fields of every load step.
 
-use super::{OutputError, StepArrays};
+use super::OutputError;
+use super::steps::StepArrays;
 use crate::counterbody::Surface;
 use crate::spectral::Step;
 use ndarray::Array2;
@@ -9,46 +10,32 @@ use std::sync::Arc;
 
 /// Fields of the load steps solved so far, kept on disk.
 #[derive(Debug)]
-pub struct Fields {
+pub(super) struct Fields {
     arrays: StepArrays,
     /// The undeformed counterbody on the grid of the steps.
     surface: Arc<Surface>,
 }
 
 impl Fields {
-    /// No steps yet on the grid of `surface`; `folder` is where the result is gathered.
-    ///
-    /// # Errors
-    /// [`OutputError`] when there are fields already, or no room for them.
-    pub fn new(folder: &Path, surface: Arc<Surface>) -> Result<Self, OutputError> {
+    /// No steps yet on the grid of `surface`; `folder` is where the result is gathered. Refused when there are fields already.
+    pub(super) fn new(folder: &Path, surface: Arc<Surface>) -> Result<Self, OutputError> {
         Ok(Self { arrays: StepArrays::new(folder, "contact")?, surface })
     }
 
-    /// Number of load steps so far.
-    pub fn steps(&self) -> usize {
-        self.arrays.steps()
-    }
-
     /// Puts the fields of the next step on disk; its `mean_pressure` is known.
-    ///
-    /// # Errors
-    /// [`OutputError`] when one cannot be written.
-    pub fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<(), OutputError> {
+    pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<(), OutputError> {
         self.arrays.next_step();
-        self.arrays.add("mean_pressure", &[], [mean_pressure])?;
-        self.arrays.add("penetration", &[], [step.penetration()])?;
+        self.arrays.add("mean_pressure", None, &[], [mean_pressure])?;
+        self.arrays.add("penetration", None, &[], [step.penetration()])?;
         for (name, field) in [("pressure", step.pressure()), ("displacement", step.displacement()), ("gap", step.gap())]
         {
-            self.arrays.add(name, field.shape(), field.iter().copied())?;
+            self.arrays.add(name, None, field.shape(), field.iter().copied())?;
         }
         Ok(())
     }
 
-    /// Gathers all steps in `contact.npz`, with the places of the samples and whose they are.
-    ///
-    /// # Errors
-    /// [`OutputError`] when the archive cannot be written; what waits then stays.
-    pub fn finish(self) -> Result<(), OutputError> {
+    /// Gathers all steps in `contact.npz`, with the places of the samples and whose they are; what waits stays if that fails.
+    pub(super) fn finish(self) -> Result<(), OutputError> {
         let surface = &self.surface;
         let grid = surface.grid();
         let (points, samples) = (grid.points(), 0..grid.len());

@@ -36,11 +36,7 @@ impl Plan {
 #[derive(Debug)]
 pub struct RunFolder {
     folder: PathBuf,
-    writer: Writer,
-    /// Names that may come.
-    names: Vec<String>,
-    /// See [`Plan::scope`].
-    scope: Scope,
+    plan: Plan,
     set_aside: Option<PathBuf>,
     _lock: File,
 }
@@ -52,7 +48,7 @@ impl RunFolder {
     ///
     /// # Errors
     /// [`FolderError`]; nothing in the folder has been replaced or removed.
-    pub fn claim(folder: &Path, plan: &Plan) -> Result<Self, FolderError> {
+    pub fn claim(folder: &Path, plan: Plan) -> Result<Self, FolderError> {
         if !folder.join(OWN).is_dir() {
             let adopted = |name: &&String| !plan.adopted.contains(name);
             let names = plan.names.iter().filter(adopted).cloned().collect();
@@ -64,9 +60,8 @@ impl RunFolder {
         for writer in Writer::ALL {
             aside = Publication::new(folder, writer).complete()?.or(aside);
         }
-        let Plan { writer, names, scope, .. } = plan.clone();
-        let mut claimed = Self { folder: folder.to_owned(), writer, names, scope, set_aside: None, _lock: lock };
-        refuse_foreign(folder, &adopting(folder, plan)?, plan)?;
+        refuse_foreign(folder, &adopting(folder, &plan)?, &plan)?;
+        let mut claimed = Self { folder: folder.to_owned(), plan, set_aside: None, _lock: lock };
         claimed.set_aside = claimed.clear_staging()?.or(aside);
         claimed.make_staging()?;
         Ok(claimed)
@@ -74,12 +69,12 @@ impl RunFolder {
 
     /// Where the result is gathered: every file of it is written here.
     pub fn staging(&self) -> PathBuf {
-        staging(&self.folder, self.writer)
+        staging(&self.folder, self.plan.writer)
     }
 
     /// The writer's earlier files whose names begin like this stay as they are.
     pub fn keeps(&mut self, beginning: String) {
-        self.scope.except.push(beginning);
+        self.plan.scope.except.push(beginning);
     }
 
     /// Where the finished steps of an earlier run that was killed are now, or what somebody else has put beside them.
@@ -105,7 +100,7 @@ impl RunFolder {
         let coarser = staging.join(COARSER);
         let aside = if remove_own(&coarser, &|_| false)? { None } else { set_aside(&coarser, &self.folder)? };
         make_folder(&coarser)?;
-        let of_steps = |name: &&String| self.names.contains(name) || is_partial(name);
+        let of_steps = |name: &&String| self.plan.names.contains(name) || is_partial(name);
         let names = names(&staging)?;
         // What the log lists is beside it when it comes.
         let log = names.iter().filter(|name| *name == steps_log::NAME);
@@ -123,14 +118,12 @@ impl RunFolder {
     /// [`OutputError`], also when something that is not percoat's has come into the way since the folder was claimed;
     /// the result then stays where it was gathered.
     pub fn publish(self) -> Result<Option<PathBuf>, OutputError> {
-        let publication = Publication::new(&self.folder, self.writer);
-        publication.decide(&self.names, &self.scope).and_then(|()| publication.complete()).map_err(
-            |error| match error {
-                FolderError::Output(error) => error,
-                FolderError::Foreign { path, reason } => OutputError::new(&path, io::Error::other(reason)),
-                FolderError::Busy { folder, owner } => OutputError::new(&folder, io::Error::other(owner)),
-            },
-        )
+        let publication = Publication::new(&self.folder, self.plan.writer);
+        let decided = publication.decide(&self.plan.names, &self.plan.scope);
+        decided.and_then(|()| publication.complete()).map_err(|error| match error {
+            FolderError::Output(error) => error,
+            refused => OutputError::new(&self.folder, io::Error::other(refused.to_string())),
+        })
     }
 
     /// Moves what an earlier run of this writer left unfinished to `interrupted-1/` or the next free number; removes it
@@ -141,7 +134,8 @@ impl RunFolder {
             return Ok(None);
         }
         let steps = has_steps(&staging) || has_steps(&staging.join(COARSER));
-        if !steps && remove_gathered(&staging, self.writer, &|name| self.names.iter().any(|own| own == name))? {
+        if !steps && remove_gathered(&staging, self.plan.writer, &|name| self.plan.names.iter().any(|own| own == name))?
+        {
             return Ok(None);
         }
         set_aside(&staging, &self.folder)
@@ -232,7 +226,7 @@ mod tests {
     #[test]
     fn steps_of_a_coarser_grid_alone_are_set_aside_after_a_kill() {
         let place = tempfile::tempdir().unwrap();
-        let claim = RunFolder::claim(place.path(), &plan()).unwrap();
+        let claim = RunFolder::claim(place.path(), plan()).unwrap();
         for name in ["steps.jsonl", "contact.partial/gap.0001.npy"] {
             let path = claim.staging().join(name);
             make_folder(path.parent().unwrap()).unwrap();
@@ -241,7 +235,7 @@ mod tests {
         assert_eq!(claim.begin_finer().unwrap(), None);
         assert_eq!(names(&claim.staging()).unwrap(), [MARK, COARSER]);
         drop(claim);
-        let again = RunFolder::claim(place.path(), &plan()).unwrap();
+        let again = RunFolder::claim(place.path(), plan()).unwrap();
         let aside = again.set_aside().unwrap();
         assert!(
             ["steps.jsonl", "contact.partial/gap.0001.npy"].iter().all(|name| aside.join(COARSER).join(name).is_file())
@@ -252,21 +246,21 @@ mod tests {
     #[test]
     fn steps_that_only_a_summary_tells_of_are_set_aside() {
         let place = tempfile::tempdir().unwrap();
-        let claim = RunFolder::claim(place.path(), &plan()).unwrap();
+        let claim = RunFolder::claim(place.path(), plan()).unwrap();
         make_folder(&claim.staging().join("contact.partial")).unwrap();
         write_text(&claim.staging().join("summary.json"), "{}\n").unwrap();
         drop(claim);
-        let again = RunFolder::claim(place.path(), &plan()).unwrap();
+        let again = RunFolder::claim(place.path(), plan()).unwrap();
         assert!(again.set_aside().is_some_and(|aside| aside.join("summary.json").is_file()));
     }
 
     #[test]
     fn nothing_is_set_aside_where_no_step_was_finished() {
         let place = tempfile::tempdir().unwrap();
-        let claim = RunFolder::claim(place.path(), &plan()).unwrap();
+        let claim = RunFolder::claim(place.path(), plan()).unwrap();
         make_folder(&claim.staging().join("contact.partial")).unwrap();
         drop(claim);
-        assert_eq!(RunFolder::claim(place.path(), &plan()).unwrap().set_aside(), None);
+        assert_eq!(RunFolder::claim(place.path(), plan()).unwrap().set_aside(), None);
         assert_eq!(names(place.path()).unwrap(), [OWN, "unfinished"]);
     }
 }

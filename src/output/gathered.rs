@@ -26,9 +26,6 @@ fn is_of_steps(name: &str) -> bool {
 
 /// Removes where a writer has gathered its result; `also` are further names of its files. What is somebody else's in the
 /// place that everybody sees stays, and the folder around it; returns whether nothing did.
-///
-/// # Errors
-/// [`OutputError`] with the path that cannot be read or removed.
 pub(super) fn remove_gathered(folder: &Path, writer: Writer, also: &dyn Fn(&str) -> bool) -> Result<bool, OutputError> {
     match writer {
         Writer::Solve => remove_own(folder, also),
@@ -39,22 +36,7 @@ pub(super) fn remove_gathered(folder: &Path, writer: Writer, also: &dyn Fn(&str)
 
 /// Removes a folder with all that percoat has put into it; `also` are further names of its files. What is somebody
 /// else's stays, and the folder around it; returns whether nothing did.
-///
-/// # Errors
-/// [`OutputError`] with the path that cannot be read or removed.
 pub(super) fn remove_own(folder: &Path, also: &dyn Fn(&str) -> bool) -> Result<bool, OutputError> {
-    remove(folder, &|name| is_of_steps(name) || also(name))
-}
-
-/// The same for a folder in which fields wait.
-///
-/// # Errors
-/// [`OutputError`] with the path that cannot be read or removed.
-pub(super) fn remove_waiting(folder: &Path) -> Result<bool, OutputError> {
-    remove(folder, &|name| name.ends_with(".npy") || is_of_steps(name))
-}
-
-fn remove(folder: &Path, own: &dyn Fn(&str) -> bool) -> Result<bool, OutputError> {
     let failed = |path: &Path| {
         let path = path.to_owned();
         move |error| OutputError::new(&path, error)
@@ -69,11 +51,11 @@ fn remove(folder: &Path, own: &dyn Fn(&str) -> bool) -> Result<bool, OutputError
         let (path, name) = (entry.path(), entry.file_name());
         let is_folder = entry.file_type().map_err(failed(&path))?.is_dir();
         gone &= match name.to_str() {
-            Some(COARSER) if is_folder => remove_own(&path, own)?,
+            Some(COARSER) if is_folder => remove_own(&path, also)?,
             Some(name) if is_folder && is_partial(name) => remove_waiting(&path)?,
             // It goes last, so that a folder that is cleared halfway stays percoat's.
             Some(MARK) if !is_folder => true,
-            Some(name) if !is_folder && own(name) => {
+            Some(name) if !is_folder && (is_of_steps(name) || also(name)) => {
                 fs::remove_file(&path).map_err(failed(&path))?;
                 true
             }
@@ -90,10 +72,12 @@ fn remove(folder: &Path, own: &dyn Fn(&str) -> bool) -> Result<bool, OutputError
     Ok(gone)
 }
 
+/// The same for a folder in which fields wait.
+pub(super) fn remove_waiting(folder: &Path) -> Result<bool, OutputError> {
+    remove_own(folder, &|name| name.ends_with(".npy"))
+}
+
 /// Moves a folder to `interrupted-1/` in the output folder, or the next free number.
-///
-/// # Errors
-/// [`OutputError`] with the path it cannot take.
 pub(super) fn set_aside(folder: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
     let free = |number: usize| {
         let path = output.join(format!("interrupted-{number}"));
@@ -104,39 +88,4 @@ pub(super) fn set_aside(folder: &Path, output: &Path) -> Result<Option<PathBuf>,
         fs::rename(folder, aside).map_err(|error| OutputError::new(aside, error))?;
     }
     Ok(aside)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_somebody_elses_stays_and_the_folders_around_it() {
-        let place = tempfile::tempdir().unwrap();
-        let folder = place.path().join("unfinished");
-        let (own, foreign) = (
-            [
-                "case.toml",
-                ".curve.csv.17.tmp",
-                "stress.0001.vts",
-                "coarser/curve.csv",
-                "stress.partial/p.0001.npy",
-                "x.png",
-            ],
-            ["notes.txt", "mine/x.txt", "contact.partial/notes.txt"],
-        );
-        for name in own.iter().chain(&foreign) {
-            let path = folder.join(name);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            fs::write(path, "").unwrap();
-        }
-        assert!(!remove_own(&folder, &|name| name == "x.png").unwrap());
-        assert!(own.iter().all(|name| !folder.join(name).exists()));
-        assert!(foreign.iter().all(|name| folder.join(name).is_file()));
-        assert!(!folder.join("coarser").exists() && !folder.join("stress.partial").exists());
-
-        let aside = set_aside(&folder, place.path()).unwrap().unwrap();
-        assert!(aside.ends_with("interrupted-1") && aside.join("mine/x.txt").is_file() && !folder.exists());
-        assert!(remove_own(&folder, &|_| false).unwrap(), "what is not there is gone");
-    }
 }

@@ -71,13 +71,9 @@ pub(super) fn remove_folder(path: &Path) -> Result<(), OutputError> {
 
 /// Names of what is in a folder, sorted.
 pub(super) fn names(folder: &Path) -> Result<Vec<String>, OutputError> {
-    let names = || -> io::Result<Vec<String>> {
-        let mut names = Vec::new();
-        for entry in fs::read_dir(folder)? {
-            names.push(entry?.file_name().to_string_lossy().into_owned());
-        }
-        names.sort();
-        Ok(names)
-    };
-    names().map_err(|error| OutputError::new(folder, error))
+    let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_string_lossy().into_owned());
+    let names = fs::read_dir(folder).and_then(|entries| entries.map(name).collect());
+    let mut names: Vec<String> = names.map_err(|error| OutputError::new(folder, error))?;
+    names.sort();
+    Ok(names)
 }

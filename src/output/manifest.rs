@@ -71,12 +71,12 @@ pub(super) enum Standing {
 
 impl Manifest {
     /// A list without files.
-    pub fn empty() -> Self {
+    pub(super) fn empty() -> Self {
         Self { percoat: env!("CARGO_PKG_VERSION").to_owned(), files: BTreeMap::new() }
     }
 
     /// The list at `path`; an empty one where there is none that can be read, so that in doubt no file is percoat's.
-    pub fn read(path: &Path) -> Self {
+    pub(super) fn read(path: &Path) -> Self {
         let list = fs::read_to_string(path).ok().and_then(|text| serde_json::from_str::<Self>(&text).ok());
         let mut list = list.unwrap_or_else(Self::empty);
         // Nothing outside the folder, whoever wrote the list.
@@ -86,12 +86,12 @@ impl Manifest {
     }
 
     /// As indented JSON.
-    pub fn to_json(&self) -> String {
+    pub(super) fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("names, checksums and writers are texts") + "\n"
     }
 
     /// The files of all other writers, and those of this one whose names are not in `scope`.
-    pub fn without(&self, writer: Writer, scope: &Scope) -> Self {
+    pub(super) fn without(&self, writer: Writer, scope: &Scope) -> Self {
         let mut others = self.clone();
         others.percoat = Self::empty().percoat;
         others.files.retain(|name, file| file.by != writer || !scope.contains(name));
@@ -99,17 +99,17 @@ impl Manifest {
     }
 
     /// Adds a file.
-    pub fn add(&mut self, name: &str, file: Written) {
+    pub(super) fn add(&mut self, name: &str, file: Written) {
         self.files.insert(name.to_owned(), file);
     }
 
     /// Names of a writer's files, sorted.
-    pub fn names(&self, writer: Writer) -> impl Iterator<Item = &str> {
+    pub(super) fn names(&self, writer: Writer) -> impl Iterator<Item = &str> {
         self.files.iter().filter(move |(_, file)| file.by == writer).map(|(name, _)| name.as_str())
     }
 
     /// Whose the name is in `folder`.
-    pub fn standing(&self, folder: &Path, name: &str) -> io::Result<Standing> {
+    pub(super) fn standing(&self, folder: &Path, name: &str) -> io::Result<Standing> {
         let path = folder.join(name);
         // Folders that lead to it, outermost first; a link or a file in the place of one is somebody else's.
         let mut above: Vec<&Path> = Path::new(name).ancestors().skip(1).filter(|part| *part != Path::new("")).collect();
@@ -139,7 +139,7 @@ fn found(path: &Path) -> io::Result<Option<fs::Metadata>> {
 
 impl Written {
     /// The file at `path` as it is now.
-    pub fn of(path: &Path, by: Writer) -> io::Result<Self> {
+    pub(super) fn of(path: &Path, by: Writer) -> io::Result<Self> {
         let (bytes, checksum) = checksum(&mut File::open(path)?)?;
         Ok(Self { by, bytes, checksum: format!("{checksum:016x}") })
     }

@@ -15,7 +15,8 @@
 //!    stays as it is all the while.
 //! 3. **Publish** ([`RunFolder::publish`]). A list of the files with their checksums beside them decides; then each takes
 //!    its place, those of the result before that have no successor go, the list becomes `.percoat/written.json`, and
-//!    `unfinished/` goes in one move. At every moment the old result or the whole new one stands in one place.
+//!    `unfinished/` goes in one move. At every moment the old result or the whole new
+//!    one stands in one place, where files can have two names (hard links); elsewhere the new one moves file by file.
 //!
 //! A run that is killed leaves `unfinished/` with all steps it has finished. The next run into the folder completes a
 //! publication that was decided; otherwise it moves the folder to `interrupted-1/` or the next free number. What somebody
@@ -40,16 +41,12 @@ pub mod summary;
 pub mod table;
 mod volume;
 
-pub use comparison::CompareFile;
-pub use fields::Fields;
+pub use comparison::compare_json;
 pub use folder::{Plan, RunFolder};
 pub use layout::FolderError;
 pub use manifest::{Scope, Writer};
 pub use number::number;
 pub use recording::Recording;
-pub use steps::StepArrays;
-pub use steps_log::StepsLog;
-pub use stress::Stresses;
 pub use volume::write_volume;
 
 use std::fs;

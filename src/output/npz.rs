@@ -7,7 +7,7 @@ use std::rc::Rc;
 use zip::write::SimpleFileOptions;
 
 /// An `.npz` archive that is being written.
-pub struct Archive<W: Write + Seek> {
+pub(super) struct Archive<W: Write + Seek> {
     zip: zip::ZipWriter<Calm<W>>,
     failure: Failure,
 }
@@ -25,22 +25,16 @@ struct Calm<W> {
     failure: Failure,
 }
 
-impl<W: Write + Seek> std::fmt::Debug for Archive<W> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Archive")
-    }
-}
-
 impl<W: Write + Seek> Archive<W> {
     /// An empty archive.
-    pub fn new(writer: W) -> Self {
+    pub(super) fn new(writer: W) -> Self {
         let failure = Failure::default();
         let file = Calm { file: writer, position: 0, end: 0, failed: false, failure: Rc::clone(&failure) };
         Self { zip: zip::ZipWriter::new(file), failure }
     }
 
     /// Adds an array of the given shape, its values in C order.
-    pub fn array<T: AutoSerialize>(
+    pub(super) fn array<T: AutoSerialize>(
         &mut self,
         name: &str,
         shape: &[usize],
@@ -54,7 +48,7 @@ impl<W: Write + Seek> Archive<W> {
     }
 
     /// Ends the archive.
-    pub fn finish(self) -> io::Result<()> {
+    pub(super) fn finish(self) -> io::Result<()> {
         self.zip.finish()?.flush()?;
         self.failure.take().map_or(Ok(()), Err)
     }
@@ -101,7 +95,7 @@ impl<W: Seek> Seek for Calm<W> {
 }
 
 /// Writes one array as `.npy`.
-pub fn npy<T: AutoSerialize>(
+pub(super) fn npy<T: AutoSerialize>(
     writer: impl Write,
     shape: &[usize],
     values: impl IntoIterator<Item = T>,

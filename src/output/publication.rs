@@ -37,7 +37,7 @@ enum Action {
 
 impl<'a> Publication<'a> {
     /// Of a writer in an output folder, decided or not.
-    pub fn new(folder: &'a Path, writer: Writer) -> Self {
+    pub(super) fn new(folder: &'a Path, writer: Writer) -> Self {
         Self { folder, writer, staging: staging(folder, writer) }
     }
 
@@ -46,10 +46,8 @@ impl<'a> Publication<'a> {
     }
 
     /// Lists the gathered files of the planned names as the new result, in the place of the earlier files in `scope`.
-    ///
-    /// # Errors
-    /// [`FolderError`]; then nothing is decided.
-    pub fn decide(&self, planned: &[String], scope: &Scope) -> Result<(), FolderError> {
+    /// Nothing is decided if that fails.
+    pub(super) fn decide(&self, planned: &[String], scope: &Scope) -> Result<(), FolderError> {
         let old = Manifest::read(&self.list());
         let mut new = old.without(self.writer, scope);
         for name in planned {
@@ -69,11 +67,8 @@ impl<'a> Publication<'a> {
     }
 
     /// Does what is left of a decided publication, and sweeps up after a retired one; where what is not percoat's there
-    /// has been moved.
-    ///
-    /// # Errors
-    /// [`FolderError`]; the next call goes on from there.
-    pub fn complete(&self) -> Result<Option<PathBuf>, FolderError> {
+    /// has been moved. Where that fails, the next call goes on.
+    pub(super) fn complete(&self) -> Result<Option<PathBuf>, FolderError> {
         let mut aside = None;
         for action in self.actions()? {
             if action == Action::Retire {
@@ -175,7 +170,7 @@ mod tests {
 
     fn claim_for(folder: &Path, writer: Writer) -> Result<RunFolder, FolderError> {
         let names = PLAN.map(str::to_owned).to_vec();
-        RunFolder::claim(folder, &Plan { names, ..Plan::new(writer) })
+        RunFolder::claim(folder, Plan { names, ..Plan::new(writer) })
     }
 
     fn claim(folder: &Path) -> Result<RunFolder, FolderError> {
@@ -254,13 +249,17 @@ mod tests {
         let folder = folder.path();
         gathered(folder, &["case.toml", "study/figure.png", "summary.json"], "old").publish().unwrap();
         let scope = Scope { within: "study/".to_owned(), except: Vec::new() };
-        let plan = Plan { scope: scope.clone(), ..Plan::new(Writer::Solve) };
-        let mut failed = RunFolder::claim(folder, &plan).unwrap();
+        let plan = Plan { scope, ..Plan::new(Writer::Solve) };
+        let mut failed = RunFolder::claim(folder, plan.clone()).unwrap();
         failed.keeps("study/fig".to_owned());
         failed.publish().unwrap();
         assert_eq!(files(folder).len(), 3, "what is kept stays");
-        RunFolder::claim(folder, &plan).unwrap().publish().unwrap();
+        RunFolder::claim(folder, plan).unwrap().publish().unwrap();
         assert_eq!(files(folder).into_keys().collect::<Vec<_>>(), ["case.toml", "summary.json"]);
+        let mut renewed = gathered(folder, &["summary.json"], "new");
+        renewed.keeps("summary.json".to_owned());
+        renewed.publish().unwrap();
+        assert_eq!(files(folder)["summary.json"], "summary.json: new", "what is kept can be renewed");
     }
 
     #[test]
@@ -271,7 +270,7 @@ mod tests {
         assert!(matches!(claim(folder), Err(FolderError::Foreign { .. })));
         let adopted = vec!["case.toml".to_owned()];
         let plan = Plan { names: adopted.clone(), adopted, ..Plan::new(Writer::Solve) };
-        let run = RunFolder::claim(folder, &plan).unwrap();
+        let run = RunFolder::claim(folder, plan).unwrap();
         fs::write(run.staging().join("case.toml"), "new").unwrap();
         run.publish().unwrap();
         assert_eq!(files(folder)["case.toml"], "new");
@@ -315,11 +314,14 @@ mod tests {
         assert_eq!(run.publish().unwrap(), Some(folder.join("interrupted-1")));
         assert_eq!(files(folder).len(), 2);
         // Killed before its first step.
-        let run = gathered(folder, &["case.toml"], "killed");
+        let own =
+            ["case.toml", ".curve.csv.17.tmp", "stress.0001.vts", "coarser/curve.csv", "stress.partial/p.0001.npy"];
+        let run = gathered(folder, &own, "killed");
         foreign(&run.staging());
         drop(run);
         let next = claim(folder).unwrap();
         assert!(next.set_aside().unwrap().ends_with("interrupted-2"));
+        assert!(own.iter().all(|name| !folder.join("interrupted-2").join(name).exists()), "percoat's own is removed");
         for place in ["interrupted-1", "interrupted-2"] {
             for name in ["mine/x.txt", "contact.partial/notes.txt", "notes.txt"] {
                 assert_eq!(fs::read_to_string(folder.join(place).join(name)).unwrap(), "mine", "{place}/{name}");

@@ -1,10 +1,12 @@
 //! What a run leaves on disk while it goes on: its case, every finished step with its fields, and stresses.
 
-use super::{Fields, OutputError, RunFolder, StepsLog, Stresses, write_text};
-use crate::run::{Places, Recorder, Run, StepRecord};
+use super::fields::Fields;
+use super::steps_log::StepsLog;
+use super::stress::Stresses;
+use super::{OutputError, RunFolder, write_text};
+use crate::run::{Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Solver, Step};
 use crate::stress::{Section, StressField};
-use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,7 +16,7 @@ pub struct Recording<'a> {
     claim: &'a RunFolder,
     /// Content of `case.toml`.
     case: String,
-    places: Option<Places>,
+    stress: Option<StressRequest>,
     /// None before the first grid.
     files: Option<Files>,
     set_aside: Option<PathBuf>,
@@ -26,17 +28,19 @@ struct Files {
     fields: Fields,
     stresses: Option<Stresses>,
     log: StepsLog,
+    /// Number of finished steps.
+    steps: usize,
 }
 
 impl<'a> Recording<'a> {
     /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it.
     pub fn new(claim: &'a RunFolder, run: &Run, case: String) -> Self {
-        Self { claim, case, places: run.places(), files: None, set_aside: None }
+        Self { claim, case, stress: run.stress.clone(), files: None, set_aside: None }
     }
 
     /// Number of load steps that are finished on the present grid.
     pub fn steps(&self) -> usize {
-        self.files.as_ref().map_or(0, |files| files.fields.steps())
+        self.files.as_ref().map_or(0, |files| files.steps)
     }
 
     /// Where files of somebody else stand now that were in the way of the present grid.
@@ -47,18 +51,18 @@ impl<'a> Recording<'a> {
     /// Gathers the fields of all steps; what the section shows of the last one.
     ///
     /// # Errors
-    /// [`OutputError`] when an archive cannot be written, or when no grid has been begun.
+    /// [`OutputError`] when an archive cannot be written.
+    ///
+    /// # Panics
+    /// When nothing has been recorded.
     pub fn finish(self) -> Result<Option<Section>, OutputError> {
-        let Files { fields, stresses, .. } = self.files.ok_or_else(|| nothing(self.claim))?;
+        let Files { fields, stresses, .. } = self.files.expect(BEGUN);
         fields.finish()?;
         stresses.map_or(Ok(None), Stresses::finish)
     }
 }
 
-/// What a recording without a grid lacks.
-fn nothing(claim: &RunFolder) -> OutputError {
-    OutputError::new(&claim.staging(), io::Error::other("no grid has been begun"))
-}
+const BEGUN: &str = "a run begins a grid before its steps";
 
 impl Recorder for Recording<'_> {
     type Error = OutputError;
@@ -68,19 +72,22 @@ impl Recorder for Recording<'_> {
         let folder = self.claim.staging();
         self.set_aside = self.claim.begin_finer()?;
         write_text(&folder.join("case.toml"), &self.case)?;
-        let stresses = self.places.clone().map(|places| Stresses::new(&folder, places));
+        let half_space = solver.problem().half_space();
+        let stresses = self.stress.clone().map(|request| Stresses::new(&folder, request, half_space.clone()));
         let fields = Fields::new(&folder, Arc::clone(solver.surface()))?;
-        self.files = Some(Files { fields, stresses: stresses.transpose()?, log: StepsLog::new(&folder) });
+        self.files = Some(Files { fields, stresses: stresses.transpose()?, log: StepsLog::new(&folder), steps: 0 });
         Ok(())
     }
 
     fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
-        let files = self.files.as_mut().ok_or_else(|| nothing(self.claim))?;
+        let files = self.files.as_mut().expect(BEGUN);
         files.fields.add(step, record.reading.mean_pressure)?;
         if let (Some(stresses), Some(field)) = (&mut files.stresses, field) {
             stresses.add(field)?;
         }
-        files.log.add(record)
+        files.log.add(record)?;
+        files.steps += 1;
+        Ok(())
     }
 }
 
@@ -95,20 +102,17 @@ mod tests {
     use crate::problem::Problem;
     use crate::run::{Sampling, StressRequest};
 
-    fn two_steps() -> Run {
+    #[test]
+    fn a_recording_without_the_command_line_has_every_step_and_what_was_asked_for() {
         let level = Level::new(Shape::Paraboloid { radius: 0.8 }, 0.0).unwrap();
         let indenters = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
         let half_space = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
         let loads = [0.01, 0.02].map(Load::MeanPressure).to_vec();
-        Run::new(Problem::new(indenters, half_space), loads, Sampling::Points([16, 16]))
-    }
-
-    #[test]
-    fn a_recording_without_the_command_line_has_every_step_and_what_was_asked_for() {
         let planes = StressRequest { planes: vec![0.1], ..StressRequest::default() };
-        let run = Run { stress: Some(planes), ..two_steps() };
+        let run = Run::new(Problem::new(indenters, half_space), loads, Sampling::Points([16, 16]));
+        let run = Run { stress: Some(planes), ..run };
         let place = tempfile::tempdir().unwrap();
-        let claim = RunFolder::claim(place.path(), &Plan::new(Writer::Solve)).unwrap();
+        let claim = RunFolder::claim(place.path(), Plan::new(Writer::Solve)).unwrap();
         let mut recording = Recording::new(&claim, &run, "title = \"\"\n".to_owned());
         run.solve(&mut recording).unwrap();
         assert_eq!((recording.steps(), recording.set_aside()), (2, None));
@@ -116,12 +120,5 @@ mod tests {
         let files = ["case.toml", "contact.npz", "stress.npz", "steps.jsonl"].map(|name| claim.staging().join(name));
         assert!(files.iter().all(|file| file.is_file()));
         assert_eq!(std::fs::read_to_string(&files[3]).unwrap().lines().count(), 2);
-    }
-
-    #[test]
-    fn a_recording_of_nothing_cannot_be_finished() {
-        let place = tempfile::tempdir().unwrap();
-        let claim = RunFolder::claim(place.path(), &Plan::new(Writer::Solve)).unwrap();
-        assert!(Recording::new(&claim, &two_steps(), String::new()).finish().is_err());
     }
 }

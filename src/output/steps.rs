@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// An archive that is being gathered on disk.
 #[derive(Debug)]
-pub struct StepArrays {
+pub(super) struct StepArrays {
     folder: PathBuf,
     name: &'static str,
     arrays: Vec<Entry>,
@@ -29,11 +29,9 @@ struct Entry {
 }
 
 impl StepArrays {
-    /// Nothing yet of the archive `<name>.npz` in `folder`, where the result is gathered.
-    ///
-    /// # Errors
-    /// [`OutputError`] when `<name>.partial/` is there already, whoever made it, or cannot be made.
-    pub fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
+    /// Nothing yet of the archive `<name>.npz` in `folder`, where the result is gathered. Refused when `<name>.partial/` is
+    /// there already, whoever made it.
+    pub(super) fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
         let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps: 0 };
         let partial = arrays.partial();
         make_folder(folder)?;
@@ -51,59 +49,32 @@ impl StepArrays {
         self.partial().join(format!("{array}.{step:04}{part}.npy"))
     }
 
-    /// Begins the next load step.
-    pub fn next_step(&mut self) {
+    /// Begins the next load step: its number, from 1.
+    pub(super) fn next_step(&mut self) -> usize {
         self.steps += 1;
-    }
-
-    /// Number of load steps so far.
-    pub fn steps(&self) -> usize {
         self.steps
     }
 
-    /// Puts the present step's entry of an array on disk. Every step has the same arrays of the same shapes.
-    ///
-    /// # Errors
-    /// [`OutputError`] when it cannot be written.
-    pub fn add(
+    /// Puts the present step's entry of an array on disk, or the next `part` (from 1) of it: parts become its first axis.
+    /// Every step has the same arrays of the same shapes.
+    pub(super) fn add(
         &mut self,
         array: &str,
-        shape: &[usize],
-        values: impl IntoIterator<Item = f64>,
-    ) -> Result<(), OutputError> {
-        if self.steps == 1 {
-            self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: None });
-        }
-        write_file(&self.waiting(array, self.steps, None), |writer| npy(writer, shape, values))
-    }
-
-    /// Puts the next `part` (from 1) of the present step's entry of an array on disk; the parts become its first axis.
-    ///
-    /// # Errors
-    /// [`OutputError`] when it cannot be written.
-    pub fn add_part(
-        &mut self,
-        array: &str,
-        part: usize,
+        part: Option<usize>,
         shape: &[usize],
         values: impl IntoIterator<Item = f64>,
     ) -> Result<(), OutputError> {
         if self.steps == 1 {
             match self.arrays.iter_mut().find(|entry| entry.array == array) {
-                Some(entry) => entry.parts = Some(part),
-                None => {
-                    self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: Some(part) });
-                }
+                Some(entry) => entry.parts = part,
+                None => self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: part }),
             }
         }
-        write_file(&self.waiting(array, self.steps, Some(part)), |writer| npy(writer, shape, values))
+        write_file(&self.waiting(array, self.steps, part), |writer| npy(writer, shape, values))
     }
 
-    /// Gathers all steps in the archive, after the arrays that `constants` adds.
-    ///
-    /// # Errors
-    /// [`OutputError`] when the archive cannot be written; the waiting files then stay.
-    pub fn finish(
+    /// Gathers all steps in the archive, after the arrays that `constants` adds; the waiting files stay if that fails.
+    pub(super) fn finish(
         self,
         constants: impl FnOnce(&mut Archive<&mut BufWriter<fs::File>>) -> io::Result<()>,
     ) -> Result<(), OutputError> {

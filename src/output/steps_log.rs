@@ -14,7 +14,7 @@ pub(super) const NAME: &str = "steps.jsonl";
 
 /// The steps of an unfinished run.
 #[derive(Debug)]
-pub struct StepsLog {
+pub(super) struct StepsLog {
     path: PathBuf,
     /// Open from the first step on.
     file: Option<File>,
@@ -22,15 +22,12 @@ pub struct StepsLog {
 
 impl StepsLog {
     /// No steps yet; `folder` is where the result is gathered.
-    pub fn new(folder: &Path) -> Self {
+    pub(super) fn new(folder: &Path) -> Self {
         Self { path: folder.join(NAME), file: None }
     }
 
-    /// Appends a step.
-    ///
-    /// # Errors
-    /// [`OutputError`] when it cannot be written, or when the first one finds steps there already.
-    pub fn add(&mut self, record: &StepRecord) -> Result<(), OutputError> {
+    /// Appends a step. Refused when the first one finds steps there already.
+    pub(super) fn add(&mut self, record: &StepRecord) -> Result<(), OutputError> {
         let line = serde_json::to_string(record).expect("a step is numbers and texts under names") + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {

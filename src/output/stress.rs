@@ -1,9 +1,10 @@
 //! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step; and a
 //! VTK file of the volume for each.
 
-use super::{OutputError, StepArrays, write_volume};
-use crate::body::Depth;
-use crate::run::{Places, SectionRows, VolumePlanes};
+use super::steps::StepArrays;
+use super::{OutputError, write_volume};
+use crate::body::{Depth, HalfSpace};
+use crate::run::StressRequest;
 use crate::stress::{Section, State, StressField};
 use std::path::{Path, PathBuf};
 
@@ -12,90 +13,91 @@ const COMPONENTS: [&str; 12] = ["xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", 
 
 /// Stresses of the load steps so far, kept on disk.
 #[derive(Debug)]
-pub struct Stresses {
+pub(super) struct Stresses {
     folder: PathBuf,
     arrays: StepArrays,
-    places: Places,
+    request: StressRequest,
+    half_space: HalfSpace,
     /// What the last step shows of the section.
     section: Option<Section>,
 }
 
 impl Stresses {
-    /// No steps yet; `folder` is where the result is gathered.
-    ///
-    /// # Errors
-    /// [`OutputError`] when there are stresses already, or no room for them.
-    pub fn new(folder: &Path, places: Places) -> Result<Self, OutputError> {
+    /// No steps yet; `folder` is where the result is gathered. Refused when there are stresses already.
+    pub(super) fn new(folder: &Path, request: StressRequest, half_space: HalfSpace) -> Result<Self, OutputError> {
         let arrays = StepArrays::new(folder, "stress")?;
-        Ok(Self { folder: folder.to_owned(), arrays, places, section: None })
+        Ok(Self { folder: folder.to_owned(), arrays, request, half_space, section: None })
     }
 
     /// Puts the stresses of the next step on disk, one plane at a time.
-    ///
-    /// # Errors
-    /// [`OutputError`] when they cannot be written.
-    pub fn add(&mut self, field: &StressField) -> Result<(), OutputError> {
-        self.arrays.next_step();
-        for (number, plane) in (1..).zip(self.places.on_planes(field)) {
+    pub(super) fn add(&mut self, field: &StressField) -> Result<(), OutputError> {
+        let Self { folder, arrays, request, half_space, .. } = self;
+        let step = arrays.next_step();
+        for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
+            let plane = field.plane(depth, field.grid().points());
             let states = plane.states();
-            for (c, name) in COMPONENTS.iter().enumerate() {
-                let values = states.iter().map(|state| component(state, c));
-                self.arrays.add_part(&format!("planes_{name}"), number, states.shape(), values)?;
-            }
+            add_states(arrays, "planes", Some(number), states.shape(), states.iter())?;
         }
-        if let Some(section) = self.places.on_section(field) {
-            for (c, name) in COMPONENTS.iter().enumerate() {
-                let values = section.states.iter().map(|state| component(state, c));
-                self.arrays.add(&format!("section_{name}"), section.states.shape(), values)?;
-            }
+        if let Some(cut) = &request.cut {
+            let section = field.section(&cut.line, &cut.depths(half_space));
+            add_states(arrays, "section", None, section.states.shape(), section.states.iter())?;
             self.section = Some(section);
         }
-        if !self.places.points.is_empty() {
-            let states = self.places.at_points(field);
-            for (c, name) in COMPONENTS.iter().enumerate() {
-                let values = states.iter().map(|state| component(state, c));
-                self.arrays.add(&format!("points_{name}"), &[states.len()], values)?;
-            }
+        let points = request.points_at(half_space);
+        if !points.is_empty() {
+            let states: Vec<State> = points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
+            add_states(arrays, "points", None, &[states.len()], states.iter())?;
         }
-        if let Some(VolumePlanes { depths, points }) = &self.places.volume {
-            let name = format!("stress.{:04}.vts", self.arrays.steps());
-            write_volume(&self.folder.join(name), field, depths, *points)?;
+        if let Some(volume) = request.volume {
+            let (path, depths) =
+                (folder.join(format!("stress.{step:04}.vts")), half_space.rows(volume.depth, volume.rows));
+            write_volume(&path, field, &depths, [volume.points; 2])?;
         }
         Ok(())
     }
 
-    /// Gathers all steps in `stress.npz`; what the section shows of the last one.
-    ///
-    /// # Errors
-    /// [`OutputError`] when the archive cannot be written; what waits then stays.
-    pub fn finish(self) -> Result<Option<Section>, OutputError> {
-        let Places { planes, section, points, .. } = &self.places;
+    /// Gathers all steps in `stress.npz`, what waits stays if that fails; what the section shows of the last one.
+    pub(super) fn finish(self) -> Result<Option<Section>, OutputError> {
+        let Self { arrays, request, half_space, section, .. } = self;
         let materials = |depths: &[Depth]| depths.iter().map(|depth| depth.material as i32).collect::<Vec<_>>();
         let zs = |depths: &[Depth]| depths.iter().map(|depth| depth.z).collect::<Vec<_>>();
-        self.arrays.finish(|archive| {
-            archive.array("planes_z", &[planes.len()], zs(planes))?;
-            archive.array("planes_side", &[planes.len()], materials(planes))?;
-            if let Some(SectionRows { line, depths }) = section {
-                let places: Vec<[f64; 2]> = line.places();
+        arrays.finish(|archive| {
+            let planes = request.plane_depths(&half_space);
+            archive.array("planes_z", &[planes.len()], zs(&planes))?;
+            archive.array("planes_side", &[planes.len()], materials(&planes))?;
+            if let Some(cut) = &request.cut {
+                let (line, places, depths) = (cut.line, cut.line.places(), cut.depths(&half_space));
                 archive.array("section_s", &[line.points], line.distances())?;
                 archive.array("section_x", &[line.points], places.iter().map(|place| place[0]))?;
                 archive.array("section_y", &[line.points], places.iter().map(|place| place[1]))?;
-                archive.array("section_z", &[depths.len()], zs(depths))?;
-                archive.array("section_side", &[depths.len()], materials(depths))?;
+                archive.array("section_z", &[depths.len()], zs(&depths))?;
+                archive.array("section_side", &[depths.len()], materials(&depths))?;
             }
+            let points = request.points_at(&half_space);
             if !points.is_empty() {
-                let xyz = points.iter().flat_map(|point| [point.place[0], point.place[1], point.depth.z]);
+                let xyz = points.iter().flat_map(|([x, y], depth)| [*x, *y, depth.z]);
                 archive.array("points_xyz", &[points.len(), 3], xyz)?;
-                archive.array(
-                    "points_side",
-                    &[points.len()],
-                    points.iter().map(|point| point.depth.material as i32),
-                )?;
+                let sides = points.iter().map(|(_, depth)| depth.material as i32);
+                archive.array("points_side", &[points.len()], sides)?;
             }
             Ok(())
         })?;
-        Ok(self.section)
+        Ok(section)
     }
+}
+
+/// Adds the components of states of this shape to the arrays `<place>_<component>`, as a part if they come in parts.
+fn add_states<'a>(
+    arrays: &mut StepArrays,
+    place: &str,
+    part: Option<usize>,
+    shape: &[usize],
+    states: impl Iterator<Item = &'a State> + Clone,
+) -> Result<(), OutputError> {
+    (0..).zip(COMPONENTS).try_for_each(|(c, name)| {
+        let values = states.clone().map(|state| component(state, c));
+        arrays.add(&format!("{place}_{name}"), part, shape, values)
+    })
 }
 
 /// A component by its place in [`COMPONENTS`].

@@ -1,37 +1,28 @@
 //! `summary.json` and `curve.csv`: every scalar of a run.
 
+use crate::case::Case;
 use crate::run::StepRecord;
-use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-/// A whole run as it stands in `summary.json`.
-#[derive(Debug, Serialize)]
-pub struct Summary<'a, C: Serialize> {
-    /// Version of the program.
-    pub percoat: &'static str,
-    /// Title of the case.
-    pub title: &'a str,
-    /// The case as run.
-    pub case: &'a C,
-    /// What a reader should know before trusting the numbers.
-    pub warnings: &'a [String],
-    /// Change of what is read off between the two finest grids, where an accuracy was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<f64>,
-    /// The load steps.
-    pub steps: &'a [StepRecord],
-}
-
-impl<C: Serialize> Summary<'_, C> {
-    /// As indented JSON.
-    pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("a case and its steps are numbers and texts under names") + "\n"
+/// A whole run as indented JSON; `accuracy`: the change between the two finest grids, where an accuracy was asked for.
+pub fn summary(case: &Case, warnings: &[String], accuracy: Option<f64>, steps: &[StepRecord]) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    let mut summary = json!({ "percoat": version, "title": case.title, "case": case, "warnings": warnings });
+    if let Some(accuracy) = accuracy {
+        summary["accuracy"] = accuracy.into();
     }
+    summary["steps"] = json!(steps);
+    format!("{summary:#}\n")
 }
 
 /// The steps as a CSV table: one row a step, one column a scalar, nested names joined by dots (`levels.1.load`).
 /// What a step does not have stays empty.
 pub fn curve(steps: &[StepRecord]) -> String {
+    let row = |step: &StepRecord| {
+        let mut cells = Vec::new();
+        flatten("", &json!(step), &mut cells);
+        cells
+    };
     let rows: Vec<Vec<(String, String)>> = steps.iter().map(row).collect();
     let mut names: Vec<&str> = Vec::new();
     // The step with most scalars has those of all others: only a step without contact lacks some.
@@ -46,13 +37,7 @@ pub fn curve(steps: &[StepRecord]) -> String {
     text
 }
 
-/// Names and values of a step's scalars.
-pub fn row(step: &StepRecord) -> Vec<(String, String)> {
-    let mut cells = Vec::new();
-    flatten("", &serde_json::to_value(step).expect("a step is numbers and texts under names"), &mut cells);
-    cells
-}
-
+/// Adds the scalars of a value to the cells, each with its name.
 fn flatten(name: &str, value: &Value, cells: &mut Vec<(String, String)>) {
     let join = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") };
     match value {

@@ -151,11 +151,11 @@ fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
 fn stress_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
     let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
     let pairs = [(&coarse.max_tau1, &fine.max_tau1), (&coarse.max_tension, &fine.max_tension)];
-    let finite = pairs.map(|(coarse, fine)| coarse.finite().zip(fine.finite()));
-    let finite = || finite.into_iter().flatten();
-    let scale = largest(finite().map(|(_, fine)| fine.abs()));
-    let change = largest(finite().map(|(coarse, fine)| (fine - coarse).abs()));
-    if scale > 0.0 { change / scale } else { 0.0 }
+    let pairs = pairs.map(|(coarse, fine)| [coarse.value, fine.value]);
+    let comparable = || pairs.iter().filter(|values| !values.iter().any(|value| value.is_infinite()));
+    let scale = largest(comparable().map(|[_, fine]| fine.abs()));
+    let change = largest(comparable().map(|[coarse, fine]| (fine - coarse).abs()));
+    if scale == 0.0 { 0.0 } else { change / scale }
 }
 
 #[cfg(test)]

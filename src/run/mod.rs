@@ -27,18 +27,20 @@ pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
-pub use places::{PlaceAtDepth, Places, SectionRequest, SectionRows, StressRequest, Volume, VolumePlanes};
+pub use places::{Cut, StressRequest, Volume};
 pub use record::StepRecord;
 pub use recorder::Recorder;
 pub use sampling::Sampling;
 
 use crate::counterbody::Surface;
+use crate::lattice::Grid;
 use crate::load::Load;
 use crate::problem::Problem;
 use crate::reading::StressReading;
 use crate::spectral::{Settings, Solver, Step};
 use crate::stress::StressField;
 use std::convert::Infallible;
+use std::error::Error;
 use std::sync::Arc;
 
 /// Which grid of a refinement tells where contact becomes complete, if it has as many: 768 points are enough.
@@ -68,22 +70,27 @@ impl Run {
         Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None }
     }
 
-    /// Whether there is a grid, and every prescribed penetration can be reached on it or, of a refinement, on a fine one.
+    /// Whether there are loads and a grid, and every prescribed penetration can be reached on it or, of a refinement, on a
+    /// fine one.
     ///
     /// # Errors
-    /// [`TooOblong`], [`BeyondFullContact`] for the first penetration that cannot, [`LatticeError`] when there is no such
-    /// grid.
+    /// [`RunError::NoLoads`], [`TooOblong`], [`BeyondFullContact`] for the first penetration that cannot, [`LatticeError`]
+    /// when there is no such grid.
     ///
     /// [`LatticeError`]: crate::lattice::LatticeError
     pub fn check(&self) -> Result<(), RunError<Infallible>> {
+        self.checked()
+    }
+
+    /// The same, before a recorder hears of the run.
+    fn checked<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
+        if self.loads.is_empty() {
+            return Err(RunError::NoLoads);
+        }
         let cell = self.problem.cell();
-        let points = match self.sampling {
-            Sampling::Points(points) => points,
-            Sampling::Accuracy(_) => {
-                let grids = Refinement::grids(&cell)?;
-                grids[TELLING.min(grids.len() - 1)]
-            }
-        };
+        let grids = self.sampling.grids(&cell)?;
+        let points = grids[TELLING.min(grids.len() - 1)];
+        Grid::new(cell, points)?;
         if self.loads.iter().all(|load| load.is_mean_pressure()) {
             return Ok(());
         }
@@ -103,45 +110,31 @@ impl Run {
     /// # Errors
     /// [`RunError`]; what the recorder heard of until then stands.
     pub fn solve<R: Recorder>(&self, recorder: &mut R) -> Result<Outcome, RunError<R::Error>> {
-        self.check().map_err(RunError::of_any)?;
-        let accuracy = match self.sampling {
+        self.checked()?;
+        let (steps, last, points, change, end) = match self.sampling {
             Sampling::Points(points) => {
                 let (steps, last) = self.on_grid(points, recorder)?;
-                return Ok(self.outcome(steps, last, points, None, None));
+                (steps, last, points, None, None)
             }
-            Sampling::Accuracy(accuracy) => accuracy,
+            Sampling::Accuracy(accuracy) => {
+                let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
+                let mut coarse: Option<Vec<StepRecord>> = None;
+                loop {
+                    let points = refinement.points();
+                    let (steps, last) = self.on_grid(points, recorder)?;
+                    let change = coarse.map(|coarse| accuracy::change(&coarse, &steps));
+                    if let Some(change) = change {
+                        recorder.refined(points, change);
+                    }
+                    if let Some(end) = refinement.refine(change, |points| recorder.fits(points)) {
+                        break (steps, last, points, change, Some(end));
+                    }
+                    coarse = Some(steps);
+                }
+            }
         };
-        let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
-        let mut coarse: Option<Vec<StepRecord>> = None;
-        loop {
-            let points = refinement.points();
-            let (steps, last) = self.on_grid(points, recorder)?;
-            let change = coarse.map(|coarse| accuracy::change(&coarse, &steps));
-            if let Some(change) = change {
-                recorder.refined(points, change);
-            }
-            if let Some(end) = refinement.refine(change, |points| recorder.fits(points)) {
-                return Ok(self.outcome(steps, last, points, change, Some(end)));
-            }
-            coarse = Some(steps);
-        }
-    }
-
-    fn outcome(
-        &self,
-        steps: Vec<StepRecord>,
-        last: Option<Step>,
-        points: [usize; 2],
-        change: Option<f64>,
-        end: Option<End>,
-    ) -> Outcome {
         let warnings = warnings::warnings(&self.problem, &steps, end, change);
-        Outcome { steps, last, points, change, end, warnings }
-    }
-
-    /// Where stresses are wanted, if they are.
-    pub fn places(&self) -> Option<Places> {
-        self.stress.as_ref().map(|request| request.places(self.problem.half_space()))
+        Ok(Outcome { steps, last, points, change, end, warnings })
     }
 
     /// All loads on one grid.

@@ -5,7 +5,6 @@ use super::accuracy::{End, TooOblong};
 use crate::lattice::LatticeError;
 use crate::numeric::number::number;
 use crate::spectral::Step;
-use std::convert::Infallible;
 use std::error::Error;
 
 /// What a run has found.
@@ -55,6 +54,9 @@ pub struct BeyondFullContact {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError<E: Error + 'static> {
+    /// There is nothing to solve.
+    #[error("a run needs a load at least")]
+    NoLoads,
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] LatticeError),
@@ -67,16 +69,4 @@ pub enum RunError<E: Error + 'static> {
     /// The recorder cannot go on.
     #[error("the run cannot be recorded")]
     Recorder(#[source] E),
-}
-
-impl<E: Error + 'static> RunError<E> {
-    /// What was found before any recorder heard of the run.
-    pub(super) fn of_any(error: RunError<Infallible>) -> Self {
-        match error {
-            RunError::Grid(error) => Self::Grid(error),
-            RunError::TooOblong(error) => Self::TooOblong(error),
-            RunError::BeyondFullContact(error) => Self::BeyondFullContact(error),
-            RunError::Recorder(never) => match never {},
-        }
-    }
 }

@@ -12,8 +12,7 @@ pub trait Recorder {
     type Error: Error + Send + Sync + 'static;
 
     /// Whether there is room for a finer grid of `points`; without it a refinement ends.
-    fn fits(&self, points: [usize; 2]) -> bool {
-        let _ = points;
+    fn fits(&self, _points: [usize; 2]) -> bool {
         true
     }
 
@@ -21,15 +20,12 @@ pub trait Recorder {
     ///
     /// # Errors
     /// Ends the run.
-    fn begin(&mut self, solver: &Solver) -> Result<(), Self::Error> {
-        let _ = solver;
+    fn begin(&mut self, _solver: &Solver) -> Result<(), Self::Error> {
         Ok(())
     }
 
     /// An iteration on the finest grid is done.
-    fn iteration(&mut self, progress: Progress) {
-        let _ = progress;
-    }
+    fn iteration(&mut self, _progress: Progress) {}
 
     /// The stresses of a step begin.
     fn stresses(&mut self) {}
@@ -38,15 +34,12 @@ pub trait Recorder {
     ///
     /// # Errors
     /// Ends the run.
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Self::Error> {
-        let _ = (step, record, field);
+    fn step(&mut self, _step: &Step, _record: &StepRecord, _field: Option<&StressField>) -> Result<(), Self::Error> {
         Ok(())
     }
 
     /// All steps on a grid of `points` are done, with this change from the next coarser one.
-    fn refined(&mut self, points: [usize; 2], change: f64) {
-        let _ = (points, change);
-    }
+    fn refined(&mut self, _points: [usize; 2], _change: f64) {}
 }
 
 impl Recorder for () {

@@ -1,5 +1,8 @@
 //! How finely the cell is sampled.
 
+use super::accuracy::{Refinement, TooOblong};
+use crate::lattice::Cell;
+
 /// The grid of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
@@ -8,4 +11,17 @@ pub enum Sampling {
     Points([usize; 2]),
     /// Refine until peak pressures, loads, penetration and stresses change by less than this, relatively.
     Accuracy(f64),
+}
+
+impl Sampling {
+    /// The grids of a run on a cell, the coarsest first: the one asked for, or [those of a refinement](Refinement::grids).
+    ///
+    /// # Errors
+    /// [`TooOblong`] when a refinement has none.
+    pub fn grids(self, cell: &Cell) -> Result<Vec<[usize; 2]>, TooOblong> {
+        match self {
+            Self::Points(points) => Ok(vec![points]),
+            Self::Accuracy(_) => Refinement::grids(cell),
+        }
+    }
 }

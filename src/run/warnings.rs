@@ -8,6 +8,7 @@ use super::StepRecord;
 use super::accuracy::End;
 use crate::counterbody::Shape;
 use crate::numeric::number::number;
+use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::FEW_SAMPLES;
 use std::f64::consts::PI;
@@ -88,8 +89,11 @@ fn not_accurate(end: End, change: Option<f64>) -> Option<String> {
 }
 
 fn rough_surface(steps: &[StepRecord]) -> Option<String> {
-    let errors = steps.iter().filter_map(|step| Some(step.stress.as_ref()?.surface_error));
-    let worst = errors.filter(|&error| error > WORTH_SAYING).reduce(f64::max)?;
+    let worst = largest(steps.iter().filter_map(|step| Some(step.stress.as_ref()?.surface_error)));
+    // What is no number is not below.
+    if worst <= WORTH_SAYING {
+        return None;
+    }
     Some(format!(
         "stresses on the surface near the edge of contact may err by {:.0} % (stress.surface_error of each step); raise \
          grid.points",
@@ -117,25 +121,25 @@ fn high_pressure(problem: &Problem, steps: &[StepRecord]) -> Option<String> {
     let modulus = problem.half_space().surface_material().contact_modulus();
     // A pressure that is infinite under a tip is beyond any measure.
     let peaks = (1..).zip(steps).filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
-    let highest = peaks.max_by(|a: &(usize, f64), b| a.1.total_cmp(&b.1));
-    let (step, pressure) = highest.filter(|(_, p)| *p > HIGH * modulus)?;
+    let high = peaks.filter(|(_, pressure): &(usize, f64)| *pressure > HIGH * modulus);
+    let (step, pressure) = high.max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(format!(
         "step {step}: the largest pressure {} is {} of E* at the surface: strains are not small any more; are load and moduli \
          in one unit?",
         number(pressure),
-        part(pressure / modulus)
+        ratio(pressure / modulus)
     ))
 }
 
 /// That the flank of a level is steep at the edge of a contact of radius a.
 pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
     let told = match shape {
-        Shape::Paraboloid { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
+        Shape::Paraboloid { radius } => format!("{} of its radius {}", ratio(a / radius), number(radius)),
         Shape::Sphere { radius } if a >= radius => {
             format!("beyond the equator of its sphere of radius {}", number(radius))
         }
-        Shape::Sphere { radius } => format!("{} of its radius {}", part(a / radius), number(radius)),
-        _ => format!("where its flank has the slope {}", part(shape.slope(a))),
+        Shape::Sphere { radius } => format!("{} of its radius {}", ratio(a / radius), number(radius)),
+        _ => format!("where its flank has the slope {}", ratio(shape.slope(a))),
     };
     format!(
         "{context}: the contact radius {} of level {level} is {told}: strains are not small any more; are radius, period, \
@@ -145,17 +149,6 @@ pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String
 }
 
 /// A ratio with two digits.
-pub(crate) fn part(x: f64) -> String {
+pub(crate) fn ratio(x: f64) -> String {
     if (0.01..1000.0).contains(&x) { format!("{x:.2}") } else { format!("{x:.1e}") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn contact_beyond_the_equator_is_told() {
-        assert!(Shape::Sphere { radius: 1.0 }.slope(1.5).is_infinite());
-        assert!(flank("step 1", 1, Shape::Sphere { radius: 1.0 }, 1.5).contains("equator"));
-    }
 }

@@ -51,6 +51,16 @@ fn check_heeds_overrides_and_refuses_what_solve_refuses() {
     desk.percoat(&["check"]).complains(2, &["CASE"]);
 }
 
+/// As dense along the long side as along the short one they would be 37 million samples.
+#[test]
+fn first_touches_in_a_long_cell_take_no_more_than_the_grid_of_the_case() {
+    let desk = Desk::new();
+    let lattice = "lattice={kind=\"oblique\",a1=[1000.0,0.0],a2=[0.0,1.0]}";
+    let sites = "levels=[{shape=\"paraboloid\",radius=0.8,sites=[[0,0]]}]";
+    let answer = desk.percoat(&["check", "fig2", "--set", lattice, "--set", sites, "--set", "grid.points=[1024,16]"]);
+    assert!(answer.code == 0 && answer.out.contains("first touch, on 1024 × 16 samples"), "{}", answer.out);
+}
+
 fn lines(arguments: &[&str]) -> Vec<Value> {
     let desk = Desk::new();
     let answer = desk.percoat(&[&["kernel"], arguments].concat());

@@ -19,6 +19,7 @@ fn an_option_without_effect_is_refused_with_the_reason() {
         (&["cases", "--verbose"], &["--verbose has no effect in `percoat cases`"]),
         (&["validate", "--set", "a=1"], &["--set has no effect in `percoat validate`", "reads no case"]),
         (&["check", "fig2", "--no-pictures"], &["--no-pictures has no effect", "draws none"]),
+        (&["validate", "--pictures", "svg"], &["--pictures has no effect in `percoat validate`", "fixed"]),
         (&["--quiet", "solve"], &["percoat solve --quiet"]),
         (&["cases", "--set", "grid.points=64"], &["say which one"]),
     ] {
@@ -109,6 +110,9 @@ fn mixed_units_are_told_by_check_and_solve_and_stand_in_the_summary() {
     let answer = desk.percoat(&[&["solve", "fig2", "-o", "run", "--no-pictures"], &settings[..]].concat());
     assert!(answer.err.contains("warning: load.mean_pressure"), "{}", answer.err);
     assert!(answer.err.contains("of E* at the surface"), "{}", answer.err);
+    let few = ["--set=localized={indenters=[7],elements=8}", "--no-pictures"];
+    let compared = desk.percoat(&[&["compare", "fig2", "-o", "both"], &settings[..], &few].concat());
+    assert!(compared.err.contains("warning: load.mean_pressure"), "{}", compared.err);
     let summary = crate::program::Folder(desk.path("run")).summary();
     let warnings = summary["warnings"].as_array().unwrap();
     assert!(warnings.iter().any(|text| text.as_str().unwrap().contains("MPa")), "{warnings:?}");

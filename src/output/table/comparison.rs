@@ -18,13 +18,10 @@ pub fn readings(comparison: &Comparison) -> String {
         "circle",
     ];
     let spectral = Answer::from(&comparison.reading);
-    let inside = |circle: &CircleComparison| {
-        if comparison.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() }
-    };
     let nowhere = vec![f64::INFINITY; spectral.levels.len()];
     let circles = comparison.circles.iter();
     let blocks = std::iter::once(("spectral", String::new(), &spectral, &nowhere))
-        .chain(circles.map(|circle| ("localized", inside(circle), &circle.answer, &circle.radii)));
+        .chain(circles.map(|circle| ("localized", inside(comparison, circle), &circle.answer, &circle.radii)));
     let mut rows = Vec::new();
     for (name, inside, answer, radii) in blocks {
         let mut lead = [name.to_owned(), inside, number(answer.penetration)];
@@ -43,7 +40,12 @@ pub fn readings(comparison: &Comparison) -> String {
             lead = [const { String::new() }; 3];
         }
     }
-    render(&header.map(str::to_owned), &rows)
+    render(&header, &rows, 0)
+}
+
+/// How many indenters a circle has, where they act on each other.
+fn inside(comparison: &Comparison, circle: &CircleComparison) -> String {
+    if comparison.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() }
 }
 
 /// Differences from the spectral solution circle by circle, for the rules, and what the meshes contribute.
@@ -60,15 +62,14 @@ pub fn differences(comparison: &Comparison) -> String {
     for (rule, circles) in comparison.rules() {
         let mut name = if comparison.mutual_effect { rule.name() } else { "no mutual effect" }.to_owned();
         for circle in circles {
-            let inside = if comparison.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() };
-            rows.push(row(std::mem::take(&mut name), inside, &circle.difference));
+            rows.push(row(std::mem::take(&mut name), inside(comparison, circle), &circle.difference));
         }
     }
     if let Some(last) = comparison.circles.last() {
         rows.push(row("half the elements".to_owned(), last.indenters.to_string(), &last.mesh_error));
     }
     rows.push(row("half the grid".to_owned(), String::new(), &comparison.grid_error));
-    render(&header.map(str::to_owned), &rows)
+    render(&header, &rows, 0)
 }
 
 /// How far the stresses agree, in a line; `None` where none are compared.

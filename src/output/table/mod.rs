@@ -66,7 +66,7 @@ fn detailed(steps: &[StepRecord]) -> String {
             lead = [const { String::new() }; 3];
         }
     }
-    render(&header.map(str::to_owned), &rows)
+    render(&header, &rows, 0)
 }
 
 fn compact(steps: &[StepRecord], levels: usize) -> String {
@@ -92,19 +92,14 @@ fn compact(steps: &[StepRecord], levels: usize) -> String {
             row
         })
         .collect();
-    render(&header, &rows)
+    render(&header, &rows, 0)
 }
 
-/// A table with right-aligned cells under a rule.
-pub fn render(header: &[String], rows: &[Vec<String>]) -> String {
-    render_with(header, rows, 0)
-}
-
-/// A table whose first `words` columns are aligned left, the others right.
-pub fn render_with(header: &[String], rows: &[Vec<String>], words: usize) -> String {
+/// A table under a rule, whose first `words` columns are aligned left, the others right.
+pub fn render(header: &[impl ToString], rows: &[Vec<String>], words: usize) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header);
+    table.set_header(header.iter().map(ToString::to_string));
     table.add_rows(rows);
     for (index, column) in table.column_iter_mut().enumerate() {
         column.set_cell_alignment(if index < words { CellAlignment::Left } else { CellAlignment::Right });
@@ -176,9 +171,10 @@ pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
 /// The largest stresses of a step in one line.
 pub fn stress(stress: &StressReading) -> String {
     let peak = |name: &str, peak: &Peak, error: Option<f64>| {
-        let (value, material) = (finite(peak.finite(), error), peak.material);
+        // What is no number is not infinite.
+        let value = finite(Some(peak.value).filter(|value| !value.is_infinite()), error);
         let [x, y, z] = peak.position.map(number);
-        format!("{name} {value} in material {material} at ({x}, {y}, {z})")
+        format!("{name} {value} in material {} at ({x}, {y}, {z})", peak.material)
     };
     let [tau1, tension] = [stress.errors.max_tau1, stress.errors.max_tension];
     let tau1 = peak("largest τ₁", &stress.max_tau1, tau1);

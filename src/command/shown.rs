@@ -1,8 +1,8 @@
 //! A run that is recorded, as the person who waits for it sees it.
 
-use super::interruption;
+use super::allowed::Allowed;
+use super::interruption::{self, Saved};
 use super::options::Common;
-use super::room::Allowed;
 use super::terminal::{self, tell};
 use indicatif::{ProgressBar, ProgressStyle};
 use percoat::output::{OutputError, Recording, RunFolder};
@@ -34,16 +34,14 @@ impl<'a> Shown<'a> {
     }
 
     fn progress(&self) -> ProgressBar {
-        if !self.common.shows_progress() {
-            return ProgressBar::hidden();
-        }
         let style = ProgressStyle::with_template("{bar:24} step {pos}/{len}  {msg}");
-        ProgressBar::new(self.steps as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        let bar = self.common.bar(ProgressBar::new(self.steps as u64));
+        bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
     }
 
     /// What a signal to end is answered with.
-    fn tell_interruption(&self) {
-        interruption::steps(self.recording.steps(), self.steps, &self.claim.staging());
+    fn saved(&self) -> Saved {
+        Saved::Steps { done: self.recording.steps(), of: self.steps, folder: self.claim.staging() }
     }
 }
 
@@ -58,9 +56,12 @@ impl Recorder for Shown<'_> {
         if self.common.verbose {
             tell!("{}\n{solver}", solver.problem());
         }
+        // While the steps of a coarser grid move aside, a signal waits.
+        let mut saved = interruption::hold();
         self.recording.begin(solver)?;
+        *saved = self.saved();
+        drop(saved);
         terminal::tell_aside(self.recording.set_aside(), self.common.quiet);
-        self.tell_interruption();
         self.progress.finish_and_clear();
         self.progress = self.progress();
         Ok(())
@@ -79,7 +80,7 @@ impl Recorder for Shown<'_> {
             tell!("{}\n{}\n{}", record.reading, record.report, record.certificate);
         }
         self.recording.step(step, record, field)?;
-        self.tell_interruption();
+        *interruption::hold() = self.saved();
         self.progress.inc(1);
         Ok(())
     }

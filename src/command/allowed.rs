@@ -1,7 +1,7 @@
 //! The room that a job may take.
 
 use super::ending::Failure;
-use percoat::case::resources::{Job, fits, refusal};
+use percoat::case::resources::{Job, needs, refusal};
 use percoat::case::{Case, Room};
 use percoat::run::Recorder;
 use std::convert::Infallible;
@@ -22,11 +22,6 @@ impl<'a> Allowed<'a> {
         let room = Room::on_this_machine(folder);
         refusal(case, room, job).map_or(Ok(Self { case, job, room }), |why| Err(Failure::Refused(why)))
     }
-
-    /// Whether a grid finds room.
-    pub fn fits(&self, points: [usize; 2]) -> bool {
-        fits(self.case, points, self.room, self.job)
-    }
 }
 
 /// Keeps nothing of a run but that it finds room.
@@ -34,6 +29,6 @@ impl Recorder for Allowed<'_> {
     type Error = Infallible;
 
     fn fits(&self, points: [usize; 2]) -> bool {
-        Allowed::fits(self, points)
+        needs(self.case, points, self.job).fit(self.room)
     }
 }
