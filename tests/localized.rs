@@ -29,7 +29,7 @@ fn homogeneous() -> HalfSpace {
 }
 
 fn setup(indenters: usize, elements: usize) -> Setup {
-    Setup { indenters, elements, radius: CircleRadius::LoadBalanced, mutual_effect: true }
+    Setup { indenters, elements, rule: CircleRadius::LoadBalanced, mutual_effect: true }
 }
 
 fn alone(elements: usize) -> Setup {

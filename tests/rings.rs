@@ -112,7 +112,7 @@ fn a_topography_with_a_disc_beside_a_ring_has_the_area_of_both() {
 fn the_localized_method_sees_the_ring_by_itself() {
     let case = case();
     let localized = Localized::new(case.problem(), 37).unwrap();
-    let setup = Setup { indenters: 37, elements: 50, radius: CircleRadius::LoadBalanced, mutual_effect: true };
+    let setup = Setup { indenters: 37, elements: 50, rule: CircleRadius::LoadBalanced, mutual_effect: true };
     let step = localized.solve(LOAD, &setup);
     assert_eq!(step.stop, Stop::Converged);
     let outline = step.spots[0].outline().expect("an outline");

@@ -22,8 +22,7 @@ pub fn slope(label: impl Into<String>, power: f64, colour: usize, points: &[[f64
 
 /// Charts side by side, two in a row at most.
 pub fn figure(panels: Vec<Chart>, caption: &str) -> Figure {
-    let columns = panels.len().min(2);
-    Figure { title: String::new(), caption: vec![caption.to_owned()], panels, columns }
+    Figure { caption: caption.to_owned(), panels }
 }
 
 /// `count` values from `first` to `last`, equally spaced.

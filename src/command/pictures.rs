@@ -3,8 +3,8 @@
 use super::ending::Failure;
 use clap::Args;
 use percoat::Section;
-use percoat::comparison::alone;
-use percoat::picture::{self, Canvas, Format, Snapshot, write_picture};
+use percoat::localized::isolated;
+use percoat::picture::{self, Canvas, Format, Snapshot};
 use percoat::run::StepRecord;
 use rayon::prelude::*;
 use std::path::Path;
@@ -60,12 +60,15 @@ impl PictureOptions {
         let pictures: [(&str, Draw); 6] = [
             ("pressure", &|| touching.then(|| picture::pressure(last))),
             ("contact", &|| {
-                touching.then(|| picture::contact(last, alone::radii(last.problem(), &last.reading).as_deref()))?
+                touching
+                    .then(|| picture::contact(last, isolated::radii(last.step.problem(), &last.reading).as_deref()))?
             }),
-            ("profiles", &|| picture::profiles(last, alone::profiles(last.problem(), &last.reading).as_deref())),
+            ("profiles", &|| {
+                picture::profiles(last, isolated::profiles(last.step.problem(), &last.reading).as_deref())
+            }),
             ("section", &|| Some(picture::section(last, touching_section?))),
             ("lines", &|| Some(picture::lines(last, touching_section?))),
-            ("curve", &|| picture::load_curves(&last.title, last.problem(), steps)),
+            ("curve", &|| picture::load_curves(&last.title, last.step.problem(), steps)),
         ];
         pictures.par_iter().try_for_each(|(name, draw)| self.write(folder, name, draw))
     }
@@ -74,7 +77,7 @@ impl PictureOptions {
     pub fn write(&self, folder: &Path, name: &str, draw: impl FnOnce() -> Option<Canvas>) -> Result<(), Failure> {
         let Some(canvas) = self.wanted().then(draw).flatten() else { return Ok(()) };
         for format in self.formats() {
-            write_picture(folder, name, format, &canvas.file(format))?;
+            canvas.write(folder, name, format)?;
         }
         Ok(())
     }

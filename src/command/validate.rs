@@ -5,7 +5,7 @@ use super::interruption;
 use super::options::Studies;
 use super::terminal::{self, tell};
 use percoat::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
-use percoat::picture::{Format, write_picture};
+use percoat::picture::Format;
 use percoat::validation::paper::table;
 use percoat::validation::{self, Report, STUDIES, Study, differences};
 use std::io::Write;
@@ -120,7 +120,7 @@ impl Gathered {
         let folder = self.0.join(study);
         make_folder(&folder)?;
         for (name, figure) in &outcome.figures {
-            write_picture(&folder, name, Format::Png, &figure.draw(Format::Png))?;
+            figure.draw().write(&folder, name, Format::Png)?;
         }
         for (name, data) in outcome.tables() {
             write_text(&folder.join(name), &data.csv())?;

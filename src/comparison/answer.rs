@@ -14,7 +14,7 @@ pub struct Deviation {
     pub load: f64,
     /// Of the share of the whole load, absolute.
     pub load_share: f64,
-    /// Of the peak pressure, relative.
+    /// Of the peak pressure, relative; not a number where it is infinite.
     pub max_pressure: f64,
     /// Of the contact radius, relative.
     pub contact_radius: f64,
@@ -31,7 +31,7 @@ pub struct Answer {
 
 impl Answer {
     /// Deviation of this answer from `reference`. A level that touches in one of them only deviates by all of it; the
-    /// radius of merged contacts is not a number.
+    /// radius of merged contacts and the infinite peak under a tip are not numbers.
     pub fn deviation(&self, reference: &Self) -> Deviation {
         let relative = |a: f64, b: f64| match (a, b) {
             _ if a == b => 0.0,
@@ -42,12 +42,13 @@ impl Answer {
             let pairs = self.levels.iter().zip(&reference.levels);
             largest(pairs.filter(|(a, b)| a.load > 0.0 || b.load > 0.0).map(|(a, b)| of(a, b)))
         };
+        let peak = |level: &LevelReading| level.finite_peak().unwrap_or(f64::NAN);
         let radius = |level: &LevelReading| level.contact_radius.unwrap_or(f64::NAN);
         Deviation {
             penetration: relative(self.penetration, reference.penetration),
             load: worst(&|a, b| relative(a.load, b.load)),
             load_share: worst(&|a, b| (a.load_share - b.load_share).abs()),
-            max_pressure: worst(&|a, b| relative(a.max_pressure, b.max_pressure)),
+            max_pressure: worst(&|a, b| relative(peak(a), peak(b))),
             contact_radius: worst(&|a, b| relative(radius(a), radius(b))),
         }
     }
@@ -62,5 +63,18 @@ impl From<&Reading> for Answer {
 impl From<&localized::Solution> for Answer {
     fn from(solution: &localized::Solution) -> Self {
         Self { penetration: solution.penetration, levels: solution.levels() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_peak_under_a_tip_is_not_compared() {
+        let tip = |max_pressure| LevelReading { load: 1.0, max_pressure, singular: true, ..LevelReading::default() };
+        let [one, other] = [2.0, 3.0].map(|peak| Answer { penetration: 0.1, levels: vec![tip(peak)] });
+        let deviation = one.deviation(&other);
+        assert!(deviation.max_pressure.is_nan() && deviation.load == 0.0);
     }
 }

@@ -6,7 +6,6 @@
 //! localization. The circles have both radius rules, on the same elements, and the smallest also the lattice sum of what
 //! is outside it.
 
-pub mod alone;
 mod answer;
 mod task;
 
@@ -81,7 +80,8 @@ pub struct Comparison {
     pub other_rule: Vec<CircleComparison>,
     /// The first circle with the lattice sum outside; `None` without mutual effect or where all have it.
     pub lattice_sum: Option<CircleComparison>,
-    /// Stresses with the last circle, the rule asked for.
+    /// Stresses with the last circle under the rule asked for; under the lattice sum p̄ acts outside the load-balanced
+    /// radius instead.
     pub stresses: Vec<StressPair>,
 }
 

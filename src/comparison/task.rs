@@ -71,7 +71,7 @@ impl Task {
         let counts: &[usize] = if self.mutual_effect { &self.indenters } else { &[1] };
         for &inside in counts {
             progress(&format!("localized solution, {inside} indenters in the circle"));
-            let coupled = |mesh| localized.coupled(mesh, inside, self.mutual_effect);
+            let coupled = |mesh| Coupled::new(localized.system(), mesh, inside, self.mutual_effect);
             let [fine, coarse] = [mesh, half].map(coupled);
             let compared = |rule: CircleRadius| {
                 let widened = |coupled: &Coupled, start| {
@@ -128,8 +128,8 @@ impl Task {
     }
 
     /// What the localized method is asked for with so many indenters inside the circles.
-    fn setup(&self, indenters: usize, radius: CircleRadius) -> Setup {
-        Setup { indenters, elements: self.elements, radius, mutual_effect: self.mutual_effect }
+    fn setup(&self, indenters: usize, rule: CircleRadius) -> Setup {
+        Setup { indenters, elements: self.elements, rule, mutual_effect: self.mutual_effect }
     }
 
     /// Stresses on the axis of the first indenter of the highest level and along a line from it.

@@ -1,9 +1,29 @@
 //! A multi-level system of indenters on a lattice.
 
-use super::{CounterbodyError, Level};
+use super::{CounterbodyError, Level, Shape};
 use crate::lattice::Lattice;
 use crate::numeric::number::number;
 use std::fmt;
+
+/// One site of an indenter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Site {
+    /// Level of the indenter, from 1.
+    pub level: usize,
+    /// Place in fractions of a₁, a₂.
+    pub place: [f64; 2],
+    /// Shape of the indenter.
+    pub shape: Shape,
+    /// Drop of its apex below the highest one, a length ≥ 0.
+    pub drop: f64,
+}
+
+impl Site {
+    /// Depth of the indenter's surface below the highest apex of all at the distance `r` from its axis, lengths.
+    pub fn profile(&self, r: f64) -> f64 {
+        self.shape.profile(r) + self.drop
+    }
+}
 
 /// Indenters at several levels on the sites of a lattice: level m + 1 stands on `lattice().sites()[m]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +59,16 @@ impl Indenters {
     pub fn drops(&self) -> Vec<f64> {
         let highest = self.levels.iter().map(Level::height).fold(f64::NEG_INFINITY, f64::max);
         self.levels.iter().map(|level| highest - level.height()).collect()
+    }
+
+    /// The sites of the cell, level by level.
+    pub fn sites(&self) -> Vec<Site> {
+        let drops = self.drops();
+        let of_level = |(index, places): (usize, &Vec<[f64; 2]>)| -> Vec<Site> {
+            let (level, shape, drop) = (index + 1, self.levels[index].shape(), drops[index]);
+            places.iter().map(|&place| Site { level, place, shape, drop }).collect()
+        };
+        self.lattice.sites().iter().enumerate().flat_map(of_level).collect()
     }
 }
 

@@ -8,8 +8,8 @@ mod topography;
 
 pub use error::CounterbodyError;
 pub use indenter::{IndenterError, Level, Shape};
-pub use indenters::Indenters;
-pub use surface::{Site, Surface};
+pub use indenters::{Indenters, Site};
+pub use surface::Surface;
 pub use topography::Topography;
 
 use crate::lattice::Cell;

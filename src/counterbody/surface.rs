@@ -4,7 +4,7 @@
 //! surface above its highest apex. The indenter that gives the minimum owns the sample. Every profile grows with the
 //! radius, so of the periodic images of an indenter only the nearest one counts.
 
-use super::{Counterbody, Indenters, Shape};
+use super::{Counterbody, Indenters, Site};
 use crate::lattice::{Grid, Interpolation, LatticeError, Reduced, resample};
 use crate::numeric::array::{field, samples};
 use crate::numeric::sums;
@@ -12,17 +12,6 @@ use ndarray::{Array2, ArrayView2};
 use rayon::prelude::*;
 use std::fmt;
 use std::sync::Arc;
-
-/// One site of an indenter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Site {
-    /// Level of the indenter, from 1.
-    pub level: usize,
-    /// Place in fractions of a₁, a₂.
-    pub place: [f64; 2],
-    /// Shape of the indenter.
-    pub shape: Shape,
-}
 
 /// The counterbody's surface on a grid.
 #[derive(Debug, Clone)]
@@ -134,16 +123,11 @@ const TIE: f64 = 1e-12;
 fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
     let lattice = indenters.lattice();
     let reduced = lattice.cell().reduced();
-    let drops = indenters.drops();
-    let sites: Vec<Site> = (1..)
-        .zip(lattice.sites())
-        .zip(indenters.levels())
-        .flat_map(|((level, places), own)| places.iter().map(move |&place| Site { level, place, shape: own.shape() }))
-        .collect();
+    let sites = indenters.sites();
     let distance = |index: usize, site: &Site| {
         let here = grid.fractions(index);
         let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
-        site.shape.profile(x.hypot(y)) + drops[site.level - 1]
+        site.profile(x.hypot(y))
     };
     let face = |index: usize| {
         let (mut nearest, mut owner, mut tied) = (f64::INFINITY, 0, false);
@@ -172,7 +156,7 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::counterbody::Level;
+    use crate::counterbody::{Level, Shape};
     use crate::lattice::{Cell, Lattice};
 
     fn on(lattice: Lattice, levels: Vec<Level>, points: [usize; 2]) -> Surface {

@@ -84,6 +84,14 @@ impl Grid {
         [(index / n2) as f64 / n1 as f64, (index % n2) as f64 / n2 as f64]
     }
 
+    /// Flat indices of the samples next to one along a₁ and a₂: the next ones, then those before.
+    pub fn adjacent(&self, index: usize) -> [usize; 4] {
+        let [n1, n2] = self.points;
+        let (row, column) = (index / n2, index % n2);
+        let places = [(row + 1, column), (row, column + 1), (row + n1 - 1, column), (row, column + n2 - 1)];
+        places.map(|(row, column)| row % n1 * n2 + column % n2)
+    }
+
     /// Flat indices of the eight samples around one.
     pub fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> {
         let [n1, n2] = self.points;

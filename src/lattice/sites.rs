@@ -111,6 +111,13 @@ impl Lattice {
         vectors.min_by(|a, b| norm(*a).total_cmp(&norm(*b))).unwrap_or(reduced.short())
     }
 
+    /// The period l: the least distance of two indenters, whatever their level, a length.
+    pub fn period(&self) -> f64 {
+        let levels = 1..=self.sites.len();
+        let toward = |&from: &[f64; 2]| levels.clone().map(move |level| norm(self.toward(from, level)));
+        self.sites.iter().flatten().flat_map(toward).fold(f64::INFINITY, f64::min)
+    }
+
     /// Sites of each level, in fractions of a₁, a₂ within [0, 1).
     pub fn sites(&self) -> &[Vec<[f64; 2]>] {
         &self.sites
@@ -165,6 +172,7 @@ mod tests {
     #[test]
     fn the_nearest_indenter_of_a_level_is_one_period_away() {
         let lattice = Lattice::hexagonal(0.7, 3).unwrap();
+        assert!((lattice.period() - 0.7).abs() < 1e-12);
         for (level, distance) in [(1, 0.7 * 3f64.sqrt()), (2, 0.7), (3, 0.7)] {
             let vector = lattice.toward(lattice.sites()[0][0], level);
             assert!((norm(vector) - distance).abs() < 1e-12, "level {level}: {vector:?}");

@@ -52,14 +52,9 @@ impl Coupled {
     /// Circles of at least `indenters` (in whole shells) on `mesh`; without mutual effect every indenter is alone.
     pub fn new(system: &Arc<System>, mesh: Mesh, indenters: usize, mutual_effect: bool) -> Self {
         let circles = system.circles(if mutual_effect { indenters } else { 1 });
-        let shape = |site| {
-            let at = |index| {
-                let [x, y] = mesh.place(index);
-                system.profile(site, x.hypot(y))
-            };
-            (0..mesh.elements()).map(at).collect()
-        };
-        let shapes = (0..system.sites().len()).map(shape).collect();
+        let places = || (0..mesh.elements()).map(|index| mesh.place(index));
+        let shapes = system.sites().iter().map(|site| places().map(|[x, y]| site.profile(x.hypot(y))).collect());
+        let shapes = shapes.collect();
         let neighbours = system.circles(NEIGHBOURS);
         let (inside, whole) = (OnceLock::new(), OnceLock::new());
         let system = Arc::clone(system);
@@ -75,7 +70,7 @@ impl Coupled {
     pub fn solve(&self, load: Load, rule: CircleRadius, start: Option<&Solution>) -> Solution {
         let tables = self.tables(rule);
         let count = self.circles.len();
-        let cell = self.system.cell_area();
+        let cell = self.system.cell().area();
         let element = self.mesh.size * self.mesh.size;
         let mut patterns = Patterns::new(self.mesh, count, start);
         if let Load::Penetration(penetration) = load {
@@ -85,6 +80,7 @@ impl Coupled {
         let mut punches = vec![vec![0.0; self.mesh.elements()]; count];
         let mut radii = vec![f64::INFINITY; count];
         let mut mean_pressure = 0.0;
+        let mut merged = vec![false; count];
         let (mut stop, mut sweeps) = (Stop::Stalled, 0);
         while sweeps < SWEEPS {
             sweeps += 1;
@@ -135,7 +131,8 @@ impl Coupled {
                 Load::Penetration(_) => None,
             };
             if pressed && sweep.unrest(prescribed.unwrap_or(whole)) <= TOLERANCE * prescribed.unwrap_or(whole) {
-                stop = self.reached(&patterns);
+                merged = self.merged(&patterns);
+                stop = self.reached(&patterns, &merged);
                 break;
             }
             if let (Some(whole_load), true) = (prescribed, whole == 0.0) {
@@ -160,6 +157,7 @@ impl Coupled {
                 gap: field([self.mesh.width; 2], std::mem::take(&mut gaps[m])),
                 circle: self.circles[m].clone(),
                 radius: radii[m],
+                merged: merged[m],
             })
             .collect();
         let system = Arc::clone(&self.system);
@@ -191,7 +189,7 @@ impl Coupled {
         let circle = &self.circles[m];
         match rule {
             _ if !self.mutual_effect => f64::INFINITY,
-            CircleRadius::AreaBalanced => circle.area_balanced(self.system.cell_area() / self.circles.len() as f64),
+            CircleRadius::AreaBalanced => circle.area_balanced(self.system.cell().area() / self.circles.len() as f64),
             CircleRadius::LoadBalanced | CircleRadius::LatticeSum => circle.load_balanced(loads, mean_pressure),
         }
     }
@@ -216,7 +214,7 @@ impl Coupled {
     fn far_coupling(&self, load: Load, rule: CircleRadius, m: usize, c: usize, far: &FarField<'_>, under: f64) -> f64 {
         let share = match load {
             Load::MeanPressure(_) => 0.0,
-            Load::Penetration(_) => 1.0 / self.system.cell_area(),
+            Load::Penetration(_) => 1.0 / self.system.cell().area(),
         };
         match rule {
             CircleRadius::LatticeSum => 0.0,
@@ -231,23 +229,34 @@ impl Coupled {
     }
 
     /// How converged patterns stand to their meshes and neighbours.
-    fn reached(&self, patterns: &Patterns) -> Stop {
-        let loaded = |m: usize| (0..self.mesh.elements()).filter(move |&index| patterns.pressures[m][index] > 0.0);
-        let sites = || 0..self.circles.len();
-        if self.mutual_effect && sites().any(|m| loaded(m).any(|index| self.belongs_to_another(m, index))) {
+    fn reached(&self, patterns: &Patterns, merged: &[bool]) -> Stop {
+        let on_rim = |pressure: &Vec<f64>| (0..pressure.len()).any(|i| pressure[i] > 0.0 && self.mesh.on_rim(i));
+        if merged.contains(&true) {
             Stop::Merged
-        } else if sites().any(|m| loaded(m).any(|index| self.mesh.on_rim(index))) {
+        } else if patterns.pressures.iter().any(on_rim) {
             Stop::Rim
         } else {
             Stop::Converged
         }
     }
 
-    /// Whether the surface of a neighbour lies nearer to an element of spot m than that of its own indenter.
-    fn belongs_to_another(&self, m: usize, index: usize) -> bool {
-        let [x, y] = self.mesh.place(index);
-        self.neighbours[m].images.iter().enumerate().any(|(c, images)| {
-            images.iter().any(|[u, v]| self.system.profile(c, (x - u).hypot(y - v)) < self.shapes[m][index])
-        })
+    /// Which spots' contacts reach where the surface of a neighbour is nearer than that of their own indenter, and which
+    /// neighbours are reached.
+    fn merged(&self, patterns: &Patterns) -> Vec<bool> {
+        let mut merged = vec![false; self.circles.len()];
+        for (m, pressure) in patterns.pressures.iter().enumerate().filter(|_| self.mutual_effect) {
+            for index in (0..pressure.len()).filter(|&index| pressure[index] > 0.0) {
+                let [x, y] = self.mesh.place(index);
+                for (c, images) in self.neighbours[m].images.iter().enumerate() {
+                    let nearer = |[u, v]: &[f64; 2]| {
+                        self.system.sites()[c].profile((x - u).hypot(y - v)) < self.shapes[m][index]
+                    };
+                    if images.iter().any(nearer) {
+                        (merged[m], merged[c]) = (true, true);
+                    }
+                }
+            }
+        }
+        merged
     }
 }

@@ -81,15 +81,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn springs_under_one_plate_share_its_load() {
-        let sweep = Sweep { stiffness: vec![2.0, 1.0], found: vec![1.0, 0.2], ..Sweep::new(vec![1.0, 0.2]) };
-        let (loads, rise) = sweep.exchanged(Some(1.5));
-        assert!((loads[0] - 1.2).abs() < 1e-15 && (loads[1] - 0.3).abs() < 1e-15 && (rise - 0.1).abs() < 1e-15);
-    }
-
-    #[test]
-    fn units_do_not_matter() {
-        for unit in [1e-30, 1e30] {
+    fn springs_under_one_plate_share_its_load_whatever_the_units() {
+        for unit in [1e-30, 1.0, 1e30] {
             let stiffness = vec![2.0 * unit, unit];
             let (loads, rise) =
                 Sweep { stiffness, found: vec![1.0, 0.2], ..Sweep::new(vec![1.0, 0.2]) }.exchanged(Some(1.5));

@@ -58,7 +58,7 @@ impl Exterior {
     /// one, which to the second moment is the factor 1 − q²e²/24.
     pub fn new(system: &System, mesh: Mesh, indenters: usize) -> Self {
         let kernel = system.kernel();
-        let (half, area) = (mesh.span(), system.cell_area());
+        let (half, area) = (mesh.span(), system.cell().area());
         let length = |[x, y]: &[f64; 2]| x.hypot(*y);
         let asked = system.circles(indenters);
         let farthest = asked.iter().flat_map(|circle| circle.images.iter().flatten()).map(length).fold(0.0, f64::max);

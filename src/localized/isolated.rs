@@ -1,40 +1,61 @@
 //! Indenters without mutual effect, as the paper draws them dashed: each alone on the layered half-space.
 
 use super::circle::CircleRadius;
-use super::setup::Setup;
 use super::solution::{Solution, Stop};
-use super::solver::Localized;
+use super::solver::{Localized, Setup};
 use super::spot::Spot;
 use crate::body::HalfSpace;
 use crate::counterbody::{Indenters, Level};
 use crate::lattice::Lattice;
 use crate::load::Load;
+use crate::problem::Problem;
+use crate::reading::{LevelReading, Reading};
 
 /// Elements across the largest contact: radii and pressures to 1e-3, for pictures.
 const ELEMENTS: usize = 24;
 /// Period, in those of the system, at which indenters are taken for alone: only their cells have to hold the contacts.
 const APART: f64 = 6.0;
 
-const ALONE: Setup =
-    Setup { indenters: 1, elements: ELEMENTS, radius: CircleRadius::LoadBalanced, mutual_effect: false };
+const ALONE: Setup = Setup { indenters: 1, elements: ELEMENTS, rule: CircleRadius::LoadBalanced, mutual_effect: false };
 
-/// Outer contact radius of each level (0: it does not touch) when all have one penetration and carry the prescribed load
-/// together but do not feel each other (Figs 2b, 4b and Table 1). `None` where contacts would meet.
-pub fn radii(indenters: &Indenters, half_space: &HalfSpace, load: Load) -> Option<Vec<f64>> {
-    let solution = Localized::of(indenters, half_space, 1).solve(load, &ALONE);
+/// Largest fraction in contact at which indenters are still compared with one alone: beyond it the contacts alone would
+/// reach far into each other's cells, which says nothing and takes minutes to find.
+const MOST_CONTACT: f64 = 0.5;
+
+/// Whether the contacts of a step stand apart, so that each can be compared with one alone.
+fn stand_apart(reading: &Reading) -> bool {
+    reading.contact_fraction < MOST_CONTACT && !reading.levels.iter().any(|level| level.merged)
+}
+
+/// Outer contact radius of each level (0: it does not touch), a length, when all have one penetration and carry the mean
+/// pressure of a solved step together but do not feel each other (Figs 2b, 4b and Table 1). `None` where contacts do not
+/// stand apart, or for a topography.
+pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
+    let localized = Localized::new(problem, 1).ok().filter(|_| stand_apart(reading))?;
+    let solution = localized.solve(Load::MeanPressure(reading.mean_pressure), &ALONE);
     // All indenters of a level are alike.
     let own = |level: usize| solution.spots.iter().find(|spot| spot.level == level && spot.touches());
-    let radii = (1..=indenters.levels().len()).map(|level| own(level).map_or(0.0, Spot::outer_radius)).collect();
+    let radii = (1..=reading.levels.len()).map(|level| own(level).map_or(0.0, Spot::outer_radius)).collect();
     (solution.stop == Stop::Converged).then_some(radii)
 }
 
-/// Pressure of a single indenter of `level` under a `force`: points (distance from the axis, pressure) from the axis to
-/// the edge (Fig. 3). `size`: a length of the order of the contact's or larger. `None` without force or solution.
-pub fn profile(level: Level, half_space: &HalfSpace, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
+/// Pressure of each level's indenter alone under the load it carries in a solved step: points (distance from the axis,
+/// pressure) from the axis to the edge (Fig. 3), none where it carries nothing; `None` where contacts do not stand apart.
+pub fn profiles(problem: &Problem, reading: &Reading) -> Option<Vec<Vec<[f64; 2]>>> {
+    let size = problem.cell().reduced().longer_side();
+    let levels = problem.counterbody().levels().iter().zip(&reading.levels);
+    let own = |(level, own): (&Level, &LevelReading)| profile(*level, problem.half_space(), own.load, size);
+    stand_apart(reading).then(|| levels.map(|level| own(level).unwrap_or_default()).collect())
+}
+
+/// Pressure of a single indenter of `level` under a `force`. `size`: a length of the order of the contact's or larger.
+/// `None` without force or solution.
+fn profile(level: Level, half_space: &HalfSpace, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
     let lattice = Lattice::square(APART * size, 1).ok()?;
     let mean_pressure = Load::MeanPressure(force / lattice.cell().area());
     let alone = Indenters::new(lattice, vec![level]).ok().filter(|_| force > 0.0)?;
-    let Solution { spots, stop, .. } = Localized::of(&alone, half_space, 1).solve(mean_pressure, &ALONE);
+    let alone = Localized::new(&Problem::new(alone, half_space.clone()), 1).ok()?;
+    let Solution { spots, stop, .. } = alone.solve(mean_pressure, &ALONE);
     let spot = &spots[0];
     let middle = spot.mesh.width / 2;
     let edge = spot.outer_radius();

@@ -35,7 +35,6 @@ mod patterns;
 pub mod point;
 pub(crate) mod press;
 pub(crate) mod quadrature;
-mod setup;
 mod solution;
 mod solver;
 pub mod spot;
@@ -46,7 +45,6 @@ mod tables;
 
 pub use circle::{Circle, CircleRadius};
 pub use coupled::Coupled;
-pub use setup::Setup;
 pub use solution::{Solution, Stop};
-pub use solver::{Localized, NoIndenters};
+pub use solver::{Localized, NoIndenters, Setup};
 pub use system::System;

@@ -17,7 +17,7 @@
 //! The open elements that a spot encloses are the hole of a ring; its rim is an outline seen from the other side.
 
 use super::mesh::Mesh;
-use crate::numeric::closed_line::{ANGLES, angle, mean_radius, radius, series, waves};
+use crate::numeric::closed_line::{self, ANGLES, angle, mean_radius, radius, series, waves};
 use crate::numeric::least_squares;
 use std::f64::consts::PI;
 
@@ -164,10 +164,8 @@ fn moved(radii: &[f64], places: &[Place], size: f64, [reach, deep]: [f64; 2], si
         (slope > 0.2).then(|| -sign * value / slope * reach)
     };
     let shifts = (0..ANGLES).map(shift).collect::<Option<Vec<f64>>>()?;
-    // One round moves the line by one element at most; all of it in proportion, so that it stays smooth.
-    let largest = shifts.iter().fold(0.0, |most: f64, shift| most.max(shift.abs()));
-    let part = (size / largest).min(1.0);
-    Some(radii.iter().zip(shifts).map(|(radius, shift)| radius + part * shift).collect())
+    // One round moves the line by one element at most.
+    Some(closed_line::moved(radii, &shifts, size))
 }
 
 #[cfg(test)]

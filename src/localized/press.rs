@@ -49,7 +49,7 @@ impl Conjugate {
 /// of them. Gives back A p − b, the gap, and whether it is reached.
 pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> (Vec<f64>, bool) {
     let len = wanted.len();
-    let scale = wanted.iter().copied().fold(0.0, f64::max);
+    let scale = largest(wanted.iter().copied());
     if scale == 0.0 {
         // Nothing is displaced far enough to touch.
         pressure.fill(0.0);

@@ -23,11 +23,6 @@ impl Estimate {
     fn plus(self, other: Self) -> Self {
         Self { value: self.value + other.value, error: self.error + other.error }
     }
-
-    /// Value and error times a factor.
-    pub fn times(self, factor: f64) -> Self {
-        Self { value: factor * self.value, error: factor.abs() * self.error }
-    }
 }
 
 /// Abscissae of the 15-point Kronrod rule from the outermost to the centre; every second one is Gauss'.

@@ -84,7 +84,7 @@ impl Solution {
             }
         }
         if spot.radius.is_finite() && !lattice_sum {
-            sum -= self.mean_pressure * disc::displacement(system.kernel(), spot.radius, 0.0).value;
+            sum -= self.mean_pressure * disc::displacement(system.kernel(), spot.radius, 0.0);
         }
         sum
     }
@@ -102,7 +102,7 @@ impl Solution {
     fn level(&self, level: usize, whole: f64) -> LevelReading {
         let own: Vec<(&Spot, Option<Outline>)> = self.of_level(level).map(|spot| (spot, spot.outline())).collect();
         let count = own.len() as f64;
-        let merged = self.stop == Stop::Merged && own.iter().any(|(spot, _)| spot.touches());
+        let merged = own.iter().any(|(spot, _)| spot.merged && spot.touches());
         let load: f64 = own.iter().map(|(spot, _)| spot.load()).sum();
         // √(area/π) of the spots, or a radius of their outlines: means over the indenters, by area.
         let mean = |squares: f64| (squares / count).sqrt();
@@ -112,7 +112,7 @@ impl Solution {
         let area = own.iter().map(|spot| PI * radius(spot).powi(2)).sum::<f64>() / count;
         let contact_radius = (area / PI).sqrt();
         let outlines: Option<Vec<&Outline>> = own.iter().map(|(_, outline)| outline.as_ref()).collect();
-        let ring = own.iter().any(|(_, outline)| outline.as_ref().is_some_and(|outline| outline.hole > 0.0));
+        let ring = !merged && own.iter().any(|(_, outline)| outline.as_ref().is_some_and(|outline| outline.hole > 0.0));
         let rings = outlines.as_ref().filter(|_| ring);
         let radii = || outlines.iter().flatten().flat_map(|outline| outline.radii.iter().copied());
         LevelReading {

@@ -1,19 +1,40 @@
 //! The method from end to end: meshes that fit the contacts, then the coupled solution.
 
+use super::circle::CircleRadius;
 use super::coupled::Coupled;
 use super::mesh::Mesh;
-use super::setup::{FILLING, Setup};
 use super::solution::{Solution, Stop};
 use super::spot::Spot;
 use super::system::{COARSE_INDENTERS, System};
-use crate::body::HalfSpace;
-use crate::counterbody::Indenters;
 use crate::load::Load;
 use crate::problem::Problem;
 use std::sync::Arc;
 
 /// Elements along the side of the meshes on which the size of the contacts is found.
 const COARSE: usize = 25;
+
+/// Part of a mesh that the largest contact should fill.
+const FILLING: f64 = 0.75;
+
+/// What the localized method is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setup {
+    /// Indenters inside each circle, at least: whole shells are taken.
+    pub indenters: usize,
+    /// Elements across the largest contact.
+    pub elements: usize,
+    /// How large the circles are, or what stands outside them.
+    pub rule: CircleRadius,
+    /// Whether the indenters around the one looked at act on it; if not, each is alone on the half-space.
+    pub mutual_effect: bool,
+}
+
+impl Setup {
+    /// Elements along the side of a mesh with so many across the largest contact.
+    pub fn width(elements: usize) -> usize {
+        (elements as f64 / FILLING).ceil() as usize / 2 * 2 + 1
+    }
+}
 
 /// A topography has no indenters to draw circles around.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -33,21 +54,12 @@ impl Localized {
     /// [`NoIndenters`] for a topography.
     pub fn new(problem: &Problem, count: usize) -> Result<Self, NoIndenters> {
         let indenters = problem.counterbody().indenters().ok_or(NoIndenters)?;
-        Ok(Self::of(indenters, problem.half_space(), count))
-    }
-
-    pub(super) fn of(indenters: &Indenters, half_space: &HalfSpace, count: usize) -> Self {
-        Self { system: Arc::new(System::new(indenters, half_space, count)) }
+        Ok(Self { system: Arc::new(System::new(indenters, problem.half_space(), count)) })
     }
 
     /// The indenters and what they press into.
     pub fn system(&self) -> &Arc<System> {
         &self.system
-    }
-
-    /// Circles of at least `indenters` (in whole shells) on `mesh`; without mutual effect every indenter is alone.
-    pub fn coupled(&self, mesh: Mesh, indenters: usize, mutual_effect: bool) -> Coupled {
-        Coupled::new(&self.system, mesh, indenters, mutual_effect)
     }
 
     /// The mesh with `setup.elements` across the largest contact, and a coarse solution on the way to it: coarse meshes
@@ -57,7 +69,8 @@ impl Localized {
         let mut start = None;
         loop {
             let indenters = setup.indenters.min(COARSE_INDENTERS);
-            let solution = self.coupled(mesh, indenters, setup.mutual_effect).solve(load, setup.radius, start.as_ref());
+            let coupled = Coupled::new(&self.system, mesh, indenters, setup.mutual_effect);
+            let solution = coupled.solve(load, setup.rule, start.as_ref());
             let radius = solution.spots.iter().map(Spot::counted_radius).fold(0.0, f64::max);
             let loose = 2.0 * radius < 0.5 * FILLING * 2.0 * mesh.half();
             if loose && solution.stop == Stop::Converged && solution.mean_pressure > 0.0 {
@@ -80,8 +93,8 @@ impl Localized {
         let (mut mesh, start) = self.mesh(load, setup);
         let most = 2 * mesh.width;
         loop {
-            let coupled = self.coupled(mesh, setup.indenters, setup.mutual_effect);
-            let solution = coupled.solve(load, setup.radius, Some(&start));
+            let coupled = Coupled::new(&self.system, mesh, setup.indenters, setup.mutual_effect);
+            let solution = coupled.solve(load, setup.rule, Some(&start));
             if solution.stop != Stop::Rim {
                 return solution;
             }

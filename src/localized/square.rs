@@ -37,11 +37,6 @@ impl<'a> Squares<'a> {
         Self { kernel, half, image, rules: (0..=MOST_POINTS).map(gauss).collect() }
     }
 
-    /// Half-width a, a length.
-    pub fn half(&self) -> f64 {
-        self.half
-    }
-
     /// Displacement at (x, y) from the centre of a square under unit pressure: a length per pressure.
     pub fn coefficient(&self, x: f64, y: f64) -> f64 {
         let distance = x.hypot(y) / self.half;

@@ -3,29 +3,19 @@
 use super::circle::Circle;
 use super::point::PointKernel;
 use crate::body::HalfSpace;
-use crate::counterbody::{Indenters, Level};
+use crate::counterbody::{Indenters, Level, Site};
 use crate::lattice::Cell;
 use std::fmt;
 
 /// Indenters in the circles while the size of the contacts is found.
 pub(super) const COARSE_INDENTERS: usize = 7;
-/// One indenter of the cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Site {
-    /// Level, from 1.
-    pub level: usize,
-    /// Place in fractions of the cell vectors.
-    pub place: [f64; 2],
-}
 
 /// A system of indenters on a layered half-space.
 #[derive(Debug, Clone)]
 pub struct System {
     indenters: Indenters,
-    drops: Vec<f64>,
     sites: Vec<Site>,
     kernel: PointKernel,
-    nearest: f64,
     half_space: HalfSpace,
 }
 
@@ -33,27 +23,17 @@ impl System {
     /// `indenters` on `half_space`, for circles of up to `count` of them.
     pub fn new(indenters: &Indenters, half_space: &HalfSpace, count: usize) -> Self {
         let lattice = indenters.lattice();
-        let sites: Vec<Site> = (1..)
-            .zip(lattice.sites())
-            .flat_map(|(level, places)| places.iter().map(move |&place| Site { level, place }))
-            .collect();
-        let length = |[x, y]: [f64; 2]| x.hypot(y);
-        let nearest = sites
-            .iter()
-            .flat_map(|site| (1..=indenters.levels().len()).map(|level| length(lattice.toward(site.place, level))))
-            .fold(f64::INFINITY, f64::min);
+        let (sites, nearest) = (indenters.sites(), lattice.period());
         let places: Vec<[f64; 2]> = sites.iter().map(|site| site.place).collect();
         let farthest = (0..sites.len())
             .flat_map(|centre| Circle::new(lattice, &places, centre, count.max(COARSE_INDENTERS)).images.concat())
-            .map(length)
+            .map(|[x, y]| x.hypot(y))
             .fold(0.0, f64::max);
         Self {
-            drops: indenters.drops(),
             sites,
             // From the far corner of one mesh to that of another, and room for circles whose radius moves.
             kernel: PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest)),
             indenters: indenters.clone(),
-            nearest,
             half_space: half_space.clone(),
         }
     }
@@ -80,13 +60,8 @@ impl System {
 
     /// Index of the site whose apex stands highest.
     pub fn highest(&self) -> usize {
-        let higher = |a: &usize, b: &usize| self.profile(*a, 0.0).total_cmp(&self.profile(*b, 0.0));
-        (0..self.sites.len()).min_by(higher).unwrap_or(0)
-    }
-
-    /// Contact modulus E* of the material at the surface, a pressure.
-    pub fn contact_modulus(&self) -> f64 {
-        self.half_space.surface_material().contact_modulus()
+        let drop = |site: usize| self.sites[site].drop;
+        (0..self.sites.len()).min_by(|&a, &b| drop(a).total_cmp(&drop(b))).unwrap_or(0)
     }
 
     /// The unit cell.
@@ -94,20 +69,9 @@ impl System {
         self.indenters.lattice().cell()
     }
 
-    /// Area of the cell.
-    pub fn cell_area(&self) -> f64 {
-        self.indenters.lattice().cell().area()
-    }
-
     /// Distance of the nearest two indenters, a length.
     pub fn nearest(&self) -> f64 {
-        self.nearest
-    }
-
-    /// Profile of a site's indenter at the distance `r` from its axis, with its drop: a length.
-    pub fn profile(&self, site: usize, r: f64) -> f64 {
-        let level = self.sites[site].level - 1;
-        self.levels()[level].shape().profile(r) + self.drops[level]
+        self.indenters.lattice().period()
     }
 
     /// Circles of at least `indenters` around every site.

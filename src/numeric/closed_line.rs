@@ -24,6 +24,14 @@ pub fn mean_radius(radii: &[f64]) -> f64 {
     (radii.iter().map(|r| r * r).sum::<f64>() / radii.len().max(1) as f64).sqrt()
 }
 
+/// The line moved outwards by the shifts, by `most` where it moves farthest: all of it in proportion, so that it stays
+/// smooth.
+pub fn moved(radii: &[f64], shifts: &[f64], most: f64) -> Vec<f64> {
+    let largest = shifts.iter().fold(0.0, |most: f64, shift| most.max(shift.abs()));
+    let part = (most / largest).min(1.0);
+    radii.iter().zip(shifts).map(|(radius, shift)| radius + part * shift).collect()
+}
+
 /// 1, cos θ, sin θ, … of the harmonics up to `highest`.
 pub fn waves(theta: f64, highest: usize) -> Vec<f64> {
     let (sine, cosine) = theta.sin_cos();

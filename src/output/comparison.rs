@@ -35,7 +35,7 @@ fn circle(circle: &CircleComparison) -> Value {
             "level": reading.level,
             "load": reading.load,
             "load_share": reading.load_share,
-            "max_pressure": reading.max_pressure,
+            "max_pressure": reading.finite_peak(),
             "contact_radius": reading.contact_radius,
             "ring": reading.ring,
         })

@@ -18,7 +18,7 @@ pub struct Axis {
     pub label: String,
     /// How values are spread.
     pub scale: Scale,
-    /// First and last value; none: what the curves need.
+    /// First and last value; none, or one without length or end: what the curves need.
     pub range: Option<[f64; 2]>,
 }
 
@@ -42,7 +42,7 @@ impl Axis {
     /// The range, from the values if it is not given: on a linear axis with zero where that is near, `margin` of the
     /// length beyond the values.
     pub(super) fn reach(&self, values: impl Iterator<Item = f64>, margin: f64) -> [f64; 2] {
-        if let Some([first, last]) = self.range {
+        if let Some([first, last]) = self.range.filter(|[first, last]| (last - first).is_finite() && first != last) {
             return [first, last];
         }
         let usable = |x: &f64| x.is_finite() && (self.scale != Scale::Log || *x > 0.0);
@@ -114,15 +114,8 @@ fn linear_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     let magnitude = if largest > 0.0 { (largest * (1.0 + 1e-12)).log10().floor() as i32 } else { 0 };
     let exponent = if (-2..4).contains(&magnitude) { 0 } else { magnitude.div_euclid(3) * 3 };
     let decimals = usize::try_from(exponent - power).unwrap_or(0);
-    let slack = 1e-9 * step;
-    let multiples = |step: f64| {
-        let (from, to) = (((low - slack) / step).ceil() as i64, ((high + slack) / step).floor() as i64);
-        (from..=to).map(move |k| (k, k as f64 * step))
-    };
     let unit = 10f64.powi(exponent);
-    let numbered = multiples(step).map(|(_, x)| (x, signed(&format!("{:.decimals$}", x / unit)))).collect();
-    let plain = multiples(step / f64::from(parts)).filter(|(k, _)| k % i64::from(parts) != 0).map(|(_, x)| x).collect();
-    Ticks { numbered, plain, exponent }
+    Ticks { exponent, ..marked([low, high], step, parts, |x| format!("{:.decimals$}", x / unit)) }
 }
 
 fn degree_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
@@ -130,9 +123,17 @@ fn degree_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     let count = |step: f64| (high / step).floor() - (low / step).ceil() + 1.0;
     let steps = [(15.0, 3), (30.0, 3), (60.0, 4), (90.0, 3), (180.0, 4), (360.0, 4)];
     let (step, parts) = steps.into_iter().find(|&(step, _)| count(step) <= most as f64).unwrap_or((360.0, 4));
-    let multiples =
-        |step: f64| ((low / step).ceil() as i64..=(high / step).floor() as i64).map(move |k| (k, k as f64 * step));
-    let numbered = multiples(step).map(|(_, x)| (x, signed(&format!("{x:.0}")))).collect();
+    marked([low, high], step, parts, |x| format!("{x:.0}"))
+}
+
+/// Numbers at the multiples of `step`, which short marks cut into `parts`.
+fn marked([low, high]: [f64; 2], step: f64, parts: i32, number: impl Fn(f64) -> String) -> Ticks {
+    let slack = 1e-9 * step;
+    let multiples = |step: f64| {
+        let (from, to) = (((low - slack) / step).ceil() as i64, ((high + slack) / step).floor() as i64);
+        (from..=to).map(move |k| (k, k as f64 * step))
+    };
+    let numbered = multiples(step).map(|(_, x)| (x, signed(&number(x)))).collect();
     let plain = multiples(step / f64::from(parts)).filter(|(k, _)| k % i64::from(parts) != 0).map(|(_, x)| x).collect();
     Ticks { numbered, plain, exponent: 0 }
 }
@@ -141,19 +142,17 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     let (low, high) = (first.min(last) * (1.0 - 1e-9), first.max(last) * (1.0 + 1e-9));
     let decades = low.log10().ceil() as i32..=high.log10().floor() as i32;
     let count = decades.clone().count();
-    let within = |x: &f64| (low..=high).contains(x);
     let all = |factors: &'static [u8]| {
         let decades = low.log10().floor() as i32..=high.log10().floor() as i32;
-        decades
-            .flat_map(move |k| factors.iter().map(move |&f| (f, k)))
-            .map(|(f, k)| (f, k, f64::from(f) * 10f64.powi(k)))
+        let values = decades.flat_map(move |k| factors.iter().map(move |&f| (f, k, f64::from(f) * 10f64.powi(k))));
+        values.filter(move |(_, _, x)| (low..=high).contains(x))
     };
     if count >= 2 {
         let stride = count.div_ceil(most) as i32;
         let numbered: Vec<(f64, String)> =
             decades.clone().filter(|k| k.rem_euclid(stride) == 0).map(|k| (10f64.powi(k), power(k))).collect();
         let plain = if count <= 8 {
-            all(&[2, 3, 4, 5, 6, 7, 8, 9]).map(|(_, _, x)| x).filter(within).collect()
+            all(&[2, 3, 4, 5, 6, 7, 8, 9]).map(|(_, _, x)| x).collect()
         } else {
             decades.filter(|k| k.rem_euclid(stride) != 0).map(|k| 10f64.powi(k)).collect()
         };
@@ -170,11 +169,10 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
         (x, text)
     };
     let choices: [&'static [u8]; 3] = [&[1, 2, 3, 4, 5, 6, 7, 8, 9], &[1, 2, 5], &[1, 3]];
-    let fits = |factors: &&&'static [u8]| all(factors).filter(|(_, _, x)| within(x)).count() <= most;
-    let factors = choices.iter().find(fits).unwrap_or(&choices[2]);
-    let numbered: Vec<(f64, String)> = all(factors).filter(|(_, _, x)| within(x)).map(named).collect();
+    let factors = choices.into_iter().find(|factors| all(factors).count() <= most).unwrap_or(choices[2]);
+    let numbered: Vec<(f64, String)> = all(factors).map(named).collect();
     let taken = |x: &f64| !numbered.iter().any(|(own, _)| (own / x - 1.0).abs() < 1e-9);
-    let plain = all(choices[0]).map(|(_, _, x)| x).filter(within).filter(taken).collect();
+    let plain = all(choices[0]).map(|(_, _, x)| x).filter(taken).collect();
     Ticks { numbered, plain, exponent: 0 }
 }
 
@@ -246,5 +244,13 @@ mod tests {
         assert_eq!(axis.reach([3.0, 3.0, f64::NAN].into_iter(), 0.05), [1.5, 4.5]);
         let [low, high] = Axis::log("p").reach([0.0, 1e-3, 1.0].into_iter(), 0.05);
         assert!(low < 1e-3 && low > 5e-4 && high > 1.0 && high < 2.0);
+    }
+
+    #[test]
+    fn a_range_without_length_or_end_is_not_taken() {
+        for [first, last] in [[0.0, 0.0], [f64::INFINITY, 0.0], [0.0, f64::NAN]] {
+            let axis = Axis::linear("p").from_to(first, last);
+            assert_eq!(axis.reach([0.0, 2.0].into_iter(), 0.0), [0.0, 2.0]);
+        }
     }
 }

@@ -14,25 +14,19 @@ pub const PIXELS: f64 = 300.0 / 72.0;
 /// Points of a line closer together than this are one, points.
 const CLOSE: f64 = 0.25;
 
-/// Where a text stands relative to its anchor.
+/// Which point of its baseline a text is placed by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
-    /// The anchor is the left end of the baseline.
     Left,
-    /// The anchor is the middle of the baseline.
     Centre,
-    /// The anchor is the right end of the baseline.
     Right,
 }
 
 /// How a line is interrupted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dash {
-    /// Not at all.
     Solid,
-    /// Dashes.
     Dashed,
-    /// Dots.
     Dotted,
 }
 
@@ -47,56 +41,48 @@ impl Dash {
     }
 }
 
-/// One mark.
+/// A line through points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    pub points: Vec<[f64; 2]>,
+    /// In points (1/72 inch).
+    pub width: f64,
+    pub dash: Dash,
+    pub colour: Colour,
+}
+
+/// One mark; lengths are points.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
-    /// A line through points.
-    Line {
-        /// Points.
-        points: Vec<[f64; 2]>,
-        /// Width, points.
-        width: f64,
-        /// How it is interrupted.
-        dash: Dash,
-        /// Its colour.
-        colour: Colour,
-    },
+    Line(Stroke),
     /// A filled polygon.
     Area {
-        /// Corners.
         corners: Vec<[f64; 2]>,
-        /// Its colour.
         colour: Colour,
     },
     /// A filled disc.
     Disc {
-        /// Centre.
         centre: [f64; 2],
-        /// Radius, points.
         radius: f64,
-        /// Its colour.
         colour: Colour,
     },
     /// A line of text.
     Text {
-        /// The text.
         text: String,
         /// Where its anchor is, on the baseline.
         at: [f64; 2],
-        /// Which part of it is there.
         anchor: Anchor,
-        /// Size of the typeface, points.
+        /// Size of the typeface.
         size: f64,
         /// Whether it runs from bottom to top.
         upward: bool,
-        /// Its colour.
         colour: Colour,
     },
     /// A rectangle of pixels; they stand below all other marks.
     Image {
-        /// Upper left corner, points.
+        /// The upper left one.
         corner: [f64; 2],
-        /// Width and height, points.
+        /// Width and height.
         size: [f64; 2],
         /// Columns and rows.
         pixels: [usize; 2],
@@ -109,9 +95,9 @@ pub enum Mark {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Canvas {
     /// Width and height, points.
-    pub size: [f64; 2],
+    pub(super) size: [f64; 2],
     /// Marks, the first one lowest.
-    pub marks: Vec<Mark>,
+    pub(super) marks: Vec<Mark>,
 }
 
 impl Canvas {
@@ -138,7 +124,7 @@ impl Canvas {
         // Dots as wide as a line would look thinner than it.
         let width = if dash == Dash::Dotted { 1.2 * width } else { width };
         if seen.len() > 1 {
-            self.marks.push(Mark::Line { points: seen, width, dash, colour });
+            self.marks.push(Mark::Line(Stroke { points: seen, width, dash, colour }));
         }
     }
 

@@ -1,11 +1,10 @@
 //! Curves over a pair of axes: a chart, and figures of several charts side by side.
 
-use super::Format;
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::curve::{Curve, Style};
 use super::frame::Frame;
-use super::legend::Legend;
+use super::legend::{self, Legend};
 use super::sheet::{Margins, Panel, sheet};
 
 /// A chart.
@@ -13,8 +12,6 @@ use super::sheet::{Margins, Panel, sheet};
 pub struct Chart {
     /// What stands over it.
     pub title: String,
-    /// What stands under it, line by line; long lines are broken.
-    pub caption: Vec<String>,
     /// The horizontal axis.
     pub x: Axis,
     /// The vertical axis.
@@ -23,38 +20,27 @@ pub struct Chart {
     pub curves: Vec<Curve>,
 }
 
-/// Charts side by side in one picture.
+/// Charts in one picture, two in a row, each as wide as a column of a journal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What stands over all; may be empty.
-    pub title: String,
-    /// What stands under all, line by line.
-    pub caption: Vec<String>,
+    /// What stands under all; long lines are broken.
+    pub caption: String,
     /// The charts, row by row.
     pub panels: Vec<Chart>,
-    /// Charts in a row, each as wide as a column of a journal.
-    pub columns: usize,
-}
-
-impl Chart {
-    /// The picture as a file.
-    pub fn draw(&self, format: Format) -> Vec<u8> {
-        sheet("", &[], &[&Plot::new(self)], 1).file(format)
-    }
 }
 
 impl Figure {
-    /// The picture as a file.
-    pub fn draw(&self, format: Format) -> Vec<u8> {
-        plots(&self.title, &self.caption, &self.panels, self.columns).file(format)
+    /// The picture.
+    pub fn draw(&self) -> Canvas {
+        plots(&self.caption, &self.panels)
     }
 }
 
-/// Charts in columns on a sheet.
-pub(super) fn plots(title: &str, caption: &[String], charts: &[Chart], columns: usize) -> Canvas {
+/// Charts on a sheet.
+pub(super) fn plots(caption: &str, charts: &[Chart]) -> Canvas {
     let plots: Vec<Plot> = charts.iter().map(Plot::new).collect();
     let panels: Vec<&dyn Panel> = plots.iter().map(|plot| plot as &dyn Panel).collect();
-    sheet(title, caption, &panels, columns)
+    sheet(caption, &panels)
 }
 
 /// A chart of given proportions.
@@ -90,14 +76,14 @@ impl<'a> Plot<'a> {
     fn layout(&self, width: f64, margins: Margins) -> Layout {
         let Chart { x, y, curves, .. } = self.chart;
         let frame = Frame::new([x, y], self.ranges(), width, margins, self.aspect, false);
-        let inside = Legend::stacked(curves).and_then(|legend| {
+        let inside = Legend::new(curves, 0.0).and_then(|legend| {
             let place = legend.free_place(frame.corner, frame.size, &self.taken(&frame))?;
             Some((legend, place))
         });
         let mut height = frame.height;
         let legend = inside.or_else(|| {
-            let legend = Legend::spread(curves, frame.size[0])?;
-            let place = [frame.corner[0], height + 2.0];
+            let legend = Legend::new(curves, frame.size[0])?;
+            let place = [frame.corner[0] - legend::GAP, height + 2.0 - 0.5 * legend::GAP];
             height += legend.size[1] + 2.0;
             Some((legend, place))
         });
@@ -138,10 +124,6 @@ impl Panel for Plot<'_> {
         &self.chart.title
     }
 
-    fn caption(&self) -> &[String] {
-        &self.chart.caption
-    }
-
     fn margins(&self, width: f64) -> Margins {
         Frame::margins([&self.chart.x, &self.chart.y], self.ranges(), [width, RIGHT], self.aspect, false)
     }
@@ -168,10 +150,11 @@ impl Panel for Plot<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::raster::png;
     use super::*;
 
     fn chart(curves: Vec<Curve>) -> Chart {
-        Chart { title: "Test".into(), caption: vec![], x: Axis::linear("x"), y: Axis::log("error"), curves }
+        Chart { title: "Test".into(), x: Axis::linear("x"), y: Axis::log("error"), curves }
     }
 
     fn laid_out(chart: &Chart) -> Layout {
@@ -209,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_chart_without_points_is_drawn_all_the_same() {
-        let picture = chart(vec![]).draw(Format::Png);
+        let picture = png(&Figure { caption: String::new(), panels: vec![chart(vec![])] }.draw());
         assert_eq!(&picture[1..4], b"PNG");
     }
 }

@@ -21,12 +21,13 @@ const QUANTITIES: [(&str, Value); 4] = [
     ("contact radius", |deviation| deviation.contact_radius),
 ];
 
-/// The picture: one panel for each rule; `None` for less than two circles.
-pub fn comparison(title: &str, problem: &Problem, comparison: &Comparison, rule: CircleRadius) -> Option<Canvas> {
+/// The picture: one panel for each rule; `None` for less than two circles, or where nothing differs, as without contact.
+pub fn comparison(title: &str, problem: &Problem, comparison: &Comparison) -> Option<Canvas> {
     if comparison.circles.len() < 2 || comparison.other_rule.is_empty() {
         return None;
     }
-    let mut panels = [(rule, &comparison.circles), (rule.other(), &comparison.other_rule)];
+    let [asked, other, _] = comparison.rules();
+    let mut panels = [asked, other];
     panels.sort_by_key(|(rule, _)| *rule != CircleRadius::LoadBalanced);
     let differences = panels.iter().flat_map(|(_, circles)| circles.iter()).flat_map(|circle| {
         let of = |deviation: &Deviation| QUANTITIES.map(|(_, value)| value(deviation));
@@ -35,10 +36,15 @@ pub fn comparison(title: &str, problem: &Problem, comparison: &Comparison, rule:
     let (least, most) = differences
         .filter(|x| x.is_finite() && *x > 0.0)
         .fold((f64::INFINITY, 0.0f64), |(a, b), x| (a.min(x), b.max(x)));
+    if most == 0.0 {
+        return None;
+    }
     let range = [10f64.powf(least.max(1e-6).log10().floor()), 10f64.powf(most.log10().ceil())];
-    let chart = |(letter, (rule, circles)): (char, &(CircleRadius, &Vec<CircleComparison>))| Chart {
-        title: format!("({letter}) {} radius", rule.name()),
-        caption: Vec::new(),
+    let chart = |(letter, (rule, circles)): (char, &(CircleRadius, &[CircleComparison]))| Chart {
+        title: match rule {
+            CircleRadius::LatticeSum => format!("({letter}) lattice sum outside"),
+            _ => format!("({letter}) {} radius", rule.name()),
+        },
         x: Axis::log("indenters inside the circle"),
         y: Axis::log("largest relative difference").from_to(range[0], range[1]),
         curves: curves(circles),
@@ -52,8 +58,7 @@ pub fn comparison(title: &str, problem: &Problem, comparison: &Comparison, rule:
     ];
     let what = "Lines with markers: largest difference of any level from the spectral solution. Dashed: what half the \
                 elements change, a bound of the mesh's own error.";
-    let text = caption(title, problem, &more);
-    Some(plots("", &[text.join(" "), what.to_owned()], &charts, 2))
+    Some(plots(&format!("{} {what}", caption(title, problem, &more)), &charts))
 }
 
 fn curves(circles: &[CircleComparison]) -> Vec<Curve> {

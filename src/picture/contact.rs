@@ -1,7 +1,7 @@
 //! Contact spots by level with their boundaries, and how far each boundary is from a circle (Fig. 2b).
 
 use super::axis::{Axis, Scale};
-use super::canvas::{Canvas, Dash};
+use super::canvas::{Canvas, Dash, Stroke};
 use super::chart::{Chart, Plot};
 use super::colour::Colour;
 use super::curve::{Curve, Style};
@@ -19,21 +19,21 @@ const LEAST: f64 = 0.1;
 /// have without each other, a length, drawn dashed.
 pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Canvas> {
     (snapshot.levels() > 0).then(|| {
-        let window = window(snapshot.grid().cell());
+        let window = window(snapshot.step.grid().cell());
         let colour = |place: [f64; 2]| {
             snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
         };
         let [x, y] = axes(snapshot, window);
         let mut over = unit_cell(snapshot);
-        let cell = snapshot.grid().cell();
-        for (site, boundary) in snapshot.surface().sites().iter().zip(snapshot.boundaries()) {
+        let cell = snapshot.step.grid().cell();
+        for (site, boundary) in snapshot.step.surface().sites().iter().zip(&snapshot.reading.boundaries) {
             for centre in images(cell, site.place, widened(window)) {
                 let ring = |radius: &dyn Fn(f64) -> f64, dash: Dash, width: f64, colour: Colour| {
                     let point = |k: u32| {
                         let theta = TAU * f64::from(k) / 180.0;
                         [centre[0] + radius(theta) * theta.cos(), centre[1] + radius(theta) * theta.sin()]
                     };
-                    Over::Line { points: (0..=180).map(point).collect(), width, dash, colour }
+                    Over::Line(Stroke { points: (0..=180).map(point).collect(), width, dash, colour })
                 };
                 if let Some(boundary) = boundary {
                     over.push(ring(&|theta| boundary.radius(theta), Dash::Solid, 0.9, Colour::line(site.level)));
@@ -52,16 +52,16 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
         let fill = Fill::Colours(&colour);
         let spots = Map { title: "(a) contact spots".into(), x, y, aspect: aspect(window), fill, over };
         let radii = radii(snapshot, without_mutual_effect);
-        let mut caption = snapshot.caption();
-        let mut what = "Numbers are levels; ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the area within it.".to_owned();
+        let mut what = "Numbers are levels; ρ(θ) is the boundary's distance from the indenter's axis, θ its direction \
+                        from the x axis, πa² the area within it."
+            .to_owned();
         if without_mutual_effect.is_some() {
             what += " Dashed circles and lines: without the mutual effect of the indenters.";
         }
-        caption.push(what);
-        let caption = [caption.join(" ")];
+        let caption = snapshot.caption(&what);
         match radii {
-            Some(chart) => sheet("", &caption, &[&spots, &Plot { chart: &chart, aspect: aspect(window).min(1.0) }], 2),
-            None => sheet("", &caption, &[&Map { title: String::new(), ..spots }], 1),
+            Some(chart) => sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: aspect(window).min(1.0) }]),
+            None => sheet(&caption, &[&Map { title: String::new(), ..spots }]),
         }
     })
 }
@@ -72,8 +72,8 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<C
     let degrees = |k: usize, count: usize| 360.0 * k as f64 / count as f64;
     let mut curves = Vec::new();
     for level in 1..=snapshot.levels() {
-        let site = snapshot.site_of(level)?;
-        let Some(boundary) = &snapshot.boundaries()[site] else { continue };
+        let site = snapshot.step.surface().site_of(level)?;
+        let Some(boundary) = &snapshot.reading.boundaries[site] else { continue };
         let mean = boundary.mean_radius();
         let count = boundary.radii.len();
         let points = (0..=count).map(|k| [degrees(k, count), 100.0 * (boundary.radii[k % count] / mean - 1.0)]);
@@ -83,7 +83,8 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<C
             style: Style::Line,
             colour: level,
         });
-        if let Some(radius) = without_mutual_effect.and_then(|radii| radii.get(level - 1)) {
+        let alone = without_mutual_effect.and_then(|radii| radii.get(level - 1));
+        if let Some(radius) = alone.filter(|radius| **radius > 0.0) {
             let deviation = 100.0 * (radius / mean - 1.0);
             curves.push(Curve {
                 label: String::new(),
@@ -99,7 +100,6 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<C
     let y = if largest < LEAST { y.from_to(-LEAST, LEAST) } else { y };
     (!curves.is_empty()).then(|| Chart {
         title: "(b) boundary".into(),
-        caption: Vec::new(),
         x: Axis { scale: Scale::Degrees, ..Axis::linear("direction θ (degrees)").from_to(0.0, 360.0) },
         y,
         curves,
@@ -116,8 +116,8 @@ impl Snapshot {
     fn level_in_contact(&self, place: [f64; 2]) -> Option<usize> {
         self.pressure_at(place)?;
         let touching = |&(index, _): &(usize, f64)| self.pressures()[index] > 0.0;
-        let nearest = around(self.grid(), place).into_iter().filter(touching).max_by(|a, b| a.1.total_cmp(&b.1));
+        let nearest = around(self.step.grid(), place).into_iter().filter(touching).max_by(|a, b| a.1.total_cmp(&b.1));
         let (index, _) = nearest?;
-        Some(self.surface().level_at(index))
+        Some(self.step.surface().level_at(index))
     }
 }

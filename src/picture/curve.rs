@@ -13,7 +13,8 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
     /// How it is drawn.
     pub style: Style,
-    /// Index of its colour: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue.
+    /// Index of its colour: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue, and again
+    /// from 1.
     pub colour: usize,
 }
 
@@ -71,30 +72,22 @@ impl Curve {
             _ => return,
         };
         let colour = Colour::line(self.colour);
-        let shape = |radius: f64| -> Vec<[f64; 2]> {
-            match self.colour % 4 {
-                1 => vec![
-                    [x - radius, y - radius],
-                    [x + radius, y - radius],
-                    [x + radius, y + radius],
-                    [x - radius, y + radius],
-                ],
-                2 => {
-                    vec![[x, y - 1.35 * radius], [x + 1.35 * radius, y], [x, y + 1.35 * radius], [x - 1.35 * radius, y]]
-                }
-                _ => vec![[x, y - 1.3 * radius], [x + 1.25 * radius, y + radius], [x - 1.25 * radius, y + radius]],
-            }
+        let corners: &[[f64; 2]] = match self.colour % 4 {
+            1 => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
+            2 => &[[0.0, -1.35], [1.35, 0.0], [0.0, 1.35], [-1.35, 0.0]],
+            _ => &[[0.0, -1.3], [1.25, 1.0], [-1.25, 1.0]],
         };
+        let shape: Vec<[f64; 2]> = corners.iter().map(|[u, v]| [x + MARKER * u, y + MARKER * v]).collect();
         if self.colour.is_multiple_of(4) {
             canvas.disc([x, y], MARKER + if open { 0.35 } else { 0.0 }, colour);
             if open {
                 canvas.disc([x, y], MARKER - 0.45, Colour::WHITE);
             }
         } else if open {
-            canvas.area(&shape(MARKER), Colour::WHITE);
-            canvas.outline(&shape(MARKER), 0.8, colour);
+            canvas.area(&shape, Colour::WHITE);
+            canvas.outline(&shape, 0.8, colour);
         } else {
-            canvas.area(&shape(MARKER), colour);
+            canvas.area(&shape, colour);
         }
     }
 }

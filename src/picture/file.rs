@@ -4,7 +4,7 @@ use super::canvas::Canvas;
 use super::{raster, vector};
 use crate::output::{OutputError, write_file};
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// File format of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -27,21 +27,15 @@ impl Format {
 }
 
 impl Canvas {
-    /// The file of this sheet.
-    pub fn file(&self, format: Format) -> Vec<u8> {
-        match format {
+    /// Writes the sheet as `<folder>/<name>.png` or `.svg`, whole or not at all.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path.
+    pub fn write(&self, folder: &Path, name: &str, format: Format) -> Result<(), OutputError> {
+        let picture = match format {
             Format::Png => raster::png(self),
             Format::Svg => vector::svg(self).into_bytes(),
-        }
+        };
+        write_file(&folder.join(format!("{name}.{}", format.extension())), |writer| writer.write_all(&picture))
     }
-}
-
-/// Writes a picture as `<folder>/<name>.png` or `.svg`, whole or not at all; returns its path.
-///
-/// # Errors
-/// [`OutputError`] with the path.
-pub fn write_picture(folder: &Path, name: &str, format: Format, picture: &[u8]) -> Result<PathBuf, OutputError> {
-    let path = folder.join(format!("{name}.{}", format.extension()));
-    write_file(&path, |writer| writer.write_all(picture))?;
-    Ok(path)
 }

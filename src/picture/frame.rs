@@ -113,10 +113,9 @@ impl Frame {
         let (beyond, length) = (if self.outward { BEYOND } else { 0.0 }, sign * TICK);
         for (value, number) in all(x_ticks) {
             let Some([x, _]) = at(value, y0) else { continue };
-            let length = if number.is_some() { length } else { 0.55 * length };
-            canvas.line(&[[x, bottom], [x, bottom - length]], HAIR, Colour::BLACK);
+            tick(canvas, [x, bottom], [0.0, -length], number.is_some());
             if !self.outward {
-                canvas.line(&[[x, top], [x, top + length]], HAIR, Colour::BLACK);
+                tick(canvas, [x, top], [0.0, length], number.is_some());
             }
             if let Some(number) = number {
                 canvas.text(number, [x, bottom + beyond + 1.25 * NUMBERS], Anchor::Centre, NUMBERS, Colour::BLACK);
@@ -124,10 +123,9 @@ impl Frame {
         }
         for (value, number) in all(y_ticks) {
             let Some([_, y]) = at(x0, value) else { continue };
-            let length = if number.is_some() { length } else { 0.55 * length };
-            canvas.line(&[[left, y], [left + length, y]], HAIR, Colour::BLACK);
+            tick(canvas, [left, y], [length, 0.0], number.is_some());
             if !self.outward {
-                canvas.line(&[[right, y], [right - length, y]], HAIR, Colour::BLACK);
+                tick(canvas, [right, y], [-length, 0.0], number.is_some());
             }
             if let Some(number) = number {
                 canvas.label(number, [left - beyond - 3.0, y], Anchor::Right, NUMBERS, Colour::BLACK);
@@ -161,6 +159,12 @@ impl Frame {
             canvas.line(&[[left, y], [right, y]], 0.6 * HAIR, Colour::GREY);
         }
     }
+}
+
+/// Draws a tick from a place on a border along `way`, a shorter one where it has no number.
+pub fn tick(canvas: &mut Canvas, [x, y]: [f64; 2], [dx, dy]: [f64; 2], numbered: bool) {
+    let part = if numbered { 1.0 } else { 0.55 };
+    canvas.line(&[[x, y], [x + part * dx, y + part * dy]], HAIR, Colour::BLACK);
 }
 
 /// Numbered and plain ticks in one list.

@@ -8,7 +8,7 @@ use super::text;
 /// Length of the piece of line before an entry, points.
 const PIECE: f64 = 16.0;
 /// Distance around the whole.
-const GAP: f64 = 3.5;
+pub const GAP: f64 = 3.5;
 /// Height of an entry.
 const ROW: f64 = 1.4 * NUMBERS;
 
@@ -30,28 +30,15 @@ fn named(curves: &[Curve]) -> impl Iterator<Item = (usize, &Curve)> {
 }
 
 impl Legend {
-    /// One entry below the other; `None` without any.
-    pub fn stacked(curves: &[Curve]) -> Option<Self> {
-        let entries: Vec<(usize, [f64; 2])> = (0..)
-            .zip(named(curves))
-            .map(|(row, (index, _))| (index, [GAP, 0.5 * GAP + f64::from(row) * ROW]))
-            .collect();
-        let width = named(curves).map(|(_, curve)| entry_width(curve)).fold(0.0, f64::max);
-        let size = [width + 2.0 * GAP, entries.len() as f64 * ROW + GAP];
-        (!entries.is_empty()).then_some(Self { entries, size })
-    }
-
-    /// Entries in columns of equal width that together fit into `width`.
-    pub fn spread(curves: &[Curve], width: f64) -> Option<Self> {
-        let widest = named(curves).map(|(_, curve)| entry_width(curve)).fold(0.0, f64::max) + 3.0 * GAP;
+    /// Entries in as many columns of equal width as fit into `width`, one at least; `None` without any.
+    pub fn new(curves: &[Curve], width: f64) -> Option<Self> {
+        let pitch = named(curves).map(|(_, curve)| entry_width(curve)).fold(0.0, f64::max) + 3.0 * GAP;
         let count = named(curves).count();
-        let columns = ((width / widest) as usize).clamp(1, count.max(1));
+        let columns = ((width / pitch) as usize).clamp(1, count.max(1));
         let rows = count.div_ceil(columns);
-        let entries: Vec<(usize, [f64; 2])> = named(curves)
-            .enumerate()
-            .map(|(k, (index, _))| (index, [(k / rows) as f64 * widest, (k % rows) as f64 * ROW]))
-            .collect();
-        (count > 0).then_some(Self { entries, size: [columns as f64 * widest, rows as f64 * ROW + GAP] })
+        let place = |k: usize| [GAP + (k / rows) as f64 * pitch, 0.5 * GAP + (k % rows) as f64 * ROW];
+        let entries = named(curves).enumerate().map(|(k, (index, _))| (index, place(k))).collect();
+        (count > 0).then_some(Self { entries, size: [columns as f64 * pitch - GAP, rows as f64 * ROW + GAP] })
     }
 
     /// The upper left corner of a place in the plot (corner and size) that no point of `taken` comes near.

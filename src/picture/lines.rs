@@ -12,10 +12,11 @@ use crate::stress::Section;
 pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
     let distances = section.line.distances();
     let interfaces = section.interfaces().len();
+    // Whether a row lies on the lower side of an interface.
+    let below = |row: usize| row > 0 && section.depths[row - 1].z == section.depths[row].z;
     let name = |row: usize| {
         let depth = section.depths[row];
-        let upper = section.depths.get(row + 1).is_some_and(|next| next.z == depth.z);
-        match (row, interfaces, upper) {
+        match (row, interfaces, !below(row)) {
             (0, ..) => "surface".to_owned(),
             (_, 1, true) => "interface, coating".to_owned(),
             (_, 1, false) => "interface, substrate".to_owned(),
@@ -34,7 +35,6 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
     };
     let chart = |title: &str, quantity: Quantity, y: Axis| Chart {
         title: title.to_owned(),
-        caption: Vec::new(),
         x: Axis::linear(snapshot.units.length("distance", "s")),
         y,
         curves: (1..)
@@ -42,7 +42,7 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
             .map(|(colour, row)| Curve {
                 label: name(row),
                 points: points(row, quantity),
-                style: if colour % 3 == 0 { Style::Dashed } else { Style::Line },
+                style: if below(row) { Style::Dashed } else { Style::Line },
                 colour,
             })
             .collect(),
@@ -53,8 +53,7 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
         chart("(a) tension and compression", Quantity::Along, along),
         chart("(b) principal shear stress", Quantity::Tau1, tau1),
     ];
-    let mut caption = snapshot.caption();
     let [dx, dy] = section.line.direction;
-    caption.push(format!("Lines along {:.0}° from the x axis.", dy.atan2(dx).to_degrees()));
-    plots("", &[caption.join(" ")], &charts, 2)
+    let what = format!("Lines along {:.0}° from the x axis.", dy.atan2(dx).to_degrees());
+    plots(&snapshot.caption(&what), &charts)
 }

@@ -7,17 +7,19 @@ use super::curve::{Curve, Style};
 use super::snapshot::caption;
 use super::units::Units;
 use crate::problem::Problem;
-use crate::reading::LevelReading;
+use crate::reading::{LevelReading, Reading};
 use crate::run::StepRecord;
+use crate::stress::Peak;
 use crate::stress::maxima::Extremes;
 
-/// The picture; `None` for less than two steps.
+/// The picture; `None` for less than two steps, or where none of them carries load.
 pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Option<Canvas> {
-    if steps.len() < 2 {
+    if steps.len() < 2 || !steps.iter().any(|step| step.reading.mean_pressure > 0.0) {
         return None;
     }
     let units = Units::of(problem);
-    let run = Run { steps, levels: problem.counterbody().levels().len(), units: &units };
+    let levels = problem.counterbody().levels().len();
+    let run = Run { steps, levels, units: &units, logarithmic: logarithmic(steps) };
     let mut charts = vec![run.peak_pressure(), run.extent(), run.penetration()];
     if run.levels > 1 {
         charts.push(run.shares());
@@ -28,39 +30,29 @@ pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Opti
     }
     let [n1, n2] = steps[0].points;
     let more = [format!("{} load steps", steps.len()), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    let text = caption(title, problem, &more);
-    Some(plots("", &[text.join(" ")], &charts, 2))
+    Some(plots(&caption(title, problem, &more), &charts))
 }
 
 struct Run<'a> {
     steps: &'a [StepRecord],
     levels: usize,
     units: &'a Units,
+    /// Whether the mean pressure and what grows with it have logarithmic axes.
+    logarithmic: bool,
 }
 
 impl Run<'_> {
-    /// Whether the steps are spread evenly on a logarithmic axis rather than on a linear one.
-    fn logarithmic(&self) -> bool {
-        let loads: Vec<f64> = self.steps.iter().map(|step| step.reading.mean_pressure).collect();
-        let spread = |value: fn(f64) -> f64| {
-            let gaps: Vec<f64> = loads.windows(2).map(|pair| (value(pair[1]) - value(pair[0])).abs()).collect();
-            let (least, most) = gaps.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &gap| (a.min(gap), b.max(gap)));
-            most / least
-        };
-        loads.len() > 3 && loads.iter().all(|&p| p > 0.0) && spread(f64::ln) < 0.5 * spread(|p| p)
-    }
-
     fn axis(&self, label: String) -> Axis {
-        if self.logarithmic() { Axis::log(label) } else { Axis::linear(label) }
+        if self.logarithmic { Axis::log(label) } else { Axis::linear(label) }
     }
 
     fn chart(&self, title: &str, y: Axis, curves: Vec<Curve>) -> Chart {
         let loads = self.steps.iter().map(|step| step.reading.mean_pressure);
         let last = loads.clone().fold(0.0, f64::max);
-        let first = if self.logarithmic() { loads.fold(f64::INFINITY, f64::min) } else { 0.0 };
-        let (first, last) = if self.logarithmic() { (first / 1.1, last * 1.1) } else { (first, 1.03 * last) };
+        let least = loads.fold(f64::INFINITY, f64::min);
+        let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
         let x = self.axis(self.units.pressure("mean pressure", "p̄")).from_to(first, last);
-        Chart { title: title.to_owned(), caption: Vec::new(), x, y, curves }
+        Chart { title: title.to_owned(), x, y, curves }
     }
 
     fn curve(&self, label: &str, colour: usize, value: impl Fn(&StepRecord) -> f64) -> Curve {
@@ -70,8 +62,15 @@ impl Run<'_> {
         Curve { label: label.to_owned(), points, style, colour }
     }
 
-    /// One curve a level; where it has no value, or no contact, there is no curve.
-    fn by_level(&self, value: impl Fn(&LevelReading) -> Option<f64>) -> Vec<Curve> {
+    /// One curve a level; where it has no value, or no contact, there is no curve. One of the `whole` for a topography.
+    fn by_level(
+        &self,
+        whole: impl Fn(&Reading) -> Option<f64>,
+        value: impl Fn(&LevelReading) -> Option<f64>,
+    ) -> Vec<Curve> {
+        if self.levels == 0 {
+            return vec![self.curve("", 1, |step| whole(&step.reading).unwrap_or(f64::NAN))];
+        }
         let touching = |level: &LevelReading| if level.load > 0.0 { value(level) } else { None };
         let of = |level: usize| {
             self.curve(&format!("level {level}"), level, |step| {
@@ -83,24 +82,16 @@ impl Run<'_> {
 
     fn peak_pressure(&self) -> Chart {
         let label = self.units.pressure("peak pressure", "p");
-        let curves = match self.levels {
-            0 => vec![self.curve("", 1, |step| step.reading.finite_peak().unwrap_or(f64::NAN))],
-            _ => self.by_level(LevelReading::finite_peak),
-        };
-        self.chart("peak pressure", self.axis(label), curves)
+        self.chart("peak pressure", self.axis(label), self.by_level(Reading::finite_peak, LevelReading::finite_peak))
     }
 
     fn extent(&self) -> Chart {
-        match self.levels {
-            0 => {
-                let curve = self.curve("", 1, |step| step.reading.contact_fraction);
-                self.chart("contact area", self.axis("fraction of the cell in contact".into()), vec![curve])
-            }
-            _ => {
-                let label = self.units.length("contact radius", "a");
-                self.chart("contact radius", self.axis(label), self.by_level(|level| level.contact_radius))
-            }
-        }
+        let (title, label) = match self.levels {
+            0 => ("contact area", "fraction of the cell in contact".to_owned()),
+            _ => ("contact radius", self.units.length("contact radius", "a")),
+        };
+        let curves = self.by_level(|reading| Some(reading.contact_fraction), |level| level.contact_radius);
+        self.chart(title, self.axis(label), curves)
     }
 
     fn penetration(&self) -> Chart {
@@ -110,7 +101,7 @@ impl Run<'_> {
     }
 
     fn shares(&self) -> Chart {
-        let curves = self.by_level(|level| Some(100.0 * level.load_share));
+        let curves = self.by_level(|_| None, |level| Some(100.0 * level.load_share));
         self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 105.0), curves)
     }
 
@@ -124,11 +115,11 @@ impl Run<'_> {
             (false, 2) => "coating".to_owned(),
             (false, _) => format!("layer {}", index + 1),
         };
-        let curves = |value: &dyn Fn(&Extremes) -> f64| -> Vec<Curve> {
+        let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
             let of = |index: usize| {
                 self.curve(&name(index), index + 1, |step| {
                     let extremes = step.stress.as_ref().and_then(|stress| stress.materials.get(index));
-                    extremes.map_or(f64::NAN, value)
+                    extremes.and_then(|extremes| value(extremes).finite()).unwrap_or(f64::NAN)
                 })
             };
             (0..materials).map(of).collect()
@@ -136,16 +127,44 @@ impl Run<'_> {
         let tau1 = self.units.pressure("largest principal shear stress", "τ₁");
         let tension = self.units.pressure("largest tension", "σ₁");
         vec![
-            self.chart(
-                "principal shear stress",
-                self.axis(tau1),
-                curves(&|extremes| extremes.tau1.finite().unwrap_or(f64::NAN)),
-            ),
-            self.chart(
-                "tension",
-                Axis::linear(tension),
-                curves(&|extremes| extremes.tension.finite().unwrap_or(f64::NAN)),
-            ),
+            self.chart("principal shear stress", self.axis(tau1), curves(|extremes| extremes.tau1)),
+            self.chart("tension", Axis::linear(tension), curves(|extremes| extremes.tension)),
         ]
+    }
+}
+
+/// Whether the steps are spread evenly on a logarithmic axis rather than on a linear one.
+fn logarithmic(steps: &[StepRecord]) -> bool {
+    let loads: Vec<f64> = steps.iter().map(|step| step.reading.mean_pressure).collect();
+    let spread = |value: fn(f64) -> f64| {
+        let gaps: Vec<f64> = loads.windows(2).map(|pair| (value(pair[1]) - value(pair[0])).abs()).collect();
+        let (least, most) = gaps.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &gap| (a.min(gap), b.max(gap)));
+        most / least
+    };
+    loads.len() > 3 && loads.iter().all(|&p| p > 0.0) && spread(f64::ln) < 0.5 * spread(|p| p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::{Indenters, Level, Shape};
+    use crate::lattice::Lattice;
+    use crate::load::Load;
+    use crate::spectral::{Settings, Solver};
+
+    #[test]
+    fn a_course_that_never_carries_load_has_no_curves() {
+        let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+        let indenters = Indenters::new(Lattice::square(1.0, 1).unwrap(), vec![level]).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let mut solver = Solver::new(Problem::new(indenters, body), [8, 8], Settings::default()).unwrap();
+        let mut record = |penetration: f64| {
+            let step = solver.solve(Load::Penetration(penetration));
+            StepRecord::new(&step, step.reading())
+        };
+        let (open, closed) = ([-0.2, -0.1].map(&mut record), [0.01, 0.02].map(&mut record));
+        let problem = solver.problem();
+        assert!(load_curves("", problem, &open).is_none() && load_curves("", problem, &closed).is_some());
     }
 }

@@ -1,10 +1,10 @@
 //! A field over a rectangle in colours, with a colour bar and what is drawn over it.
 
 use super::axis::{Axis, Scale, ticks};
-use super::canvas::{Anchor, Canvas, Dash, PIXELS};
+use super::canvas::{Anchor, Canvas, PIXELS, Stroke};
 use super::colour::{Colour, ColourMap};
 use super::curve::clipped;
-use super::frame::{Frame, all, factor, widest};
+use super::frame::{Frame, all, factor, tick, widest};
 use super::sheet::{HAIR, LABELS, Margins, NUMBERS, Panel};
 use rayon::prelude::*;
 
@@ -22,24 +22,11 @@ pub struct Bar {
 /// What is drawn over a field, in its coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Over {
-    /// A line.
-    Line {
-        /// Points.
-        points: Vec<[f64; 2]>,
-        /// Width, points (1/72 inch).
-        width: f64,
-        /// How it is interrupted.
-        dash: Dash,
-        /// Its colour.
-        colour: Colour,
-    },
+    Line(Stroke),
     /// A centred word.
     Word {
-        /// The word.
         word: String,
-        /// Its middle.
         at: [f64; 2],
-        /// Its colour.
         colour: Colour,
     },
     /// A bar on top of the plot, where the counterbody touches.
@@ -49,7 +36,6 @@ pub enum Over {
     },
     /// A cross, where something is largest.
     Mark {
-        /// Where.
         at: [f64; 2],
         /// Its colour; its edge has the opposite lightness.
         colour: Colour,
@@ -114,8 +100,7 @@ impl Bar {
         let ticks = ticks(self.span, Scale::Linear, 6);
         for (value, number) in all(&ticks) {
             let y = top + height * (high - value) / (high - low);
-            let length = if number.is_some() { 2.2 } else { 1.2 };
-            canvas.line(&[[x + BAR, y], [x + BAR + length, y]], HAIR, Colour::BLACK);
+            tick(canvas, [x + BAR, y], [2.2, 0.0], number.is_some());
             if let Some(number) = number {
                 canvas.label(number, [x + BAR + 4.0, y], Anchor::Left, NUMBERS, Colour::BLACK);
             }
@@ -197,10 +182,6 @@ impl Panel for Map<'_> {
         &self.title
     }
 
-    fn caption(&self) -> &[String] {
-        &[]
-    }
-
     fn margins(&self, width: f64) -> Margins {
         let (right, factor) = match &self.fill {
             Fill::Values(bar, _) => (bar.width(), factor(&ticks(bar.span, Scale::Linear, 6)).is_some()),
@@ -222,7 +203,7 @@ impl Panel for Map<'_> {
         let at = |place: [f64; 2]| frame.place(place).map(|[x, y]| [ox + x, oy + y]);
         for over in &self.over {
             match over {
-                Over::Line { points, width, dash, colour } => {
+                Over::Line(Stroke { points, width, dash, colour }) => {
                     let places: Vec<[f64; 2]> = points.iter().filter_map(|&point| at(point)).collect();
                     for piece in clipped(&places, bounds) {
                         canvas.dashed(&piece, *width, *dash, *colour);

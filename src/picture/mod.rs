@@ -41,7 +41,7 @@ pub use chart::{Chart, Figure};
 pub use comparison::comparison;
 pub use contact::contact;
 pub use curve::{Curve, Style};
-pub use file::{Format, write_picture};
+pub use file::Format;
 pub use lines::lines;
 pub use load_curves::load_curves;
 pub use pressure::pressure;

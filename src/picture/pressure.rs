@@ -1,18 +1,18 @@
 //! The contact pressure over the surface, true to scale, several cells side by side (Fig. 2a).
 
 use super::axis::Axis;
-use super::canvas::{Canvas, Dash};
+use super::canvas::{Canvas, Dash, Stroke};
 use super::colour::{Colour, ColourMap};
 use super::map::{Bar, Fill, Map, Over};
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
-use super::tiling::{Window, cell_corners, images, window};
+use super::tiling::{Window, images, window};
 
 /// The picture; white is where there is no contact.
 pub fn pressure(snapshot: &Snapshot) -> Canvas {
-    let window = window(snapshot.grid().cell());
+    let window = window(snapshot.step.grid().cell());
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
-    let most = snapshot.max_pressure();
+    let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let bar = Bar {
         label: snapshot.units.pressure("contact pressure", "p"),
         colours: ColourMap::Sequential,
@@ -25,13 +25,11 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
         if dark { Colour::WHITE } else { Colour::BLACK }
     }));
     let map = Map { title: String::new(), x, y, aspect: aspect(window), fill: Fill::Values(bar, &value), over };
-    let mut caption = snapshot.caption();
-    caption.push(if snapshot.levels() > 0 {
-        "Numbers are levels; white: no contact; dashed: the unit cell.".to_owned()
-    } else {
-        "White: no contact; dashed: the unit cell.".to_owned()
-    });
-    sheet("", &[caption.join(" ")], &[&map], 1)
+    let what = match snapshot.levels() {
+        0 => "White: no contact; dashed: the unit cell.",
+        _ => "Numbers are levels; white: no contact; dashed: the unit cell.",
+    };
+    sheet(&snapshot.caption(what), &[&map])
 }
 
 /// Height over width of a window.
@@ -49,25 +47,17 @@ pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
 
 /// The unit cell's outline between the contacts.
 pub fn unit_cell(snapshot: &Snapshot) -> Vec<Over> {
-    const STEPS: u32 = 400;
-    let corners = cell_corners(snapshot.grid().cell());
-    let mut lines = Vec::new();
-    for k in 0..4 {
-        let (from, to) = (corners[k], corners[(k + 1) % 4]);
-        let at = |t: u32| [0, 1].map(|c| from[c] + (to[c] - from[c]) * f64::from(t) / f64::from(STEPS));
-        let mut points: Vec<[f64; 2]> = Vec::new();
-        for t in 0..=STEPS {
-            let open = snapshot.pressure_at(at(t)).is_none();
-            if open {
-                points.push(at(t));
-            }
-            if !open || t == STEPS {
-                let points = std::mem::take(&mut points);
-                lines.push(Over::Line { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) });
-            }
-        }
-    }
-    lines
+    let cell = snapshot.step.grid().cell();
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|s| cell.point(s));
+    let side = |k: usize| {
+        let [from, to] = [corners[k], corners[(k + 1) % 4]];
+        let at = move |part: f64| [0, 1].map(|c| from[c] + (to[c] - from[c]) * part);
+        let open = snapshot.stretches([from, to], false).into_iter().map(move |ends| ends.map(at).to_vec());
+        open.map(|points| {
+            Over::Line(Stroke { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) })
+        })
+    };
+    (0..4).flat_map(side).collect()
 }
 
 /// The number of the level at each site within the window.
@@ -75,8 +65,8 @@ pub fn numbers(snapshot: &Snapshot, window: Window, colour: impl Fn([f64; 2]) ->
     let [[x0, x1], [y0, y1]] = window;
     let border = 0.02 * (x1 - x0).min(y1 - y0);
     let inner = [[x0 + border, x1 - border], [y0 + border, y1 - border]];
-    let cell = snapshot.grid().cell();
-    let sites = snapshot.surface().sites().iter();
+    let cell = snapshot.step.grid().cell();
+    let sites = snapshot.step.surface().sites().iter();
     let places = sites.flat_map(|site| images(cell, site.place, inner).into_iter().map(|at| (site.level, at)));
     places.map(|(level, at)| Over::Word { word: level.to_string(), at, colour: colour(at) }).collect()
 }

@@ -14,14 +14,9 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
     let mut curves = Vec::new();
     let mut directions = Vec::new();
     for level in 1..=snapshot.levels() {
-        let Some(profile) = snapshot.profile(level) else { continue };
-        curves.push(Curve {
-            label: format!("level {level}"),
-            points: profile.points,
-            style: Style::Line,
-            colour: level,
-        });
-        directions.push(format!("{:.0}°", profile.direction.to_degrees()));
+        let Some((direction, points)) = snapshot.profile(level) else { continue };
+        curves.push(Curve { label: format!("level {level}"), points, style: Style::Line, colour: level });
+        directions.push(format!("{:.0}°", direction.to_degrees()));
         if let Some(points) = isolated.and_then(|levels| levels.get(level - 1)) {
             let left = points.iter().rev().map(|[r, p]| [-r, *p]);
             curves.push(Curve {
@@ -34,42 +29,33 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
     }
     let reach = curves.iter().flat_map(|curve| &curve.points).map(|[s, _]| s.abs()).fold(0.0, f64::max);
     (!curves.is_empty()).then(|| {
-        let mut caption = snapshot.caption();
         let mut what = format!("Lines of largest extent: {} from the x axis.", directions.join(", "));
         if isolated.is_some() {
             what += " Dashed: isolated indenters under the same loads.";
         }
-        caption.push(what);
         let chart = Chart {
             title: String::new(),
-            caption: Vec::new(),
             x: Axis::linear(snapshot.units.length("distance from the axis", "s")).from_to(-1.06 * reach, 1.06 * reach),
             y: Axis::linear(snapshot.units.pressure("contact pressure", "p")),
             curves,
         };
-        plots("", &[caption.join(" ")], &[chart], 1)
+        plots(&snapshot.caption(&what), &[chart])
     })
-}
-
-/// Pressure along a line through an indenter's axis.
-struct Profile {
-    /// Direction of the line from the x axis, radians.
-    direction: f64,
-    /// Distance from the axis and pressure.
-    points: Vec<[f64; 2]>,
 }
 
 /// Points on either side of the axis.
 const POINTS: u32 = 240;
 
 impl Snapshot {
-    fn profile(&self, level: usize) -> Option<Profile> {
-        let site = self.site_of(level)?;
-        let centre = self.grid().cell().point(self.surface().sites()[site].place);
-        if self.boundaries()[site].is_none() && self.pressure_squared(centre) <= 0.0 {
+    /// A line through an indenter's axis: its direction from the x axis in radians, distances from the axis and
+    /// pressures.
+    fn profile(&self, level: usize) -> Option<(f64, Vec<[f64; 2]>)> {
+        let site = self.step.surface().site_of(level)?;
+        let centre = self.step.grid().cell().point(self.step.surface().sites()[site].place);
+        if self.reading.boundaries[site].is_none() && self.pressure_squared(centre) <= 0.0 {
             return None;
         }
-        let (direction, [left, right]) = match &self.boundaries()[site] {
+        let (direction, [left, right]) = match &self.reading.boundaries[site] {
             Some(boundary) => {
                 let ends = |theta: f64| [boundary.radius(theta + PI), boundary.radius(theta)];
                 // Of equal extents the first one.
@@ -84,14 +70,15 @@ impl Snapshot {
             }
             // Merged: halfway to the nearest equal indenter.
             None => {
-                let [x, y] = self.grid().cell().reduced().short();
+                let lattice = self.step.problem().counterbody().indenters()?.lattice();
+                let [x, y] = lattice.toward(self.step.surface().sites()[site].place, level);
                 (y.atan2(x), [0.5 * x.hypot(y); 2])
             }
         };
         let (sin, cos) = direction.sin_cos();
         let squared = |s: f64| self.pressure_squared([centre[0] + s * cos, centre[1] + s * sin]);
         // Between the outermost samples and the edge the square of the pressure falls evenly to zero.
-        let rim = if self.boundaries()[site].is_some() { 1.5 * self.grid().spacing() } else { 0.0 };
+        let rim = if self.reading.boundaries[site].is_some() { 1.5 * self.step.grid().spacing() } else { 0.0 };
         let at = |s: f64| {
             let (end, sign) = if s < 0.0 { (left, -1.0) } else { (right, 1.0) };
             let inside = end - s.abs();
@@ -104,11 +91,11 @@ impl Snapshot {
             .map(|t| (t * 0.5 * PI).sin())
             .map(|t| at(if t < 0.0 { t * left } else { t * right }))
             .collect();
-        Some(Profile { direction, points })
+        Some((direction, points))
     }
 
     /// Square of the pressure between the samples: near the edge it is almost linear, as the pressure is not.
     fn pressure_squared(&self, place: [f64; 2]) -> f64 {
-        around(self.grid(), place).iter().map(|&(index, weight)| weight * self.pressures()[index].powi(2)).sum()
+        around(self.step.grid(), place).iter().map(|&(index, weight)| weight * self.pressures()[index].powi(2)).sum()
     }
 }

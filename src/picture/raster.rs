@@ -1,11 +1,9 @@
 //! A sheet as a PNG file, every edge smooth.
 
-use super::canvas::{Anchor, Canvas, Dash, Mark, PIXELS};
+use super::canvas::{Anchor, Canvas, Dash, Mark, PIXELS, Stroke};
 use super::colour::Colour;
 use super::text;
-use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Shader, Stroke, StrokeDash, Transform,
-};
+use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Shader, StrokeDash, Transform};
 
 /// The PNG file of a sheet at 300 dots per inch.
 pub fn png(canvas: &Canvas) -> Vec<u8> {
@@ -24,14 +22,14 @@ pub fn png(canvas: &Canvas) -> Vec<u8> {
 fn put(sheet: &mut Pixmap, mark: &Mark) -> Option<()> {
     let scale = Transform::from_scale(PIXELS as f32, PIXELS as f32);
     match mark {
-        Mark::Line { points, width, dash, colour } => {
+        Mark::Line(Stroke { points, width, dash, colour }) => {
             let dashes = dash.lengths().map(|lengths| lengths.map(|length| (length * width) as f32).to_vec());
-            let stroke = Stroke {
+            let stroke = tiny_skia::Stroke {
                 width: *width as f32,
                 line_cap: if *dash == Dash::Dotted { LineCap::Round } else { LineCap::Butt },
                 line_join: LineJoin::Round,
                 dash: dashes.and_then(|lengths| StrokeDash::new(lengths, 0.0)),
-                ..Stroke::default()
+                ..tiny_skia::Stroke::default()
             };
             sheet.stroke_path(&path(points)?, &paint(*colour), &stroke, scale, None);
         }

@@ -1,5 +1,6 @@
 //! A section row by row: values of a stress, interfaces, the largest.
 
+use super::contour::zero_lines;
 use crate::body::Depth;
 use crate::stress::{Section, State};
 use ndarray::Array2;
@@ -68,6 +69,24 @@ impl Section {
         best
     }
 
+    /// Lines (s, z) on which values are zero. Each material has its own, as a stress may jump over zero at an interface.
+    pub(super) fn zero_lines(&self, values: &Array2<f64>) -> Vec<Vec<[f64; 2]>> {
+        const ROWS: f64 = 140.0;
+        let [first, last] = self.line.span;
+        let deepest = self.depths.last().map_or(1.0, |depth| depth.z);
+        let bounds = [vec![0.0], self.interfaces(), vec![deepest]].concat();
+        let within = |ends: &[f64]| {
+            // A depth on an interface belongs to what lies below.
+            let thickness = (ends[1] - ends[0]) * (1.0 - 1e-9);
+            let place = |[u, v]: [f64; 2]| [first + u * (last - first), ends[0] + v * thickness];
+            let rows = (ROWS * thickness / deepest).ceil().max(10.0) as usize;
+            let value = |part: [f64; 2]| self.at(values, place(part)[0], place(part)[1]);
+            let lines = zero_lines(200, rows, value).into_iter();
+            lines.map(|line| line.into_iter().map(place).collect()).collect::<Vec<Vec<[f64; 2]>>>()
+        };
+        bounds.windows(2).filter(|ends| ends[0] < ends[1]).flat_map(within).collect()
+    }
+
     /// Depths of the interfaces within the section.
     pub(super) fn interfaces(&self) -> Vec<f64> {
         self.depths.windows(2).filter(|pair| pair[0].material != pair[1].material).map(|pair| pair[1].z).collect()
@@ -99,6 +118,9 @@ mod tests {
         assert_eq!(section.at(&values, 0.3, 1.001).map(f64::round), Some(-2.0));
         assert_eq!(section.interfaces(), [1.0]);
         assert_eq!(section.face_rows(), [0, 1, 2]);
+        // Positive above the interface, negative below it, and zero nowhere.
+        assert!(section.zero_lines(&values).is_empty());
+        assert_eq!(section.zero_lines(&(&values - 2.0)).len(), 1);
         assert_eq!(section.largest(Quantity::Along).unwrap().value, 3.0);
         let sharp = Section { highest: Some([0.3, 3.2]), ..section };
         assert_eq!(sharp.largest(Quantity::Along).map(|largest| (largest.s, largest.value)), Some((0.3, 3.2)));

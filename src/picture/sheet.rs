@@ -1,4 +1,4 @@
-//! Panels side by side on one sheet, each with its title and caption, under a common title and above a common caption.
+//! Panels side by side on one sheet, each with its title, above a common caption.
 
 use super::canvas::{Anchor, COLUMN, Canvas};
 use super::colour::Colour;
@@ -41,25 +41,22 @@ impl Margins {
 pub trait Panel {
     /// What stands over it.
     fn title(&self) -> &str;
-    /// What stands under it.
-    fn caption(&self) -> &[String];
     /// Room that the panel needs around its plot at a given width, points.
     fn margins(&self, width: f64) -> Margins;
-    /// Height of the body without title and caption at a given width, with at least the room that it needs.
+    /// Height of the body without title at a given width, with at least the room that it needs.
     fn height(&self, width: f64, margins: Margins) -> f64;
     /// Draws the body with its upper left corner at `corner`.
     fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], width: f64, margins: Margins);
 }
 
-/// Puts panels in `columns` columns on a sheet.
-pub fn sheet(title: &str, caption: &[String], panels: &[&dyn Panel], columns: usize) -> Canvas {
-    let columns = columns.clamp(1, panels.len().max(1));
+/// Puts panels on a sheet, two in a row.
+pub fn sheet(caption: &str, panels: &[&dyn Panel]) -> Canvas {
+    let columns = panels.len().clamp(1, 2);
     let width = COLUMN * columns as f64;
     let inner = width - 2.0 * MARGIN;
     let own = (inner - 2.0 * MARGIN * (columns - 1) as f64) / columns as f64;
     let mut canvas = Canvas::new([width, 0.0]);
     let mut y = MARGIN;
-    y += paragraph(&mut canvas, &[title.to_owned()], [MARGIN, y], TITLES, inner, Colour::BLACK);
     // All plots of a sheet begin and end in line.
     let all = panels.iter().map(|panel| panel.margins(own)).fold(Margins::default(), Margins::union);
     for row in panels.chunks(columns) {
@@ -70,11 +67,9 @@ pub fn sheet(title: &str, caption: &[String], panels: &[&dyn Panel], columns: us
         let mut deepest: f64 = 0.0;
         for (column, panel) in row.iter().enumerate() {
             let x = MARGIN + column as f64 * (own + 2.0 * MARGIN);
-            paragraph(&mut canvas, &[panel.title().to_owned()], [x, y], TITLES, own, Colour::BLACK);
-            let below = y + head + panel.height(own, margins);
+            paragraph(&mut canvas, panel.title(), [x, y], TITLES, own, Colour::BLACK);
             panel.draw(&mut canvas, [x, y + head], own, margins);
-            let text = paragraph(&mut canvas, panel.caption(), [x, below], CAPTIONS, own, Colour::GREY);
-            deepest = deepest.max(below + text);
+            deepest = deepest.max(y + head + panel.height(own, margins));
         }
         y = deepest + MARGIN;
     }
@@ -83,12 +78,12 @@ pub fn sheet(title: &str, caption: &[String], panels: &[&dyn Panel], columns: us
     canvas
 }
 
-/// Draws lines of text, broken to the width, below `corner`; returns their height.
-fn paragraph(canvas: &mut Canvas, lines: &[String], corner: [f64; 2], size: f64, width: f64, colour: Colour) -> f64 {
-    let broken: Vec<String> = lines.iter().flat_map(|line| wrapped(line, size, width)).collect();
-    for (number, line) in (1..).zip(&broken) {
+/// Draws a text, broken to the width, below `corner`; returns its height.
+fn paragraph(canvas: &mut Canvas, text: &str, corner: [f64; 2], size: f64, width: f64, colour: Colour) -> f64 {
+    let lines = wrapped(text, size, width);
+    for (number, line) in (1..).zip(&lines) {
         let baseline = corner[1] + f64::from(number) * LEADING * size - 0.35 * size;
         canvas.text(line, [corner[0], baseline], Anchor::Left, size, colour);
     }
-    broken.len() as f64 * LEADING * size
+    lines.len() as f64 * LEADING * size
 }

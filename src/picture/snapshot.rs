@@ -1,12 +1,11 @@
 //! A solved load step with what is known about it: what the pictures of fields are drawn from.
 
 use super::axis::{power, signed};
-use super::units::{Units, lowered, period, substrate_index};
+use super::units::{Units, lowered, substrate_index};
 use crate::body::{HalfSpace, Interface};
-use crate::counterbody::{Counterbody, Indenters, Level, Shape, Surface};
-use crate::lattice::Grid;
+use crate::counterbody::{Counterbody, Level, Shape};
 use crate::problem::Problem;
-use crate::reading::{Boundary, Reading};
+use crate::reading::Reading;
 use crate::spectral::Step;
 
 /// One load step.
@@ -29,68 +28,38 @@ impl Snapshot {
         Self { title: title.to_owned(), step, reading, units }
     }
 
-    /// What is pressed into what.
-    pub fn problem(&self) -> &Problem {
-        self.step.problem()
-    }
-
-    /// The finest grid.
-    pub fn grid(&self) -> &Grid {
-        self.step.grid()
-    }
-
-    /// The counterbody's surface on it.
-    pub fn surface(&self) -> &Surface {
-        self.step.surface()
-    }
-
     /// Pressure sample by sample, a₂ fastest.
     pub fn pressures(&self) -> &[f64] {
         self.step.finest().pressures()
     }
 
-    /// Per site, the boundary of its contact where it has one; empty for a topography.
-    pub fn boundaries(&self) -> &[Option<Boundary>] {
-        &self.reading.boundaries
-    }
-
     /// Number of levels; 0 for a topography.
     pub fn levels(&self) -> usize {
-        self.problem().counterbody().levels().len()
+        self.step.problem().counterbody().levels().len()
     }
 
-    /// Index of the first site of a level (from 1).
-    pub fn site_of(&self, level: usize) -> Option<usize> {
-        self.surface().site_of(level)
-    }
-
-    /// Largest sample of the pressure.
-    pub fn max_pressure(&self) -> f64 {
-        self.pressures().iter().copied().fold(0.0, f64::max)
-    }
-
-    /// Caption: the title, the case's parameters and the load.
-    pub fn caption(&self) -> Vec<String> {
-        let [n1, n2] = self.grid().points();
+    /// Caption: the title, the case's parameters and the load, then what more is to be said.
+    pub fn caption(&self, more: &str) -> String {
+        let [n1, n2] = self.step.grid().points();
         let load = [
             equals(&self.units.pressure_symbol("p̄"), &[self.reading.mean_pressure]),
             equals(&self.units.length_symbol("δ"), &[self.step.penetration()]),
         ];
         let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");
-        caption(&self.title, self.problem(), &[load.join(", "), samples])
+        format!("{} {more}", caption(&self.title, self.step.problem(), &[load.join(", "), samples]))
     }
 }
 
 /// Title and parameters of a case, then what else is to be said about it.
-pub fn caption(title: &str, problem: &Problem, more: &[String]) -> Vec<String> {
+pub fn caption(title: &str, problem: &Problem, more: &[String]) -> String {
     let units = Units::of(problem);
     let title = title.trim_end_matches('.');
-    let title = (!title.is_empty()).then(|| format!("{title}."));
+    let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
     let parts = [materials(problem.half_space(), &units)]
         .into_iter()
         .chain(geometry(problem.counterbody(), &units))
         .chain(more.iter().cloned());
-    title.into_iter().chain([format!("{}.", parts.collect::<Vec<_>>().join("; "))]).collect()
+    format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))
 }
 
 /// A symbol and its values, which no line break parts from the first one.
@@ -129,11 +98,12 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
 }
 
 fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
-    let levels = counterbody.indenters()?.levels();
+    let indenters = counterbody.indenters()?;
+    let levels = indenters.levels();
     let mut parts = Vec::new();
     let l = units.length_symbol("l");
     if l != "l/l" {
-        parts.extend(period(counterbody).map(|period| equals(&l, &[period])));
+        parts.push(equals(&l, &[indenters.lattice().period()]));
     }
     let radius = |level: &Level| match level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
@@ -156,7 +126,7 @@ fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
     if levels.len() > 1 {
         let symbol = units.length_symbol("(h₁ − hₘ)");
         let bare = symbol.strip_suffix(')').and_then(|symbol| symbol.strip_prefix('(')).unwrap_or(&symbol);
-        parts.push(equals(bare, &counterbody.indenters().map(Indenters::drops)?[1..]));
+        parts.push(equals(bare, &indenters.drops()[1..]));
     }
     Some(parts.join(", "))
 }

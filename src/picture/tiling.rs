@@ -15,34 +15,21 @@ pub fn window(cell: Cell) -> Window {
     let half = [long, 0.5 * rows * cell.area() / long];
     // The longer vector of the reduced cell lies along x in all named lattices; otherwise a square shows as much.
     let [[x1, y1], [x2, y2]] = cell.vectors();
-    let half = if y1 == 0.0 { half } else { [half[0].max(half[1]); 2] };
+    let lies_along_x = [[x1, y1], [x2, y2]].iter().any(|[x, y]| *y == 0.0 && x.abs() >= long * (1.0 - 1e-9));
+    let half = if lies_along_x { half } else { [half[0].max(half[1]); 2] };
     let middle = [0.5 * (x1 + x2), 0.5 * (y1 + y2)];
     [0, 1].map(|k| [middle[k] - half[k], middle[k] + half[k]])
 }
 
 /// All places in the window that are equivalent to the place given in fractions of a₁, a₂.
-pub fn images(cell: Cell, place: [f64; 2], window: Window) -> Vec<[f64; 2]> {
-    let [[x0, x1], [y0, y1]] = window;
-    let corners = [[x0, y0], [x1, y0], [x0, y1], [x1, y1]].map(|corner| cell.fractions(corner));
-    let span = |k: usize| {
-        let all = corners.map(|s| s[k] - place[k]);
-        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        least.floor() as i64..=most.ceil() as i64
-    };
-    let mut images = Vec::new();
-    for (i, j) in span(0).flat_map(|i| span(1).map(move |j| (i, j))) {
-        let [x, y] = cell.point([place[0] + i as f64, place[1] + j as f64]);
-        if x >= x0 && x <= x1 && y >= y0 && y <= y1 {
-            images.push([x, y]);
-        }
-    }
-    images
-}
-
-/// Corners of the unit cell.
-pub fn cell_corners(cell: Cell) -> [[f64; 2]; 4] {
-    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|s| cell.point(s))
+pub fn images(cell: Cell, place: [f64; 2], [[x0, x1], [y0, y1]]: Window) -> Vec<[f64; 2]> {
+    let middle = [0.5 * (x0 + x1), 0.5 * (y0 + y1)];
+    let [s, t] = cell.fractions(middle);
+    // The one nearest to the middle, from there.
+    let [u, v] = cell.reduced().nearest([place[0] - s, place[1] - t]);
+    let vectors = cell.reduced().vectors_within(0.5 * (x1 - x0).hypot(y1 - y0) + u.hypot(v));
+    let images = vectors.into_iter().map(|[x, y]| [middle[0] + u + x, middle[1] + v + y]);
+    images.filter(|[x, y]| (x0..=x1).contains(x) && (y0..=y1).contains(y)).collect()
 }
 
 /// The four samples around a place and their bilinear weights.
@@ -62,27 +49,40 @@ pub fn around(grid: &Grid, place: [f64; 2]) -> [(usize, f64); 4] {
 }
 
 impl Snapshot {
+    /// The stretches of a straight line on which there is contact, or none: the first and the last part of the way.
+    pub fn stretches(&self, [from, to]: [[f64; 2]; 2], touching: bool) -> Vec<[f64; 2]> {
+        const STEPS: u32 = 800;
+        let belongs = |part: f64| {
+            let place = [0, 1].map(|k| from[k] + part * (to[k] - from[k]));
+            self.pressure_at(place).is_some() == touching
+        };
+        let parts: Vec<f64> = (0..=STEPS).map(|k| f64::from(k) / f64::from(STEPS)).collect();
+        let alike = parts.chunk_by(|a, b| belongs(*a) == belongs(*b));
+        alike.filter(|run| run.len() > 1 && belongs(run[0])).map(|run| [run[0], run[run.len() - 1]]).collect()
+    }
+
     /// Pressure at a place; `None` outside contact. Between samples on both sides of the edge the fitted boundary
     /// decides, or where there is none the nearer samples.
     pub fn pressure_at(&self, place: [f64; 2]) -> Option<f64> {
         let (mut weight, mut sum, mut touching, mut site) = (0.0, 0.0, 0, None);
-        for (index, part) in around(self.grid(), place) {
+        for (index, part) in around(self.step.grid(), place) {
             let p = self.pressures()[index];
             if p > 0.0 {
                 weight += part;
                 sum += part * p;
                 touching += 1;
-                site = self.surface().owners().get(index).copied();
+                site = self.step.surface().owners().get(index).copied();
             }
         }
         if touching == 0 {
             return None;
         }
         let is_inside =
-            match site.map(|site| site as usize).and_then(|site| Some((site, self.boundaries()[site].as_ref()?))) {
+            match site.map(|site| site as usize).and_then(|site| Some((site, self.reading.boundaries[site].as_ref()?)))
+            {
                 Some((site, boundary)) if touching < 4 => {
-                    let cell = self.grid().cell();
-                    let (s, t) = (cell.fractions(place), self.surface().sites()[site].place);
+                    let cell = self.step.grid().cell();
+                    let (s, t) = (cell.fractions(place), self.step.surface().sites()[site].place);
                     let [x, y] = cell.reduced().nearest([s[0] - t[0], s[1] - t[1]]);
                     (boundary.hole_radius(y.atan2(x))..boundary.radius(y.atan2(x))).contains(&x.hypot(y))
                 }
@@ -110,6 +110,15 @@ mod tests {
                     assert!((0..2).all(|k| ((s[k] - place[k]) - (s[k] - place[k]).round()).abs() < 1e-12));
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_window_holds_two_cells_along_each_side_of_a_slender_one() {
+        for cell in [Cell::new([0.1, 0.0], [0.0, 10.0]).unwrap(), Cell::new([10.0, 0.0], [0.0, 0.1]).unwrap()] {
+            let [[x1, _], [_, y2]] = cell.vectors();
+            let [width, height] = window(cell).map(|[first, last]| last - first);
+            assert!(width > 1.999 * x1 && height > 1.999 * y2, "{width} {height}");
         }
     }
 

@@ -5,7 +5,7 @@
 //! Otherwise the axes say "unit of E" and "unit of length".
 
 use crate::body::HalfSpace;
-use crate::counterbody::{Counterbody, Level, Shape};
+use crate::counterbody::{Level, Shape};
 use crate::problem::Problem;
 
 /// Units of lengths and pressures.
@@ -21,7 +21,7 @@ impl Units {
         let (counterbody, half_space) = (problem.counterbody(), problem.half_space());
         let is_one = |x: f64| (x - 1.0).abs() < 1e-9;
         let length = match counterbody.levels().first().map(Level::shape) {
-            Some(_) if period(counterbody).is_some_and(is_one) => Some("l"),
+            Some(_) if counterbody.indenters().is_some_and(|own| is_one(own.lattice().period())) => Some("l"),
             Some(Shape::Paraboloid { radius } | Shape::Sphere { radius }) if is_one(radius) => Some("r₁"),
             _ => None,
         };
@@ -69,15 +69,6 @@ pub fn substrate_index(half_space: &HalfSpace) -> String {
 pub fn lowered(number: usize) -> String {
     let digit = |c: char| ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][c.to_digit(10).unwrap_or(0) as usize];
     number.to_string().chars().map(digit).collect()
-}
-
-/// Lattice period l: the least distance of two indenters, whatever their level.
-pub fn period(counterbody: &Counterbody) -> Option<f64> {
-    let lattice = counterbody.indenters()?.lattice();
-    let levels = 1..=lattice.sites().len();
-    let places = lattice.sites().iter().flatten();
-    let distances = places.flat_map(|&place| levels.clone().map(move |level| lattice.toward(place, level)));
-    distances.map(|[x, y]| x.hypot(y)).reduce(f64::min)
 }
 
 #[cfg(test)]

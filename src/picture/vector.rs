@@ -3,7 +3,7 @@
 //! Texts name the embedded typeface and others of the same widths, so that a viewer without them still shows every
 //! word. Fields are images within the file. The unit of the file is the point.
 
-use super::canvas::{Anchor, Canvas, Dash, Mark};
+use super::canvas::{Anchor, Canvas, Dash, Mark, Stroke};
 use super::colour::Colour;
 use super::{raster, text};
 
@@ -23,7 +23,7 @@ pub fn svg(canvas: &Canvas) -> String {
 /// A mark as a line of the file.
 fn element(mark: &Mark) -> String {
     match mark {
-        Mark::Line { points, width, dash, colour } => {
+        Mark::Line(Stroke { points, width, dash, colour }) => {
             let dashes = dash.lengths().map_or(String::new(), |lengths| {
                 let [on, off] = lengths.map(|length| hundredths(length * width));
                 format!(" stroke-dasharray=\"{on} {off}\"")

@@ -66,7 +66,8 @@ impl Reading {
         let (topography, located_samples) = if surface.owners().is_empty() {
             spots::of_topography(contact, &scale)
         } else {
-            spots::samples(contact, &spots)
+            let located = |&owner: &u32| spots[owner as usize].boundary.is_some();
+            (Vec::new(), surface.owners().iter().map(located).collect())
         };
 
         let cell = grid.cell().area();
@@ -82,7 +83,7 @@ impl Reading {
             None => [along_lines.fraction, along_lines.error].map(|part| part * share * spot.counted),
         };
 
-        let levels = (1..=contact.problem().counterbody().levels().len())
+        let levels: Vec<LevelReading> = (1..=contact.problem().counterbody().levels().len())
             .map(|level| {
                 let own: Vec<&SpotReading> = surface
                     .sites()
@@ -97,24 +98,16 @@ impl Reading {
                     [0, 1].map(|k| own.iter().map(|spot| spot_area(spot)[k]).sum::<f64>() / indenters);
                 let merged = own.iter().any(|spot| spot.merged);
                 let peaks = own.iter().filter_map(|spot| spot.peak);
-                let boundaries = || own.iter().map(|spot| spot.boundary.as_ref());
-                let extremes = boundaries().map(|boundary| boundary.map(Boundary::extremes));
                 let radius = (area / PI).sqrt();
                 let ring = !merged && own.iter().any(|spot| spot.ring);
-                // Means over the indenters, by area.
-                let mean = |radius: fn(&Boundary) -> f64| {
-                    let squares: Option<Vec<f64>> = boundaries().map(|b| b.map(|b| radius(b).powi(2))).collect();
-                    squares.map(|squares| (squares.iter().sum::<f64>() / indenters).sqrt())
+                // What follows from the boundaries of all indenters: means by area, the least and the largest.
+                let boundaries: Option<Vec<&Boundary>> = own.iter().map(|spot| spot.boundary.as_ref()).collect();
+                let all = |value: fn(&Boundary) -> f64| {
+                    let boundaries = boundaries.as_ref()?;
+                    Some(boundaries.iter().map(move |boundary| value(boundary)))
                 };
-                // The largest of them.
-                let most = |error: fn(&Boundary) -> f64| {
-                    let errors: Option<Vec<f64>> = boundaries().map(|b| b.map(error)).collect();
-                    errors.map(|errors| errors.into_iter().fold(0.0, f64::max))
-                };
-                let (radius_min, radius_max) = extremes
-                    .reduce(|a, b| a.zip(b).map(|(a, b): ((f64, f64), (f64, f64))| (a.0.min(b.0), a.1.max(b.1))))
-                    .flatten()
-                    .unzip();
+                let mean = |radius| Some((all(radius)?.map(|r| r * r).sum::<f64>() / indenters).sqrt());
+                let most = |value| Some(all(value)?.fold(0.0, f64::max));
                 let ring_radii = mean(Boundary::mean_hole_radius).zip(mean(Boundary::mean_radius)).filter(|_| ring);
                 let (radius_inner, radius_outer) = ring_radii.unzip();
                 LevelReading {
@@ -129,8 +122,8 @@ impl Reading {
                     ring,
                     radius_inner,
                     radius_outer,
-                    radius_min,
-                    radius_max,
+                    radius_min: all(|b| b.extremes().0).and_then(|radii| radii.reduce(f64::min)),
+                    radius_max: most(|b| b.extremes().1),
                     merged,
                     resolution: (area / PI / grid.sample_area()).sqrt(),
                     uncertainty: Uncertainty {
@@ -152,7 +145,8 @@ impl Reading {
             penetration: contact.penetration(),
             contact_fraction,
             contact_fraction_uncertainty,
-            max_pressure,
+            // Between the samples the highest of them need not be the highest peak.
+            max_pressure: levels.iter().map(|level| level.max_pressure).fold(max_pressure, f64::max),
             contact_spots,
             spot_resolution,
             levels,

@@ -6,39 +6,24 @@ use super::{Errors, LevelErrors, LevelReading, Reading, peak};
 use crate::load::Load;
 use crate::spectral::Step;
 
-/// What n samples along a contact radius leave open, relative to the quantity.
-struct Resolved {
-    /// Samples along the radius.
-    samples: f64,
-    /// Least exponent of the profiles.
-    exponent: f64,
+/// What n samples along a contact radius leave open of a peak pressure, relative to it, for profiles of an exponent.
+fn peak_law(samples: f64, exponent: f64) -> f64 {
+    if exponent >= 2.0 { 0.1 * samples.powi(-2) + samples.powi(-4) } else { 0.25 * samples.powf(1.0 - exponent) }
 }
 
-impl Resolved {
-    /// Below one sample the laws say no more than there.
-    fn new(samples: f64, exponent: f64) -> Self {
-        Self { samples: samples.max(1.0), exponent }
-    }
+/// The same for the load under a prescribed penetration,
+fn load_law(samples: f64) -> f64 {
+    0.03 * samples.powi(-2) + 0.3 * samples.powi(-4)
+}
 
-    fn peak(&self) -> f64 {
-        if self.exponent >= 2.0 {
-            0.1 * self.samples.powi(-2) + self.samples.powi(-4)
-        } else {
-            0.25 * self.samples.powf(1.0 - self.exponent)
-        }
-    }
+/// for the share of the load,
+fn share_law(samples: f64) -> f64 {
+    0.002 * samples.powi(-2)
+}
 
-    fn load(&self) -> f64 {
-        0.03 * self.samples.powi(-2) + 0.3 * self.samples.powi(-4)
-    }
-
-    fn share(&self) -> f64 {
-        0.002 * self.samples.powi(-2)
-    }
-
-    fn penetration(&self) -> f64 {
-        0.01 * self.samples.powi(-2)
-    }
+/// and for the penetration.
+fn penetration_law(samples: f64) -> f64 {
+    0.01 * samples.powi(-2)
 }
 
 impl Step {
@@ -113,26 +98,25 @@ fn between(
     if fine.levels.is_empty() {
         touching.push(fine.spot_resolution);
     }
-    // The whole is as good as the largest contact, the highest peak as the least resolved one; a topography has its
+    // Below one sample the laws say no more than there. The whole is as good as the largest contact, the highest peak as the least resolved one; a topography has its
     // typical spot.
-    let largest = touching.iter().copied().fold(0.0, f64::max);
-    let smallest = touching.iter().copied().fold(f64::INFINITY, f64::min);
+    let largest = touching.iter().copied().fold(1.0, f64::max);
+    let smallest = touching.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
     let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
     let sharpest = loaded.map(|(_, &exponent)| exponent).fold(2.0, f64::min);
-    let law = |of: fn(&Resolved) -> f64, samples: f64| of(&Resolved::new(samples, sharpest));
     let by_load = load.is_mean_pressure();
     let level = |(index, (own, &exponent)): (usize, (&LevelReading, &f64))| -> LevelErrors {
         if own.load <= 0.0 {
             return LevelErrors::default();
         }
-        let resolved = Resolved::new(own.resolution, exponent);
+        let samples = own.resolution.max(1.0);
         let of = |safety: f64, open: f64, value: fn(&LevelReading) -> Option<f64>| {
             estimate(safety, open, &|reading| reading.levels.get(index).and_then(value))
         };
         // A single level carries the whole load.
-        let share = if fine.levels.len() == 1 { 0.0 } else { resolved.share() };
-        let own_load = own.load * if by_load { share / own.load_share } else { resolved.load() };
-        let peak = own.max_pressure * resolved.peak();
+        let share = if fine.levels.len() == 1 { 0.0 } else { share_law(samples) };
+        let own_load = own.load * if by_load { share / own.load_share } else { load_law(samples) };
+        let peak = own.max_pressure * peak_law(samples, exponent);
         let radius = |error: Option<f64>, value: fn(&LevelReading) -> Option<f64>| of(AREA, error?, value);
         let relative = own.uncertainty.boundary.zip(own.radius_max).map(|(error, largest)| error / largest);
         LevelErrors {
@@ -150,11 +134,11 @@ fn between(
     };
     let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
     let apex = APEX * apex;
-    let load = fine.mean_pressure * law(Resolved::load, largest);
-    let depth = fine.penetration.abs() * law(Resolved::penetration, largest);
+    let load = fine.mean_pressure * load_law(largest);
+    let depth = fine.penetration.abs() * penetration_law(largest);
     let mean_pressure = estimate(MEAN_PRESSURE, load, &|reading| Some(reading.mean_pressure));
     let penetration = estimate(PENETRATION, depth, &|reading| Some(reading.penetration));
-    let peak = fine.max_pressure * law(Resolved::peak, smallest);
+    let peak = fine.max_pressure * peak_law(smallest, sharpest);
     let highest = if fine.levels.is_empty() { PEAK } else { HIGHEST };
     let levels = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
     let errors = Errors {

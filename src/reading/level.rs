@@ -2,8 +2,8 @@
 
 use super::LevelErrors;
 
-/// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, the
-/// others extremes.
+/// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, contact,
+/// inner and outer radius means by area, the others extremes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LevelReading {
     /// Level, from 1.
@@ -33,9 +33,10 @@ pub struct LevelReading {
     pub radius_min: Option<f64>,
     /// Largest distance of the boundary from the axis, a length; see `radius_min`.
     pub radius_max: Option<f64>,
-    /// Whether the contact of an indenter of this level touches that of a neighbour.
+    /// Whether the contact of an indenter of this level touches that of a neighbour, or by the localized method one of
+    /// both reaches under the other's surface.
     pub merged: bool,
-    /// Samples along the contact radius: below [`FEW_SAMPLES`] the radii are rough.
+    /// Samples, or elements, along the contact radius: below [`FEW_SAMPLES`] the radii are rough.
     pub resolution: f64,
     /// What the reading of the boundary says of its own errors.
     pub uncertainty: Uncertainty,

@@ -48,9 +48,7 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
             }
         }
         // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
-        let (row, column) = (index / n2, index % n2);
-        let neighbours = [(row + 1) % n1 * n2 + column, row * n2 + (column + 1) % n2];
-        for (neighbour, step) in neighbours.into_iter().zip(steps) {
+        for (neighbour, step) in grid.adjacent(index).into_iter().zip(steps) {
             if pressure[neighbour] <= 0.0 {
                 continue;
             }
@@ -70,14 +68,8 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
 /// Open samples that one contact encloses: `label` tells contacts apart.
 fn holes(contact: &Contact, label: impl Fn(usize) -> u32) -> Vec<(u32, Component)> {
     let (grid, pressure) = (contact.grid(), contact.pressures());
-    let [n1, n2] = grid.points();
     let enclosed = |open: Component| {
-        let mut beside = open.indices(grid).flat_map(|index| {
-            let (row, column) = (index / n2, index % n2);
-            let rows = [(row + 1) % n1, (row + n1 - 1) % n1].map(|row| row * n2 + column);
-            let columns = [(column + 1) % n2, (column + n2 - 1) % n2].map(|column| row * n2 + column);
-            rows.into_iter().chain(columns).filter(|&index| pressure[index] > 0.0)
-        });
+        let mut beside = open.indices(grid).flat_map(|index| grid.adjacent(index)).filter(|&next| pressure[next] > 0.0);
         let owner = label(beside.next()?);
         let alone = beside.all(|index| label(index) == owner);
         drop(beside);
@@ -123,11 +115,9 @@ fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
         if spots[own as usize].merged || area == 0.0 {
             return None;
         }
-        let [x, y] = surface.offset(&reduced, own, index);
-        let (r, p) = (x.hypot(y), pressure[index]);
         let opening = 0.75 * modulus * gap[index];
-        let sample = Polar { r, theta: y.atan2(x), p, opening, hole: hole[index] };
-        (r < 2.0 * (area / PI).sqrt() || p > 0.0).then_some((own as usize, sample))
+        let sample = Polar::new(surface.offset(&reduced, own, index), pressure[index], opening, hole[index]);
+        (sample.r < 2.0 * (area / PI).sqrt() || sample.p > 0.0).then_some((own as usize, sample))
     };
     // Counted first, so that they take no more room than they need.
     let mut counts = vec![0; spots.len()];
@@ -137,12 +127,6 @@ fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
     spots.par_iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()).for_each(|(spot, samples)| {
         spot.boundary = Boundary::locate(samples, scale);
     });
-}
-
-/// Which samples belong to spots with a boundary.
-pub fn samples(contact: &Contact, spots: &[SpotReading]) -> (Vec<Boundary>, Vec<bool>) {
-    let located = |&owner: &u32| spots[owner as usize].boundary.is_some();
-    (Vec::new(), contact.surface().owners().iter().map(located).collect())
 }
 
 /// Boundaries of a topography's contacts around their own centres, where these are simple, and the samples of all that
@@ -166,10 +150,8 @@ pub fn of_topography(contact: &Contact, scale: &Scale<'_>) -> (Vec<Boundary>, Ve
         let ours = |whose: u32| whose == own || whose == NOBODY;
         let samples: Vec<Polar> = around(grid, centre, 2.0 * spot.farthest(grid, centre))
             .filter(|(index, _)| ours(label[*index]) && ours(hole_of[*index]))
-            .map(|(index, [x, y])| {
-                let opening = 0.75 * modulus * gap[index];
-                let (p, hole) = (pressure[index], hole_of[index] == own);
-                Polar { r: x.hypot(y), theta: y.atan2(x), p, opening, hole }
+            .map(|(index, offset)| {
+                Polar::new(offset, pressure[index], 0.75 * modulus * gap[index], hole_of[index] == own)
             })
             .collect();
         Boundary::locate(&samples, scale)

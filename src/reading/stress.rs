@@ -1,8 +1,9 @@
 //! What is read off the stresses of a step: where coating and substrate are stressed most, and how sure that is.
 
 use super::Reading;
+use crate::counterbody::Site;
 use crate::spectral::Step;
-use crate::stress::maxima::{Extremes, Maxima};
+use crate::stress::maxima::Extremes;
 use crate::stress::{Peak, StressField};
 use std::f64::consts::PI;
 
@@ -20,7 +21,7 @@ pub struct StressReading {
     pub faces: Vec<Extremes>,
     /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`].
     pub surface_error: f64,
-    /// Estimated discretisation errors of the largest of all, see [`Maxima::errors`].
+    /// Estimated discretisation errors of the largest of all, see [`Maxima::errors`](crate::stress::maxima::Maxima::errors).
     pub errors: StressErrors,
 }
 
@@ -40,25 +41,23 @@ impl StressReading {
         let radii = contact_radii(step, reading);
         let under = |contact| StressField::new(contact, field.mean_stress()).maxima(radii);
         let coarser = step.coarser().first().map(under);
-        Self::new(&field.maxima(radii), coarser.as_ref(), tip(step, reading, field))
-    }
-
-    /// From the maxima of a field and those of the next coarser grid. `tip`: a place where τ₁ is infinite.
-    fn new(maxima: &Maxima, coarser: Option<&Maxima>, tip: Option<[f64; 2]>) -> Self {
+        let maxima = field.maxima(radii);
+        let coarser = coarser.as_ref();
         let errors = coarser.map(|coarser| maxima.errors(coarser));
+        // A tip is infinitely stressed, whatever a grid shows of it.
+        let tip = tips(step, reading).next().map(|site| step.grid().cell().point(site.place));
         let mut stress = Self {
             max_tau1: maxima.tau1(),
             max_tension: maxima.tension(),
-            materials: maxima.materials.clone(),
-            faces: maxima.faces.clone(),
             surface_error: maxima.surface_error(coarser),
             errors: StressErrors {
                 max_tau1: errors.map(|errors| errors[0]).filter(|_| tip.is_none()),
                 max_tension: errors.map(|errors| errors[1]),
             },
+            materials: maxima.materials,
+            faces: maxima.faces,
         };
         if let Some([x, y]) = tip {
-            // A tip is infinitely stressed, whatever a grid shows of it.
             let first = [&mut stress.materials, &mut stress.faces].map(|all| all.first_mut());
             let first = first.into_iter().flatten().map(|extremes| &mut extremes.tau1);
             for tau1 in first.chain([&mut stress.max_tau1]) {
@@ -69,13 +68,11 @@ impl StressReading {
     }
 }
 
-/// Where τ₁ is infinite: at a tip in contact, unless the surface material is incompressible, as σ_z and σ_r are then
+/// Where τ₁ is infinite: at the tips in contact, unless the surface material is incompressible, as σ_z and σ_r are then
 /// infinite alike.
-fn tip(step: &Step, reading: &Reading, field: &StressField) -> Option<[f64; 2]> {
-    let level = reading.levels.iter().find(|level| level.singular)?.level;
-    let sites = step.surface().sites();
-    let site = sites.iter().find(|site| site.level == level && field.surface_poisson() < 0.5)?;
-    Some(step.grid().cell().point(site.place))
+pub fn tips<'a>(step: &'a Step, reading: &'a Reading) -> impl Iterator<Item = &'a Site> {
+    let sites = step.surface().sites().iter().filter(|site| reading.levels[site.level - 1].singular);
+    sites.filter(|_| step.problem().half_space().surface_material().poisson() < 0.5)
 }
 
 /// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's

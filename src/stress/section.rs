@@ -43,6 +43,11 @@ impl Line {
         self.distances().into_iter().map(|s| [0, 1].map(|k| self.origin[k] + s * unit[k])).collect()
     }
 
+    /// The first and the last place.
+    pub fn ends(&self) -> [[f64; 2]; 2] {
+        self.span.map(|s| [0, 1].map(|k| self.origin[k] + s * self.unit()[k]))
+    }
+
     fn step(&self) -> f64 {
         (self.span[1] - self.span[0]) / (self.points.max(2) - 1) as f64
     }

@@ -2,7 +2,7 @@
 
 use crate::common::{PAPER, coated, one_level, paraboloid, solve};
 use crate::{alone, homogeneous, setup, two_layers};
-use percoat::localized::{Localized, Stop};
+use percoat::localized::{CircleRadius, Localized, Setup, Stop};
 use percoat::{HalfSpace, Interface, Lattice, Load, Problem};
 use std::f64::consts::PI;
 
@@ -19,7 +19,8 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
     for a in [0.01, 1.0] {
         let error = |elements| {
             let load = 4.0 / 3.0 * f64::powi(a, 3);
-            let solution = localized.solve(Load::MeanPressure(load / localized.system().cell_area()), &alone(elements));
+            let solution =
+                localized.solve(Load::MeanPressure(load / localized.system().cell().area()), &alone(elements));
             assert_eq!(solution.stop, Stop::Converged);
             let found = &solution.levels()[0];
             assert!((found.load / load - 1.0).abs() < 1e-8);
@@ -42,8 +43,10 @@ fn tiny_loads_have_hertzian_contacts() {
         let solution = localized.solve(Load::MeanPressure(pressure), &setup(7, 24));
         assert_eq!(solution.stop, Stop::Converged);
         let found = &solution.levels()[0];
-        let a = (0.6 * pressure * localized.system().cell_area() / localized.system().contact_modulus()).cbrt();
-        let p0 = 2.0 * localized.system().contact_modulus() * a / (PI * 0.8);
+        let a = (0.6 * pressure * localized.system().cell().area()
+            / localized.system().half_space().surface_material().contact_modulus())
+        .cbrt();
+        let p0 = 2.0 * localized.system().half_space().surface_material().contact_modulus() * a / (PI * 0.8);
         let radius = found.contact_radius.unwrap();
         println!("{pressure}: a {}, p₀ {}", radius / a, found.max_pressure / p0);
         assert!((radius / a - 1.0).abs() < 2e-3 && (found.max_pressure / p0 - 1.0).abs() < 2e-3);
@@ -81,7 +84,7 @@ fn an_indenter_alone_on_a_coating_obeys_its_integral_equation() {
     for (chi, nu1, rows) in tables {
         let localized = single(&coated(chi, 1.0, [nu1, 0.3], Interface::Bonded));
         for [radius, load, penetration, peak] in rows {
-            let solution = localized.solve(Load::MeanPressure(load / localized.system().cell_area()), &alone(48));
+            let solution = localized.solve(Load::MeanPressure(load / localized.system().cell().area()), &alone(48));
             let found = &solution.levels()[0];
             let pairs = [
                 (solution.penetration, penetration, 3e-4),
@@ -117,7 +120,8 @@ fn levels_without_mutual_effect_share_the_load_as_isolated_indenters_do() {
 fn the_penetration_found_under_a_load_gives_the_load_back() {
     let paper = PAPER[1];
     let localized = Localized::new(&paper.problem(), 37).unwrap();
-    for setup in [setup(37, 24), alone(24)] {
+    let lattice_sum = Setup { rule: CircleRadius::LatticeSum, ..setup(7, 24) };
+    for setup in [setup(37, 24), alone(24), lattice_sum] {
         let loaded = localized.solve(Load::MeanPressure(paper.pressure), &setup);
         let pressed = localized.solve(Load::Penetration(loaded.penetration), &setup);
         assert_eq!((loaded.stop, pressed.stop), (Stop::Converged, Stop::Converged));
@@ -194,10 +198,7 @@ fn load_balanced_circles_need_few_indenters_and_area_balanced_ones_many() {
         let ([share, peak], delta) = deviation(setup(indenters, 32));
         assert!(share < 0.007 && peak < 0.007 && delta < penetration);
     }
-    let area = |indenters| percoat::localized::Setup {
-        radius: percoat::localized::CircleRadius::AreaBalanced,
-        ..setup(indenters, 32)
-    };
+    let area = |indenters| Setup { rule: CircleRadius::AreaBalanced, ..setup(indenters, 32) };
     let ([share, peak], _) = deviation(area(73));
     assert!(share > 0.1 && peak > 0.05);
 }

@@ -11,7 +11,7 @@ use percoat::{Depth, HalfSpace, Interface, Lattice, Load, MeanStress, Problem, S
 fn stresses_under_an_indenter_alone_are_hertzian() {
     let indenters = one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(1.0, 0.0));
     let localized = Localized::new(&Problem::new(indenters, homogeneous()), 1).unwrap();
-    let load = 4.0 / 3.0 / localized.system().cell_area();
+    let load = 4.0 / 3.0 / localized.system().cell().area();
     let solution = localized.solve(Load::MeanPressure(load), &alone(48));
     let field = LocalizedField::new(&solution, MeanStress::Confined);
     let p0 = 2.0 / std::f64::consts::PI;

@@ -129,7 +129,6 @@ fn figure(data: &Data) -> Figure {
     }
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::log("points along the cell N"),
         y: Axis::log("relative error, worst of six places"),
         curves,

@@ -35,7 +35,7 @@ fn run() -> Result<Outcome, StudyError> {
 
     let mut data = Data::new("disc", &["r", "displacement", "reference"]);
     for row in &reference.rows {
-        data.rows.push(vec![row[0], disc::displacement(&coated, 1.0, row[0]).value, row[1]]);
+        data.rows.push(vec![row[0], disc::displacement(&coated, 1.0, row[0]), row[1]]);
     }
     let pairs = data.column("displacement").into_iter().zip(data.column("reference"));
     let name = "coating: displacement at r/a = 0, 0.5, 1.5, 3, table";
@@ -45,7 +45,7 @@ fn run() -> Result<Outcome, StudyError> {
     let mut squares = Data::new("squares", &["squares", "bare", "coated"]);
     for count in SQUARES {
         let error = |kernel: &PointKernel| {
-            let error = |&r: &f64| from_squares(kernel, count, r) / disc::displacement(kernel, 1.0, r).value - 1.0;
+            let error = |&r: &f64| from_squares(kernel, count, r) / disc::displacement(kernel, 1.0, r) - 1.0;
             places.iter().map(error).map(f64::abs).fold(0.0, f64::max)
         };
         squares.rows.push(vec![count as f64, error(&bare), error(&coated)]);
@@ -81,7 +81,7 @@ fn half_space(substrate: f64, coating: Option<f64>) -> Result<HalfSpace, StudyEr
 fn closed_forms(bare: &PointKernel) -> Vec<Check> {
     // c/(2π) = 1/(πE*).
     let modulus = 1.0 / (PI * bare.factor());
-    let at = |r: f64| modulus * disc::displacement(bare, 1.0, r).value;
+    let at = |r: f64| modulus * disc::displacement(bare, 1.0, r);
     let squares = Squares::new(bare, 1.0);
     let square = |x: f64, y: f64| modulus * squares.coefficient(x, y);
     // The midpoint rule with the nodes gathered at the edge, where the slope is infinite.
@@ -133,7 +133,7 @@ fn covered(x: f64, y: f64, half: f64) -> f64 {
 fn figure(bare: &PointKernel, coated: &PointKernel, table: &Data, squares: &Data) -> Result<Figure, StudyError> {
     let stiff = PointKernel::new(&half_space(10.0, None)?, REACH);
     let line = |label: &str, kernel: &PointKernel, style, colour| {
-        let at = |r: f64| [r, disc::displacement(kernel, 1.0, r).value];
+        let at = |r: f64| [r, disc::displacement(kernel, 1.0, r)];
         curve(label, style, colour, linear(0.0, 4.0, 161).into_iter().map(at))
     };
     let displacements = vec![
@@ -151,7 +151,7 @@ fn figure(bare: &PointKernel, coated: &PointKernel, table: &Data, squares: &Data
         curve("substrate alone", Style::LineMarkers, 2, homogeneous),
         curve("coated", Style::LineMarkers, 1, layered),
     ];
-    let chart = |title: &str, x, y, curves| Chart { title: title.to_owned(), caption: Vec::new(), x, y, curves };
+    let chart = |title: &str, x, y, curves| Chart { title: title.to_owned(), x, y, curves };
     let panels = vec![
         chart("(a) disc", Axis::linear("r/a"), Axis::linear("surface displacement uE₂/(qa)"), displacements),
         chart(

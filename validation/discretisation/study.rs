@@ -141,7 +141,6 @@ fn figure(data: &Data) -> Figure {
     curves.push(curve("true = stated", Style::Line, 0, [[least, least], [1.0, 1.0]]));
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::log("stated error, relative"),
         y: Axis::log("true error, relative"),
         curves,

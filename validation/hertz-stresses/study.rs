@@ -153,7 +153,6 @@ fn figure(data: &Data) -> Figure {
     axis.push(curve("τ₁", Style::Markers, 4, found));
     let chart = |title: &str, x: &str, curves| Chart {
         title: title.to_owned(),
-        caption: Vec::new(),
         x: Axis::linear(x),
         y: Axis::linear("stress over p₀"),
         curves,

@@ -134,7 +134,6 @@ fn figure(lattice: &Data, coating: &Data) -> Result<Figure, StudyError> {
     let peak = excess("peak");
     let left = Chart {
         title: "Wide lattices".to_owned(),
-        caption: Vec::new(),
         x: Axis::log("contact radius over period a/l").from_to(0.01, 1.0),
         y: Axis::log("deviation from Hertz"),
         curves: vec![
@@ -158,7 +157,6 @@ fn figure(lattice: &Data, coating: &Data) -> Result<Figure, StudyError> {
     let limit = coating.rows.first().map_or(f64::NAN, |row| row[3] / row[2]);
     let right = Chart {
         title: "Thick and thin coatings, χ = 2".to_owned(),
-        caption: Vec::new(),
         x: Axis::log("thickness over Hertz' radius h/a"),
         y: Axis::linear("peak over that on E₁*").from_to(0.55, 1.05),
         curves: vec![

@@ -176,7 +176,6 @@ fn figure(found: &Data) -> Result<Figure, StudyError> {
     curves.push(curve("E₂*, E₁* alone", Style::Dotted, 0, [[0.05, 1.0], [10.0, 1.0]]));
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::log("contact radius over thickness a/h"),
         y: Axis::linear("pressure on the axis over 2E₂*a/(πR)").from_to(0.4, 2.2),
         curves,

@@ -138,7 +138,6 @@ fn figure(surface: &Data, interior: &Data) -> Figure {
     };
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::log("fraction of stacks or points with a larger error"),
         y: Axis::log("error").from_to(1e-17, 1e-8),
         curves: vec![

@@ -173,7 +173,6 @@ fn figure(square: &Response, bare: &HalfSpace) -> Result<Figure, StudyError> {
     }
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::linear("width of the load s²/l²"),
         y: Axis::linear("πE*wl/P − √(π/2) l/s − S₁l"),
         curves,

@@ -122,7 +122,7 @@ impl<'a> Leftover<'a> {
         let circle = Circle::new(self.lattice, &places, m, indenters);
         let outer = circle.load_balanced(loads, self.mean_pressure);
         let moments: f64 = self.answer.levels.iter().map(|level| 0.4 * level.load * radius(level).powi(2)).sum();
-        let mut error = -self.mean_pressure * disc::displacement(&self.kernel, outer, 0.0).value;
+        let mut error = -self.mean_pressure * disc::displacement(&self.kernel, outer, 0.0);
         error -= 0.5 * PI / self.lattice.cell().area() * self.kernel.at(outer) * moments;
         for (c, images) in circle.images.iter().enumerate() {
             let distances = images.iter().map(|[x, y]| x.hypot(*y)).filter(|r| *r > 0.0);

@@ -4,7 +4,7 @@ use crate::body::{HalfSpace, Material};
 use crate::counterbody::{Indenters, Level, Shape};
 use crate::lattice::Lattice;
 use crate::load::Load;
-use crate::localized::{CircleRadius, Localized, Setup, Stop};
+use crate::localized::{CircleRadius, Coupled, Localized, Setup, Stop};
 use crate::picture::{Curve, Style};
 use crate::problem::Problem;
 use crate::validation::draw::curve;
@@ -17,7 +17,7 @@ const REFERENCE: &str = include_str!("one-level.csv");
 const RADIUS: f64 = 0.8;
 /// Mean pressure over E*.
 const MEAN_PRESSURE: f64 = 0.01;
-const SETUP: Setup = Setup { indenters: 7, elements: 48, radius: CircleRadius::LoadBalanced, mutual_effect: true };
+const SETUP: Setup = Setup { indenters: 7, elements: 48, rule: CircleRadius::LoadBalanced, mutual_effect: true };
 
 /// Circles around a paraboloid on a bare lattice, E* = 1: checks, data, and curves of the penetration's error.
 pub fn one_level(outcome: &mut Outcome) -> Result<Vec<Curve>, StudyError> {
@@ -26,20 +26,23 @@ pub fn one_level(outcome: &mut Outcome) -> Result<Vec<Curve>, StudyError> {
     let localized =
         Localized::new(&Problem::new(indenters, HalfSpace::new(vec![], Material::from_young(1.0, 0.0)?)), 91)?;
     let system = localized.system();
-    let (prescribed, load) = (Load::MeanPressure(MEAN_PRESSURE), MEAN_PRESSURE * system.cell_area());
+    let (prescribed, load) = (Load::MeanPressure(MEAN_PRESSURE), MEAN_PRESSURE * system.cell().area());
     let (mesh, start) = localized.mesh(prescribed, &SETUP);
     let localization = |indenters: usize| {
         let circle = &system.circles(indenters)[0];
         let distances: Vec<f64> = circle.images[0][1..].iter().map(|[x, y]| x.hypot(*y)).collect();
-        (circle.indenters(), Localization::new(&distances, system.cell_area()))
+        (circle.indenters(), Localization::new(&distances, system.cell().area()))
     };
     let reference = Data::parse("one-level", REFERENCE)?;
     let mut data =
         Data::new("one-level", &["neighbours", "s3", "s1", "penetration", "penetration_sums", "radius", "radius_sums"]);
     for neighbours in reference.column("neighbours") {
         let (inside, circle) = localization(neighbours as usize + 1);
-        let solution =
-            localized.coupled(mesh, inside, true).solve(prescribed, CircleRadius::LoadBalanced, Some(&start));
+        let solution = Coupled::new(localized.system(), mesh, inside, true).solve(
+            prescribed,
+            CircleRadius::LoadBalanced,
+            Some(&start),
+        );
         if solution.stop != Stop::Converged {
             return Err(format!("{neighbours} neighbours: {}", solution.stop).into());
         }

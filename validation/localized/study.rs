@@ -49,7 +49,7 @@ const SHELLS: [usize; 2] = [301, 613];
 /// Samples along the cell.
 const POINTS: usize = 192;
 
-const SETUP: Setup = Setup { indenters: 7, elements: 32, radius: CircleRadius::LatticeSum, mutual_effect: true };
+const SETUP: Setup = Setup { indenters: 7, elements: 32, rule: CircleRadius::LatticeSum, mutual_effect: true };
 
 fn run() -> Result<Outcome, StudyError> {
     let mut outcome = Outcome::default();
@@ -60,7 +60,6 @@ fn run() -> Result<Outcome, StudyError> {
     }
     let chart = |title: &str, y, curves| Chart {
         title: title.to_owned(),
-        caption: Vec::new(),
         x: Axis::log("indenters inside the circle"),
         y,
         curves,
@@ -119,7 +118,7 @@ fn coated(
         settings: Settings::default(),
         indenters: INDENTERS.to_vec(),
         elements: SETUP.elements,
-        rule: SETUP.radius,
+        rule: SETUP.rule,
         mutual_effect: SETUP.mutual_effect,
         mean: MeanStress::Confined,
     };

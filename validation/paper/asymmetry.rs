@@ -4,8 +4,8 @@
 use super::model::Model;
 use super::spot::{self, Raster, asymmetries};
 use crate::load::Load;
-use crate::localized::CircleRadius;
 use crate::localized::mesh::Mesh;
+use crate::localized::{CircleRadius, Coupled};
 use crate::numeric::least_squares;
 use crate::reading::{LevelReading, Reading, first_touches};
 use crate::validation::{Data, StudyError};
@@ -176,7 +176,8 @@ pub fn localized_elements(model: &Model, mean_pressure: f64) -> Result<Data, Stu
             let size = diameter / (across - 0.5 + (k as f64 + 0.5) / WINDOW as f64);
             let mesh = Mesh { width: (1.4 * across / 2.0) as usize * 2 + 1, size };
             let load = Load::MeanPressure(mean_pressure);
-            let solution = localized.coupled(mesh, 7, true).solve(load, CircleRadius::LoadBalanced, Some(&start));
+            let solution =
+                Coupled::new(localized.system(), mesh, 7, true).solve(load, CircleRadius::LoadBalanced, Some(&start));
             [0, 1, 2].map(|m| spot::counted(&solution.spots[m]))
         });
         let counted: Vec<[f64; 3]> = counted.collect();

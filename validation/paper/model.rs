@@ -129,7 +129,7 @@ impl Model {
         elements: usize,
     ) -> Result<(Localized, localized::Solution), StudyError> {
         let method = Localized::new(self.case.problem(), indenters)?;
-        let setup = Setup { indenters, elements, radius: CircleRadius::LoadBalanced, mutual_effect: true };
+        let setup = Setup { indenters, elements, rule: CircleRadius::LoadBalanced, mutual_effect: true };
         let solution = method.solve(Load::MeanPressure(mean_pressure), &setup);
         if solution.stop != Stop::Converged {
             return Err(format!("localized solution at {mean_pressure}: {}", solution.stop).into());

@@ -85,7 +85,6 @@ fn figure(found: &Data, reference: &Data) -> Figure {
         });
         Chart {
             title: String::new(),
-            caption: Vec::new(),
             x: Axis::log("mean pressure p̄/E*"),
             y: Axis::log(label),
             curves: curves.collect(),

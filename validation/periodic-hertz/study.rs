@@ -237,7 +237,6 @@ fn figure(data: &[Data]) -> Result<Figure, StudyError> {
     }
     let chart = |y: &str, curves| Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::log("mean pressure over E* (bare), E₂"),
         y: Axis::log(y),
         curves,

@@ -142,7 +142,6 @@ fn run() -> Result<Outcome, StudyError> {
 fn figure(curves: Vec<crate::picture::Curve>) -> Figure {
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::linear("distance from the axis over the outer radius"),
         y: Axis::linear("pressure over its largest value"),
         curves,

@@ -92,12 +92,7 @@ fn figure(field: &StressField) -> Figure {
         curves.push(curve("", Style::Line, colour, linear(0.0, 5.0, 101).into_iter().map(|zeta| [zeta, exact(zeta)])));
         curves.push(curve(name, Style::Markers, colour, found));
     }
-    let chart = Chart {
-        title: String::new(),
-        caption: Vec::new(),
-        x: Axis::linear("depth qz"),
-        y: Axis::linear("amplitude over p̂"),
-        curves,
-    };
+    let chart =
+        Chart { title: String::new(), x: Axis::linear("depth qz"), y: Axis::linear("amplitude over p̂"), curves };
     draw::figure(vec![chart], "Stresses under p̂ cos qx, ν = 0.3: closed form (lines) and field (markers).")
 }

@@ -190,7 +190,6 @@ fn figure(found: &Data) -> Figure {
     }
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::log("thickness over contact radius h/a"),
         y: Axis::linear("error of the radius (%)"),
         curves,

@@ -146,7 +146,7 @@ fn figure(found: &[Data], reference: &Data) -> Figure {
         peaks.push(curve("", Style::Line, colour, table("peak")));
         peaks.push(curve("", Style::Markers, colour, peak));
     }
-    let chart = |x, y, curves| Chart { title: String::new(), caption: Vec::new(), x, y, curves };
+    let chart = |x, y, curves| Chart { title: String::new(), x, y, curves };
     let load = "mean pressure p̄/p*";
     let panels = vec![
         chart(Axis::linear(load).from_to(0.0, 1.0), Axis::linear("fraction in contact A").from_to(0.0, 1.0), areas),

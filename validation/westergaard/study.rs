@@ -77,7 +77,6 @@ fn run() -> Result<Outcome, StudyError> {
     checks.push(Check::absolute("oblique to the grid: width of contact over λ", found.contact_fraction, 0.5, 1e-3));
     let chart = Chart {
         title: String::new(),
-        caption: Vec::new(),
         x: Axis::linear("distance from the crest x/λ"),
         y: Axis::linear("pressure p/p*"),
         curves,

@@ -26,15 +26,15 @@ pub fn readings(comparison: &Comparison) -> String {
     for (name, inside, answer, radii) in blocks {
         let mut lead = [name.to_owned(), inside, number(answer.penetration)];
         for (level, &circle) in answer.levels.iter().zip(radii) {
-            let length = |x: f64| if x.is_finite() { number(x) } else { "–".to_owned() };
+            let value = |x: f64| if x.is_finite() { number(x) } else { "–".to_owned() };
             let cells = [
                 level.level.to_string(),
                 number(level.load),
                 percent(level.load_share),
-                number(level.max_pressure),
-                length(level.contact_radius.filter(|_| level.load > 0.0).unwrap_or(f64::NAN))
+                value(level.finite_peak().unwrap_or(f64::NAN)),
+                value(level.contact_radius.filter(|_| level.load > 0.0).unwrap_or(f64::NAN))
                     + if level.ring { " (ring)" } else { "" },
-                length(circle),
+                value(circle),
             ];
             rows.push([&lead[..], &cells[..]].concat());
             lead = [const { String::new() }; 3];

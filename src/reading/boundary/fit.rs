@@ -245,9 +245,7 @@ impl Fit {
         // A larger contact moves its outer rim out and that of a hole in.
         let sign = if self.rim == Rim::Outer { reach } else { -reach };
         let shifts: Vec<f64> = (0..ANGLES).map(|index| sign * series(&c[count..2 * count], angle(index))).collect();
-        // One round moves the edge by one spacing at most; all of it in proportion, so that it stays smooth.
-        let largest = shifts.iter().fold(0.0, |most: f64, shift| most.max(shift.abs()));
-        let part = (scale.spacing / largest).min(1.0);
-        Some(radii.iter().zip(shifts).map(|(radius, shift)| radius + part * shift).collect())
+        // One round moves the edge by one spacing at most.
+        Some(closed_line::moved(radii, &shifts, scale.spacing))
     }
 }

@@ -22,6 +22,13 @@ pub struct Polar {
     pub hole: bool,
 }
 
+impl Polar {
+    /// A sample at `[x, y]` from the axis.
+    pub fn new([x, y]: [f64; 2], p: f64, opening: f64, hole: bool) -> Self {
+        Self { r: x.hypot(y), theta: y.atan2(x), p, opening, hole }
+    }
+}
+
 /// Grid and edge behind the samples of a contact.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale<'a> {

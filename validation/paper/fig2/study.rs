@@ -184,7 +184,6 @@ fn outlines(found: &Found) -> Result<Data, StudyError> {
 fn picture(found: &Found, outlines: &Data) -> Figure {
     let pressure = Chart {
         title: "(a)".to_owned(),
-        caption: Vec::new(),
         x: Axis::linear("x/l, from level 2 to level 1"),
         y: Axis::linear("p₃/E₂"),
         curves: vec![curve("", Style::Line, 0, found.profile.clone())],
@@ -193,7 +192,6 @@ fn picture(found: &Found, outlines: &Data) -> Figure {
     let line = |x: usize, y: usize| outlines.rows.iter().map(move |row| [row[x], row[y]]);
     let spots = Chart {
         title: "(b)".to_owned(),
-        caption: Vec::new(),
         // As wide as high on the sheet.
         x: Axis::linear("x/l").from_to(-reach / 0.68, reach / 0.68),
         y: Axis::linear("y/l").from_to(-reach, reach),

@@ -247,7 +247,7 @@ fn twelve_percent(
 }
 
 fn chart(title: &str, curves: Vec<Curve>) -> Chart {
-    Chart { title: title.to_owned(), caption: Vec::new(), x: Axis::linear("x/l"), y: Axis::linear("p/E₂"), curves }
+    Chart { title: title.to_owned(), x: Axis::linear("x/l"), y: Axis::linear("p/E₂"), curves }
 }
 
 fn picture(courses: &[[Course; 2]], elements: &Data, counted: &Data) -> Figure {
@@ -259,7 +259,6 @@ fn picture(courses: &[[Course; 2]], elements: &Data, counted: &Data) -> Figure {
     }
     let loads = Chart {
         title: "(a) level 3, converged".to_owned(),
-        caption: Vec::new(),
         x: Axis::log("p̄/E₂"),
         y: Axis::log("(max − min)/max"),
         curves,
@@ -271,7 +270,6 @@ fn picture(courses: &[[Course; 2]], elements: &Data, counted: &Data) -> Figure {
     let solutions = (1..=3).map(|m| curve(format!("level {m}, localized"), Style::Markers, m, line(counted, m)));
     let counted = Chart {
         title: "(b) counted in square elements".to_owned(),
-        caption: Vec::new(),
         x: Axis::linear("elements across the contact of level 1"),
         y: Axis::linear("(max − min)/max").from_to(0.0, 0.3),
         curves: circles.chain(solutions).collect(),

@@ -219,7 +219,6 @@ fn picture(curves: &Curves, what: &str) -> Figure {
     };
     let panel = |title: &str, curves: Vec<Curve>| Chart {
         title: title.to_owned(),
-        caption: Vec::new(),
         x: Axis::linear("p̄/E₂"),
         y: Axis::linear("wₐ/l"),
         curves,

@@ -179,7 +179,6 @@ fn picture(loads: &[f64], three: &Course, one: &Course) -> Figure {
         |values: &[f64]| loads.iter().copied().zip(values.iter().copied()).map(<[f64; 2]>::from).collect::<Vec<_>>();
     let panel = |title: &str, y: &str, curves| Chart {
         title: title.to_owned(),
-        caption: Vec::new(),
         x: Axis::linear("p̄/E₂"),
         y: Axis::linear(y),
         curves,

@@ -147,11 +147,5 @@ fn lines(title: String, parts: &[Part; 2], quantity: usize) -> Chart {
         curve(format!("{level:.3}").replace('-', "−"), Style::Line, i % 7, points)
     });
     let curves = curves.chain([curve("", Style::Dotted, 0, [[-WIDE, 1.0], [WIDE, 1.0]])]).collect();
-    Chart {
-        title,
-        caption: Vec::new(),
-        x: Axis::linear("x/a").from_to(-WIDE, WIDE),
-        y: Axis::linear("z/h").from_to(DEEP, 0.0),
-        curves,
-    }
+    Chart { title, x: Axis::linear("x/a").from_to(-WIDE, WIDE), y: Axis::linear("z/h").from_to(DEEP, 0.0), curves }
 }

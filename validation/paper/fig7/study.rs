@@ -174,7 +174,6 @@ fn picture(a: &Under, b: &Under) -> Figure {
         };
         Chart {
             title: format!("{title} {}", if column == 1 { "σᵣ" } else { "τ₁" }),
-            caption: Vec::new(),
             x: Axis::linear("r/a, from level 1 toward level 2").from_to(0.0, 3.5),
             y: Axis::linear(if column == 1 { "σᵣ/E₂" } else { "τ₁/E₂" }),
             curves: (0..3).map(line).collect(),

@@ -260,7 +260,6 @@ fn picture(peaks: &[Peaks; 2], thin: &[Peaks; 2]) -> Figure {
         let over_e1 = thin[k].mutual.map(|p| p / thin[k].model.coating_young());
         Chart {
             title: title.to_owned(),
-            caption: Vec::new(),
             x: Axis::linear("level").from_to(0.8, 3.2),
             y: Axis::linear("largest pressure over E₂").from_to(0.0, 0.4),
             curves: vec![
