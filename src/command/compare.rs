@@ -69,7 +69,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let comparison = comparison.map_err(Failure::refused)?;
 
     write_text(&claim.staging().join("compare.json"), &compare_json(&comparison, &case, loads.len()))?;
-    pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, case.problem(), &comparison))?;
+    pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &comparison))?;
     interruption::publish(claim, &folder, common.quiet)?;
     if !common.quiet {
         let mut out = terminal::out();

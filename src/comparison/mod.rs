@@ -14,9 +14,8 @@ pub use task::{ComparisonError, Task};
 
 use crate::body::Depth;
 use crate::localized::{CircleRadius, Stop};
-use crate::reading::{FEW_SAMPLES, Reading};
+use crate::reading::FEW_SAMPLES;
 use crate::run::StepRecord;
-use crate::spectral::Step;
 use crate::stress::State;
 
 /// One circle held against the spectral solution.
@@ -62,18 +61,12 @@ impl StressPair {
 /// Both solutions of a load step.
 #[derive(Debug)]
 pub struct Comparison {
-    /// Spectral solution.
-    pub step: Step,
-    /// What is read off it, with its estimated discretisation errors.
-    pub reading: Reading,
+    /// What was asked for.
+    pub task: Task,
+    /// The spectral solution with its estimated discretisation errors, as a run records it.
+    pub spectral: StepRecord,
     /// Change from half the points.
     pub grid_error: Deviation,
-    /// The rule asked for: how large the circles are.
-    pub rule: CircleRadius,
-    /// Whether the indenters around the one looked at act on it.
-    pub mutual_effect: bool,
-    /// Elements across the largest contact.
-    pub elements: usize,
     /// Circles under the rule asked for.
     pub circles: Vec<CircleComparison>,
     /// The same circles under the other rule.
@@ -86,21 +79,16 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// The spectral solution as a run records it.
-    pub fn spectral(&self) -> StepRecord {
-        StepRecord::new(&self.step, self.reading.clone())
-    }
-
     /// Whether the spectral solution and all circles under the rule asked for have converged.
     pub fn converged(&self) -> bool {
-        self.spectral().converged() && self.circles.iter().all(|circle| circle.stop == Stop::Converged)
+        self.spectral.converged() && self.circles.iter().all(|circle| circle.stop == Stop::Converged)
     }
 
     /// The circles under each rule: the one asked for, the other one, the lattice sum.
     pub fn rules(&self) -> [(CircleRadius, &[CircleComparison]); 3] {
         [
-            (self.rule, &self.circles),
-            (self.rule.other(), &self.other_rule),
+            (self.task.rule, &self.circles),
+            (self.task.rule.other(), &self.other_rule),
             (CircleRadius::LatticeSum, self.lattice_sum.as_slice()),
         ]
     }
@@ -113,10 +101,11 @@ impl Comparison {
             .filter(|(_, circle)| circle.stop != Stop::Converged)
             .map(|(rule, circle)| format!("{} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop))
             .collect();
-        if !self.spectral().converged() {
-            warnings.push(format!("the spectral solution has not converged: {}", self.step.report));
+        if !self.spectral.converged() {
+            warnings.push(format!("the spectral solution has not converged: {}", self.spectral.report));
         }
-        let samples = self.reading.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
+        let samples =
+            self.spectral.reading.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
         let fewest = samples.fold(f64::INFINITY, f64::min);
         if fewest < FEW_SAMPLES {
             warnings.push(format!(

@@ -9,6 +9,7 @@ use crate::localized::stress::LocalizedField;
 use crate::localized::{self, CircleRadius, Coupled, Localized, NoIndenters, Setup, Stop};
 use crate::problem::Problem;
 use crate::reading::Reading;
+use crate::run::StepRecord;
 use crate::spectral::{Settings, Solver, Step};
 use crate::stress::StressField;
 use std::sync::Arc;
@@ -112,19 +113,8 @@ impl Task {
         }
         progress("stresses");
         let stresses = self.stresses(indenters, &last, &step);
-        let Self { rule, mutual_effect, elements, .. } = *self;
-        Ok(Comparison {
-            step,
-            reading,
-            grid_error,
-            rule,
-            mutual_effect,
-            elements,
-            circles,
-            other_rule,
-            lattice_sum,
-            stresses,
-        })
+        let (task, spectral) = (self.clone(), StepRecord::new(&step, reading));
+        Ok(Comparison { task, spectral, grid_error, circles, other_rule, lattice_sum, stresses })
     }
 
     /// What the localized method is asked for with so many indenters inside the circles.

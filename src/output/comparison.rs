@@ -9,18 +9,19 @@ use serde_json::{Value, json};
 
 /// A comparison of the load step `step` (from 1) of a case, as indented JSON. What is infinite is null.
 pub fn compare_json(comparison: &Comparison, case: &Case, step: usize) -> String {
+    let task = &comparison.task;
     let circles = |circles: &[CircleComparison]| circles.iter().map(circle).collect::<Value>();
-    let other = json!({ "rule": comparison.rule.other(), "localized": circles(&comparison.other_rule) });
+    let other = json!({ "rule": task.rule.other(), "localized": circles(&comparison.other_rule) });
     let file = json!({
         "percoat": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "case": case,
         "step": step,
-        "spectral": comparison.spectral(),
+        "spectral": comparison.spectral,
         "spectral_error": comparison.grid_error,
-        "rule": comparison.rule,
-        "mutual_effect": comparison.mutual_effect,
-        "elements": comparison.elements,
+        "rule": task.rule,
+        "mutual_effect": task.mutual_effect,
+        "elements": task.elements,
         "localized": circles(&comparison.circles),
         "other_rule": Some(other).filter(|_| !comparison.other_rule.is_empty()),
         "lattice_sum": comparison.lattice_sum.as_ref().map(circle),

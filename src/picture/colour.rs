@@ -70,41 +70,11 @@ pub enum ColourMap {
     Diverging,
 }
 
-/// Viridis at equal steps.
-const VIRIDIS: [[u8; 3]; 33] = [
-    [68, 1, 84],
-    [71, 13, 96],
-    [72, 24, 106],
-    [72, 35, 116],
-    [71, 45, 123],
-    [69, 55, 129],
-    [66, 64, 134],
-    [62, 73, 137],
-    [59, 82, 139],
-    [55, 91, 141],
-    [51, 99, 141],
-    [47, 107, 142],
-    [44, 114, 142],
-    [41, 122, 142],
-    [38, 130, 142],
-    [35, 137, 142],
-    [33, 145, 140],
-    [31, 152, 139],
-    [31, 160, 136],
-    [34, 167, 133],
-    [40, 174, 128],
-    [50, 182, 122],
-    [63, 188, 115],
-    [78, 195, 107],
-    [94, 201, 98],
-    [112, 207, 87],
-    [132, 212, 75],
-    [152, 216, 62],
-    [173, 220, 48],
-    [194, 223, 35],
-    [216, 226, 25],
-    [236, 229, 27],
-    [253, 231, 37],
+/// Viridis at equal steps, 0xRRGGBB.
+const VIRIDIS: [u32; 33] = [
+    0x440154, 0x470d60, 0x48186a, 0x482374, 0x472d7b, 0x453781, 0x424086, 0x3e4989, 0x3b528b, 0x375b8d, 0x33638d,
+    0x2f6b8e, 0x2c728e, 0x297a8e, 0x26828e, 0x23898e, 0x21918c, 0x1f988b, 0x1fa088, 0x22a785, 0x28ae80, 0x32b67a,
+    0x3fbc73, 0x4ec36b, 0x5ec962, 0x70cf57, 0x84d44b, 0x98d83e, 0xaddc30, 0xc2df23, 0xd8e219, 0xece51b, 0xfde725,
 ];
 
 impl ColourMap {
@@ -119,8 +89,8 @@ impl ColourMap {
                 let place = t * (VIRIDIS.len() - 1) as f64;
                 let before = (place as usize).min(VIRIDIS.len() - 2);
                 let rest = place - before as f64;
-                let mix =
-                    |k: usize| (1.0 - rest) * f64::from(VIRIDIS[before][k]) + rest * f64::from(VIRIDIS[before + 1][k]);
+                let part = |index: usize, k: usize| f64::from(VIRIDIS[index].to_be_bytes()[k + 1]);
+                let mix = |k: usize| (1.0 - rest) * part(before, k) + rest * part(before + 1, k);
                 Colour([0, 1, 2].map(|k| mix(k).round() as u8))
             }
             Self::Diverging => {

@@ -123,15 +123,16 @@ fn coated(
         mean: MeanStress::Confined,
     };
     let compared = task.compare([POINTS; 2], &mut |_| ())?;
-    if !compared.step.report.stop.solved() {
-        return Err(format!("{name}: {}", compared.step.report).into());
+    if !compared.spectral.report.stop.solved() {
+        return Err(format!("{name}: {}", compared.spectral.report).into());
     }
     if let Some(circle) =
         compared.circles.iter().chain(&compared.other_rule).find(|circle| circle.stop != Stop::Converged)
     {
         return Err(format!("{name}, {} indenters: {}", circle.indenters, circle.stop).into());
     }
-    let leftover = Leftover::new(&lattice, half_space, SHELLS[1], Answer::from(&compared.reading), mean_pressure)?;
+    let leftover =
+        Leftover::new(&lattice, half_space, SHELLS[1], Answer::from(&compared.spectral.reading), mean_pressure)?;
     let (data, shares) = exchange(key, &compared, &leftover)?;
     let shells = leftover.shells(SHELLS)?;
     for check in checks(name, &compared, shares, &data, &shells)? {
@@ -172,8 +173,8 @@ fn exchange(key: &'static str, compared: &Comparison, leftover: &Leftover) -> Re
     let (mut data, mut pairs) = (Data::new(key, &columns), Vec::new());
     for (circle, lattice_sum) in compared.other_rule.iter().zip(&compared.circles) {
         let expected = leftover.of(circle.indenters)?;
-        let penetration = circle.answer.penetration / compared.reading.penetration - 1.0;
-        for (m, (level, spectral)) in circle.answer.levels.iter().zip(&compared.reading.levels).enumerate() {
+        let penetration = circle.answer.penetration / compared.spectral.reading.penetration - 1.0;
+        for (m, (level, spectral)) in circle.answer.levels.iter().zip(&compared.spectral.reading.levels).enumerate() {
             let pair = (level.load_share - spectral.load_share, expected.shares[m]);
             let number = [circle.indenters, level.level].map(|n| n as f64);
             let [own, whole] = [level.load, lattice_sum.answer.levels[m].load].map(|load| load / spectral.load - 1.0);
@@ -200,7 +201,7 @@ fn checks(
     let scale = scale.fold(0.0, |most: f64, stress| most.max(stress.abs()));
     let stress = compared.stresses.iter().map(StressPair::difference).fold(f64::NAN, f64::max) / scale;
     let penetrations = data.column("penetration").into_iter().zip(data.column("penetration_predicted"));
-    let least = compared.reading.levels.iter().map(|level| level.load_share).fold(f64::INFINITY, f64::min);
+    let least = compared.spectral.reading.levels.iter().map(|level| level.load_share).fold(f64::INFINITY, f64::min);
     // Peaks and radii follow the load with a power below ½ on any layers.
     let (load, follows) = (shells.worst + SHARE / least, 0.5 * (shells.worst + SHARE / least) + MESH);
     let balanced = |of: fn(&CircleComparison) -> f64| {

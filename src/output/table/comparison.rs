@@ -17,7 +17,7 @@ pub fn readings(comparison: &Comparison) -> String {
         "contact radius",
         "circle",
     ];
-    let spectral = Answer::from(&comparison.reading);
+    let spectral = Answer::from(&comparison.spectral.reading);
     let nowhere = vec![f64::INFINITY; spectral.levels.len()];
     let circles = comparison.circles.iter();
     let blocks = std::iter::once(("spectral", String::new(), &spectral, &nowhere))
@@ -45,7 +45,7 @@ pub fn readings(comparison: &Comparison) -> String {
 
 /// How many indenters a circle has, where they act on each other.
 fn inside(comparison: &Comparison, circle: &CircleComparison) -> String {
-    if comparison.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() }
+    if comparison.task.mutual_effect { circle.indenters.to_string() } else { "alone".to_owned() }
 }
 
 /// Differences from the spectral solution circle by circle, for the rules, and what the meshes contribute.
@@ -60,7 +60,7 @@ pub fn differences(comparison: &Comparison) -> String {
     };
     let mut rows = Vec::new();
     for (rule, circles) in comparison.rules() {
-        let mut name = if comparison.mutual_effect { rule.name() } else { "no mutual effect" }.to_owned();
+        let mut name = if comparison.task.mutual_effect { rule.name() } else { "no mutual effect" }.to_owned();
         for circle in circles {
             rows.push(row(std::mem::take(&mut name), inside(comparison, circle), &circle.difference));
         }
