@@ -1,7 +1,5 @@
 //! The top of a smooth peak between equally spaced values.
 
-use super::least_squares;
-
 /// How far the paraboloid c₀ + c₁i + c₂j + c₃i² + c₄ij + c₅j² through the values at i, j = −`half`, …, `half` (least
 /// squares) rises from its middle to its top, with an error that falls with the fourth power of the spacing.
 ///
@@ -11,16 +9,21 @@ pub fn rise(half: i32, value: impl Fn(i32, i32) -> f64) -> Option<f64> {
     if !steps().all(|(i, j)| value(i, j) > 0.0) {
         return None;
     }
-    let row = |(i, j): (i32, i32)| {
-        let (x, y) = (f64::from(i), f64::from(j));
-        (vec![1.0, x, y, x * x, x * y, y * y], value(i, j))
+    // On these places 1, i, j, ij, i² − m and j² − m are orthogonal, m the mean of i².
+    let sum = |weight: &dyn Fn(f64, f64) -> f64| -> f64 {
+        steps().map(|(i, j)| weight(f64::from(i), f64::from(j)) * value(i, j)).sum()
     };
-    let c = least_squares::fit(6, steps().map(row))?;
-    let determinant = 4.0 * c[3] * c[5] - c[4] * c[4];
-    let i = (c[4] * c[2] - 2.0 * c[5] * c[1]) / determinant;
-    let j = (c[4] * c[1] - 2.0 * c[3] * c[2]) / determinant;
-    let is_top = c[3] < 0.0 && determinant > 0.0 && i.abs() <= 1.0 && j.abs() <= 1.0;
-    is_top.then_some(0.5 * (c[1] * i + c[2] * j))
+    let [squares, fourths] = [2, 4].map(|power| (-half..=half).map(|i| f64::from(i).powi(power)).sum::<f64>());
+    let count = f64::from(2 * half + 1);
+    let m = squares / count;
+    let [c1, c2] = [sum(&|i, _| i), sum(&|_, j| j)].map(|sum| sum / (count * squares));
+    let [c3, c5] = [sum(&|i, _| i * i - m), sum(&|_, j| j * j - m)].map(|sum| sum / (count * (fourths - m * squares)));
+    let c4 = sum(&|i, j| i * j) / (squares * squares);
+    let determinant = 4.0 * c3 * c5 - c4 * c4;
+    let i = (c4 * c2 - 2.0 * c5 * c1) / determinant;
+    let j = (c4 * c1 - 2.0 * c3 * c2) / determinant;
+    let is_top = c3 < 0.0 && determinant > 0.0 && i.abs() <= 1.0 && j.abs() <= 1.0;
+    is_top.then_some(0.5 * (c1 * i + c2 * j))
 }
 
 #[cfg(test)]

@@ -22,7 +22,8 @@ pub struct Reading {
     pub contact_fraction: f64,
     /// What the reading of the fraction says of its own error.
     pub contact_fraction_uncertainty: f64,
-    /// Largest pressure, between the samples, in the unit of Young's modulus; what the grid resolves of it where it is infinite ([`Reading::singular`]).
+    /// Largest pressure, between the samples, in the unit of Young's modulus; what the grid resolves of it where it is
+    /// infinite ([`Reading::singular`]).
     pub max_pressure: f64,
     /// Number of contact spots in the cell; merged contacts are one.
     pub contact_spots: usize,

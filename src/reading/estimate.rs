@@ -98,8 +98,8 @@ fn between(
     if fine.levels.is_empty() {
         touching.push(fine.spot_resolution);
     }
-    // Below one sample the laws say no more than there. The whole is as good as the largest contact, the highest peak as the least resolved one; a topography has its
-    // typical spot.
+    // Below one sample the laws say no more than there. The whole is as good as the largest contact, the highest peak as
+    // the least resolved one; a topography has its typical spot.
     let largest = touching.iter().copied().fold(1.0, f64::max);
     let smallest = touching.iter().copied().fold(f64::INFINITY, f64::min).max(1.0);
     let loaded = fine.levels.iter().zip(exponents).filter(|(level, _)| level.load > 0.0);
