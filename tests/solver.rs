@@ -29,6 +29,8 @@ fn solutions_are_complementary_and_carry_their_load() {
         assert!((load / p.len() as f64 / case.pressure - 1.0).abs() < 1e-12);
         let shares: f64 = reading.levels.iter().map(|level| level.load_share).sum();
         assert!((shares - 1.0).abs() < 1e-12);
+        let peak = reading.levels.iter().map(|level| level.max_pressure).fold(0.0, f64::max);
+        assert_eq!(reading.max_pressure, peak, "the largest pressure is that of a level");
         let expected = &step.displacement() + &step.surface().initial_gap() - step.penetration();
         assert!(g.iter().zip(&expected).all(|(g, expected)| (g - expected).abs() < 1e-15));
         assert!(step.certificate.energy_gap < 2e-7 && step.certificate.load < 1e-12);

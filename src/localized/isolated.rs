@@ -11,7 +11,8 @@ use crate::load::Load;
 use crate::problem::Problem;
 use crate::reading::{LevelReading, Reading};
 
-/// Elements across the largest contact: radii and pressures to 1e-3, for pictures.
+/// Elements across the largest contact, for pictures: radii and pressures to 1e-3, radii to half an element where the
+/// pressure is heaped at the edge.
 const ELEMENTS: usize = 24;
 /// Period, in those of the system, at which indenters are taken for alone: only their cells have to hold the contacts.
 const APART: f64 = 6.0;

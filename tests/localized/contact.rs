@@ -3,7 +3,7 @@
 use crate::common::{PAPER, coated, one_level, paraboloid, solve};
 use crate::{alone, homogeneous, setup, two_layers};
 use percoat::localized::{CircleRadius, Localized, Setup, Stop};
-use percoat::{HalfSpace, Interface, Lattice, Load, Problem};
+use percoat::{Cell, HalfSpace, Indenters, Interface, Lattice, Level, Load, Problem, Shape};
 use std::f64::consts::PI;
 
 fn single(half_space: &HalfSpace) -> Localized {
@@ -32,6 +32,24 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
         assert!(fine.iter().all(|error| *error < 1e-4));
         // δ at 16 elements errs by less than the contact's outline promises, by chance.
         assert!(coarse.iter().all(|error| *error < 5e-3) && fine[1] < coarse[1] / 8.0);
+    }
+}
+
+/// On a plate that slides on its substrate the pressure is heaped within two elements of the edge, and no outline can be
+/// fitted: the elements are counted, to half of one. The contact of `cases/ring.toml` alone: a = 0.34982 by the spectral
+/// solver on 768 × 768 points of a lattice of period 4.
+#[test]
+fn a_contact_whose_pressure_is_heaped_at_its_edge_is_counted() {
+    let half_space = coated(100.0, 0.05, [0.3, 0.3], Interface::Frictionless);
+    let level = Level::new(Shape::Power { coefficient: 1.0, exponent: 4.0 }, 0.0).unwrap();
+    let indenters = one_level(Lattice::hexagonal(1.0, 1).unwrap(), level);
+    let localized = Localized::new(&Problem::new(indenters, half_space), 1).unwrap();
+    for elements in [24, 48] {
+        let solution = localized.solve(Load::MeanPressure(0.1), &alone(elements));
+        assert_eq!(solution.stop, Stop::Converged);
+        let (spot, radius) = (&solution.spots[0], solution.levels()[0].contact_radius.unwrap());
+        println!("{elements} elements: {radius}");
+        assert!((radius - 0.34982).abs() < 0.5 * spot.mesh.size, "{elements} elements of {}: {radius}", spot.mesh.size);
     }
 }
 
@@ -171,6 +189,21 @@ fn contacts_that_meet_are_reported() {
     // At p̄ = 0.4 E* spots are hexagons that fill nine tenths of the cell and still stand apart.
     assert_eq!(localized.solve(Load::MeanPressure(0.4), &setup(7, 24)).stop, Stop::Converged);
     assert_eq!(localized.solve(Load::MeanPressure(1.2), &setup(7, 24)).stop, Stop::Merged);
+}
+
+/// A wide level at half the period, and a small one that stands apart in the middle between its rows.
+#[test]
+fn only_contacts_that_meet_have_merged() {
+    let cell = Cell::new([1.0, 0.0], [0.0, 6.0]).unwrap();
+    let lattice = Lattice::new(cell, vec![vec![[0.0, 0.0]], vec![[0.5, 0.5]]]).unwrap();
+    let indenters = Indenters::new(lattice, vec![paraboloid(2.0, 0.3), paraboloid(0.1, 0.28)]).unwrap();
+    let localized = Localized::new(&Problem::new(indenters, homogeneous()), 1).unwrap();
+    let solution = localized.solve(Load::MeanPressure(0.12), &setup(1, 24));
+    println!("{solution}");
+    assert_eq!(solution.stop, Stop::Merged);
+    let [wide, small] = &solution.levels()[..] else { panic!("two levels") };
+    assert!(wide.merged && wide.contact_radius.is_none(), "{wide:?}");
+    assert!(!small.merged && small.load > 0.0 && small.contact_radius.is_some(), "{small:?}");
 }
 
 /// χ = 2, h/l = 0.5, ν 0.2/0.3, R = 0.8 l, steps 0.01 l, p̄ = 0.03.
