@@ -3,8 +3,9 @@
 mod common;
 
 use common::{PAPER, one_level, paraboloid};
-use percoat::run::{End, Recorder, Run, RunError, Sampling, StepRecord, StressRequest, change};
+use percoat::run::{End, Outcome, Recorder, Run, RunError, Sampling, StepRecord, StressRequest, change};
 use percoat::{Cell, Lattice, Load, Problem, Solver, Step, StressField};
+use std::convert::Infallible;
 
 /// Writes down what it hears, and cannot go on at the step `fails`. It has room for so many points along a side.
 struct Diary {
@@ -182,4 +183,25 @@ fn a_penetration_beyond_complete_contact_is_refused() {
     };
     assert!(run(0.99).is_ok());
     assert!(matches!(run(1.01), Err(RunError::BeyondFullContact(_))));
+}
+
+/// A clock that goes on by a second whenever somebody looks.
+#[derive(Default)]
+struct Ticking(std::cell::Cell<f64>);
+
+impl Recorder for Ticking {
+    type Error = Infallible;
+
+    fn clock(&self) -> Option<f64> {
+        self.0.set(self.0.get() + 1.0);
+        Some(self.0.get())
+    }
+}
+
+#[test]
+fn how_long_a_step_takes_is_told_by_the_recorder_s_clock() {
+    let seconds = |outcome: Outcome| outcome.steps.iter().map(|step| step.seconds).collect::<Vec<_>>();
+    let run = run(Sampling::Points([48, 48]));
+    assert_eq!(seconds(run.solve(&mut Ticking::default()).unwrap()), [Some(1.0); 2]);
+    assert_eq!(seconds(run.solve(&mut ()).unwrap()), [None; 2], "without a clock");
 }

@@ -5,9 +5,9 @@ use super::interruption::{self, Saved};
 use super::options::Common;
 use super::terminal::{self, tell};
 use indicatif::{ProgressBar, ProgressStyle};
-use percoat::output::{OutputError, Recording, RunFolder};
+use percoat::output::{Clock, OutputError, Recording, RunFolder};
 use percoat::run::{Recorder, Run, StepRecord};
-use percoat::{Progress, Section, Solver, Step, StressField};
+use percoat::{Load, Progress, Section, Solver, Step, StressField};
 
 /// Records a run and shows how far it is.
 pub struct Shown<'a> {
@@ -21,14 +21,19 @@ pub struct Shown<'a> {
 }
 
 impl<'a> Shown<'a> {
-    /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it.
-    pub fn new(claim: &'a RunFolder, run: &Run, case: String, allowed: Allowed<'a>, common: &'a Common) -> Self {
-        let recording = Recording::new(claim, run, case);
+    /// Of a run that records itself, in the folder it has claimed.
+    pub fn new(
+        recording: Recording<'a>,
+        claim: &'a RunFolder,
+        run: &Run,
+        allowed: Allowed<'a>,
+        common: &'a Common,
+    ) -> Self {
         Self { recording, claim, allowed, common, steps: run.loads.len(), progress: ProgressBar::hidden() }
     }
 
-    /// Gathers the fields of all steps; what the section shows of the last one.
-    pub fn finish(self) -> Result<Option<Section>, OutputError> {
+    /// As [`Recording::finish`].
+    pub fn finish(self) -> Result<(Option<Section>, Clock), OutputError> {
         self.progress.finish_and_clear();
         self.recording.finish()
     }
@@ -71,7 +76,16 @@ impl Recorder for Shown<'_> {
         self.progress.set_message(format!("iteration {}, ε = {:.1e}", progress.iteration, progress.residual));
     }
 
+    fn load(&mut self, load: Load) {
+        self.recording.load(load);
+    }
+
+    fn clock(&self) -> Option<f64> {
+        self.recording.clock()
+    }
+
     fn stresses(&mut self) {
+        self.recording.stresses();
         self.progress.set_message("stresses");
     }
 

@@ -13,17 +13,17 @@ use indicatif::ProgressBar;
 use percoat::case::plausibility;
 use percoat::case::resources::Job;
 use percoat::output::summary::{curve, summary};
-use percoat::output::{RunFolder, table, write_text};
+use percoat::output::{Clock, Recording, RunFolder, table, write_text};
 use percoat::picture::Snapshot;
 use percoat::run::StepRecord;
 use std::io::Write;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Ending, Failure> {
+    let clock = Clock::start();
     let (case, name) = read_case(case, &common.set)?;
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
-    let started = Instant::now();
     let run = case.run();
     let job = Job::Solve { pictures: pictures.wanted() };
     let allowed = Allowed::new(&case, &folder, job)?;
@@ -31,9 +31,10 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     interruption::watch();
     let claim = RunFolder::claim(&folder, may_write(&case, run.loads.len(), pictures))?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
-    let mut recording = Shown::new(&claim, &run, case.to_toml(), allowed, common);
+    let recording = Recording::new(&claim, &run, case.to_toml(), clock);
+    let mut recording = Shown::new(recording, &claim, &run, allowed, common);
     let outcome = run.solve(&mut recording)?;
-    let section = recording.finish()?;
+    let (section, mut clock) = recording.finish()?;
     let ending = if outcome.converged() { Ending::Done } else { Ending::NotConverged };
     let warnings = [outcome.warnings, plausibility::of_case(&case)].concat();
     let steps = &outcome.steps;
@@ -43,13 +44,15 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         pictures.draw(&claim.staging(), &snapshot, section.as_ref(), steps)?;
         spinner.finish_and_clear();
     }
-    let summary = summary(&case, &warnings, outcome.change, steps);
+    let timing = clock.timing();
+    let summary = summary(&case, &warnings, outcome.change, steps, timing);
     write_text(&claim.staging().join("summary.json"), &summary)?;
     write_text(&claim.staging().join("curve.csv"), &curve(steps))?;
     interruption::publish(claim, &folder, common.quiet)?;
     if !common.quiet {
         print(&case.title, steps, outcome.change)?;
-        writeln!(terminal::out(), "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
+        let (seconds, parts) = (clock.seconds(), table::timing(&timing));
+        writeln!(terminal::out(), "{seconds:.2} s ({parts}); written to {}", folder.display())?;
         for warning in &warnings {
             tell!("warning: {warning}");
         }

@@ -24,6 +24,7 @@
 //! gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone, and
 //! a single study those of its own folder ([`Scope`]).
 
+mod clock;
 mod comparison;
 mod fields;
 mod folder;
@@ -41,6 +42,7 @@ pub mod summary;
 pub mod table;
 mod volume;
 
+pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
 pub use folder::{Plan, RunFolder};
 pub use layout::FolderError;

@@ -1,9 +1,11 @@
 //! What a run leaves on disk while it goes on: its case, every finished step with its fields, and stresses.
 
+use super::clock::{Clock, Phase};
 use super::fields::Fields;
 use super::steps_log::StepsLog;
 use super::stress::Stresses;
 use super::{OutputError, RunFolder, write_text};
+use crate::load::Load;
 use crate::run::{Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Solver, Step};
 use crate::stress::{Section, StressField};
@@ -17,6 +19,7 @@ pub struct Recording<'a> {
     /// Content of `case.toml`.
     case: String,
     stress: Option<StressRequest>,
+    clock: Clock,
     /// None before the first grid.
     files: Option<Files>,
     set_aside: Option<PathBuf>,
@@ -33,9 +36,9 @@ struct Files {
 }
 
 impl<'a> Recording<'a> {
-    /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it.
-    pub fn new(claim: &'a RunFolder, run: &Run, case: String) -> Self {
-        Self { claim, case, stress: run.stress.clone(), files: None, set_aside: None }
+    /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it. The clock goes on.
+    pub fn new(claim: &'a RunFolder, run: &Run, case: String, clock: Clock) -> Self {
+        Self { claim, case, stress: run.stress.clone(), clock, files: None, set_aside: None }
     }
 
     /// Number of load steps that are finished on the present grid.
@@ -48,17 +51,19 @@ impl<'a> Recording<'a> {
         self.set_aside.as_deref()
     }
 
-    /// Gathers the fields of all steps; what the section shows of the last one.
+    /// Gathers the fields of all steps; what the section shows of the last one, and the clock, busy with
+    /// [output](Phase::Output).
     ///
     /// # Errors
     /// [`OutputError`] when an archive cannot be written.
     ///
     /// # Panics
     /// When nothing has been recorded.
-    pub fn finish(self) -> Result<Option<Section>, OutputError> {
+    pub fn finish(mut self) -> Result<(Option<Section>, Clock), OutputError> {
+        self.clock.turn(Phase::Output);
         let Files { fields, stresses, .. } = self.files.expect(BEGUN);
         fields.finish()?;
-        stresses.map_or(Ok(None), Stresses::finish)
+        Ok((stresses.map_or(Ok(None), Stresses::finish)?, self.clock))
     }
 }
 
@@ -68,6 +73,7 @@ impl Recorder for Recording<'_> {
     type Error = OutputError;
 
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
+        self.clock.turn(Phase::Output);
         self.files = None;
         let folder = self.claim.staging();
         self.set_aside = self.claim.begin_finer()?;
@@ -76,17 +82,32 @@ impl Recorder for Recording<'_> {
         let stresses = self.stress.clone().map(|request| Stresses::new(&folder, request, half_space.clone()));
         let fields = Fields::new(&folder, Arc::clone(solver.surface()))?;
         self.files = Some(Files { fields, stresses: stresses.transpose()?, log: StepsLog::new(&folder), steps: 0 });
+        self.clock.turn(Phase::Setup);
         Ok(())
     }
 
+    fn load(&mut self, _load: Load) {
+        self.clock.turn(Phase::Solve);
+    }
+
+    fn stresses(&mut self) {
+        self.clock.turn(Phase::Stress);
+    }
+
+    fn clock(&self) -> Option<f64> {
+        Some(self.clock.seconds())
+    }
+
     fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
+        self.clock.turn(Phase::Output);
         let files = self.files.as_mut().expect(BEGUN);
         files.fields.add(step, record.reading.mean_pressure)?;
         if let (Some(stresses), Some(field)) = (&mut files.stresses, field) {
-            stresses.add(field)?;
+            stresses.add(field, &mut self.clock)?;
         }
         files.log.add(record)?;
         files.steps += 1;
+        self.clock.turn(Phase::Setup);
         Ok(())
     }
 }
@@ -113,10 +134,10 @@ mod tests {
         let run = Run { stress: Some(planes), ..run };
         let place = tempfile::tempdir().unwrap();
         let claim = RunFolder::claim(place.path(), Plan::new(Writer::Solve)).unwrap();
-        let mut recording = Recording::new(&claim, &run, "title = \"\"\n".to_owned());
+        let mut recording = Recording::new(&claim, &run, "title = \"\"\n".to_owned(), Clock::start());
         run.solve(&mut recording).unwrap();
         assert_eq!((recording.steps(), recording.set_aside()), (2, None));
-        assert!(recording.finish().unwrap().is_none(), "no section was asked for");
+        assert!(recording.finish().unwrap().0.is_none(), "no section was asked for");
         let files = ["case.toml", "contact.npz", "stress.npz", "steps.jsonl"].map(|name| claim.staging().join(name));
         assert!(files.iter().all(|file| file.is_file()));
         assert_eq!(std::fs::read_to_string(&files[3]).unwrap().lines().count(), 2);

@@ -1,6 +1,7 @@
 //! `stress.npz`: stresses and displacements on planes, on a vertical section and at points, for every load step; and a
 //! VTK file of the volume for each.
 
+use super::clock::{Clock, Phase};
 use super::steps::StepArrays;
 use super::{OutputError, write_volume};
 use crate::body::{Depth, HalfSpace};
@@ -29,29 +30,38 @@ impl Stresses {
         Ok(Self { folder: folder.to_owned(), arrays, request, half_space, section: None })
     }
 
-    /// Puts the stresses of the next step on disk, one plane at a time.
-    pub(super) fn add(&mut self, field: &StressField) -> Result<(), OutputError> {
+    /// Puts the stresses of the next step on disk, one plane at a time; the clock is told what is computing and what is
+    /// writing, but for a volume, which is both at once.
+    pub(super) fn add(&mut self, field: &StressField, clock: &mut Clock) -> Result<(), OutputError> {
         let Self { folder, arrays, request, half_space, .. } = self;
         let step = arrays.next_step();
         for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
+            clock.turn(Phase::Stress);
             let plane = field.plane(depth, field.grid().points());
             let states = plane.states();
+            clock.turn(Phase::Output);
             add_states(arrays, "planes", Some(number), states.shape(), states.iter())?;
         }
         if let Some(cut) = &request.cut {
+            clock.turn(Phase::Stress);
             let section = field.section(&cut.line, &cut.depths(half_space));
+            clock.turn(Phase::Output);
             add_states(arrays, "section", None, section.states.shape(), section.states.iter())?;
             self.section = Some(section);
         }
         let points = request.points_at(half_space);
         if !points.is_empty() {
+            clock.turn(Phase::Stress);
             let states: Vec<State> = points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
+            clock.turn(Phase::Output);
             add_states(arrays, "points", None, &[states.len()], states.iter())?;
         }
         if let Some(volume) = request.volume {
+            clock.turn(Phase::Stress);
             let (path, depths) =
                 (folder.join(format!("stress.{step:04}.vts")), half_space.rows(volume.depth, volume.rows));
             write_volume(&path, field, &depths, [volume.points; 2])?;
+            clock.turn(Phase::Output);
         }
         Ok(())
     }

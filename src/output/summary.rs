@@ -1,17 +1,26 @@
 //! `summary.json` and `curve.csv`: every scalar of a run.
 
+use super::Timing;
 use crate::case::Case;
 use crate::run::StepRecord;
 use serde_json::{Value, json};
 
 /// A whole run as indented JSON; `accuracy`: the change between the two finest grids, where an accuracy was asked for.
-pub fn summary(case: &Case, warnings: &[String], accuracy: Option<f64>, steps: &[StepRecord]) -> String {
+/// Two runs of one case differ in `timing` and in the `seconds` of the steps alone.
+pub fn summary(
+    case: &Case,
+    warnings: &[String],
+    accuracy: Option<f64>,
+    steps: &[StepRecord],
+    timing: Timing,
+) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let mut summary = json!({ "percoat": version, "title": case.title, "case": case, "warnings": warnings });
     if let Some(accuracy) = accuracy {
         summary["accuracy"] = accuracy.into();
     }
     summary["steps"] = json!(steps);
+    summary["timing"] = json!(timing);
     format!("{summary:#}\n")
 }
 

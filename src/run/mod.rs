@@ -145,6 +145,8 @@ impl Run {
         for &load in &self.loads {
             // Its memory goes before the next one takes as much.
             drop(last.take());
+            recorder.load(load);
+            let began = recorder.clock();
             let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
             let mut record = StepRecord::new(&step, step.reading());
             let field = self.stress.as_ref().map(|request| {
@@ -154,6 +156,7 @@ impl Run {
             if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
                 record.stress = Some(StressReading::of(&step, &record.reading, field));
             }
+            record.seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
             recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;
             records.push(record);
             last = Some(step);

@@ -18,13 +18,16 @@ pub struct StepRecord {
     pub points: [usize; 2],
     /// Largest stresses, where stresses are asked for and there is contact.
     pub stress: Option<StressReading>,
+    /// Wall time of the solution, the readings and the largest stresses, seconds, by the [clock](super::Recorder::clock)
+    /// of the recorder; `None` where it has none.
+    pub seconds: Option<f64>,
 }
 
 impl StepRecord {
-    /// Of a step and what is read off it, without stresses.
+    /// Of a step and what is read off it, without stresses and time.
     pub fn new(step: &Step, reading: Reading) -> Self {
         let Step { report, certificate, convolutions, .. } = *step;
-        Self { reading, report, certificate, convolutions, points: step.grid().points(), stress: None }
+        Self { reading, report, certificate, convolutions, points: step.grid().points(), stress: None, seconds: None }
     }
 
     /// Whether the solution meets the tolerance. What is not a number compares as small as any, and does not.
@@ -57,7 +60,7 @@ impl serde::Serialize for StepRecord {
         use crate::spectral::Route;
         use serde::ser::SerializeStruct;
         let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 21)?;
+        let mut keys = serializer.serialize_struct("step", 22)?;
         keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
         keys.serialize_field("penetration", &reading.penetration)?;
         // Eq. (8): δ is measured from the mean plane of the deformed surface.
@@ -82,6 +85,10 @@ impl serde::Serialize for StepRecord {
         match &self.stress {
             Some(stress) => keys.serialize_field("stress", stress)?,
             None => keys.skip_field("stress")?,
+        }
+        match self.seconds {
+            Some(seconds) => keys.serialize_field("seconds", &seconds)?,
+            None => keys.skip_field("seconds")?,
         }
         keys.end()
     }

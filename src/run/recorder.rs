@@ -1,6 +1,7 @@
 //! What hears of a run while it goes on, and says whether it may.
 
 use super::StepRecord;
+use crate::load::Load;
 use crate::spectral::{Progress, Solver, Step};
 use crate::stress::StressField;
 use std::convert::Infallible;
@@ -22,6 +23,14 @@ pub trait Recorder {
     /// Ends the run.
     fn begin(&mut self, _solver: &Solver) -> Result<(), Self::Error> {
         Ok(())
+    }
+
+    /// A load step begins.
+    fn load(&mut self, _load: Load) {}
+
+    /// The time, seconds since any moment, for who wants to know how long a step takes: a run itself reads no clock.
+    fn clock(&self) -> Option<f64> {
+        None
     }
 
     /// An iteration on the finest grid is done.

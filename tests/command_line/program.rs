@@ -92,6 +92,16 @@ impl Folder {
         fs::read(self.0.join(name)).unwrap()
     }
 
+    /// A file without the times that no two runs share.
+    pub fn result(&self, name: &str) -> Vec<u8> {
+        timeless(name, self.bytes(name))
+    }
+
+    /// [`Self::files`] without the times that no two runs share.
+    pub fn results(&self) -> BTreeMap<String, Vec<u8>> {
+        self.files().into_iter().map(|(name, content)| (name.clone(), timeless(&name, content))).collect()
+    }
+
     pub fn summary(&self) -> Value {
         serde_json::from_str(&self.text("summary.json")).unwrap()
     }
@@ -103,6 +113,31 @@ impl Folder {
 
     pub fn contact(&self) -> Archive {
         Archive::open(&self.0.join("contact.npz"))
+    }
+}
+
+/// A file of a result without its times: `timing` of the summary, `seconds` of its steps and of the curve's rows.
+pub fn timeless(name: &str, content: Vec<u8>) -> Vec<u8> {
+    match name {
+        "summary.json" => {
+            let mut summary: Value = serde_json::from_slice(&content).unwrap();
+            summary.as_object_mut().unwrap().remove("timing").unwrap();
+            for step in summary["steps"].as_array_mut().unwrap() {
+                step.as_object_mut().unwrap().remove("seconds").unwrap();
+            }
+            summary.to_string().into_bytes()
+        }
+        "curve.csv" => {
+            let text = String::from_utf8(content).unwrap();
+            let at = text.lines().next().unwrap().split(',').position(|name| name == "seconds").unwrap();
+            let rest = |line: &str| {
+                let mut cells: Vec<&str> = line.split(',').collect();
+                cells.remove(at);
+                cells.join(",") + "\n"
+            };
+            text.lines().map(rest).collect::<String>().into_bytes()
+        }
+        _ => content,
     }
 }
 

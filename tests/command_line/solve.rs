@@ -1,6 +1,8 @@
 //! `percoat solve`: the table, the load steps, and what must not change the answer.
 
-use crate::program::{Desk, assert_close, number};
+use crate::program::{Desk, Folder, assert_close, number};
+use serde_json::Value;
+use std::time::Instant;
 
 #[test]
 fn without_a_case_the_default_is_solved_and_shown() {
@@ -76,7 +78,11 @@ fn an_accuracy_asked_for_is_reached_between_two_grids() {
     let coarser = desk.solve("coarser", &["--set", &format!("grid.points={}", points / 2)]).steps();
     let finer = desk.solve("finer", &["--set", &format!("grid.points={points}")]);
     assert!(finer.summary().get("accuracy").is_none(), "no accuracy without a second grid");
-    assert_eq!(finer.steps(), refined.steps());
+    let timeless = |mut steps: Vec<Value>| {
+        steps.iter_mut().for_each(|step| assert!(step.as_object_mut().unwrap().remove("seconds").is_some()));
+        steps
+    };
+    assert_eq!(timeless(finer.steps()), timeless(refined.steps()));
     for pointer in ["/max_pressure", "/penetration"] {
         assert_close(number(&coarser[0], pointer), number(&refined.steps()[0], pointer), reached * (1.0 + 1e-9));
     }
@@ -90,8 +96,27 @@ fn the_number_of_threads_does_not_change_a_bit() {
     let two = desk.solve("two", &[&["--threads", "2"], &settings[..]].concat());
     assert_eq!(one.names(), two.names());
     for name in one.names() {
-        assert!(one.bytes(&name) == two.bytes(&name), "{name} depends on the number of threads");
+        assert!(one.result(&name) == two.result(&name), "{name} depends on the number of threads");
     }
+}
+
+#[test]
+fn a_run_says_where_its_time_went() {
+    let desk = Desk::new();
+    let began = Instant::now();
+    let loads = "load.mean_pressure=[0.0, 0.002]";
+    let answer = desk.percoat(&["solve", "fig6b", "-o", "out", "--set", "grid.points=48", "--set", loads]);
+    let wall = began.elapsed().as_secs_f64();
+    let summary = Folder(desk.path("out")).summary();
+    let parts = ["setup", "solve", "stress", "output"].map(|part| number(&summary["timing"], &format!("/{part}")));
+    assert!(parts.iter().all(|&seconds| seconds > 0.0), "{parts:?}: stresses and pictures are in the case");
+    assert!(parts.iter().sum::<f64>() <= wall, "{parts:?} are more than the {wall} s of the run");
+    let steps = summary["steps"].as_array().unwrap();
+    let seconds: Vec<f64> = steps.iter().map(|step| number(step, "/seconds")).collect();
+    assert!(seconds.iter().all(|&seconds| seconds >= 0.0));
+    assert!(seconds.iter().sum::<f64>() <= parts[1] + parts[2] + 1e-6, "{seconds:?} of {parts:?}");
+    let last = answer.out.lines().last().unwrap();
+    assert!(["setup", "solution", "stresses", "output"].iter().all(|word| last.contains(word)), "{last}");
 }
 
 #[test]

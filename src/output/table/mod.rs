@@ -4,6 +4,7 @@ mod comparison;
 
 pub use comparison::{differences, readings, stresses};
 
+use super::Timing;
 use super::number::{ROUNDING, number, with_error};
 use crate::numeric::search::largest;
 use crate::reading::StressReading;
@@ -166,6 +167,13 @@ pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
     let texts: Vec<String> =
         named.into_iter().filter_map(|(name, error)| Some(format!("{name} {:.1e}", error?))).collect();
     (!texts.is_empty()).then(|| format!("estimated relative discretisation errors, at most: {}", texts.join(", ")))
+}
+
+/// Where the time of a run went, in a few words.
+pub fn timing(timing: &Timing) -> String {
+    let Timing { setup, solve, stress, output } = timing;
+    let stress = if *stress > 0.0 { format!(", stresses {stress:.2}") } else { String::new() };
+    format!("setup {setup:.2}, solution {solve:.2}{stress}, output {output:.2}")
 }
 
 /// The largest stresses of a step in one line.
