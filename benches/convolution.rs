@@ -1,40 +1,27 @@
-//! One convolution against its slow twin with full transposes, and the kernel evaluated over a whole grid.
-//!
-//! `cargo bench` prints both in one run; only their ratio means something on a noisy machine.
+//! One convolution, beside its slow twin with full transposes: only their ratio means something on a noisy machine.
+
+mod shared;
 
 use divan::Bencher;
-use percoat::body::TransferFunction;
-use percoat::spectral::fourier::Fourier;
-use percoat::spectral::operator::Operator;
-use percoat::{Cell, Grid, HalfSpace, Interface, Layer, Material};
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use rustfft::{FftPlanner, num_complex::Complex64};
-use std::sync::Arc;
+use shared::{bare, convolve, operator};
 
 fn main() {
     divan::main();
 }
 
-const POINTS: [usize; 3] = [512, 1024, 2048];
+const POINTS: [usize; 7] = [512, 768, 1024, 1536, 2048, 3072, 4096];
 
-fn half_space() -> HalfSpace {
-    let substrate = Material::from_young(1.0, 0.3).expect("valid");
-    let coating = Material::from_shear(2.0 * substrate.shear(), 0.2).expect("valid");
-    HalfSpace::new(vec![Layer::new(coating, 0.5, Interface::Bonded).expect("valid")], substrate)
+#[divan::bench(args = POINTS, max_time = 5)]
+fn one(bencher: Bencher, n: usize) {
+    let mut operator = operator(&bare(), n);
+    let (pressure, mut displacement) = (vec![1.0; n * n], vec![0.0; n * n]);
+    bencher.bench_local(|| convolve(&mut operator, &pressure, &mut displacement));
 }
 
-#[divan::bench(args = POINTS)]
-fn fused_pass(bencher: Bencher, n: usize) {
-    let fourier = Fourier::new([n, n]);
-    let multiplier = fourier.multiplier(|[k1, k2]| 1.0 / (1.0 + (k1 + k2) as f64));
-    let input = vec![1.0; n * n];
-    let mut output = vec![0.0; n * n];
-    let mut workspace = fourier.workspace();
-    bencher.bench_local(|| fourier.convolve(&multiplier, &input, &mut output, &mut workspace));
-}
-
-#[divan::bench(args = POINTS)]
+#[divan::bench(args = POINTS, max_time = 5)]
 fn full_transposes(bencher: Bencher, n: usize) {
     let (mut real, mut complex) = (RealFftPlanner::<f64>::new(), FftPlanner::<f64>::new());
     let (forward, inverse) = (real.plan_fft_forward(n), real.plan_fft_inverse(n));
@@ -72,11 +59,4 @@ fn full_transposes(bencher: Bencher, n: usize) {
             inverse.process(row, samples).expect("lengths match");
         });
     });
-}
-
-#[divan::bench(args = POINTS)]
-fn kernel_of_one_layer(bencher: Bencher, n: usize) {
-    let grid = Arc::new(Grid::new(Cell::hexagonal(1.0).expect("valid"), [n, n]).expect("valid"));
-    let transfer = TransferFunction::new(&half_space());
-    bencher.bench_local(|| Operator::new(&grid, &transfer));
 }

@@ -1,0 +1,30 @@
+//! The localized method beside the spectral one.
+
+mod shared;
+
+use divan::Bencher;
+use percoat::comparison::Task;
+use percoat::localized::CircleRadius;
+use percoat::{MeanStress, Settings};
+use shared::{THREE_LEVELS, three_levels};
+use std::sync::Arc;
+
+fn main() {
+    divan::main();
+}
+
+/// As many elements across the largest contact as `percoat compare` takes unless told otherwise: 48.
+#[divan::bench(args = [12, 24, 48], sample_size = 1, max_time = 20)]
+fn elements(bencher: Bencher, elements: usize) {
+    let task = Task {
+        problem: Arc::new(three_levels()),
+        load: THREE_LEVELS,
+        settings: Settings::default(),
+        indenters: vec![7, 13, 37, 73],
+        elements,
+        rule: CircleRadius::LoadBalanced,
+        mutual_effect: true,
+        mean: MeanStress::default(),
+    };
+    bencher.bench_local(|| task.compare([256, 256], &mut |_| ()).expect("indenters"));
+}
