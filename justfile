@@ -26,3 +26,11 @@ lint:
 # Compute the multiprecision reference of the kernel again (needs mpmath).
 kernel-reference:
     python3 validation/kernel/generate.py
+
+# Whether the present tree is slower than the commit before, or another: short cases by turns.
+bench-quick commit="HEAD^" rounds="7":
+    benches/quick.sh {{commit}} {{rounds}}
+
+# percoat beside its peers; what it installs, and what it needs, stands at the head of the script.
+bench-peers *arguments:
+    python3 benches/peers.py target/peers {{arguments}}
