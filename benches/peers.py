@@ -21,6 +21,8 @@ What is timed
 - Convolution: real to complex, times a table, and back; plans and tables made before, result in place where offered.
 - Threads are set alike for everybody. Each contender is a process of its own that waits while others are timed; rounds go
   A B C A B C …, and a ratio is the median of those of the rounds, peer over percoat: above 1 percoat is faster.
+  "processor time" is the same ratio of what the system counted (setup on both sides): it stands where others use the
+  machine too, but threads that wait for one another by spinning are counted as working.
   A contender that has used up its time (--budget) sits out the rest; the rounds are in the table.
 
 How answers are judged: on the exact discrete problem, C(q) = 2/(E*q), in double precision, the Frank-Wolfe gap
@@ -228,6 +230,10 @@ class Contender:
         self.used += self.processor() - used
         return answer
 
+    def processor_time(self):
+        """Of a run, on the average, seconds."""
+        return self.used / len(self.runs)
+
     def processors(self):
         """How many processors were at work, on the average."""
         return self.used / self.spent
@@ -374,7 +380,7 @@ def best_aspher(python, arguments, threads):
 def solves(options, peer, python):
     header = [
         "case", "points", "threads", "peer", "percoat s", "setup s", "peer s", "peer / percoat (range, rounds)", "target",
-        "gap, penetration, load error: percoat", "peer", "processors: percoat, peer",
+        "processor time", "gap, penetration, load error: percoat", "peer", "processors: percoat, peer",
     ]  # fmt: skip
     sheet = Sheet(f"Solve, tolerance {options.tolerance:g}", header)
     for case in options.cases:
@@ -404,6 +410,7 @@ def solves(options, peer, python):
                             f"{case}, {100 * own[3]:.1f} %", n, threads, name,
                             f"{median(ours.runs):.3f}", f"{median(ours.runs, 'setup'):.3f}", f"{median(other.runs):.3f}",
                             spread(values), verdict(statistics.median(values)),
+                            f"{other.processor_time() / ours.processor_time():.2f}",
                             "{:.0e}, {:.0e}, {:.0e}".format(*own), "{:.0e}, {:.0e}, {:.0e}".format(*its) + worse + failed,
                             f"{ours.processors():.1f}, {other.processors():.1f}",
                         )  # fmt: skip
@@ -416,7 +423,7 @@ def convolutions(options, peer, python):
     import numpy as np
 
     header = ["points", "threads", "peer", "percoat ms", "peer ms", "peer / percoat (range, rounds)", "target"]
-    header += ["difference", "processors: percoat, peer"]
+    header += ["processor time", "difference", "processors: percoat, peer"]
     sheet = Sheet("One convolution", header)
     for n in options.convolutions:
         for threads in [max(options.threads)]:
@@ -430,8 +437,9 @@ def convolutions(options, peer, python):
                 difference = np.abs(other.field() - own).max() / np.abs(own).max()
                 milliseconds = [f"{1e3 * median(contender.runs):.2f}" for contender in (ours, other)]
                 processors = f"{ours.processors():.1f}, {other.processors():.1f}"
-                result = spread(values), verdict(statistics.median(values)), f"{difference:.0e}", processors
-                sheet.row(n, threads, other.name, *milliseconds, *result)
+                result = spread(values), verdict(statistics.median(values))
+                used = f"{other.processor_time() / ours.processor_time():.2f}"
+                sheet.row(n, threads, other.name, *milliseconds, *result, used, f"{difference:.0e}", processors)
             for contender in [ours, *others]:
                 contender.end()
     return sheet
@@ -482,6 +490,8 @@ def main():
     peer = build()
     head = machine()
     print("\n".join(head), flush=True)
+    if os.getloadavg()[0] > 0.5:
+        print("others use this machine: with two threads contenders that spin lose more than their share", flush=True)
     sheets = [run(options, peer, python) for run in (solves, convolutions) if options.only in (None, run.__name__[:-1])]
     if options.output:
         options.output.write_text("\n".join([*head, *(line for sheet in sheets for line in sheet.lines)]) + "\n")
