@@ -1,6 +1,7 @@
 //! percoat as `peers.py` times it: solves, or convolves, whenever a line on standard input says so.
 //!
 //! ```text
+//! peer heights CASE POINTS FILE                              writes heights of benches/shared, prints the mean pressure
 //! peer solve HEIGHTS.npy MEAN_PRESSURE TOLERANCE THREADS     heights on the unit square, E* = 1
 //! peer convolution POINTS THREADS                            the bare half-space, E* = 1
 //! ```
@@ -14,7 +15,7 @@ mod shared;
 use ndarray::Array2;
 use npyz::WriterBuilder;
 use percoat::*;
-use shared::{bare, convolve, operator};
+use shared::{ONE_LEVEL, ROUGH, Rough, bare, convolve, one_level, operator, solver};
 use std::error::Error;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, stdin};
@@ -26,6 +27,7 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 fn main() -> Outcome<()> {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["heights", case, points, file] => heights(case, points.parse()?, file),
         ["solve", heights, mean_pressure, tolerance, threads] => {
             start(threads)?;
             solve(heights, Load::MeanPressure(mean_pressure.parse()?), tolerance.parse()?)
@@ -45,6 +47,19 @@ fn main() -> Outcome<()> {
 
 fn start(threads: &str) -> Outcome<()> {
     Ok(rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).build_global()?)
+}
+
+fn heights(case: &str, n: usize, file: &str) -> Outcome<()> {
+    let (heights, load) = match case {
+        "one-level" => (-&solver(one_level(), n).surface().initial_gap(), ONE_LEVEL),
+        "rough-4-to-64" => (Rough::band().heights(n), ROUGH),
+        "rough-to-the-grid" => (Rough::down_to_grid(n).heights(n), ROUGH),
+        _ => return Err("no such surface".into()),
+    };
+    let heights: Vec<f64> = heights.iter().copied().collect();
+    write(file, [n, n], &heights)?;
+    println!("{:e}", load.value());
+    Ok(())
 }
 
 fn solve(heights: &str, load: Load, tolerance: f64) -> Outcome<()> {
@@ -91,7 +106,10 @@ fn serve(points: [usize; 2], mut run: impl FnMut() -> Outcome<Vec<f64>>) -> Outc
     let mut field = Vec::new();
     for line in stdin().lines() {
         match line?.split_once(' ') {
-            Some(("write", path)) => write(path, points, &field)?,
+            Some(("write", path)) => {
+                write(path, points, &field)?;
+                println!("written");
+            }
             _ => field = run()?,
         }
     }
@@ -111,6 +129,5 @@ fn write(path: &str, points: [usize; 2], field: &[f64]) -> Outcome<()> {
     let mut array = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
     array.extend(field.iter().copied())?;
     array.finish()?;
-    println!("written");
     Ok(())
 }
