@@ -123,6 +123,14 @@ impl Reduced {
         norm(self.cell.a1).max(norm(self.cell.a2))
     }
 
+    /// The lattice vectors, one of each pair ±r, whose perpendicular bisectors bound what is nearest to the origin: r₁, r₂
+    /// and the shorter diagonal.
+    pub fn facets(&self) -> [[f64; 2]; 3] {
+        let Cell { a1, a2 } = self.cell;
+        let sign = if dot(a1, a2) > 0.0 { -1.0 } else { 1.0 };
+        [a1, a2, [a1[0] + sign * a2[0], a1[1] + sign * a2[1]]]
+    }
+
     /// The shortest vectors equivalent to s₁a₁ + s₂a₂ (all whose lengths agree to the relative `tolerance`), each with
     /// the whole multiples of a₁, a₂ that were taken off.
     pub fn shortest(&self, [s1, s2]: [f64; 2], tolerance: f64) -> Vec<([f64; 2], [i32; 2])> {

@@ -7,9 +7,11 @@
 //! zone of the sampling lattice) keeps it.
 
 use super::cell::norm;
+use super::waves::Waves;
 use super::{Cell, LatticeError, Reduced};
 use crate::numeric::number::number;
 use std::fmt;
+use std::sync::{Arc, OnceLock};
 
 /// A field that does not belong to a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -31,6 +33,7 @@ pub struct Grid {
     points: [usize; 2],
     /// The lattice of N₁**b**₁, N₂**b**₂, which aliases differ by.
     sampling: Reduced,
+    waves: OnceLock<Arc<Waves>>,
 }
 
 impl Grid {
@@ -46,7 +49,7 @@ impl Grid {
         let [n1, n2] = points.map(|n| n as f64);
         let sampling = [[n1 * b1[0], n1 * b1[1]], [n2 * b2[0], n2 * b2[1]]];
         let sampling = Cell::new(sampling[0], sampling[1])?.reduced();
-        Ok(Self { cell, points, sampling })
+        Ok(Self { cell, points, sampling, waves: OnceLock::new() })
     }
 
     /// The cell the grid lies on.
@@ -131,6 +134,23 @@ impl Grid {
         let aliases = self.sampling.shortest(self.fractions_of(component), tolerance).into_iter();
         let index = |taken: [i32; 2]| [0, 1].map(|k| component[k] as i32 - taken[k] * self.points[k] as i32);
         aliases.map(|(q, taken)| (index(taken), q)).collect()
+    }
+
+    /// Reciprocal vectors of the samples, one of each pair ±**g**, whose bisectors |**q**·**g**| = ½g² bound the first
+    /// Brillouin zone, 1/length.
+    pub(super) fn zone(&self) -> [[f64; 2]; 3] {
+        self.sampling.facets()
+    }
+
+    /// Whether a wavevector is on the border of the zone up to a relative tolerance, or outside.
+    pub(super) fn on_border(&self, [x, y]: [f64; 2], tolerance: f64) -> bool {
+        let outside = |[gx, gy]: [f64; 2]| (x * gx + y * gy).abs() > 0.5 * (1.0 - tolerance) * (gx * gx + gy * gy);
+        self.zone().into_iter().any(outside)
+    }
+
+    /// The plane waves it holds; found when they are first asked for, and kept.
+    pub(crate) fn waves(&self) -> &Arc<Waves> {
+        self.waves.get_or_init(|| Arc::new(Waves::new(self)))
     }
 
     /// Length |q| of [`Grid::wavevector`].

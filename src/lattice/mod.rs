@@ -6,6 +6,7 @@ mod error;
 mod grid;
 mod interpolation;
 mod sites;
+pub(crate) mod waves;
 
 pub use cell::{Cell, Reduced};
 pub use error::LatticeError;

@@ -1,0 +1,271 @@
+//! The plane waves that a grid holds, row by row through the first Brillouin zone of its samples.
+//!
+//! A real field is its mean and Re Σ c e^{i**q**·**x**} over waves **q** = κ₁**b**₁ + κ₂**b**₂, one of each pair ±**q**:
+//! κ₂ > 0, or κ₂ = 0 and κ₁ > 0. The zone is convex, so that each κ₂ has one interval of κ₁, a **row**. On its border a
+//! Fourier component has several shortest aliases: each is a wave with an equal part of the coefficient, so that factors
+//! that depend on the direction are averaged over them and keep the symmetry of the lattice.
+//!
+//! Waves of equal wavenumber form a **shell**: what a layered half-space makes of a wave depends on its shell alone.
+
+use super::Grid;
+use super::cell::norm;
+use std::f64::consts::TAU;
+
+/// Wavenumbers closer than this, relatively, are one shell; aliases closer than this are tied.
+const TIE: f64 = 1e-11;
+/// How near the border of the zone, relatively, ties are looked for.
+const BORDER: f64 = 1e-9;
+/// Beyond this many rows per sample along the sides, most rows of a skewed cell are empty.
+const MANY: f64 = 4.0;
+
+/// All waves of a grid but the mean.
+#[derive(Debug)]
+pub(crate) struct Waves {
+    /// By ascending κ₂.
+    rows: Vec<Row>,
+    /// **b**₁, from a wave to the next one of its row, 1/length.
+    step: [f64; 2],
+    /// Waves that are not the whole of a Fourier component, by their number: the part they are, 0 for what lies just
+    /// outside the zone.
+    parts: Vec<(usize, f64)>,
+    /// Per wave: index of its shell.
+    shells: Vec<u32>,
+    /// Wavenumbers of the shells, ascending, 1/length.
+    wavenumbers: Vec<f64>,
+}
+
+/// Waves of one κ₂ and ascending κ₁.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Row {
+    /// κ₂.
+    pub across: i32,
+    /// κ₁ of the first wave.
+    pub first: i32,
+    /// Wavevector of the first wave, 1/length.
+    pub origin: [f64; 2],
+    /// Number of the first wave among all, and of waves in the row.
+    pub start: usize,
+    pub len: usize,
+}
+
+impl Waves {
+    /// Of a grid.
+    pub fn new(grid: &Grid) -> Self {
+        let [step, _] = grid.cell().reciprocal();
+        let (mut rows, mut parts, mut count) = (Vec::new(), Vec::new(), 0);
+        for (across, [first, last]) in intervals(grid) {
+            let len = (last - first + 1) as usize;
+            // A middle one is a shortest alias, of which the grid knows the wavevector to round-off.
+            let middle = first + (last - first) / 2;
+            let tied = grid.tied_wavevectors(component(grid, [middle, across]), TIE);
+            let Some((_, q)) = tied.into_iter().find(|(index, _)| *index == [middle, across]) else { continue };
+            let back = f64::from(middle - first);
+            let row = Row { across, first, origin: [q[0] - back * step[0], q[1] - back * step[1]], start: count, len };
+            for k in 0..len {
+                let index = [first + k as i32, across];
+                if grid.on_border(row.at(k, step), BORDER) {
+                    let tied = grid.tied_wavevectors(component(grid, index), TIE);
+                    let part = if tied.iter().any(|(alias, _)| *alias == index) { 1.0 / tied.len() as f64 } else { 0.0 };
+                    parts.push((count + k, part));
+                }
+            }
+            rows.push(row);
+            count += len;
+        }
+        let (shells, wavenumbers) = shells(&rows, step, count);
+        Self { rows, step, parts, shells, wavenumbers }
+    }
+
+    /// Number of waves.
+    pub fn len(&self) -> usize {
+        self.shells.len()
+    }
+
+    /// Wavenumbers of the shells, ascending, 1/length.
+    pub fn wavenumbers(&self) -> &[f64] {
+        &self.wavenumbers
+    }
+
+    /// Number of shells with wavenumbers up to `most`.
+    pub fn shells_up_to(&self, most: f64) -> usize {
+        self.wavenumbers.partition_point(|&q| q <= most)
+    }
+
+    /// **b**₁, from a wave to the next one of its row, 1/length.
+    pub fn step(&self) -> [f64; 2] {
+        self.step
+    }
+
+    /// Index of the shell of each wave.
+    pub fn shells(&self) -> &[u32] {
+        &self.shells
+    }
+
+    /// All rows.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// The rows cut down to waves of the first `count` shells: by convexity an interval again.
+    pub fn rows_within(&self, count: usize) -> Vec<Row> {
+        let cut = |row: &Row| {
+            let shells = &self.shells[row.start..row.start + row.len];
+            let within = |shell: &u32| (*shell as usize) < count;
+            let skipped = shells.iter().position(within)?;
+            let last = shells.iter().rposition(within)?;
+            Some(Row {
+                first: row.first + skipped as i32,
+                origin: row.at(skipped, self.step),
+                start: row.start + skipped,
+                len: last + 1 - skipped,
+                ..*row
+            })
+        };
+        self.rows.iter().filter_map(cut).collect()
+    }
+
+    /// What each wave has of its Fourier component; `coefficient` gives that of the component (k₁, k₂), any integers.
+    pub fn coefficients<T: Copy + std::ops::Mul<f64, Output = T>>(&self, coefficient: impl Fn([i32; 2]) -> T) -> Vec<T> {
+        let indices = self.rows.iter().flat_map(|row| (0..row.len).map(|k| [row.first + k as i32, row.across]));
+        let mut all: Vec<T> = indices.map(coefficient).collect();
+        for &(number, part) in &self.parts {
+            all[number] = all[number] * part;
+        }
+        all
+    }
+}
+
+impl Row {
+    /// Wavevector of its wave number k, one `step` from the one before.
+    pub fn at(&self, k: usize, step: [f64; 2]) -> [f64; 2] {
+        [self.origin[0] + k as f64 * step[0], self.origin[1] + k as f64 * step[1]]
+    }
+}
+
+/// The Fourier component that a wave belongs to.
+fn component(grid: &Grid, index: [i32; 2]) -> [usize; 2] {
+    [0, 1].map(|axis| index[axis].rem_euclid(grid.points()[axis] as i32) as usize)
+}
+
+/// First and last κ₁ in the zone, its border included, for each κ₂ ≥ 0 that has any.
+fn intervals(grid: &Grid) -> Vec<(i32, [i32; 2])> {
+    let [b1, b2] = grid.cell().reciprocal();
+    let facets = grid.zone();
+    let [r1, r2, _] = facets;
+    let most = 0.5 * (norm(r1) + norm(r2)) * norm(grid.cell().vectors()[1]) / TAU;
+    let [n1, n2] = grid.points();
+    if most > MANY * (n1 + n2 + 16) as f64 {
+        return skewed(grid);
+    }
+    let interval = |across: i32| {
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for g in facets {
+            let along = b1[0] * g[0] + b1[1] * g[1];
+            let offset = f64::from(across) * (b2[0] * g[0] + b2[1] * g[1]);
+            let reach = 0.5 * (1.0 + BORDER) * (g[0] * g[0] + g[1] * g[1]);
+            if along.abs() > 1e-12 * norm(b1) * norm(g) {
+                let (one, other) = ((-reach - offset) / along, (reach - offset) / along);
+                (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
+            } else if offset.abs() > reach {
+                high = f64::NEG_INFINITY;
+            }
+        }
+        let low = if across == 0 { low.max(1.0) } else { low };
+        (low.ceil() <= high.floor()).then(|| (across, [low.ceil() as i32, high.floor() as i32]))
+    };
+    (0..=most.ceil() as i32).filter_map(interval).collect()
+}
+
+/// The same for a cell on which few κ₂ have any: from all components.
+fn skewed(grid: &Grid) -> Vec<(i32, [i32; 2])> {
+    let [n1, n2] = grid.points();
+    let components = (0..n1).flat_map(|k1| (0..n2).map(move |k2| [k1, k2]));
+    let aliases = components.flat_map(|component| grid.tied_wavevectors(component, TIE));
+    let mut indices: Vec<[i32; 2]> =
+        aliases.map(|([along, across], _)| [across, along]).filter(|&index| index > [0, 0]).collect();
+    indices.sort_unstable();
+    let rows = indices.chunk_by(|a, b| a[0] == b[0]);
+    rows.map(|row| (row[0][0], [row[0][1], row[row.len() - 1][1]])).collect()
+}
+
+/// The shell of each wave, and the wavenumbers of the shells.
+fn shells(rows: &[Row], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>) {
+    let lengths: Vec<f64> = rows.iter().flat_map(|row| (0..row.len).map(|k| norm(row.at(k, step)))).collect();
+    // Waves lie evenly in the plane: as many buckets of equal area are nearly sorted.
+    let most = lengths.iter().copied().fold(0.0, f64::max);
+    let buckets = count / 4 + 1;
+    let bucket = |q: f64| (((q / most) * (q / most) * buckets as f64) as usize).min(buckets - 1);
+    let mut starts = vec![0u32; buckets + 1];
+    lengths.iter().for_each(|&q| starts[bucket(q) + 1] += 1);
+    (0..buckets).for_each(|k| starts[k + 1] += starts[k]);
+    let mut order = vec![0u32; count];
+    let mut next = starts.clone();
+    for (number, &q) in (0..).zip(&lengths) {
+        let place = &mut next[bucket(q)];
+        order[*place as usize] = number;
+        *place += 1;
+    }
+    let (mut shells, mut wavenumbers) = (vec![0; count], Vec::new());
+    for bounds in starts.windows(2) {
+        let own = &mut order[bounds[0] as usize..bounds[1] as usize];
+        own.sort_unstable_by(|&a, &b| lengths[a as usize].total_cmp(&lengths[b as usize]));
+        for &mut number in own {
+            let q = lengths[number as usize];
+            if wavenumbers.last().is_none_or(|last| q > last * (1.0 + TIE)) {
+                wavenumbers.push(q);
+            }
+            shells[number as usize] = wavenumbers.len() as u32 - 1;
+        }
+    }
+    (shells, wavenumbers)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Cell;
+
+    #[test]
+    fn every_component_is_the_whole_of_its_shortest_aliases() {
+        let cells = [
+            (Cell::square(1.0), [6, 6]),
+            (Cell::hexagonal(1.0), [9, 9]),
+            (Cell::hexagonal(1.0), [8, 8]),
+            (Cell::new([1.0, 0.2], [0.4, 0.9]), [7, 4]),
+            (Cell::new([1.0, 0.0], [7.0, 0.3]), [5, 6]),
+            (Cell::new([1.0, 0.0], [7000.0, 0.3]), [5, 6]),
+            (Cell::square(1.0), [1, 6]),
+        ];
+        for (cell, [n1, n2]) in cells {
+            let grid = Grid::new(cell.unwrap(), [n1, n2]).unwrap();
+            let waves = Waves::new(&grid);
+            let parts = waves.coefficients(|_| 1.0);
+            let mut whole = vec![0.0; n1 * n2];
+            for row in waves.rows() {
+                for k in 0..row.len {
+                    let index = [row.first + k as i32, row.across];
+                    for index in [index, index.map(|k| -k)] {
+                        let [k1, k2] = component(&grid, index);
+                        whole[k1 * n2 + k2] += parts[row.start + k];
+                        let q = row.at(k, waves.step());
+                        let least = grid.wavenumber([k1, k2]);
+                        assert!(parts[row.start + k] == 0.0 || (norm(q) / least - 1.0).abs() < 1e-11);
+                        let shell = waves.wavenumbers()[waves.shells()[row.start + k] as usize];
+                        assert!((norm(q) / shell - 1.0).abs() < 1.1 * TIE);
+                    }
+                }
+            }
+            assert!(whole[1..].iter().all(|sum| (sum - 1.0).abs() < 1e-12), "{grid}: {whole:?}");
+        }
+    }
+
+    #[test]
+    fn a_hexagonal_lattice_has_few_shells_and_a_disc_cuts_rows() {
+        let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [48, 48]).unwrap();
+        let waves = Waves::new(&grid);
+        assert!(waves.wavenumbers().len() < 48 * 48 / 8, "{} shells", waves.wavenumbers().len());
+        let count = waves.shells_up_to(60.0);
+        let within: usize = waves.rows_within(count).iter().map(|row| row.len).sum();
+        assert_eq!(within, waves.shells().iter().filter(|&&shell| (shell as usize) < count).count());
+    }
+}
