@@ -134,6 +134,34 @@ impl Interior {
     }
 }
 
+/// Layers thicker than this, over 1/q, hide what is below them: e^{−45} of the pressure comes through.
+const HIDDEN: f64 = 45.0;
+
+impl TransferFunction {
+    /// Amplitudes at a depth for the wavenumber q > 0 (1/length); those of the surface material, where a layer of it hides
+    /// what lies below, in closed form: F = (1 + s)e^{−s}, s = qz.
+    ///
+    /// # Panics
+    /// When there is no such material.
+    pub fn amplitudes(&self, wavenumber: f64, depth: Depth) -> Amplitudes {
+        if depth.material > 1 || self.strata.first().is_some_and(|layer| wavenumber * layer.thickness < HIDDEN) {
+            return Interior::new(self, wavenumber).at(depth);
+        }
+        let PlaneStrain { shear, poisson, .. } = *self.surface_material();
+        let s = (wavenumber * depth.z.max(0.0)).min(EXTINCT);
+        let decay = (-s).exp();
+        let per_displacement = 0.5 * decay / (shear * wavenumber);
+        Amplitudes {
+            szz: -(1.0 + s) * decay,
+            sqz: -s * decay,
+            sqq: -(1.0 - s) * decay,
+            stt: -2.0 * poisson * decay,
+            uz: (2.0 * (1.0 - poisson) + s) * per_displacement,
+            uq: (s - (1.0 - 2.0 * poisson)) * per_displacement,
+        }
+    }
+}
+
 impl Body {
     /// (U, w, t, p) at `x` = q · (depth below the upper face), displacements in units of 1/(Gq).
     fn state(&self, x: f64) -> [f64; 4] {
@@ -244,6 +272,24 @@ mod tests {
                     let all = [szz, sqz, sqq, stt, uz, uq];
                     assert!(all.iter().all(|x| x.is_finite()), "h = {thickness}, q = {wavenumber}: {all:?}");
                 }
+            }
+        }
+    }
+
+    /// σ at any depth of a layer that hides what lies below it, and of a bare half-space.
+    #[test]
+    fn what_is_hidden_is_left_out() {
+        let coating = Material::from_shear(20.0, 0.2).unwrap();
+        let layer = Layer::new(coating, 2.0, Interface::Frictionless).unwrap();
+        for layers in [vec![], vec![layer]] {
+            let transfer = TransferFunction::new(&HalfSpace::new(layers, Material::from_shear(1.0, 0.3).unwrap()));
+            for (q, z) in [(22.6, 0.0), (22.6, 0.01), (30.0, 0.3), (25.0, 2.0), (1e3, 1.0)] {
+                let depth = Depth { z, material: 1 };
+                let (short, long) = (transfer.amplitudes(q, depth), Interior::new(&transfer, q).at(depth));
+                for (a, b) in [(short.szz, long.szz), (short.sqz, long.sqz), (short.sqq, long.sqq), (short.stt, long.stt)] {
+                    assert!((a - b).abs() < 1e-15, "q = {q}, z = {z}: {short:?} {long:?}");
+                }
+                assert!((short.uz - long.uz).abs() < 1e-15 && (short.uq - long.uq).abs() < 1e-15);
             }
         }
     }

@@ -1,18 +1,15 @@
-//! The stress field under a solved contact: planes and points.
+//! The stress field under a solved contact, and its states at points.
 
 use super::regions::Regions;
-use super::spectrum::{Spectrum, Wave};
+use super::series::{Response, Series};
+use super::slice::Slice;
 use super::tensor::State;
-use crate::body::{Amplitudes, Depth, HalfSpace, Interface, Interior, MeanStress, TransferFunction};
+use crate::body::{Depth, HalfSpace, Interface, MeanStress, TransferFunction};
 use crate::lattice::{Grid, NotOnGrid};
-use crate::numeric::array::field;
 use crate::numeric::number::number;
-use crate::numeric::sums;
 use crate::spectral::Contact;
-use crate::spectral::fourier::Fourier;
-use ndarray::{Array2, Array3, ArrayView2};
+use ndarray::ArrayView2;
 use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
 use std::fmt;
 use std::sync::Arc;
 
@@ -22,7 +19,7 @@ pub(super) const REACH: f64 = 60.0;
 /// The stress field of one load step.
 #[derive(Debug)]
 pub struct StressField {
-    pub(super) spectrum: Spectrum,
+    pub(super) series: Series,
     grid: Arc<Grid>,
     half_space: HalfSpace,
     transfer: TransferFunction,
@@ -30,33 +27,6 @@ pub struct StressField {
     mean: Vec<(State, f64)>,
     mean_stress: MeanStress,
     pub(super) regions: Regions,
-}
-
-/// The states on a plane of constant depth.
-#[derive(Debug, Clone)]
-pub struct Plane {
-    /// Where.
-    pub depth: Depth,
-    /// Axis 0: xx, yy, zz, xy, xz, yz, then u_x, u_y, u_z; axes 1 and 2 along a₁ and a₂.
-    pub components: Array3<f64>,
-}
-
-impl Plane {
-    /// Samples [n₁, n₂] along a₁ and a₂.
-    pub fn points(&self) -> [usize; 2] {
-        let (_, n1, n2) = self.components.dim();
-        [n1, n2]
-    }
-
-    /// The state at the sample [i, j].
-    pub fn state(&self, [i, j]: [usize; 2]) -> State {
-        State::from_components(std::array::from_fn(|c| self.components[[c, i, j]]))
-    }
-
-    /// The states of all samples, axes along a₁ and a₂.
-    pub fn states(&self) -> Array2<State> {
-        Array2::from_shape_fn(self.points(), |(i, j)| self.state([i, j]))
-    }
 }
 
 impl StressField {
@@ -81,15 +51,15 @@ impl StressField {
     }
 
     fn of_samples(grid: &Arc<Grid>, pressure: &[f64], half_space: &HalfSpace, mean: MeanStress) -> Self {
-        let spectrum = Spectrum::new(grid, pressure);
+        let series = Series::new(grid, pressure);
         Self {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
             transfer: TransferFunction::new(half_space),
-            mean: mean_states(half_space, mean, spectrum.mean),
+            mean: mean_states(half_space, mean, series.mean),
             mean_stress: mean,
             regions: Regions::new(grid, pressure),
-            spectrum,
+            series,
         }
     }
 
@@ -118,19 +88,13 @@ impl StressField {
         &self.grid
     }
 
-    /// Amplitudes of the shells with qz up to `reach`; the waves of all of them come first.
-    pub(super) fn amplitudes(&self, depth: Depth, reach: f64) -> Vec<Amplitudes> {
-        let count = self.spectrum.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
-        self.spectrum.shells[..count]
-            .par_iter()
-            .with_min_len(256)
-            .map(|&q| Interior::new(&self.transfer, q).at(depth))
-            .collect()
-    }
-
-    /// The waves of the first `shells` shells.
-    pub(super) fn waves(&self, shells: usize) -> &[Wave] {
-        &self.spectrum.waves[..self.spectrum.starts[shells]]
+    /// What the waves with qz up to `reach` cause at a depth.
+    pub(super) fn slice(&self, depth: Depth, reach: f64) -> Slice {
+        let waves = &self.series.waves;
+        let count = waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
+        let amplitude = |&q: &f64| self.transfer.amplitudes(q, depth);
+        let amplitudes = waves.wavenumbers()[..count].par_iter().with_min_len(512).map(amplitude).collect();
+        Slice { amplitudes, mean: self.mean(depth) }
     }
 
     /// The state that the mean pressure causes at a depth.
@@ -145,74 +109,14 @@ impl StressField {
     /// # Panics
     /// When the depth is in a material that is not there.
     pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<State> {
-        self.points_within(depth, points, REACH)
+        let states = self.at(points, &self.slice(depth, REACH));
+        states.into_iter().map(State::from_components).collect()
     }
 
-    /// States at points of one depth from the waves with qz up to `reach`.
-    pub(super) fn points_within(&self, depth: Depth, points: &[[f64; 2]], reach: f64) -> Vec<State> {
-        let amplitudes = self.amplitudes(depth, reach);
-        let waves = self.waves(amplitudes.len());
-        let mean = self.mean(depth).components();
-        let at = |&place: &[f64; 2]| {
-            let sum = sums::of(waves.len(), |i| {
-                let wave = &waves[i];
-                components(wave, &amplitudes[wave.shell as usize], wave.at(place)).map(|term| term.re)
-            });
-            State::from_components(std::array::from_fn(|c| mean[c] + sum[c]))
-        };
-        points.iter().map(at).collect()
-    }
-
-    /// States on the whole plane, at [n₁, n₂] `points` of the cell, which need not be those of the pressure's grid.
-    ///
-    /// # Panics
-    /// When a number of points is zero, or the depth in a material that is not there.
-    pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
-        self.plane_within(depth, points, REACH)
-    }
-
-    /// States on the whole plane from the waves with qz up to `reach`.
-    pub(super) fn plane_within(&self, depth: Depth, points: [usize; 2], reach: f64) -> Plane {
-        let amplitudes = self.amplitudes(depth, reach);
-        let waves = self.waves(amplitudes.len());
-        let mean = self.mean(depth).components();
-        let fourier = Fourier::new(points);
-        let mut all = Array3::zeros([mean.len(), points[0], points[1]]);
-        for (c, mut component) in all.outer_iter_mut().enumerate() {
-            let value = |wave: &Wave| components(wave, &amplitudes[wave.shell as usize], wave.coefficient)[c];
-            component.assign(&field(points, self.synthesised(&fourier, waves, mean[c], value)));
-        }
-        Plane { depth, components: all }
-    }
-
-    /// mean + Re Σ value(wave) e^{iq·x} at the points of the cell that the transform is planned for, a₂ fastest: exact
-    /// there, however few they are, as waves that look alike at the points add up.
-    pub(super) fn synthesised(
-        &self,
-        fourier: &Fourier,
-        waves: &[Wave],
-        mean: f64,
-        value: impl Fn(&Wave) -> Complex64,
-    ) -> Vec<f64> {
-        let points = fourier.points();
-        let [n1, n2] = points.map(|n| n as i32);
-        let place = |[k1, k2]: [i32; 2]| {
-            let (k1, k2) = (k1.rem_euclid(n1), k2.rem_euclid(n2));
-            (2 * k2 <= n2).then_some((k2 * n1 + k1) as usize)
-        };
-        let mut spectrum = vec![Complex64::default(); (points[1] / 2 + 1) * points[0]];
-        for wave in waves {
-            let half = 0.5 * value(wave);
-            // Re C e^{iq·x} is half the wave and half its conjugate.
-            if let Some(index) = place(wave.index) {
-                spectrum[index] += half;
-            }
-            if let Some(index) = place(wave.index.map(|k| -k)) {
-                spectrum[index] += half.conj();
-            }
-        }
-        spectrum[0] += mean;
-        fourier.synthesise(spectrum)
+    /// Components at places (x, y), lengths.
+    pub(super) fn at<const K: usize>(&self, places: &[[f64; 2]], response: &impl Response<K>) -> Vec<[f64; K]> {
+        let fractions: Vec<[f64; 2]> = places.iter().map(|&place| self.grid.cell().fractions(place)).collect();
+        self.series.at(&fractions, response)
     }
 }
 
@@ -221,34 +125,12 @@ impl fmt::Display for StressField {
         write!(
             f,
             "stress field of {} plane waves in {} shells, {} materials, mean pressure {}",
-            self.spectrum.waves.len(),
-            self.spectrum.shells.len(),
+            self.series.coefficients.len(),
+            self.series.waves.wavenumbers().len(),
             self.materials(),
-            number(self.spectrum.mean)
+            number(self.series.mean)
         )
     }
-}
-
-/// xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave whose pressure is the real part of `value`.
-pub(super) fn components(wave: &Wave, amplitudes: &Amplitudes, value: Complex64) -> [Complex64; 9] {
-    let [x, y] = wave.q;
-    let square = x * x + y * y;
-    let (xx, yy, xy) = (x * x / square, y * y / square, x * y / square);
-    let length = square.sqrt();
-    let (nx, ny) = (x / length, y / length);
-    let Amplitudes { szz, sqz, sqq, stt, uz, uq } = *amplitudes;
-    let quarter = Complex64::new(value.im, -value.re);
-    [
-        value * (xx * sqq + yy * stt),
-        value * (yy * sqq + xx * stt),
-        value * szz,
-        value * (xy * (sqq - stt)),
-        quarter * (nx * sqz),
-        quarter * (ny * sqz),
-        quarter * (nx * uq),
-        quarter * (ny * uq),
-        value * uz,
-    ]
 }
 
 /// State at the upper face of each material under the mean pressure, and the slope of u_z in it.

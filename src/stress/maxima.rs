@@ -11,8 +11,10 @@
 
 use super::field::StressField;
 use super::peak::Peak;
+use super::slice::{Slice, Stresses};
 use super::surface::Crest;
 use super::tensor::State;
+use super::transform::Transform;
 use crate::body::Depth;
 use crate::numeric::search::{first_largest, golden_maximum};
 use crate::spectral::fourier::fast_points;
@@ -131,12 +133,39 @@ enum Quantity {
     Tension,
 }
 
+const QUANTITIES: [Quantity; 2] = [Quantity::Tau1, Quantity::Tension];
+
 impl Quantity {
     fn of(self, state: &State) -> f64 {
         match self {
             Self::Tau1 => state.tau1(),
             Self::Tension => state.s1(),
         }
+    }
+
+    /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3).
+    fn bound(self, state: &State) -> f64 {
+        let (mean, j2) = state.invariants();
+        match self {
+            Self::Tau1 => j2.sqrt(),
+            Self::Tension => mean + 2.0 * (j2 / 3.0).sqrt(),
+        }
+    }
+
+    /// Index and value of the largest of a row of stresses.
+    fn largest(self, row: [&[f64]; 6]) -> (usize, f64) {
+        let state = |j: usize| State::from_stresses(row.map(|component| component[j]));
+        let bounds = (0..row[0].len()).map(|j| self.bound(&state(j)));
+        let (promising, _) = first_largest(bounds).unwrap_or((0, 0.0));
+        let enough = self.of(&state(promising));
+        // What cannot be larger need not be known; what is not a number is.
+        let worth = |j: &usize| {
+            let bound = self.bound(&state(*j));
+            bound.is_nan() || bound >= enough - 1e-9 * enough.abs()
+        };
+        let numbers: Vec<usize> = (0..row[0].len()).filter(worth).collect();
+        let largest = first_largest(numbers.iter().map(|&j| self.of(&state(j))));
+        largest.map_or((0, enough), |(k, value)| (numbers[k], value))
     }
 }
 
@@ -225,12 +254,14 @@ impl StressField {
             let needed = (PLANE_REACH * length / (std::f64::consts::PI * depth.z)).max(8.0 * length / radius);
             if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
         });
-        let states = self.plane_within(depth, points, PLANE_REACH).states();
+        let (transform, slice) = (Transform::new(points), self.slice(depth, PLANE_REACH));
+        let columns = self.series.on_plane(&transform, &Stresses(&slice));
+        let largest_of_rows = columns.map(|_, row| QUANTITIES.map(|quantity| quantity.largest(row)));
         let [n1, n2] = points.map(|n| n as f64);
-        [Quantity::Tau1, Quantity::Tension].map(|quantity| {
-            let values = states.iter().map(|state| quantity.of(state));
-            let (index, value) = first_largest(values).unwrap_or((0, f64::NEG_INFINITY));
-            let (i, j) = (index / points[1], index % points[1]);
+        QUANTITIES.map(|quantity| {
+            let of_rows = || largest_of_rows.iter().map(|row| row[quantity as usize]);
+            let (i, value) = first_largest(of_rows().map(|(_, value)| value)).unwrap_or((0, f64::NEG_INFINITY));
+            let j = of_rows().nth(i).map_or(0, |(j, _)| j);
             let place = grid.cell().point([i as f64 / n1, j as f64 / n2]);
             Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) }
         })
@@ -267,25 +298,31 @@ impl StressField {
     /// A candidate as it is, with the direction of σ₁ there.
     fn peak(&self, candidate: &Candidate) -> Peak {
         let [x, y] = candidate.place;
-        let direction = self.points_within(candidate.depth, &[[x, y]], SEARCH_REACH)[0].s1_direction();
+        let state = self.searched(&self.slice(candidate.depth, SEARCH_REACH), &[candidate.place])[0];
         Peak {
             value: candidate.value,
             position: [x, y, candidate.depth.z],
             material: candidate.depth.material,
-            direction,
+            direction: state.s1_direction(),
         }
+    }
+
+    /// Stresses at places (x, y) of a slice.
+    fn searched(&self, slice: &Slice, places: &[[f64; 2]]) -> Vec<State> {
+        self.at(places, &Stresses(slice)).into_iter().map(State::from_stresses).collect()
     }
 
     /// Moves a candidate to the top of the paraboloid through 3 × 3 points around it, with smaller and smaller steps.
     fn horizontally(&self, candidate: &Candidate, quantity: Quantity) -> Candidate {
         let mut best = *candidate;
+        let slice = self.slice(best.depth, SEARCH_REACH);
         for _ in 0..4 {
             let [x, y] = best.place;
             let step = best.step;
             let around: Vec<[f64; 2]> =
                 (0..9).map(|k| [x + (f64::from(k / 3) - 1.0) * step, y + (f64::from(k % 3) - 1.0) * step]).collect();
             let values: Vec<f64> =
-                self.points_within(best.depth, &around, SEARCH_REACH).iter().map(|state| quantity.of(state)).collect();
+                self.searched(&slice, &around).iter().map(|state| quantity.of(state)).collect();
             let highest = (0..9).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(4);
             best.value = values[highest];
             best.place = around[highest];
@@ -296,7 +333,7 @@ impl StressField {
                     if curvature < 0.0 { (-slope / curvature).clamp(-1.0, 1.0) * step } else { 0.0 }
                 });
                 let moved = [x + dx, y + dy];
-                let value = quantity.of(&self.points_within(best.depth, &[moved], SEARCH_REACH)[0]);
+                let value = quantity.of(&self.searched(&slice, &[moved])[0]);
                 if value > best.value {
                     (best.value, best.place) = (value, moved);
                 }
@@ -309,8 +346,10 @@ impl StressField {
     /// Moves a candidate in depth within [low, high] by golden sections.
     fn vertically(&self, candidate: &Candidate, quantity: Quantity, [low, high]: [f64; 2]) -> Candidate {
         let material = candidate.depth.material;
-        let value =
-            |z: f64| quantity.of(&self.points_within(Depth { z, material }, &[candidate.place], SEARCH_REACH)[0]);
+        let value = |z: f64| {
+            let slice = self.slice(Depth { z, material }, SEARCH_REACH);
+            quantity.of(&self.searched(&slice, &[candidate.place])[0])
+        };
         let [z, found] = golden_maximum([low, high], DEPTH_TOLERANCE, value);
         if found > candidate.value {
             Candidate { value: found, depth: Depth { z, material }, ..*candidate }

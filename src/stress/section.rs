@@ -1,22 +1,16 @@
-//! Vertical sections and lines, without whole-plane transforms.
-//!
-//! On a line **x** = **x**₀ + s**d** a wave c e^{i**q**·**x**} is c e^{i**q**·**x**₀} e^{iκs} with κ = **q**·**d**.
-//! Waves with the same κ are added up first, depth by depth: along a lattice direction N² waves collapse onto a few N
-//! wavenumbers κ. Along a direction that is incommensurate with the lattice nothing collapses: each wave is a sum of
-//! its own, and a section takes longer.
+//! Vertical sections and lines, without whole-plane transforms: the waves are collapsed onto a [`Trace`].
 //!
 //! On the surface the stresses are those of [`super::surface`]: a line meets edges between the samples, where the series
 //! itself overshoots. Just below it, where the series still does, stresses are interpolated in depth.
 
-use super::field::{REACH, StressField, components};
-use super::spectrum::Wave;
+use super::field::{REACH, StressField};
 use super::surface::{OPEN, Skin};
 use super::tensor::State;
+use super::trace::Trace;
 use crate::body::Depth;
 use crate::numeric::array::field;
 use ndarray::Array2;
 use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
 
 /// Equally spaced points on a straight line along the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,10 +52,6 @@ impl Line {
     }
 }
 
-/// Where fewer than this many waves share a wavenumber on average, none are added up: sums would take more memory than
-/// the waves.
-const FEW_SHARE: usize = 4;
-
 /// The states on a vertical section.
 #[derive(Debug, Clone)]
 pub struct Section {
@@ -76,15 +66,12 @@ pub struct Section {
     pub highest: Option<[f64; 2]>,
 }
 
-/// A field along a line: its waves by their wavenumbers there. Sections and the highest place are read off it.
+/// A field below a line. Sections and the highest place are read off it.
 #[derive(Debug)]
-struct Trace<'a> {
+struct Below<'a> {
     field: &'a StressField,
     line: Line,
-    /// Wavenumbers κ along the line, ascending.
-    wavenumbers: Vec<f64>,
-    /// Per wave: index of its κ, and its coefficient at the origin of the line.
-    waves: Vec<(u32, Complex64)>,
+    trace: Trace<'a>,
     /// The surface, where contact has edges.
     skin: Option<Skin<'a>>,
 }
@@ -95,9 +82,9 @@ impl StressField {
     /// # Panics
     /// When a depth is in a material that is not there.
     pub fn section(&self, line: &Line, depths: &[Depth]) -> Section {
-        let trace = Trace::new(self, *line);
-        let rows = trace.rows(depths);
-        let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| trace.highest(surface));
+        let below = Below::new(self, *line);
+        let rows = below.rows(depths);
+        let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| below.highest(surface));
         let states = field([depths.len(), line.points], rows.into_iter().flatten().collect());
         Section { line: *line, depths: depths.to_vec(), states, highest }
     }
@@ -110,26 +97,12 @@ impl StressField {
     }
 }
 
-impl<'a> Trace<'a> {
+impl<'a> Below<'a> {
     fn new(field: &'a StressField, line: Line) -> Self {
-        let [dx, dy] = line.unit();
-        let all = &field.spectrum.waves;
-        let along: Vec<f64> = all.iter().map(|wave| wave.q[0] * dx + wave.q[1] * dy).collect();
-        let mut order: Vec<u32> = (0..all.len() as u32).collect();
-        order.par_sort_unstable_by(|&a, &b| along[a as usize].total_cmp(&along[b as usize]).then(a.cmp(&b)));
-        // Equal up to rounding: a phase error of 1e-11 over a period.
-        let tie = 1e-12 * field.spectrum.shells.last().copied().unwrap_or(0.0);
-        let mut wavenumbers: Vec<f64> = Vec::new();
-        let mut waves = vec![(0, Complex64::default()); all.len()];
-        for number in order {
-            let (wave, kappa) = (&all[number as usize], along[number as usize]);
-            if wavenumbers.last().is_none_or(|last| kappa > last + tie) {
-                wavenumbers.push(kappa);
-            }
-            waves[number as usize] = (wavenumbers.len() as u32 - 1, wave.at(line.origin));
-        }
+        let cell = field.grid().cell();
+        let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
         let skin = field.regions.have_edges().then(|| Skin::new(field, 1.0));
-        Self { field, line, wavenumbers, waves, skin }
+        Self { field, line, trace, skin }
     }
 
     /// States on the vertical section below the line: for each depth those at its points.
@@ -176,52 +149,14 @@ impl<'a> Trace<'a> {
         Some(highest)
     }
 
-    /// States at a depth, at the points of `line`: of the trace's own or a part of it.
+    /// States at a depth, at the points of `line`: of its own or a part of it.
     fn row(&self, line: &Line, depth: Depth) -> Vec<State> {
-        let field = self.field;
-        let amplitudes = field.amplitudes(depth, REACH);
-        let waves = field.waves(amplitudes.len());
-        let term = |wave: &Wave, value: Complex64| components(wave, &amplitudes[wave.shell as usize], value);
-        let states = self.sums(line, waves, field.mean(depth).components(), term);
-        let states = states.into_iter().map(State::from_components);
+        let (first, step) = (line.span[0], line.step());
+        let slice = self.field.slice(depth, REACH);
+        let states = self.trace.sums(&slice, [first, step], line.points).into_iter().map(State::from_components);
         let Some(skin) = self.skin.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
-        let smooth = self.sums(line, waves, skin.mean(), |wave, value| skin.terms(wave, value));
+        let smooth = self.trace.sums(skin, [first, step], line.points);
         let on_surface = smooth.iter().zip(states);
         on_surface.map(|(smooth, state)| State { displacement: state.displacement, ..skin.state(smooth) }).collect()
-    }
-
-    /// Sums over `waves` at the points of `line`; `term` gives the components of a wave whose pressure is the real part
-    /// of the value.
-    fn sums<const N: usize>(
-        &self,
-        line: &Line,
-        waves: &[Wave],
-        mean: [f64; N],
-        term: impl Fn(&Wave, Complex64) -> [Complex64; N],
-    ) -> Vec<[f64; N]> {
-        let mut values = vec![mean; line.points];
-        let step = line.step();
-        let mut add = |kappa: f64, sum: &[Complex64; N]| {
-            if sum.iter().all(|value| value.norm_sqr() == 0.0) {
-                return;
-            }
-            let mut phase = Complex64::cis(kappa * line.span[0]);
-            let turn = Complex64::cis(kappa * step);
-            for value in &mut values {
-                value.iter_mut().zip(sum).for_each(|(total, wave)| *total += wave.re * phase.re - wave.im * phase.im);
-                phase *= turn;
-            }
-        };
-        let terms = waves.iter().zip(&self.waves).map(|(wave, &(index, value))| (index as usize, term(wave, value)));
-        if FEW_SHARE * self.wavenumbers.len() > self.waves.len() {
-            terms.for_each(|(index, term)| add(self.wavenumbers[index], &term));
-        } else {
-            let mut sums = vec![[Complex64::default(); N]; self.wavenumbers.len()];
-            for (index, term) in terms {
-                sums[index].iter_mut().zip(term).for_each(|(sum, term)| *sum += term);
-            }
-            self.wavenumbers.iter().zip(&sums).for_each(|(&kappa, sum)| add(kappa, sum));
-        }
-        values
     }
 }

@@ -15,15 +15,14 @@
 //! itself, smoothed to the fourth order with e^{−OPEN²/2} of the shortest waves.
 
 use super::edge::Edge;
-use super::field::{REACH, StressField, components};
+use super::field::{REACH, StressField};
 use super::peak::Peak;
-use super::spectrum::Wave;
+use super::series::Response;
+use super::slice::{Slice, components};
 use super::tensor::State;
-use crate::body::{Amplitudes, Depth};
+use super::transform::Transform;
+use crate::body::Depth;
 use crate::numeric::search::{first_largest, largest};
-use crate::numeric::sums;
-use crate::spectral::fourier::Fourier;
-use rustfft::num_complex::Complex64;
 
 /// Width of the Gaussian near an edge, times the least wavenumber that the grid cannot hold.
 const EDGE: f64 = 4.5;
@@ -51,7 +50,7 @@ pub(super) type Smooth = [f64; 11];
 #[derive(Debug)]
 pub(super) struct Skin<'a> {
     field: &'a StressField,
-    amplitudes: Vec<Amplitudes>,
+    slice: Slice,
     /// Per shell: the Gaussian near edges, both factors of the stresses.
     factors: Vec<[f64; 3]>,
     /// Width of the Gaussian near edges, a length.
@@ -85,57 +84,27 @@ impl<'a> Skin<'a> {
         let most = field.grid().least_aliased();
         let growth = (field.regions.least_resolution() / 12.0).max(1.0).powf(0.4);
         let [edge, open] = [EDGE * growth, OPEN].map(|c| scale * c / most);
-        let factors = field.spectrum.shells.iter().map(|&q| {
+        let factors = field.series.waves.wavenumbers().iter().map(|&q| {
             let gaussian = (-0.5 * q * q * edge * edge).exp();
             [gaussian, fourth(q * edge), fourth(q * open)]
         });
-        let (factors, amplitudes) = (factors.collect(), field.amplitudes(Depth::SURFACE, REACH));
-        Self { field, amplitudes, factors, width: edge, edge: Edge::new() }
-    }
-
-    /// The parts of a wave whose pressure is the real part of `value`, in the order of [`Smooth`].
-    pub fn terms(&self, wave: &Wave, value: Complex64) -> [Complex64; 11] {
-        let shell = wave.shell as usize;
-        let [gaussian, edge, open] = self.factors[shell];
-        let [xx, yy, zz, xy, ..] = components(wave, &self.amplitudes[shell], value);
-        let slope = |q: f64| gaussian * q * Complex64::new(-value.im, value.re);
-        let [x, y] = wave.q;
-        let p = -zz;
-        [
-            gaussian * p,
-            slope(x),
-            slope(y),
-            edge * xx,
-            edge * yy,
-            edge * xy,
-            edge * p,
-            open * xx,
-            open * yy,
-            open * xy,
-            open * p,
-        ]
-    }
-
-    /// What the mean pressure adds.
-    pub fn mean(&self) -> Smooth {
-        let State { xx, yy, zz, .. } = self.field.mean(Depth::SURFACE);
-        [-zz, 0.0, 0.0, xx, yy, 0.0, -zz, xx, yy, 0.0, -zz]
+        let (factors, slice) = (factors.collect(), field.slice(Depth::SURFACE, REACH));
+        Self { field, slice, factors, width: edge, edge: Edge::new() }
     }
 
     /// At a place (x, y): the sum over waves itself.
     fn at(&self, place: [f64; 2]) -> Smooth {
-        let (waves, mean) = (&self.field.spectrum.waves, self.mean());
-        let sum = sums::of(waves.len(), |i| self.terms(&waves[i], waves[i].at(place)).map(|term| term.re));
-        std::array::from_fn(|c| mean[c] + sum[c])
+        self.field.at(&[place], self)[0]
     }
 
     /// At all samples of the grid.
     fn everywhere(&self) -> [Vec<f64>; 11] {
-        let waves = &self.field.spectrum.waves;
-        let (fourier, mean) = (Fourier::new(self.field.grid().points()), self.mean());
-        std::array::from_fn(|c| {
-            self.field.synthesised(&fourier, waves, mean[c], |wave| self.terms(wave, wave.coefficient)[c])
-        })
+        let transform = Transform::new(self.field.grid().points());
+        let columns = self.field.series.on_plane(&transform, self);
+        let len = self.field.grid().len();
+        let mut all = vec![0.0; 11 * len];
+        columns.write(&mut all);
+        std::array::from_fn(|c| all[c * len..(c + 1) * len].to_vec())
     }
 
     /// Distance from the edge over the width, positive inside, and the normal that points outward.
@@ -205,9 +174,43 @@ impl<'a> Skin<'a> {
     /// How far the surface material's own response, which carries the singular part, is from the half-space's at the
     /// wavenumber 1/width, over the pressure: a coating must be thicker than the width for it.
     fn unlike(&self) -> f64 {
-        let shell = self.field.spectrum.shells_up_to(1.0 / self.width).saturating_sub(1);
+        let shell = self.field.series.waves.shells_up_to(1.0 / self.width).saturating_sub(1);
         let twice = 2.0 * self.field.surface_poisson();
-        self.amplitudes.get(shell).map_or(0.0, |at| (at.sqq + 1.0).abs().max((at.stt + twice).abs()))
+        self.slice.amplitudes.get(shell).map_or(0.0, |at| (at.sqq + 1.0).abs().max((at.stt + twice).abs()))
+    }
+}
+
+impl Response<11> for Skin<'_> {
+    const ODD: [bool; 11] = [false, true, true, false, false, false, false, false, false, false, false];
+
+    fn shells(&self) -> usize {
+        self.factors.len()
+    }
+
+    fn factors(&self, q: [f64; 2], shell: usize) -> [f64; 11] {
+        let [gaussian, edge, open] = self.factors[shell];
+        let [xx, yy, zz, xy, ..] = components(q, &self.slice.amplitudes[shell]);
+        // The slope of c e^{iq·x} is iq times it.
+        let [x, y] = q;
+        let p = -zz;
+        [
+            gaussian * p,
+            -gaussian * x,
+            -gaussian * y,
+            edge * xx,
+            edge * yy,
+            edge * xy,
+            edge * p,
+            open * xx,
+            open * yy,
+            open * xy,
+            open * p,
+        ]
+    }
+
+    fn mean(&self) -> [f64; 11] {
+        let State { xx, yy, zz, .. } = self.slice.mean;
+        [-zz, 0.0, 0.0, xx, yy, 0.0, -zz, xx, yy, 0.0, -zz]
     }
 }
 

@@ -27,6 +27,11 @@ impl State {
         Self { xx, yy, zz, xy, xz, yz, displacement: [ux, uy, uz] }
     }
 
+    /// From xx, yy, zz, xy, xz, yz; the displacement is left out.
+    pub(super) fn from_stresses([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Self {
+        Self { xx, yy, zz, xy, xz, yz, ..Self::default() }
+    }
+
     /// xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn components(&self) -> [f64; 9] {
         let [ux, uy, uz] = self.displacement;
@@ -49,10 +54,9 @@ impl State {
     /// Eigenvalues of the deviator by the trigonometric solution of its characteristic equation
     /// s³ − J₂s − J₃ = 0: s_k = 2√(J₂/3) cos(θ − 2πk/3), cos 3θ = (J₃/2)(3/J₂)^{3/2}.
     pub fn principal(&self) -> [f64; 3] {
-        let mean = (self.xx + self.yy + self.zz) / 3.0;
+        let (mean, j2) = self.invariants();
         let (a, b, c) = (self.xx - mean, self.yy - mean, self.zz - mean);
         let (xy, xz, yz) = (self.xy, self.xz, self.yz);
-        let j2 = 0.5 * (a * a + b * b + c * c) + xy * xy + xz * xz + yz * yz;
         if j2 == 0.0 {
             return [mean; 3];
         }
@@ -64,6 +68,13 @@ impl State {
         let first = 2.0 * radius * angle.cos();
         let last = 2.0 * radius * (angle + third).cos();
         [mean + first, mean - first - last, mean + last]
+    }
+
+    /// Mean normal stress σ_kk/3, and J₂ of the deviator.
+    pub(super) fn invariants(&self) -> (f64, f64) {
+        let mean = (self.xx + self.yy + self.zz) / 3.0;
+        let (a, b, c) = (self.xx - mean, self.yy - mean, self.zz - mean);
+        (mean, 0.5 * (a * a + b * b + c * c) + self.xy * self.xy + self.xz * self.xz + self.yz * self.yz)
     }
 
     /// Principal shear stress τ₁ = (σ₁ − σ₃)/2.

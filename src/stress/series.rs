@@ -1,0 +1,185 @@
+//! The pressure as a sum of plane waves, and what becomes of it elsewhere in the body.
+//!
+//! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**} over the [`Waves`] of the grid. A component of stress or displacement at a depth is
+//! the same sum with c times a real factor f(**q**), or with −ic f(**q**) where it is odd in **q**: a [`Response`]. It is
+//! summed over points of a plane by transforms, and at single places term by term.
+
+use super::transform::{Columns, Transform};
+use crate::lattice::Grid;
+use crate::lattice::waves::{Row, Waves};
+use rayon::prelude::*;
+use rustfft::num_complex::Complex64;
+use std::sync::Arc;
+
+/// K components that the pressure causes.
+pub(super) trait Response<const K: usize>: Sync {
+    /// Those whose factor changes its sign with **q**.
+    const ODD: [bool; K];
+    /// Shells that count, from the longest waves on.
+    fn shells(&self) -> usize;
+    /// Factors of a wave of this wavevector and shell.
+    fn factors(&self, q: [f64; 2], shell: usize) -> [f64; K];
+    /// What the mean pressure causes.
+    fn mean(&self) -> [f64; K];
+}
+
+/// Plane waves of a periodic pressure.
+#[derive(Debug)]
+pub(super) struct Series {
+    /// Mean p̄.
+    pub mean: f64,
+    pub waves: Arc<Waves>,
+    /// c of each wave.
+    pub coefficients: Vec<Complex64>,
+}
+
+/// Places summed at together.
+const LANES: usize = 8;
+/// Waves from which on a sum is worth more than one thread.
+const MANY: usize = 4096;
+
+impl Series {
+    /// Of `pressure`, one value per sample of `grid`.
+    pub fn new(grid: &Grid, pressure: &[f64]) -> Self {
+        let [n1, n2] = grid.points();
+        let columns = Transform::new([n1, n2]).analysed(pressure);
+        let waves = Arc::clone(grid.waves());
+        let coefficients = waves.coefficients(|[k1, k2]| {
+            let [k1, k2] = [k1.rem_euclid(n1 as i32) as usize, k2.rem_euclid(n2 as i32) as usize];
+            // A wave and its conjugate are one.
+            if 2 * k2 <= n2 {
+                2.0 * columns[k2 * n1 + k1]
+            } else {
+                2.0 * columns[(n2 - k2) * n1 + (n1 - k1) % n1].conj()
+            }
+        });
+        Self { mean: columns[0].re, waves, coefficients }
+    }
+
+    /// Wavevector, shell and coefficient of the waves of a row.
+    pub fn of<'a>(&'a self, row: &'a Row) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
+        let range = row.start..row.start + row.len;
+        let pairs = self.waves.shells()[range.clone()].iter().zip(&self.coefficients[range]);
+        let step = self.waves.step();
+        pairs.enumerate().map(move |(k, (&shell, &coefficient))| (row.at(k, step), shell as usize, coefficient))
+    }
+
+    /// Components at the points of the cell that the transform is for: exact there, however few they are, as waves that
+    /// look alike at the points add up.
+    pub fn on_plane<'t, const K: usize, R: Response<K>>(
+        &self,
+        transform: &'t Transform,
+        response: &R,
+    ) -> Columns<'t, K> {
+        let [n1, n2] = transform.points().map(|n| n as i32);
+        let rows = self.waves.rows_within(response.shells());
+        // Re C e^{iq·x} is half the wave and half its conjugate; each stands in one column or in its mirror image.
+        let sides = rows.iter().flat_map(|row| [(row, 1), (row, -1)]);
+        let mut placed: Vec<(i32, i32, &Row)> = sides
+            .map(|(row, sign)| ((sign * row.across).rem_euclid(n2), sign, row))
+            .filter(|(column, ..)| 2 * column <= n2)
+            .collect();
+        placed.sort_by_key(|&(column, ..)| column);
+        let mean = response.mean();
+        transform.columns(|k2, columns: &mut [&mut [Complex64]; K]| {
+            let k2 = k2 as i32;
+            let first = placed.partition_point(|&(column, ..)| column < k2);
+            let own = placed[first..].iter().take_while(|&&(column, ..)| column == k2);
+            let mut any = k2 == 0;
+            if any {
+                columns.iter_mut().zip(mean).for_each(|(column, mean)| column[0].re = mean);
+            }
+            for &(_, sign, row) in own {
+                any = true;
+                let side = 0.5 * f64::from(sign);
+                let mut bin = (sign * row.first).rem_euclid(n1);
+                for (q, shell, Complex64 { re, im }) in self.of(row) {
+                    let (even, odd) =
+                        (Complex64::new(0.5 * re, side * im), Complex64::new(0.5 * im, -side * re));
+                    let factors = response.factors(q, shell);
+                    for k in 0..K {
+                        columns[k][bin as usize] += factors[k] * if R::ODD[k] { odd } else { even };
+                    }
+                    bin += sign;
+                    if bin == n1 {
+                        bin = 0;
+                    } else if bin < 0 {
+                        bin = n1 - 1;
+                    }
+                }
+            }
+            any
+        })
+    }
+
+    /// Components at places, given as fractions of a₁ and a₂: the sum itself.
+    pub fn at<const K: usize, R: Response<K>>(&self, places: &[[f64; 2]], response: &R) -> Vec<[f64; K]> {
+        let rows = self.waves.rows_within(response.shells());
+        let together = places.chunks_exact(LANES);
+        let rest = together.remainder().iter().flat_map(|&place| self.lanes(&rows, [place], response));
+        let rest: Vec<[f64; K]> = rest.collect();
+        let lanes = |places: &[[f64; 2]]| self.lanes::<K, LANES, R>(&rows, std::array::from_fn(|p| places[p]), response);
+        together.flat_map(lanes).chain(rest).collect()
+    }
+
+    fn lanes<const K: usize, const P: usize, R: Response<K>>(
+        &self,
+        rows: &[Row],
+        places: [[f64; 2]; P],
+        response: &R,
+    ) -> [[f64; K]; P] {
+        let along = Phases::along(rows, places.map(|[s, _]| s));
+        let of_row = |row: &Row| {
+            let [across_re, across_im] = turned(row.across, places.map(|[_, t]| t));
+            let mut sums = [[0.0; P]; K];
+            for ((q, shell, c), [along_re, along_im]) in self.of(row).zip(along.from(row)) {
+                let factors = response.factors(q, shell);
+                for p in 0..P {
+                    let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];
+                    let im = along_re[p] * across_im[p] + along_im[p] * across_re[p];
+                    let (even, odd) = (c.re * re - c.im * im, c.re * im + c.im * re);
+                    for k in 0..K {
+                        sums[k][p] += factors[k] * if R::ODD[k] { odd } else { even };
+                    }
+                }
+            }
+            sums
+        };
+        let waves: usize = rows.iter().map(|row| row.len).sum();
+        // Rows are added in their order, whoever has summed them.
+        let sums: Vec<[[f64; P]; K]> =
+            rows.par_iter().with_min_len(MANY * rows.len() / waves.max(1)).map(of_row).collect();
+        let mean = response.mean();
+        std::array::from_fn(|p| std::array::from_fn(|k| mean[k] + sums.iter().map(|sum| sum[k][p]).sum::<f64>()))
+    }
+}
+
+/// e^{2πiκ₁s} of some s, for all κ₁ of some rows.
+#[derive(Debug)]
+pub(super) struct Phases<const P: usize> {
+    first: i32,
+    turns: Vec<[[f64; P]; 2]>,
+}
+
+impl<const P: usize> Phases<P> {
+    pub fn along(rows: &[Row], places: [f64; P]) -> Self {
+        let first = rows.iter().map(|row| row.first).min().unwrap_or(0);
+        let end = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(first);
+        Self { first, turns: (first..end).map(|k| turned(k, places)).collect() }
+    }
+
+    /// From the first wave of a row on.
+    pub fn from(&self, row: &Row) -> &[[[f64; P]; 2]] {
+        &self.turns[(row.first - self.first) as usize..]
+    }
+}
+
+/// cos 2πks and sin 2πks of some s.
+pub(super) fn turned<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
+    let turns = places.map(|s| {
+        // Whole turns are none.
+        let part = (f64::from(k) * (s - s.round())).fract();
+        (std::f64::consts::TAU * part).sin_cos()
+    });
+    [turns.map(|(_, cosine)| cosine), turns.map(|(sine, _)| sine)]
+}

@@ -1,0 +1,116 @@
+//! Waves along a straight line.
+//!
+//! On a line **x** = **x**₀ + s**d** a wave c e^{i**q**·**x**} is c e^{i**q**·**x**₀} e^{iκs} with κ = **q**·**d**. Along a
+//! lattice direction, **d** ∝ m₁**a**₁ + m₂**a**₂, κ is a multiple m₁κ₁ + m₂κ₂ of one wavenumber: N² waves collapse onto a
+//! few N multiples, −κ being the conjugate of κ, before any point of the line is looked at. Along a direction that is
+//! incommensurate with the lattice nothing collapses: each wave is a sum of its own, and a line takes longer.
+
+use super::series::{Phases, Response, Series, turned};
+use crate::lattice::waves::Row;
+use rustfft::num_complex::Complex64;
+use std::f64::consts::TAU;
+
+/// Multiples m₁, m₂ up to which a direction is one of the lattice.
+const LATTICE: i32 = 32;
+/// How near whole ones they are: a phase error of 1e-11 over a period.
+const WHOLE: f64 = 1e-12;
+
+/// The waves of a series along a line.
+#[derive(Debug)]
+pub(super) struct Trace<'a> {
+    series: &'a Series,
+    /// Fractions of a₁ and a₂ of the origin **x**₀, and of the unit vector **d**.
+    origin: [f64; 2],
+    unit: [f64; 2],
+    /// m₁, m₂ and the wavenumber they are multiples of, 1/length.
+    lattice: Option<([i32; 2], f64)>,
+    /// e^{2πiκ₁s₁} at the origin.
+    along: Phases<1>,
+}
+
+impl<'a> Trace<'a> {
+    /// Along the line from `origin` in the direction of the `unit` vector, both as fractions of a₁ and a₂.
+    pub fn new(series: &'a Series, origin: [f64; 2], unit: [f64; 2]) -> Self {
+        let along = Phases::along(series.waves.rows(), [origin[0]]);
+        Self { series, origin, unit, lattice: lattice_direction(unit), along }
+    }
+
+    /// Components at s = first + i step, 0 ≤ i < `points`, lengths.
+    pub fn sums<const K: usize, R: Response<K>>(
+        &self,
+        response: &R,
+        [first, step]: [f64; 2],
+        points: usize,
+    ) -> Vec<[f64; K]> {
+        let mut fields = response.mean().map(|mean| vec![mean; points]);
+        let mut phases = vec![[0.0; 2]; points];
+        let mut add = |kappa: f64, sums: &[Complex64; K]| {
+            if sums.iter().all(|sum| sum.norm_sqr() == 0.0) {
+                return;
+            }
+            let (mut phase, turn) = (Complex64::cis(kappa * first), Complex64::cis(kappa * step));
+            for place in &mut phases {
+                *place = [phase.re, phase.im];
+                phase *= turn;
+            }
+            for (field, sum) in fields.iter_mut().zip(sums) {
+                for (total, [re, im]) in field.iter_mut().zip(&phases) {
+                    *total += sum.re * re - sum.im * im;
+                }
+            }
+        };
+        let rows = self.series.waves.rows_within(response.shells());
+        match self.lattice {
+            Some(([m1, m2], unit)) => {
+                let multiple = |row: &Row, k: usize| m1 * (row.first + k as i32) + m2 * row.across;
+                let ends = rows.iter().flat_map(|row| [multiple(row, 0), multiple(row, row.len - 1)]);
+                let most = ends.map(i32::abs).max().unwrap_or(0) as usize;
+                let mut sums = vec![[Complex64::default(); K]; most + 1];
+                for row in &rows {
+                    self.terms(row, response, |k, term| {
+                        let multiple = multiple(row, k);
+                        let side = f64::from(multiple.signum() | 1);
+                        for (sum, term) in sums[multiple.unsigned_abs() as usize].iter_mut().zip(term) {
+                            *sum += Complex64::new(term.re, side * term.im);
+                        }
+                    });
+                }
+                (0..).zip(&sums).for_each(|(multiple, sums)| add(f64::from(multiple) * unit, sums));
+            }
+            None => {
+                let [s, t] = self.unit.map(|fraction| TAU * fraction);
+                for row in &rows {
+                    let across = f64::from(row.across) * t;
+                    self.terms(row, response, |k, term| add(across + f64::from(row.first + k as i32) * s, &term));
+                }
+            }
+        }
+        (0..points).map(|i| std::array::from_fn(|k| fields[k][i])).collect()
+    }
+
+    /// Hands over what the waves of a row give at the origin, by their number in it.
+    fn terms<const K: usize, R: Response<K>>(
+        &self,
+        row: &Row,
+        response: &R,
+        mut add: impl FnMut(usize, [Complex64; K]),
+    ) {
+        let [[re], [im]] = turned(row.across, [self.origin[1]]);
+        let across = Complex64::new(re, im);
+        for (k, ((q, shell, c), [[re], [im]])) in self.series.of(row).zip(self.along.from(row)).enumerate() {
+            let even = c * (across * Complex64::new(*re, *im));
+            let odd = Complex64::new(even.im, -even.re);
+            let factors = response.factors(q, shell);
+            add(k, std::array::from_fn(|j| factors[j] * if R::ODD[j] { odd } else { even }));
+        }
+    }
+}
+
+/// m₁, m₂ without a common factor along a unit vector of these fractions of a₁ and a₂, and 2π over the length of
+/// m₁**a**₁ + m₂**a**₂; none for a direction that is incommensurate with the lattice.
+fn lattice_direction([s, t]: [f64; 2]) -> Option<([i32; 2], f64)> {
+    let larger = if s.abs() > t.abs() { s } else { t };
+    let near = |x: f64| (x - x.round()).abs() <= WHOLE;
+    let scale = (1..=LATTICE).map(f64::from).find(|m| near(m * s / larger) && near(m * t / larger))?;
+    Some(([s, t].map(|x| (scale * x / larger).round() as i32), TAU * larger / scale))
+}
