@@ -76,11 +76,6 @@ impl Waves {
         Self { rows, step, parts, shells, wavenumbers }
     }
 
-    /// Number of waves.
-    pub fn len(&self) -> usize {
-        self.shells.len()
-    }
-
     /// Wavenumbers of the shells, ascending, 1/length.
     pub fn wavenumbers(&self) -> &[f64] {
         &self.wavenumbers

@@ -38,6 +38,12 @@ impl Edge {
         SPAN[0] + (SPAN[1] - SPAN[0]) * place / INTERVALS as f64
     }
 
+    /// Whether the distance that belongs to P/P′ is less than `most` either way.
+    pub fn is_within(&self, most: f64, ratio: f64) -> bool {
+        let index = |u: f64| ((u - SPAN[0]) / (SPAN[1] - SPAN[0]) * INTERVALS as f64).round() as usize;
+        self.ratio[index(-most)] < ratio && ratio < self.ratio[index(most)]
+    }
+
     /// The pressure over the smoothed one at the distance u: √u/P(u), and 0 outside.
     pub fn sharp(&self, u: f64) -> f64 {
         if u <= 0.0 {

@@ -26,7 +26,7 @@ pub struct StressField {
     /// State under the mean pressure at the upper face of each material, and the slope of u_z there.
     mean: Vec<(State, f64)>,
     mean_stress: MeanStress,
-    pub(super) regions: Regions,
+    regions: Regions,
 }
 
 impl StressField {
@@ -76,6 +76,11 @@ impl StressField {
     /// What the mean lateral stress is.
     pub fn mean_stress(&self) -> MeanStress {
         self.mean_stress
+    }
+
+    /// Contact spots and what is open between them.
+    pub(super) fn regions(&self) -> &Regions {
+        &self.regions
     }
 
     /// Number of materials, layers + 1.

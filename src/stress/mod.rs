@@ -14,12 +14,15 @@
 //! - **points**: the sum itself ([`StressField::points`]);
 //! - **maxima** over each material and each face ([`maxima`]).
 
+mod crest;
 mod edge;
 mod field;
 pub mod maxima;
 mod peak;
 mod plane;
+mod quantity;
 mod regions;
+mod search;
 mod section;
 mod series;
 mod slice;
@@ -28,9 +31,9 @@ mod tensor;
 mod trace;
 mod transform;
 
+pub use crest::Crest;
 pub use field::StressField;
 pub use peak::Peak;
 pub use plane::Plane;
 pub use section::{Line, Section};
-pub use surface::Crest;
 pub use tensor::State;

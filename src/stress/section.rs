@@ -73,7 +73,7 @@ struct Below<'a> {
     line: Line,
     trace: Trace<'a>,
     /// The surface, where contact has edges.
-    skin: Option<Skin<'a>>,
+    skin: Option<Skin>,
 }
 
 impl StressField {
@@ -92,7 +92,7 @@ impl StressField {
     /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
     /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
     fn shallow(&self) -> f64 {
-        let depth = if self.regions.have_edges() { 0.5 * OPEN * OPEN / self.grid().least_aliased() } else { 0.0 };
+        let depth = if self.regions().have_edges() { 0.5 * OPEN * OPEN / self.grid().least_aliased() } else { 0.0 };
         depth.min(self.half_space().faces(1).1)
     }
 }
@@ -101,7 +101,7 @@ impl<'a> Below<'a> {
     fn new(field: &'a StressField, line: Line) -> Self {
         let cell = field.grid().cell();
         let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
-        let skin = field.regions.have_edges().then(|| Skin::new(field, 1.0));
+        let skin = field.regions().have_edges().then(|| Skin::new(field, 1.0));
         Self { field, line, trace, skin }
     }
 
@@ -155,8 +155,10 @@ impl<'a> Below<'a> {
         let slice = self.field.slice(depth, REACH);
         let states = self.trace.sums(&slice, [first, step], line.points).into_iter().map(State::from_components);
         let Some(skin) = self.skin.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
-        let smooth = self.trace.sums(skin, [first, step], line.points);
-        let on_surface = smooth.iter().zip(states);
-        on_surface.map(|(smooth, state)| State { displacement: state.displacement, ..skin.state(smooth) }).collect()
+        let near = self.trace.sums(&skin.near, [first, step], line.points);
+        let [edge, open] = [&skin.edge, &skin.open].map(|flat| self.trace.sums(flat, [first, step], line.points));
+        let smooth = near.into_iter().zip(edge).zip(open);
+        let sharp = smooth.map(|((near, edge), open)| skin.state(near, edge, open));
+        sharp.zip(states).map(|(sharp, state)| State { displacement: state.displacement, ..sharp }).collect()
     }
 }

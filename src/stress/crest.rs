@@ -1,0 +1,253 @@
+//! The largest tension on the surface: at an edge of contact, or in the open.
+//!
+//! 1. **Edges** beside the samples where contact ends are found between the samples of the smoothed pressure, and the
+//!    tension there is read between those of the smoothed stresses.
+//! 2. **Everywhere** the tension is that of the [`Skin`]: of the series itself but for a band along the edges.
+//! 3. The highest edges and the highest sample are read again by the exact sums, with three widths.
+//!
+//! Fields that are used up row by row are not kept: of the smoothed stresses near edges no more than the band.
+
+use super::field::StressField;
+use super::peak::Peak;
+use super::quantity::Quantity;
+use super::surface::{Skin, toward_open};
+use super::tensor::State;
+use super::transform::Transform;
+use crate::numeric::search::{first_largest, largest};
+use rayon::prelude::*;
+
+/// Widths that the largest tension is read with again, over the usual ones: how it changes tells its error.
+const OTHER: [f64; 2] = [0.7, 1.45];
+/// Places that the exact sum decides between.
+const FINALISTS: usize = 8;
+/// The error of a tension beside a spot or open place of n samples per radius is at least this over n² of the tension,
+/// and of the usual one.
+const FEW: f64 = 0.3;
+/// Usual tension at an edge over the largest pressure: (1 − 2ν)/3 at Hertz' contact.
+const TENSION: f64 = 0.13;
+/// By how much all that makes an error uncertain is multiplied, so that nineteen of twenty hold.
+const SAFETY: f64 = 1.5;
+/// Where a spot of n samples per radius stands against a coarser grid: errors fall at least as n^{−1.5}, so that the
+/// finer of two grids whose spacings have the ratio 2 errs by less than the change over 2^{1.5} − 1.
+const FALL: f64 = 1.8;
+
+/// The largest tension on the surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crest {
+    /// Where and how large.
+    pub peak: Peak,
+    /// How uncertain its value is by what this grid alone tells, a pressure.
+    pub uncertainty: f64,
+    /// What errors are relative to: the tension itself, or the usual one under the largest pressure, 0.13 of it, where
+    /// that is more (as on incompressible materials, which have no tension at the edge).
+    pub scale: f64,
+}
+
+impl Crest {
+    /// Estimated relative error, also from the largest tension on the surface of the next coarser grid where there is one.
+    pub fn error(&self, coarser: Option<f64>) -> f64 {
+        let change = coarser.map_or(0.0, |tension| (tension - self.peak.value).abs());
+        SAFETY * (self.uncertainty + change / FALL) / self.scale
+    }
+}
+
+/// What stands at a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Open,
+    Edge,
+}
+
+/// An edge between the samples.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    place: [f64; 2],
+    /// p̃ and its slopes.
+    near: [f64; 3],
+    /// That of the less resolved of the spot and the open place beside it.
+    resolution: f64,
+    tension: f64,
+}
+
+/// A place between the samples, read by cubics in each direction: rows and columns around it, and their weights.
+#[derive(Debug)]
+struct Between {
+    rows: [(usize, f64); 4],
+    columns: [(usize, f64); 4],
+}
+
+/// The largest of some places on the surface.
+#[derive(Debug, Clone, Copy)]
+struct Highest {
+    kind: Kind,
+    place: [f64; 2],
+    state: State,
+    /// The pressure there, smoothed for edges.
+    smoothed: f64,
+}
+
+impl StressField {
+    /// The largest tension on the surface; `None` where there is no edge: contact is complete, or nowhere.
+    pub fn crest(&self) -> Option<Crest> {
+        if !self.regions().have_edges() {
+            return None;
+        }
+        let skin = Skin::new(self, 1.0);
+        let transform = Transform::new(self.grid().points());
+        let (edges, band) = self.edges(&skin, &transform);
+        let (edges, band) = self.along_edges(&skin, &transform, edges, band);
+        let (highest, pressed) = self.highest_sample(&skin, &transform, &band)?;
+        let mut finalists = vec![(Kind::Open, highest)];
+        finalists.extend(edges.iter().take(FINALISTS).map(|edge| (Kind::Edge, edge.place)));
+        let Highest { kind, place, state, smoothed } = self.highest(&skin, &finalists)?;
+        let value = state.s1();
+        // How far the tension at an edge that few samples see may reach above the largest one; at least so far at it all.
+        let usual = TENSION * pressed;
+        let spread = OTHER.iter().filter_map(|&scale| self.highest(&Skin::new(self, scale), &finalists));
+        let spread: f64 = spread.map(|other| (other.state.s1() - value).abs()).sum();
+        let unlike = if kind == Kind::Edge { smoothed.abs() * skin.unlike } else { 0.0 };
+        let few = |edge: &Edge| {
+            edge.tension + FEW / (edge.resolution * edge.resolution) * usual.max(edge.tension.abs()) - value
+        };
+        let few = largest(edges.iter().map(few));
+        let direction = state.s1_direction();
+        let peak = Peak { value, position: [place[0], place[1], 0.0], material: 1, direction };
+        Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })
+    }
+
+    /// Edges beside the samples where contact ends, their tension not known yet; and row by row the samples near edges,
+    /// with p̃ and its slopes.
+    fn edges(&self, skin: &Skin, transform: &Transform) -> (Vec<Edge>, Vec<Vec<(usize, [f64; 3])>>) {
+        let (grid, regions) = (self.grid(), self.regions());
+        let ([_, n2], cell, len) = (grid.points(), grid.cell(), grid.len());
+        let mut fields = vec![0.0; 3 * len];
+        self.series.on_plane(transform, &skin.near).write(&mut fields);
+        let near = |index: usize| [0, 1, 2].map(|k| fields[k * len + index]);
+        let found = (0..len).into_par_iter().filter(|&index| regions.touches(index)).filter_map(|index| {
+            let open = grid.neighbours(index).filter(|&next| !regions.touches(next));
+            let resolution = open.map(|next| regions.resolution(next)).reduce(f64::min)?.min(regions.resolution(index));
+            let (mut place, mut near, mut u) = (cell.point(grid.fractions(index)), near(index), 0.0);
+            for _ in 0..3 {
+                (place, u) = skin.moved(place, near);
+                let between = Between::new(grid.points(), cell.fractions(place));
+                near = [0, 1, 2].map(|k| between.value(&fields[k * len..(k + 1) * len], n2));
+            }
+            (u.abs() < 0.5).then_some(Edge { place, near, resolution, tension: f64::NAN })
+        });
+        let band = |i: usize| {
+            let samples = (0..n2).map(|j| (j, near(i * n2 + j)));
+            samples.filter(|(_, near)| skin.sees_edge(*near)).collect()
+        };
+        (found.collect(), (0..grid.points()[0]).into_par_iter().map(band).collect())
+    }
+
+    /// The edges with their tension, the highest first, and the band with σ_xx, σ_yy, σ_xy, p as they are near edges and
+    /// the part that the series itself has.
+    #[allow(clippy::type_complexity, reason = "what one pass over the rows gives")]
+    fn along_edges(
+        &self,
+        skin: &Skin,
+        transform: &Transform,
+        mut edges: Vec<Edge>,
+        band: Vec<Vec<(usize, [f64; 3])>>,
+    ) -> (Vec<Edge>, Vec<Vec<(usize, ([f64; 4], f64))>>) {
+        let (points, cell) = (self.grid().points(), self.grid().cell());
+        // What each row adds to which edge.
+        let places: Vec<Between> =
+            edges.iter().map(|edge| Between::new(points, cell.fractions(edge.place))).collect();
+        let mut beside: Vec<Vec<(usize, f64)>> = vec![Vec::new(); points[0]];
+        for (number, place) in places.iter().enumerate() {
+            place.rows.iter().for_each(|&(i, weight)| beside[i].push((number, weight)));
+        }
+        let read = self.series.on_plane(transform, &skin.edge).map(|i, row| {
+            let at = |j: usize| row.map(|component| component[j]);
+            let sharp: Vec<_> = band[i].iter().map(|&(j, near)| (j, skin.sharp(near, at(j)))).collect();
+            let parts: Vec<[f64; 4]> = beside[i]
+                .iter()
+                .map(|&(number, weight)| row.map(|component| weight * places[number].across(component)))
+                .collect();
+            (sharp, parts)
+        });
+        let mut sums = vec![[0.0; 4]; edges.len()];
+        let (mut sharp, mut rows) = (Vec::with_capacity(read.len()), beside.iter());
+        for (own, parts) in read {
+            for (&(number, _), part) in rows.next().into_iter().flatten().zip(parts) {
+                sums[number].iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+            }
+            sharp.push(own);
+        }
+        for (edge, sum) in edges.iter_mut().zip(sums) {
+            edge.tension = skin.state_on_edge(edge.near, sum).s1();
+        }
+        edges.sort_by(|a, b| b.tension.total_cmp(&a.tension));
+        (edges, sharp)
+    }
+
+    /// Place of the sample under the largest tension, and the largest smoothed pressure of all.
+    fn highest_sample(
+        &self,
+        skin: &Skin,
+        transform: &Transform,
+        band: &[Vec<(usize, ([f64; 4], f64))>],
+    ) -> Option<([f64; 2], f64)> {
+        let rows = self.series.on_plane(transform, &skin.open).map(|i, row| {
+            let at = |j: usize| row.map(|component| component[j]);
+            let mut states: Vec<State> = (0..row[0].len()).map(|j| toward_open([0.0; 4], at(j), 1.0)).collect();
+            for &(j, (sharp, part)) in &band[i] {
+                states[j] = toward_open(sharp, at(j), part);
+            }
+            (Quantity::Tension.largest(&states), largest(row[3].iter().copied()))
+        });
+        let (i, _) = first_largest(rows.iter().map(|&((_, tension), _)| tension))?;
+        let ((j, _), _) = rows[i];
+        let place = self.grid().cell().point(self.grid().fractions(i * self.grid().points()[1] + j));
+        Some((place, largest(rows.into_iter().map(|(_, pressed)| pressed))))
+    }
+
+    /// The largest tension at places of which some stand at edges, by the exact sums.
+    fn highest(&self, skin: &Skin, places: &[(Kind, [f64; 2])]) -> Option<Highest> {
+        let (open, edges): (Vec<_>, Vec<_>) = places.iter().partition(|(kind, _)| *kind == Kind::Open);
+        let [open, mut edges] = [open, edges].map(|some| some.iter().map(|(_, place)| *place).collect::<Vec<_>>());
+        for _ in 0..2 {
+            let near = self.at(&edges, &skin.near);
+            edges.iter_mut().zip(near).for_each(|(place, near)| *place = skin.moved(*place, near).0);
+        }
+        let read = |places: &[[f64; 2]]| self.at(places, &skin.near).into_iter().zip(self.at(places, &skin.edge));
+        let on_edges = edges.iter().zip(read(&edges)).map(|(&place, (near, edge))| {
+            Highest { kind: Kind::Edge, place, state: skin.state_on_edge(near, edge), smoothed: edge[3] }
+        });
+        let series = self.at(&open, &skin.open);
+        let in_open = open.iter().zip(read(&open)).zip(series).map(|((&place, (near, edge)), series)| {
+            Highest { kind: Kind::Open, place, state: skin.state(near, edge, series), smoothed: edge[3] }
+        });
+        in_open.chain(on_edges).max_by(|a, b| a.state.s1().total_cmp(&b.state.s1()))
+    }
+}
+
+impl Between {
+    /// At the fractions s, t of the cell.
+    fn new([n1, n2]: [usize; 2], [s, t]: [f64; 2]) -> Self {
+        let around = |x: f64, n: usize| {
+            let f = x - x.floor();
+            let weights = [
+                -f * (f - 1.0) * (f - 2.0) / 6.0,
+                (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0,
+                -(f + 1.0) * f * (f - 2.0) / 2.0,
+                (f + 1.0) * f * (f - 1.0) / 6.0,
+            ];
+            let index = |k: usize| (x.floor() as i64 + k as i64 - 1).rem_euclid(n as i64) as usize;
+            std::array::from_fn(|k| (index(k), weights[k]))
+        };
+        Self { rows: around(s * n1 as f64, n1), columns: around(t * n2 as f64, n2) }
+    }
+
+    /// What a row of a field is at the place across it.
+    fn across(&self, row: &[f64]) -> f64 {
+        self.columns.iter().map(|&(j, weight)| weight * row[j]).sum()
+    }
+
+    /// A field of rows of n₂ samples.
+    fn value(&self, field: &[f64], n2: usize) -> f64 {
+        self.rows.iter().map(|&(i, weight)| weight * self.across(&field[i * n2..(i + 1) * n2])).sum()
+    }
+}
