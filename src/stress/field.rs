@@ -13,8 +13,8 @@ use rayon::prelude::*;
 use std::fmt;
 use std::sync::Arc;
 
-/// Largest qz of a wave that still counts: its stresses are below e^{−60} of the pressure.
-pub(super) const REACH: f64 = 60.0;
+/// Largest qz of a wave that still counts: its stresses are below (1 + qz)e^{−qz} of the pressure, 10⁻¹⁶.
+pub(super) const REACH: f64 = 41.0;
 
 /// The stress field of one load step.
 #[derive(Debug)]

@@ -6,7 +6,7 @@
 //! u_z = u_z c e^{…},  u_α = −i n_α u_q c e^{…}
 //!
 //! with the amplitudes of [`crate::body::Interior`]; the mean pressure adds the state of [`crate::MeanStress`]. At the
-//! depth z only waves with qz up to 60 count.
+//! depth z only waves with qz up to 41 count: shorter ones are lost in rounding.
 //!
 //! - **planes**: inverse transforms, one component at a time ([`StressField::plane`]);
 //! - **sections** and **lines**: the waves are first collapsed across the section onto their wavenumbers along it

@@ -24,10 +24,9 @@ pub(super) struct Third<'a, const T: usize>(pub &'a Slice);
 
 /// Factors of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave.
 pub(super) fn components([x, y]: [f64; 2], amplitudes: &Amplitudes) -> [f64; 9] {
-    let square = x * x + y * y;
-    let (xx, yy, xy) = (x * x / square, y * y / square, x * y / square);
-    let length = square.sqrt();
-    let (nx, ny) = (x / length, y / length);
+    let over = 1.0 / (x * x + y * y).sqrt();
+    let (nx, ny) = (x * over, y * over);
+    let (xx, yy, xy) = (nx * nx, ny * ny, nx * ny);
     let Amplitudes { szz, sqz, sqq, stt, uz, uq } = *amplitudes;
     [xx * sqq + yy * stt, yy * sqq + xx * stt, szz, xy * (sqq - stt), nx * sqz, ny * sqz, nx * uq, ny * uq, uz]
 }

@@ -42,23 +42,8 @@ impl<'a> Trace<'a> {
         [first, step]: [f64; 2],
         points: usize,
     ) -> Vec<[f64; K]> {
+        let places: Vec<f64> = (0..points).map(|i| first + i as f64 * step).collect();
         let mut fields = response.mean().map(|mean| vec![mean; points]);
-        let mut phases = vec![[0.0; 2]; points];
-        let mut add = |kappa: f64, sums: &[Complex64; K]| {
-            if sums.iter().all(|sum| sum.norm_sqr() == 0.0) {
-                return;
-            }
-            let (mut phase, turn) = (Complex64::cis(kappa * first), Complex64::cis(kappa * step));
-            for place in &mut phases {
-                *place = [phase.re, phase.im];
-                phase *= turn;
-            }
-            for (field, sum) in fields.iter_mut().zip(sums) {
-                for (total, [re, im]) in field.iter_mut().zip(&phases) {
-                    *total += sum.re * re - sum.im * im;
-                }
-            }
-        };
         let rows = self.series.waves.rows_within(response.shells());
         match self.lattice {
             Some(([m1, m2], unit)) => {
@@ -75,13 +60,15 @@ impl<'a> Trace<'a> {
                         }
                     });
                 }
-                (0..).zip(&sums).for_each(|(multiple, sums)| add(f64::from(multiple) * unit, sums));
+                let mut turning = Turning::new(&places, 0.0, unit);
+                sums.iter().for_each(|sums| turning.add(&mut fields, sums));
             }
             None => {
                 let [s, t] = self.unit.map(|fraction| TAU * fraction);
                 for row in &rows {
-                    let across = f64::from(row.across) * t;
-                    self.terms(row, response, |k, term| add(across + f64::from(row.first + k as i32) * s, &term));
+                    let kappa = f64::from(row.across) * t + f64::from(row.first) * s;
+                    let mut turning = Turning::new(&places, kappa, s);
+                    self.terms(row, response, |_, term| turning.add(&mut fields, &term));
                 }
             }
         }
@@ -102,6 +89,52 @@ impl<'a> Trace<'a> {
             let odd = Complex64::new(even.im, -even.re);
             let factors = response.factors(q, shell);
             add(k, std::array::from_fn(|j| factors[j] * if R::ODD[j] { odd } else { even }));
+        }
+    }
+}
+
+/// e^{iκs} at some places s, κ growing by equal steps.
+struct Turning<'a> {
+    places: &'a [f64],
+    /// κ of the present step and its growth, 1/length; the number of the step.
+    kappa: f64,
+    growth: f64,
+    number: usize,
+    /// cos κs, sin κs, and the same of the growth.
+    phases: [Vec<f64>; 2],
+    turns: [Vec<f64>; 2],
+}
+
+/// Steps after which phases are taken afresh, before rounding adds up.
+const AFRESH: usize = 32;
+
+impl<'a> Turning<'a> {
+    fn new(places: &'a [f64], kappa: f64, growth: f64) -> Self {
+        let phases = |kappa: f64| {
+            [f64::cos, f64::sin].map(|of| places.iter().map(|s| of(kappa * s)).collect::<Vec<_>>())
+        };
+        Self { places, kappa, growth, number: 0, phases: phases(kappa), turns: phases(growth) }
+    }
+
+    /// Adds Re `sums` e^{iκs} to fields of the places, and turns on to the next κ.
+    fn add<const K: usize>(&mut self, fields: &mut [Vec<f64>; K], sums: &[Complex64; K]) {
+        let [cosines, sines] = &mut self.phases;
+        for (field, sum) in fields.iter_mut().zip(sums).filter(|(_, sum)| sum.norm_sqr() != 0.0) {
+            for ((total, cosine), sine) in field.iter_mut().zip(&*cosines).zip(&*sines) {
+                *total += sum.re * cosine - sum.im * sine;
+            }
+        }
+        self.number += 1;
+        if self.number.is_multiple_of(AFRESH) {
+            let kappa = self.kappa + self.number as f64 * self.growth;
+            for ((cosine, sine), s) in cosines.iter_mut().zip(sines).zip(self.places) {
+                (*sine, *cosine) = (kappa * s).sin_cos();
+            }
+        } else {
+            let [turn_cosines, turn_sines] = &self.turns;
+            for (((cosine, sine), c), s) in cosines.iter_mut().zip(sines).zip(turn_cosines).zip(turn_sines) {
+                (*cosine, *sine) = (*cosine * c - *sine * s, *cosine * s + *sine * c);
+            }
         }
     }
 }
