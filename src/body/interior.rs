@@ -286,7 +286,9 @@ mod tests {
             for (q, z) in [(22.6, 0.0), (22.6, 0.01), (30.0, 0.3), (25.0, 2.0), (1e3, 1.0)] {
                 let depth = Depth { z, material: 1 };
                 let (short, long) = (transfer.amplitudes(q, depth), Interior::new(&transfer, q).at(depth));
-                for (a, b) in [(short.szz, long.szz), (short.sqz, long.sqz), (short.sqq, long.sqq), (short.stt, long.stt)] {
+                for (a, b) in
+                    [(short.szz, long.szz), (short.sqz, long.sqz), (short.sqq, long.sqq), (short.stt, long.stt)]
+                {
                     assert!((a - b).abs() < 1e-15, "q = {q}, z = {z}: {short:?} {long:?}");
                 }
                 assert!((short.uz - long.uz).abs() < 1e-15 && (short.uq - long.uq).abs() < 1e-15);

@@ -65,7 +65,8 @@ impl Waves {
                 let index = [first + k as i32, across];
                 if grid.on_border(row.at(k, step), BORDER) {
                     let tied = grid.tied_wavevectors(component(grid, index), TIE);
-                    let part = if tied.iter().any(|(alias, _)| *alias == index) { 1.0 / tied.len() as f64 } else { 0.0 };
+                    let part =
+                        if tied.iter().any(|(alias, _)| *alias == index) { 1.0 / tied.len() as f64 } else { 0.0 };
                     parts.push((count + k, part));
                 }
             }
@@ -120,7 +121,10 @@ impl Waves {
     }
 
     /// What each wave has of its Fourier component; `coefficient` gives that of the component (k₁, k₂), any integers.
-    pub fn coefficients<T: Copy + std::ops::Mul<f64, Output = T>>(&self, coefficient: impl Fn([i32; 2]) -> T) -> Vec<T> {
+    pub fn coefficients<T: Copy + std::ops::Mul<f64, Output = T>>(
+        &self,
+        coefficient: impl Fn([i32; 2]) -> T,
+    ) -> Vec<T> {
         let indices = self.rows.iter().flat_map(|row| (0..row.len).map(|k| [row.first + k as i32, row.across]));
         let mut all: Vec<T> = indices.map(coefficient).collect();
         for &(number, part) in &self.parts {

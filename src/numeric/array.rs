@@ -1,6 +1,6 @@
 //! Fields as arrays with their shape, and as the samples they are made of.
 
-use ndarray::Array2;
+use ndarray::{Array, Array2, Dimension};
 
 /// The field of [n₁, n₂] samples, given row by row.
 ///
@@ -10,10 +10,10 @@ pub fn field<T>(points: [usize; 2], samples: Vec<T>) -> Array2<T> {
     Array2::from_shape_vec(points, samples).expect("as many samples as the field has points")
 }
 
-/// The samples of a field, row by row.
+/// The samples of a field, row by row, or of several one after the other.
 ///
 /// # Panics
 /// When the field is not stored that way.
-pub fn samples<T>(field: &Array2<T>) -> &[T] {
+pub fn samples<T, D: Dimension>(field: &Array<T, D>) -> &[T] {
     field.as_slice().expect("fields are stored row by row")
 }

@@ -5,8 +5,10 @@ use super::clock::{Clock, Phase};
 use super::steps::StepArrays;
 use super::{OutputError, write_volume};
 use crate::body::{Depth, HalfSpace};
+use crate::numeric::array::samples;
 use crate::run::StressRequest;
 use crate::stress::{Section, State, StressField};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Names of the stored components: σ_xx … σ_yz, displacements, and what is derived from the tensor.
@@ -36,11 +38,7 @@ impl Stresses {
         let Self { folder, arrays, request, half_space, .. } = self;
         let step = arrays.next_step();
         for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
-            clock.turn(Phase::Stress);
-            let plane = field.plane(depth, field.grid().points());
-            let states = plane.states();
-            clock.turn(Phase::Output);
-            add_states(arrays, "planes", Some(number), states.shape(), states.iter())?;
+            add_plane(arrays, number, field, depth, clock)?;
         }
         if let Some(cut) = &request.cut {
             clock.turn(Phase::Stress);
@@ -94,6 +92,43 @@ impl Stresses {
         })?;
         Ok(section)
     }
+}
+
+/// Adds the components of a plane to the arrays `planes_<component>`: the stresses and what is derived from them, then the
+/// displacements, so that no more than the one or the other is in memory.
+fn add_plane(
+    arrays: &mut StepArrays,
+    number: usize,
+    field: &StressField,
+    depth: Depth,
+    clock: &mut Clock,
+) -> Result<(), OutputError> {
+    let points = field.grid().points();
+    let len = points[0] * points[1];
+    let mut add = |c: usize, values: &[f64]| {
+        arrays.add(&format!("planes_{}", COMPONENTS[c]), Some(number), &points, values.iter().copied())
+    };
+    clock.turn(Phase::Stress);
+    let stresses = field.stresses(depth, points);
+    clock.turn(Phase::Output);
+    let components: Vec<&[f64]> = samples(&stresses).chunks_exact(len).collect();
+    (0..6).try_for_each(|c| add(c, components[c]))?;
+    let state = |index: usize| {
+        let [xx, yy, zz, xy, xz, yz] = std::array::from_fn(|c| components[c][index]);
+        State { xx, yy, zz, xy, xz, yz, ..State::default() }
+    };
+    for c in 9..12 {
+        clock.turn(Phase::Stress);
+        let values: Vec<f64> = (0..len).into_par_iter().map(|index| component(&state(index), c)).collect();
+        clock.turn(Phase::Output);
+        add(c, &values)?;
+    }
+    drop(components);
+    drop(stresses);
+    clock.turn(Phase::Stress);
+    let displacements = field.displacements(depth, points);
+    clock.turn(Phase::Output);
+    (6..9).zip(samples(&displacements).chunks_exact(len)).try_for_each(|(c, values)| add(c, values))
 }
 
 /// Adds the components of states of this shape to the arrays `<place>_<component>`, as a part if they come in parts.

@@ -69,6 +69,12 @@ struct Edge {
     tension: f64,
 }
 
+/// The samples near edges, row by row: their columns, and what is known there.
+type Band<T> = Vec<Vec<(usize, T)>>;
+
+/// σ_xx, σ_yy, σ_xy and p as they are near an edge, and the part that the series itself has.
+type Sharp = ([f64; 4], f64);
+
 /// A place between the samples, read by cubics in each direction: rows and columns around it, and their weights.
 #[derive(Debug)]
 struct Between {
@@ -117,11 +123,11 @@ impl StressField {
 
     /// Edges beside the samples where contact ends, their tension not known yet; and row by row the samples near edges,
     /// with p̃ and its slopes.
-    fn edges(&self, skin: &Skin, transform: &Transform) -> (Vec<Edge>, Vec<Vec<(usize, [f64; 3])>>) {
+    fn edges(&self, skin: &Skin, transform: &Transform) -> (Vec<Edge>, Band<[f64; 3]>) {
         let (grid, regions) = (self.grid(), self.regions());
         let ([_, n2], cell, len) = (grid.points(), grid.cell(), grid.len());
         let mut fields = vec![0.0; 3 * len];
-        self.series.on_plane(transform, &skin.near).write(&mut fields);
+        self.series.on_plane(transform, Vec::new(), &skin.near).write(&mut fields);
         let near = |index: usize| [0, 1, 2].map(|k| fields[k * len + index]);
         let found = (0..len).into_par_iter().filter(|&index| regions.touches(index)).filter_map(|index| {
             let open = grid.neighbours(index).filter(|&next| !regions.touches(next));
@@ -143,23 +149,21 @@ impl StressField {
 
     /// The edges with their tension, the highest first, and the band with σ_xx, σ_yy, σ_xy, p as they are near edges and
     /// the part that the series itself has.
-    #[allow(clippy::type_complexity, reason = "what one pass over the rows gives")]
     fn along_edges(
         &self,
         skin: &Skin,
         transform: &Transform,
         mut edges: Vec<Edge>,
-        band: Vec<Vec<(usize, [f64; 3])>>,
-    ) -> (Vec<Edge>, Vec<Vec<(usize, ([f64; 4], f64))>>) {
+        band: Band<[f64; 3]>,
+    ) -> (Vec<Edge>, Band<Sharp>) {
         let (points, cell) = (self.grid().points(), self.grid().cell());
         // What each row adds to which edge.
-        let places: Vec<Between> =
-            edges.iter().map(|edge| Between::new(points, cell.fractions(edge.place))).collect();
+        let places: Vec<Between> = edges.iter().map(|edge| Between::new(points, cell.fractions(edge.place))).collect();
         let mut beside: Vec<Vec<(usize, f64)>> = vec![Vec::new(); points[0]];
         for (number, place) in places.iter().enumerate() {
             place.rows.iter().for_each(|&(i, weight)| beside[i].push((number, weight)));
         }
-        let read = self.series.on_plane(transform, &skin.edge).map(|i, row| {
+        let read = self.series.on_plane(transform, Vec::new(), &skin.edge).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let sharp: Vec<_> = band[i].iter().map(|&(j, near)| (j, skin.sharp(near, at(j)))).collect();
             let parts: Vec<[f64; 4]> = beside[i]
@@ -184,13 +188,8 @@ impl StressField {
     }
 
     /// Place of the sample under the largest tension, and the largest smoothed pressure of all.
-    fn highest_sample(
-        &self,
-        skin: &Skin,
-        transform: &Transform,
-        band: &[Vec<(usize, ([f64; 4], f64))>],
-    ) -> Option<([f64; 2], f64)> {
-        let rows = self.series.on_plane(transform, &skin.open).map(|i, row| {
+    fn highest_sample(&self, skin: &Skin, transform: &Transform, band: &Band<Sharp>) -> Option<([f64; 2], f64)> {
+        let rows = self.series.on_plane(transform, Vec::new(), &skin.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let mut states: Vec<State> = (0..row[0].len()).map(|j| toward_open([0.0; 4], at(j), 1.0)).collect();
             for &(j, (sharp, part)) in &band[i] {
@@ -213,12 +212,18 @@ impl StressField {
             edges.iter_mut().zip(near).for_each(|(place, near)| *place = skin.moved(*place, near).0);
         }
         let read = |places: &[[f64; 2]]| self.at(places, &skin.near).into_iter().zip(self.at(places, &skin.edge));
-        let on_edges = edges.iter().zip(read(&edges)).map(|(&place, (near, edge))| {
-            Highest { kind: Kind::Edge, place, state: skin.state_on_edge(near, edge), smoothed: edge[3] }
+        let on_edges = edges.iter().zip(read(&edges)).map(|(&place, (near, edge))| Highest {
+            kind: Kind::Edge,
+            place,
+            state: skin.state_on_edge(near, edge),
+            smoothed: edge[3],
         });
         let series = self.at(&open, &skin.open);
-        let in_open = open.iter().zip(read(&open)).zip(series).map(|((&place, (near, edge)), series)| {
-            Highest { kind: Kind::Open, place, state: skin.state(near, edge, series), smoothed: edge[3] }
+        let in_open = open.iter().zip(read(&open)).zip(series).map(|((&place, (near, edge)), series)| Highest {
+            kind: Kind::Open,
+            place,
+            state: skin.state(near, edge, series),
+            smoothed: edge[3],
         });
         in_open.chain(on_edges).max_by(|a, b| a.state.s1().total_cmp(&b.state.s1()))
     }

@@ -7,6 +7,7 @@ use super::tensor::State;
 use super::transform::Transform;
 use crate::body::Depth;
 use ndarray::{Array2, Array3};
+use rustfft::num_complex::Complex64;
 
 /// The states on a plane of constant depth.
 #[derive(Debug, Clone)]
@@ -41,22 +42,50 @@ impl StressField {
     /// # Panics
     /// When a number of points is zero, or the depth in a material that is not there.
     pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
-        let (transform, slice) = (Transform::new(points), self.slice(depth, REACH));
-        let [n1, n2] = points;
-        let mut components = Array3::zeros([9, n1, n2]);
-        // Three at a time: what they are transformed from takes as much room as they do.
-        let thirds = components.as_slice_mut().into_iter().flat_map(|all| all.chunks_exact_mut(3 * n1 * n2));
-        for (number, third) in thirds.enumerate() {
-            match number {
-                0 => self.write(&transform, &Third::<0>(&slice), third),
-                1 => self.write(&transform, &Third::<1>(&slice), third),
-                _ => self.write(&transform, &Third::<2>(&slice), third),
-            }
-        }
-        Plane { depth, components }
+        Plane { depth, components: self.thirds(depth, points, &[0, 1, 2]) }
     }
 
-    fn write(&self, transform: &Transform, response: &impl Response<3>, fields: &mut [f64]) {
-        self.series.on_plane(transform, response).write(fields);
+    /// Stresses alone on the whole plane, as [`Self::plane`] has them. Axis 0: xx, yy, zz, xy, xz, yz.
+    ///
+    /// # Panics
+    /// As [`Self::plane`].
+    pub fn stresses(&self, depth: Depth, points: [usize; 2]) -> Array3<f64> {
+        self.thirds(depth, points, &[0, 1])
+    }
+
+    /// Displacements alone on the whole plane, lengths, as [`Self::plane`] has them. Axis 0: u_x, u_y, u_z.
+    ///
+    /// # Panics
+    /// As [`Self::plane`].
+    pub fn displacements(&self, depth: Depth, points: [usize; 2]) -> Array3<f64> {
+        self.thirds(depth, points, &[2])
+    }
+
+    /// Some of xx, yy, zz (0), xy, xz, yz (1) and u_x, u_y, u_z (2). Three at a time are transformed: that takes as much
+    /// room as they do.
+    fn thirds(&self, depth: Depth, points: [usize; 2], numbers: &[usize]) -> Array3<f64> {
+        let (transform, slice) = (Transform::new(points), self.slice(depth, REACH));
+        let [n1, n2] = points;
+        let (mut room, mut all) = (Vec::new(), vec![0.0; 3 * numbers.len() * n1 * n2]);
+        for (number, fields) in numbers.iter().zip(all.chunks_exact_mut(3 * n1 * n2)) {
+            room = match number {
+                0 => self.write(&transform, room, &Third::<0>(&slice), fields),
+                1 => self.write(&transform, room, &Third::<1>(&slice), fields),
+                _ => self.write(&transform, room, &Third::<2>(&slice), fields),
+            };
+        }
+        Array3::from_shape_vec([3 * numbers.len(), n1, n2], all).expect("three fields each")
+    }
+
+    fn write(
+        &self,
+        transform: &Transform,
+        room: Vec<Complex64>,
+        response: &impl Response<3>,
+        fields: &mut [f64],
+    ) -> Vec<Complex64> {
+        let columns = self.series.on_plane(transform, room, response);
+        columns.write(fields);
+        columns.into_room()
     }
 }

@@ -53,7 +53,9 @@ mod tests {
 
     #[test]
     fn bounds_hold_and_the_largest_is_the_first_of_equals() {
-        let state = |k: usize| State::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0));
+        let state = |k: usize| {
+            State::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
+        };
         let states: Vec<State> = (0..200).map(state).chain((0..200).map(state)).collect();
         for quantity in QUANTITIES {
             let values: Vec<f64> = states.iter().map(|state| quantity.of(state)).collect();

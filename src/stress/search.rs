@@ -132,13 +132,17 @@ impl StressField {
         let largest = |states: Vec<State>| QUANTITIES.map(|quantity| quantity.largest(&states));
         if depth == Depth::SURFACE {
             // Free of shear: σ_zz is −p.
-            let columns = self.series.on_plane(transform, &Flat::new(&slice, self.series.waves.wavenumbers(), |_| 1.0));
+            let columns = self.series.on_plane(
+                transform,
+                Vec::new(),
+                &Flat::new(&slice, self.series.waves.wavenumbers(), |_| 1.0),
+            );
             return columns.map(|_, [xx, yy, xy, p]| {
                 let state = |j: usize| State { xx: xx[j], yy: yy[j], xy: xy[j], zz: -p[j], ..State::default() };
                 largest((0..p.len()).map(state).collect())
             });
         }
-        let columns = self.series.on_plane(transform, &Stresses(&slice));
+        let columns = self.series.on_plane(transform, Vec::new(), &Stresses(&slice));
         columns.map(|_, row| {
             largest((0..row[0].len()).map(|j| State::from_stresses(row.map(|component| component[j]))).collect())
         })
@@ -198,8 +202,7 @@ impl StressField {
             let step = best.step;
             let around: Vec<[f64; 2]> =
                 (0..9).map(|k| [x + (f64::from(k / 3) - 1.0) * step, y + (f64::from(k % 3) - 1.0) * step]).collect();
-            let values: Vec<f64> =
-                self.searched(&slice, &around).iter().map(|state| quantity.of(state)).collect();
+            let values: Vec<f64> = self.searched(&slice, &around).iter().map(|state| quantity.of(state)).collect();
             let highest = (0..9).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(4);
             best.value = values[highest];
             best.place = around[highest];

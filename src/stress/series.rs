@@ -65,10 +65,11 @@ impl Series {
     }
 
     /// Components at the points of the cell that the transform is for: exact there, however few they are, as waves that
-    /// look alike at the points add up.
+    /// look alike at the points add up. For the `room` see [`Transform::columns`].
     pub fn on_plane<'t, const K: usize, R: Response<K>>(
         &self,
         transform: &'t Transform,
+        room: Vec<Complex64>,
         response: &R,
     ) -> Columns<'t, K> {
         let [n1, n2] = transform.points().map(|n| n as i32);
@@ -81,7 +82,7 @@ impl Series {
             .collect();
         placed.sort_by_key(|&(column, ..)| column);
         let mean = response.mean();
-        transform.columns(|k2, columns: &mut [&mut [Complex64]; K]| {
+        transform.columns(room, |k2, columns: &mut [&mut [Complex64]; K]| {
             let k2 = k2 as i32;
             let first = placed.partition_point(|&(column, ..)| column < k2);
             let own = placed[first..].iter().take_while(|&&(column, ..)| column == k2);
@@ -94,8 +95,7 @@ impl Series {
                 let side = 0.5 * f64::from(sign);
                 let mut bin = (sign * row.first).rem_euclid(n1);
                 for (q, shell, Complex64 { re, im }) in self.of(row) {
-                    let (even, odd) =
-                        (Complex64::new(0.5 * re, side * im), Complex64::new(0.5 * im, -side * re));
+                    let (even, odd) = (Complex64::new(0.5 * re, side * im), Complex64::new(0.5 * im, -side * re));
                     let factors = response.factors(q, shell);
                     for k in 0..K {
                         columns[k][bin as usize] += factors[k] * if R::ODD[k] { odd } else { even };
@@ -118,7 +118,8 @@ impl Series {
         let together = places.chunks_exact(LANES);
         let rest = together.remainder().iter().flat_map(|&place| self.lanes(&rows, [place], response));
         let rest: Vec<[f64; K]> = rest.collect();
-        let lanes = |places: &[[f64; 2]]| self.lanes::<K, LANES, R>(&rows, std::array::from_fn(|p| places[p]), response);
+        let lanes =
+            |places: &[[f64; 2]]| self.lanes::<K, LANES, R>(&rows, std::array::from_fn(|p| places[p]), response);
         together.flat_map(lanes).chain(rest).collect()
     }
 

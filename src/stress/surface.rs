@@ -124,8 +124,7 @@ impl Skin {
         let gaussian = wavenumbers.iter().map(|&q| (-0.5 * q * q * width * width).exp());
         let poisson = field.surface_poisson();
         let longer = waves.shells_up_to(1.0 / width).saturating_sub(1);
-        let unlike =
-            surface.amplitudes.get(longer).map(|at| (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs()));
+        let unlike = surface.amplitudes.get(longer).map(|at| (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs()));
         Self {
             near: Near { gaussian: gaussian.take_while(|&left| left > NOTHING).collect(), mean: -surface.mean.zz },
             edge: Flat::new(&surface, wavenumbers, |q| fourth(q * width)),

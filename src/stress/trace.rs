@@ -110,9 +110,8 @@ const AFRESH: usize = 32;
 
 impl<'a> Turning<'a> {
     fn new(places: &'a [f64], kappa: f64, growth: f64) -> Self {
-        let phases = |kappa: f64| {
-            [f64::cos, f64::sin].map(|of| places.iter().map(|s| of(kappa * s)).collect::<Vec<_>>())
-        };
+        let phases =
+            |kappa: f64| [f64::cos, f64::sin].map(|of| places.iter().map(|s| of(kappa * s)).collect::<Vec<_>>());
         Self { places, kappa, growth, number: 0, phases: phases(kappa), turns: phases(growth) }
     }
 

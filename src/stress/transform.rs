@@ -87,14 +87,20 @@ impl Transform {
     }
 
     /// K fields along their columns. `fill` adds the coefficients of column k₂ to K columns of zeros; where it says that
-    /// there are none, nothing is transformed.
+    /// there are none, nothing is transformed. The `room` is that of columns that are needed no more, or empty.
     pub fn columns<const K: usize>(
         &self,
+        room: Vec<Complex64>,
         fill: impl Fn(usize, &mut [&mut [Complex64]; K]) -> bool + Sync,
     ) -> Columns<'_, K> {
         let ([n1, _], half) = (self.points, self.half());
         let [_, inverse] = &self.columns;
-        let mut values = vec![Complex64::default(); half.div_ceil(BLOCK) * K * n1 * BLOCK];
+        let (size, mut values) = (half.div_ceil(BLOCK) * K * n1 * BLOCK, room);
+        // Fresh memory is zero, and costs nothing before it is written.
+        let is_fresh = values.len() != size;
+        if is_fresh {
+            values = vec![Complex64::default(); size];
+        }
         values.par_chunks_mut(K * n1 * BLOCK).enumerate().for_each_init(
             || {
                 let scratch = vec![Complex64::default(); inverse.get_inplace_scratch_len()];
@@ -114,7 +120,6 @@ impl Transform {
                         own.iter_mut().for_each(|column| inverse.process_with_scratch(column, scratch));
                     }
                 }
-                // Fresh memory is zero.
                 if any.contains(&true) {
                     for (k, field) in values.chunks_exact_mut(n1 * BLOCK).enumerate() {
                         for (i, line) in field.chunks_exact_mut(BLOCK).enumerate() {
@@ -123,6 +128,8 @@ impl Transform {
                             }
                         }
                     }
+                } else if !is_fresh {
+                    values.fill(Complex64::default());
                 }
             },
         );
@@ -160,6 +167,11 @@ impl<const K: usize> Columns<'_, K> {
         }
         let samples = &rows.samples;
         std::array::from_fn(|k| &samples[k * n2..(k + 1) * n2])
+    }
+
+    /// The room they take, for others.
+    pub fn into_room(self) -> Vec<Complex64> {
+        self.values
     }
 
     /// `read` of each row: its number, and the rows of the fields.
@@ -206,7 +218,7 @@ mod tests {
             let direct: Complex64 = field(1).enumerate().map(|(i, x)| x * Complex64::cis(wave(i))).sum();
             assert!((spectra[0][k2 * n1 + k1] - direct / (n1 * n2) as f64).norm() < 1e-14);
 
-            let columns = transform.columns(|k2, own: &mut [&mut [Complex64]; 2]| {
+            let columns = transform.columns(Vec::new(), |k2, own: &mut [&mut [Complex64]; 2]| {
                 let from = spectra.iter().map(|spectrum| &spectrum[k2 * n1..][..n1]);
                 own.iter_mut().zip(from).for_each(|(column, from)| column.copy_from_slice(from));
                 true
