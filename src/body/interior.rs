@@ -289,9 +289,9 @@ mod tests {
                 for (a, b) in
                     [(short.szz, long.szz), (short.sqz, long.sqz), (short.sqq, long.sqq), (short.stt, long.stt)]
                 {
-                    assert!((a - b).abs() < 1e-15, "q = {q}, z = {z}: {short:?} {long:?}");
+                    assert!((a - b).abs() < 1e-14, "q = {q}, z = {z}: {short:?} {long:?}");
                 }
-                assert!((short.uz - long.uz).abs() < 1e-15 && (short.uq - long.uq).abs() < 1e-15);
+                assert!((short.uz - long.uz).abs() < 1e-14 && (short.uq - long.uq).abs() < 1e-14);
             }
         }
     }

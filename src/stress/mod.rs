@@ -8,7 +8,8 @@
 //! with the amplitudes of [`crate::body::Interior`]; the mean pressure adds the state of [`crate::MeanStress`]. At the
 //! depth z only waves with qz up to 41 count: shorter ones are lost in rounding.
 //!
-//! - **planes**: inverse transforms, one component at a time ([`StressField::plane`]);
+//! - **planes**: inverse transforms of three components at a time, the waves that reach the depth filled in column by column
+//!   ([`StressField::plane`], [`StressField::stresses`]);
 //! - **sections** and **lines**: the waves are first collapsed across the section onto their wavenumbers along it
 //!   ([`StressField::section`]);
 //! - **points**: the sum itself ([`StressField::points`]);
