@@ -6,7 +6,7 @@ use divan::Bencher;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use rustfft::{FftPlanner, num_complex::Complex64};
-use shared::{bare, convolve, operator};
+use shared::{Convolution, bare};
 
 fn main() {
     divan::main();
@@ -16,9 +16,9 @@ const POINTS: [usize; 7] = [512, 768, 1024, 1536, 2048, 3072, 4096];
 
 #[divan::bench(args = POINTS, max_time = 5)]
 fn one(bencher: Bencher, n: usize) {
-    let mut operator = operator(&bare(), n);
+    let mut convolution = Convolution::new(&bare(), n);
     let (pressure, mut displacement) = (vec![1.0; n * n], vec![0.0; n * n]);
-    bencher.bench_local(|| convolve(&mut operator, &pressure, &mut displacement));
+    bencher.bench_local(|| convolution.run(&pressure, &mut displacement));
 }
 
 #[divan::bench(args = POINTS, max_time = 5)]

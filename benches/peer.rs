@@ -15,7 +15,7 @@ mod shared;
 use ndarray::Array2;
 use npyz::WriterBuilder;
 use percoat::*;
-use shared::{ONE_LEVEL, ROUGH, Rough, bare, convolve, one_level, operator, solver};
+use shared::{Convolution, ONE_LEVEL, ROUGH, Rough, bare, one_level, solver};
 use std::error::Error;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, stdin};
@@ -87,14 +87,14 @@ fn solve(heights: &str, load: Load, tolerance: f64) -> Outcome<()> {
 
 fn convolution(n: usize) -> Outcome<()> {
     let began = Instant::now();
-    let mut operator = operator(&bare(), n);
+    let mut convolution = Convolution::new(&bare(), n);
     let setup = began.elapsed().as_secs_f64();
     // Any numbers: no bit pattern of them is faster.
     let pressure: Vec<f64> = (0..n * n).map(|i| ((i * 7919) % 1009) as f64 / 1009.0).collect();
     let mut displacement = vec![0.0; n * n];
     serve([n, n], || {
         let began = Instant::now();
-        convolve(&mut operator, &pressure, &mut displacement);
+        convolution.run(&pressure, &mut displacement);
         println!("{{\"setup\": {setup:e}, \"seconds\": {:e}}}", began.elapsed().as_secs_f64());
         Ok(displacement.clone())
     })

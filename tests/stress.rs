@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{PAPER, Random, one_level, paraboloid, solve};
+use common::{PAPER, Random, one_level, paraboloid, solve_sharply};
 use ndarray::{Array2, Axis};
 use percoat::body::{Interior, TransferFunction};
 use percoat::{
@@ -251,7 +251,7 @@ fn one_level_on_a_hexagonal_lattice_has_sixfold_stresses_to_round_off() {
     let indenters = one_level(Lattice::hexagonal(1.0, 1).unwrap(), paraboloid(0.8, 0.0));
     let half_space = PAPER[4].half_space();
     let problem = Problem::new(indenters, half_space.clone());
-    let (step, _) = solve(&problem, [n, n], Load::MeanPressure(0.06));
+    let (step, _) = solve_sharply(&problem, [n, n], Load::MeanPressure(0.06));
     let field = StressField::new(step.finest(), MeanStress::Confined);
     for z in [0.0, 0.02, 0.087, 0.3] {
         for depth in half_space.depths(z) {

@@ -6,8 +6,7 @@ mod rough;
 pub use rough::Rough;
 
 use percoat::body::TransferFunction;
-use percoat::spectral::Compliance;
-use percoat::spectral::operator::Operator;
+use percoat::spectral::operator::{Operator, Workspace};
 use percoat::*;
 use std::sync::Arc;
 
@@ -68,7 +67,20 @@ pub fn operator(half_space: &HalfSpace, n: usize) -> Operator {
     Operator::new(&grid, &TransferFunction::new(half_space))
 }
 
-/// One convolution, pressure → displacement; n² samples each. The one place where benches meet the transform.
-pub fn convolve(operator: &mut Operator, pressure: &[f64], displacement: &mut [f64]) {
-    operator.displacement(pressure, displacement);
+/// One convolution at a time, pressure → displacement. The one place where benches meet the transform.
+pub struct Convolution {
+    operator: Operator,
+    workspace: Workspace,
+}
+
+impl Convolution {
+    pub fn new(half_space: &HalfSpace, n: usize) -> Self {
+        Self { operator: operator(half_space, n), workspace: Workspace::default() }
+    }
+
+    /// n² samples each.
+    pub fn run(&mut self, pressure: &[f64], displacement: &mut [f64]) {
+        displacement.copy_from_slice(pressure);
+        self.operator.displacement(displacement, &mut self.workspace);
+    }
 }

@@ -101,8 +101,13 @@ impl Surface {
     /// Largest minus smallest initial gap, a length.
     pub fn range(&self) -> f64 {
         let gaps = self.gaps();
-        let lowest = sums::least(gaps.len(), |i| gaps[i]);
-        -sums::least(gaps.len(), |i| -gaps[i]) - lowest
+        self.largest() - sums::least(gaps.len(), |i| gaps[i])
+    }
+
+    /// Largest initial gap, a length.
+    pub(crate) fn largest(&self) -> f64 {
+        let gaps = self.gaps();
+        -sums::least(gaps.len(), |i| -gaps[i])
     }
 
     /// Mean of the initial gap over the cell: the penetration at which contact is complete, a length.

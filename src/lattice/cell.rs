@@ -64,6 +64,12 @@ impl Cell {
         Self { a1, a2 }
     }
 
+    /// Whether a₁ and a₂ are at right angles, exactly.
+    pub fn is_rectangular(&self) -> bool {
+        let [a1, a2] = self.vectors();
+        dot(a1, a2) == 0.0
+    }
+
     /// Area |a₁ × a₂|.
     pub fn area(&self) -> f64 {
         cross(self.a1, self.a2).abs()

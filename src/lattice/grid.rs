@@ -8,7 +8,8 @@
 
 use super::cell::norm;
 use super::waves::Waves;
-use super::{Cell, LatticeError, Reduced};
+use super::zone::Zone;
+use super::{Cell, LatticeError};
 use crate::numeric::number::number;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -29,10 +30,7 @@ pub struct NotOnGrid {
 /// A grid of N₁ × N₂ samples on a cell.
 #[derive(Debug, Clone)]
 pub struct Grid {
-    cell: Cell,
-    points: [usize; 2],
-    /// The lattice of N₁**b**₁, N₂**b**₂, which aliases differ by.
-    sampling: Reduced,
+    zone: Zone,
     waves: OnceLock<Arc<Waves>>,
 }
 
@@ -45,21 +43,17 @@ impl Grid {
         if points.contains(&0) {
             return Err(LatticeError::NoPoints(points[0], points[1]));
         }
-        let [b1, b2] = cell.reciprocal();
-        let [n1, n2] = points.map(|n| n as f64);
-        let sampling = [[n1 * b1[0], n1 * b1[1]], [n2 * b2[0], n2 * b2[1]]];
-        let sampling = Cell::new(sampling[0], sampling[1])?.reduced();
-        Ok(Self { cell, points, sampling, waves: OnceLock::new() })
+        Ok(Self { zone: Zone::new(cell, points)?, waves: OnceLock::new() })
     }
 
     /// The cell the grid lies on.
     pub fn cell(&self) -> Cell {
-        self.cell
+        self.zone.cell()
     }
 
     /// [N₁, N₂].
     pub fn points(&self) -> [usize; 2] {
-        self.points
+        self.zone.points()
     }
 
     /// Whether a field of this shape has one value per sample.
@@ -67,29 +61,29 @@ impl Grid {
     /// # Errors
     /// [`NotOnGrid`] unless it has.
     pub fn check(&self, field: [usize; 2]) -> Result<(), NotOnGrid> {
-        if field == self.points { Ok(()) } else { Err(NotOnGrid { field, points: self.points }) }
+        if field == self.points() { Ok(()) } else { Err(NotOnGrid { field, points: self.points() }) }
     }
 
     /// Number of samples N₁N₂.
     #[allow(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> usize {
-        self.points[0] * self.points[1]
+        self.points()[0] * self.points()[1]
     }
 
     /// Area of the cell per sample.
     pub fn sample_area(&self) -> f64 {
-        self.cell.area() / self.len() as f64
+        self.cell().area() / self.len() as f64
     }
 
     /// Fractions of a₁, a₂ at which the sample with the flat index `index` stands.
     pub fn fractions(&self, index: usize) -> [f64; 2] {
-        let [n1, n2] = self.points;
+        let [n1, n2] = self.points();
         [(index / n2) as f64 / n1 as f64, (index % n2) as f64 / n2 as f64]
     }
 
     /// Flat indices of the samples next to one along a₁ and a₂: the next ones, then those before.
     pub fn adjacent(&self, index: usize) -> [usize; 4] {
-        let [n1, n2] = self.points;
+        let [n1, n2] = self.points();
         let (row, column) = (index / n2, index % n2);
         let places = [(row + 1, column), (row, column + 1), (row + n1 - 1, column), (row, column + n2 - 1)];
         places.map(|(row, column)| row % n1 * n2 + column % n2)
@@ -97,15 +91,15 @@ impl Grid {
 
     /// Flat indices of the eight samples around one.
     pub fn neighbours(&self, index: usize) -> impl Iterator<Item = usize> {
-        let [n1, n2] = self.points;
+        let [n1, n2] = self.points();
         let (row, column) = (index / n2, index % n2);
         (0..9).filter(|&k| k != 4).map(move |k| (row + n1 + k / 3 - 1) % n1 * n2 + (column + n2 + k % 3 - 1) % n2)
     }
 
     /// The vectors from a sample to the next one along a₁ and along a₂.
     pub fn steps(&self) -> [[f64; 2]; 2] {
-        let [a1, a2] = self.cell.vectors();
-        let [n1, n2] = self.points.map(|n| n as f64);
+        let [a1, a2] = self.cell().vectors();
+        let [n1, n2] = self.points().map(|n| n as f64);
         [a1.map(|x| x / n1), a2.map(|x| x / n2)]
     }
 
@@ -120,37 +114,18 @@ impl Grid {
     ///
     /// Aliases of equal length are equivalent for everything that depends on the length alone.
     pub fn wavevector(&self, component: [usize; 2]) -> [f64; 2] {
-        self.sampling.nearest(self.fractions_of(component))
-    }
-
-    /// Fractions of N₁b₁ and N₂b₂ that a component stands for.
-    fn fractions_of(&self, component: [usize; 2]) -> [f64; 2] {
-        [0, 1].map(|axis| component[axis] as f64 / self.points[axis] as f64)
+        self.zone.wavevector(component)
     }
 
     /// All shortest aliases of the component (k₁, k₂) whose lengths agree to the relative `tolerance`, each with the
     /// multiples of b₁, b₂ it is made of.
     pub fn tied_wavevectors(&self, component: [usize; 2], tolerance: f64) -> Vec<([i32; 2], [f64; 2])> {
-        let aliases = self.sampling.shortest(self.fractions_of(component), tolerance).into_iter();
-        let index = |taken: [i32; 2]| [0, 1].map(|k| component[k] as i32 - taken[k] * self.points[k] as i32);
-        aliases.map(|(q, taken)| (index(taken), q)).collect()
-    }
-
-    /// Reciprocal vectors of the samples, one of each pair ±**g**, whose bisectors |**q**·**g**| = ½g² bound the first
-    /// Brillouin zone, 1/length.
-    pub(super) fn zone(&self) -> [[f64; 2]; 3] {
-        self.sampling.facets()
-    }
-
-    /// Whether a wavevector is on the border of the zone up to a relative tolerance, or outside.
-    pub(super) fn on_border(&self, [x, y]: [f64; 2], tolerance: f64) -> bool {
-        let outside = |[gx, gy]: [f64; 2]| (x * gx + y * gy).abs() > 0.5 * (1.0 - tolerance) * (gx * gx + gy * gy);
-        self.zone().into_iter().any(outside)
+        self.zone.tied_wavevectors(component, tolerance)
     }
 
     /// The plane waves it holds; found when they are first asked for, and kept.
     pub(crate) fn waves(&self) -> &Arc<Waves> {
-        self.waves.get_or_init(|| Arc::new(Waves::new(self)))
+        self.waves.get_or_init(|| Arc::new(Waves::new(&self.zone)))
     }
 
     /// Length |q| of [`Grid::wavevector`].
@@ -161,18 +136,18 @@ impl Grid {
 
     /// Least non-zero wavenumber of the cell, 1/length.
     pub fn least_wavenumber(&self) -> f64 {
-        norm(self.cell.dual().reduced().short())
+        norm(self.cell().dual().reduced().short())
     }
 
     /// Least wavenumber that the grid cannot hold in all directions, 1/length.
     pub fn least_aliased(&self) -> f64 {
-        0.5 * norm(self.sampling.short())
+        0.5 * norm(self.zone.shortest_facet())
     }
 }
 
 impl fmt::Display for Grid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [n1, n2] = self.points;
+        let [n1, n2] = self.points();
         write!(f, "grid {n1} × {n2}, spacing {}, sample area {}", number(self.spacing()), number(self.sample_area()))
     }
 }

@@ -7,6 +7,7 @@ mod grid;
 mod interpolation;
 mod sites;
 pub(crate) mod waves;
+mod zone;
 
 pub use cell::{Cell, Reduced};
 pub use error::LatticeError;

@@ -7,8 +7,8 @@
 //!
 //! Waves of equal wavenumber form a **shell**: what a layered half-space makes of a wave depends on its shell alone.
 
-use super::Grid;
 use super::cell::norm;
+use super::zone::Zone;
 use std::f64::consts::TAU;
 
 /// Wavenumbers closer than this, relatively, are one shell; aliases closer than this are tied.
@@ -49,22 +49,22 @@ pub(crate) struct Row {
 }
 
 impl Waves {
-    /// Of a grid.
-    pub fn new(grid: &Grid) -> Self {
-        let [step, _] = grid.cell().reciprocal();
+    /// Of the samples with this zone.
+    pub fn new(zone: &Zone) -> Self {
+        let [step, _] = zone.cell().reciprocal();
         let (mut rows, mut parts, mut count) = (Vec::new(), Vec::new(), 0);
-        for (across, [first, last]) in intervals(grid) {
+        for (across, [first, last]) in intervals(zone) {
             let len = (last - first + 1) as usize;
-            // A middle one is a shortest alias, of which the grid knows the wavevector to round-off.
+            // A middle one is a shortest alias, of which the zone knows the wavevector to round-off.
             let middle = first + (last - first) / 2;
-            let tied = grid.tied_wavevectors(component(grid, [middle, across]), TIE);
+            let tied = zone.tied_wavevectors(component(zone, [middle, across]), TIE);
             let Some((_, q)) = tied.into_iter().find(|(index, _)| *index == [middle, across]) else { continue };
             let back = f64::from(middle - first);
             let row = Row { across, first, origin: [q[0] - back * step[0], q[1] - back * step[1]], start: count, len };
             for k in 0..len {
                 let index = [first + k as i32, across];
-                if grid.on_border(row.at(k, step), BORDER) {
-                    let tied = grid.tied_wavevectors(component(grid, index), TIE);
+                if zone.on_border(row.at(k, step), BORDER) {
+                    let tied = zone.tied_wavevectors(component(zone, index), TIE);
                     let part =
                         if tied.iter().any(|(alias, _)| *alias == index) { 1.0 / tied.len() as f64 } else { 0.0 };
                     parts.push((count + k, part));
@@ -142,19 +142,19 @@ impl Row {
 }
 
 /// The Fourier component that a wave belongs to.
-fn component(grid: &Grid, index: [i32; 2]) -> [usize; 2] {
-    [0, 1].map(|axis| index[axis].rem_euclid(grid.points()[axis] as i32) as usize)
+fn component(zone: &Zone, index: [i32; 2]) -> [usize; 2] {
+    [0, 1].map(|axis| index[axis].rem_euclid(zone.points()[axis] as i32) as usize)
 }
 
 /// First and last κ₁ in the zone, its border included, for each κ₂ ≥ 0 that has any.
-fn intervals(grid: &Grid) -> Vec<(i32, [i32; 2])> {
-    let [b1, b2] = grid.cell().reciprocal();
-    let facets = grid.zone();
+fn intervals(zone: &Zone) -> Vec<(i32, [i32; 2])> {
+    let [b1, b2] = zone.cell().reciprocal();
+    let facets = zone.facets();
     let [r1, r2, _] = facets;
-    let most = 0.5 * (norm(r1) + norm(r2)) * norm(grid.cell().vectors()[1]) / TAU;
-    let [n1, n2] = grid.points();
+    let most = 0.5 * (norm(r1) + norm(r2)) * norm(zone.cell().vectors()[1]) / TAU;
+    let [n1, n2] = zone.points();
     if most > MANY * (n1 + n2 + 16) as f64 {
-        return skewed(grid);
+        return skewed(zone);
     }
     let interval = |across: i32| {
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -176,10 +176,10 @@ fn intervals(grid: &Grid) -> Vec<(i32, [i32; 2])> {
 }
 
 /// The same for a cell on which few κ₂ have any: from all components.
-fn skewed(grid: &Grid) -> Vec<(i32, [i32; 2])> {
-    let [n1, n2] = grid.points();
+fn skewed(zone: &Zone) -> Vec<(i32, [i32; 2])> {
+    let [n1, n2] = zone.points();
     let components = (0..n1).flat_map(|k1| (0..n2).map(move |k2| [k1, k2]));
-    let aliases = components.flat_map(|component| grid.tied_wavevectors(component, TIE));
+    let aliases = components.flat_map(|component| zone.tied_wavevectors(component, TIE));
     let mut indices: Vec<[i32; 2]> =
         aliases.map(|([along, across], _)| [across, along]).filter(|&index| index > [0, 0]).collect();
     indices.sort_unstable();
@@ -236,32 +236,31 @@ mod tests {
             (Cell::square(1.0), [1, 6]),
         ];
         for (cell, [n1, n2]) in cells {
-            let grid = Grid::new(cell.unwrap(), [n1, n2]).unwrap();
-            let waves = Waves::new(&grid);
+            let zone = Zone::new(cell.unwrap(), [n1, n2]).unwrap();
+            let waves = Waves::new(&zone);
             let parts = waves.coefficients(|_| 1.0);
             let mut whole = vec![0.0; n1 * n2];
             for row in waves.rows() {
                 for k in 0..row.len {
                     let index = [row.first + k as i32, row.across];
                     for index in [index, index.map(|k| -k)] {
-                        let [k1, k2] = component(&grid, index);
+                        let [k1, k2] = component(&zone, index);
                         whole[k1 * n2 + k2] += parts[row.start + k];
                         let q = row.at(k, waves.step());
-                        let least = grid.wavenumber([k1, k2]);
+                        let least = norm(zone.wavevector([k1, k2]));
                         assert!(parts[row.start + k] == 0.0 || (norm(q) / least - 1.0).abs() < 1e-11);
                         let shell = waves.wavenumbers()[waves.shells()[row.start + k] as usize];
                         assert!((norm(q) / shell - 1.0).abs() < 1.1 * TIE);
                     }
                 }
             }
-            assert!(whole[1..].iter().all(|sum| (sum - 1.0).abs() < 1e-12), "{grid}: {whole:?}");
+            assert!(whole[1..].iter().all(|sum| (sum - 1.0).abs() < 1e-12), "{zone:?}: {whole:?}");
         }
     }
 
     #[test]
     fn a_hexagonal_lattice_has_few_shells_and_a_disc_cuts_rows() {
-        let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [48, 48]).unwrap();
-        let waves = Waves::new(&grid);
+        let waves = Waves::new(&Zone::new(Cell::hexagonal(1.0).unwrap(), [48, 48]).unwrap());
         assert!(waves.wavenumbers().len() < 48 * 48 / 8, "{} shells", waves.wavenumbers().len());
         let count = waves.shells_up_to(60.0);
         let within: usize = waves.rows_within(count).iter().map(|row| row.len).sum();

@@ -27,7 +27,8 @@ impl Fields {
         self.arrays.next_step();
         self.arrays.add("mean_pressure", None, &[], [mean_pressure])?;
         self.arrays.add("penetration", None, &[], [step.penetration()])?;
-        for (name, field) in [("pressure", step.pressure()), ("displacement", step.displacement()), ("gap", step.gap())]
+        let displacement = step.displacement();
+        for (name, field) in [("pressure", step.pressure()), ("displacement", displacement.view()), ("gap", step.gap())]
         {
             self.arrays.add(name, None, field.shape(), field.iter().copied())?;
         }

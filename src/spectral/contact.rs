@@ -2,9 +2,9 @@
 
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
-use crate::numeric::array::{field, samples};
+use crate::numeric::array::view;
 use crate::problem::Problem;
-use ndarray::{Array2, ArrayView2};
+use ndarray::ArrayView2;
 use std::sync::Arc;
 
 /// Pressure and gap of a solved load step on one grid. It owns its fields and shares problem and surface, so that it
@@ -13,8 +13,8 @@ use std::sync::Arc;
 pub struct Contact {
     problem: Arc<Problem>,
     surface: Arc<Surface>,
-    pressure: Array2<f64>,
-    gap: Array2<f64>,
+    pressure: Arc<Vec<f64>>,
+    gap: Arc<Vec<f64>>,
     penetration: f64,
 }
 
@@ -23,18 +23,11 @@ impl Contact {
     pub(super) fn new(
         problem: &Arc<Problem>,
         surface: &Arc<Surface>,
-        pressure: Vec<f64>,
-        gap: Vec<f64>,
+        pressure: Arc<Vec<f64>>,
+        gap: Arc<Vec<f64>>,
         penetration: f64,
     ) -> Self {
-        let points = surface.grid().points();
-        Self {
-            problem: Arc::clone(problem),
-            surface: Arc::clone(surface),
-            pressure: field(points, pressure),
-            gap: field(points, gap),
-            penetration,
-        }
+        Self { problem: Arc::clone(problem), surface: Arc::clone(surface), pressure, gap, penetration }
     }
 
     /// What is pressed into what.
@@ -54,12 +47,12 @@ impl Contact {
 
     /// Pressure p ≥ 0, in the unit of Young's modulus; axes along a₁ and a₂.
     pub fn pressure(&self) -> ArrayView2<'_, f64> {
-        self.pressure.view()
+        view(self.grid().points(), &self.pressure)
     }
 
     /// Gap g = w + f − δ, a length; axes along a₁ and a₂.
     pub fn gap(&self) -> ArrayView2<'_, f64> {
-        self.gap.view()
+        view(self.grid().points(), &self.gap)
     }
 
     /// Penetration δ, from the mean plane of the deformed surface to the highest apex, a length: the additional
@@ -70,11 +63,11 @@ impl Contact {
 
     /// Pressure sample by sample, a₂ fastest.
     pub(crate) fn pressures(&self) -> &[f64] {
-        samples(&self.pressure)
+        &self.pressure
     }
 
     /// Gap sample by sample, a₂ fastest.
     pub(crate) fn gaps(&self) -> &[f64] {
-        samples(&self.gap)
+        &self.gap
     }
 }

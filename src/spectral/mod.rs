@@ -1,18 +1,22 @@
 //! The spectral method: the whole cell on a doubly periodic grid, the half-space exact in Fourier space.
 //!
-//! - [`fourier`]: convolution in one fused pass;
-//! - [`operator`]: pressure → displacement, and its inverse as preconditioner;
+//! - [`fourier`]: convolution in one fused pass, in place;
+//! - [`operator`]: pressure → displacement and back, the one that counts and the one that leads there;
+//! - `extension`: the residual continued beyond the contact, for the preconditioner;
 //! - `iteration`: conjugate gradients on one grid, and the certificate of what they return;
+//! - `prolongation`: a solution carried over to the next finer grid;
 //! - [`Solver`]: a problem on its nested grids, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid.
 
 mod contact;
+mod extension;
 pub mod fourier;
 mod iteration;
 pub mod operator;
+mod prolongation;
 mod solver;
 mod step;
 
 pub use contact::Contact;
-pub use iteration::{Certificate, Compliance, Method, Progress, Report, Route, Settings, Stop};
+pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop};
 pub use solver::{Solver, memory};
 pub use step::Step;

@@ -1,19 +1,19 @@
 //! A problem on its nested grids: each load step is solved from the coarsest grid up, each solution starting the next
 //! finer one.
 //!
-//! Between load steps every grid keeps its pressure. A finer grid starts from its own last pressure plus the
-//! interpolated **change** of the next coarser one, so that what a step leaves alone is never interpolated twice. The
-//! baseline method works on the finest grid alone, as published.
+//! Between load steps every grid keeps its pressure. A finer grid starts from its own last pressure plus the **change** of
+//! the next coarser one, carried over, so that what a step leaves alone is never interpolated twice. The baseline method
+//! works on the finest grid alone, as published.
 
 use super::fourier::fast_points;
-use super::iteration::{Certificate, Compliance, GridProblem, Method, Progress, Report, Settings, Stop, Unknowns};
+use super::iteration::{GridProblem, Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::operator::Operator;
+use super::prolongation::prolonged;
 use super::{Contact, Step};
 use crate::body::TransferFunction;
 use crate::counterbody::Surface;
-use crate::lattice::{Grid, Interpolation, LatticeError, resample};
+use crate::lattice::{Grid, LatticeError};
 use crate::load::Load;
-use crate::numeric::array::field;
 use crate::numeric::sums;
 use crate::problem::Problem;
 use std::fmt;
@@ -36,13 +36,25 @@ pub struct Solver {
     settings: Settings,
     /// From the finest to the coarsest.
     nests: Vec<Nest>,
+    /// What every grid works on in turn.
+    working: Working,
 }
 
 #[derive(Debug)]
 struct Nest {
     surface: Arc<Surface>,
+    largest_gap: f64,
     operator: Operator,
     unknowns: Unknowns,
+    /// E* of the material at the surface.
+    modulus: f64,
+}
+
+/// The next coarser grid before and after its part of a load step.
+struct Coarser {
+    grid: Arc<Grid>,
+    before: Unknowns,
+    after: Unknowns,
 }
 
 impl Solver {
@@ -53,13 +65,15 @@ impl Solver {
     pub fn new(problem: impl Into<Arc<Problem>>, points: [usize; 2], settings: Settings) -> Result<Self, LatticeError> {
         let problem = problem.into();
         let transfer = TransferFunction::new(problem.half_space());
+        let modulus = problem.half_space().surface_material().contact_modulus();
         let nest = |points| -> Result<Nest, LatticeError> {
             let surface = Surface::new(problem.counterbody(), points)?;
             let (operator, unknowns) = (Operator::new(surface.grid(), &transfer), Unknowns::new(surface.grid().len()));
-            Ok(Nest { surface: Arc::new(surface), operator, unknowns })
+            let largest_gap = surface.largest();
+            Ok(Nest { surface: Arc::new(surface), largest_gap, operator, unknowns, modulus })
         };
         let nests = nested_points(points, settings.method).into_iter().map(nest).collect::<Result<_, _>>()?;
-        Ok(Self { problem, settings, nests })
+        Ok(Self { problem, settings, nests, working: Working::default() })
     }
 
     /// What is pressed into what.
@@ -88,9 +102,8 @@ impl Solver {
     pub fn full_contact_pressure(&mut self) -> f64 {
         let Nest { surface, operator, .. } = &mut self.nests[0];
         let mean = surface.mean();
-        let deviation: Vec<f64> = surface.gaps().iter().map(|f| f - mean).collect();
-        let mut pressure = vec![0.0; deviation.len()];
-        operator.precondition(&deviation, &mut pressure);
+        let mut pressure: Vec<f64> = surface.gaps().iter().map(|f| f - mean).collect();
+        operator.pressure(&mut pressure, &mut self.working.transforms);
         -sums::least(pressure.len(), |i| -pressure[i])
     }
 
@@ -102,50 +115,45 @@ impl Solver {
     /// The same; `progress` hears of the iterations on the finest grid.
     pub fn solve_with_progress(&mut self, load: Load, progress: &mut dyn FnMut(Progress)) -> Step {
         let finest = self.grid().len() as f64;
-        let coarsest = self.nests.len() - 1;
         let mut convolutions = 0.0;
-        let mut change: Option<([usize; 2], Vec<f64>)> = None;
+        let mut coarser = None;
         // A coarser grid may be beyond complete contact where the finest is not: it has no part in the step, and keeps
         // its pressure for the next.
         let mut left_out = Vec::new();
-        for index in (1..=coarsest).rev() {
-            let nest = &mut self.nests[index];
-            let before = nest.unknowns.pressure.clone();
-            let (report, work) = nest.solve(change.take(), load, self.settings, &mut |_| ());
+        let Self { nests, working, settings, .. } = self;
+        for (index, nest) in nests.iter_mut().enumerate().skip(1).rev() {
+            let before = nest.unknowns.clone();
+            let (report, work) = nest.solve(coarser.take(), load, *settings, working, &mut |_| ());
             convolutions += work / finest;
             if report.stop == Stop::BeyondFullContact {
                 left_out.push((index, before));
                 continue;
             }
-            let mut rise = before;
-            sums::update(&mut rise, |i, p| nest.unknowns.pressure[i] - p);
-            change = Some((nest.points(), rise));
+            coarser = Some(Coarser { grid: Arc::clone(nest.surface.grid()), before, after: nest.unknowns.clone() });
         }
-        let nest = &mut self.nests[0];
-        let (mut report, work) = nest.solve(change, load, self.settings, progress);
-        if report.stop == Stop::Converged && !load.is_mean_pressure() && !nest.is_resolved() {
+        let (mut report, work) = nests[0].solve(coarser, load, *settings, working, progress);
+        if report.stop == Stop::Converged && !load.is_mean_pressure() && !nests[0].is_resolved() {
             report.stop = Stop::Unresolved;
         }
-        let mut displacement = vec![0.0; nest.surface.grid().len()];
-        let certificate = nest.certificate(load, self.settings, &mut displacement);
-        let kept = |nest: &Nest| nest.contact(&self.problem);
-        let part = |(index, _): &(usize, &Nest)| left_out.iter().all(|(out, _)| out != index);
-        let coarser = (1..).zip(&self.nests[1..]).take(KEPT).take_while(part);
+        let part = |index: usize| left_out.iter().all(|(out, _)| *out != index);
         let step = Step {
             load,
             report,
-            certificate,
-            convolutions: convolutions + work / finest + 1.0,
-            finest: kept(&self.nests[0]),
-            displacement: field(self.nests[0].points(), displacement),
-            coarser: coarser.map(|(_, nest)| kept(nest)).collect(),
+            certificate: nests[0].unknowns.certificate,
+            convolutions: convolutions + work / finest,
+            finest: nests[0].contact(&self.problem),
+            coarser: (1..nests.len())
+                .take(KEPT)
+                .take_while(|&k| part(k))
+                .map(|k| nests[k].contact(&self.problem))
+                .collect(),
         };
         for (index, before) in left_out {
-            self.nests[index].unknowns.pressure = before;
+            self.nests[index].unknowns = before;
         }
         if !report.stop.solved() {
             // A spoilt solution is no start for the next step.
-            self.nests.iter_mut().for_each(|nest| nest.unknowns.pressure.fill(0.0));
+            self.nests.iter_mut().for_each(|nest| nest.unknowns = Unknowns::new(nest.surface.grid().len()));
         }
         step
     }
@@ -156,10 +164,10 @@ impl Nest {
         self.surface.grid().points()
     }
 
-    /// The last step on this grid, kept.
+    /// The last step on this grid, shared.
     fn contact(&self, problem: &Arc<Problem>) -> Contact {
         let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
-        Contact::new(problem, &self.surface, pressure.clone(), gap.clone(), *penetration)
+        Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration)
     }
 
     /// Whether contact is wider than the grid's spacing, on the average of the indenters that touch.
@@ -173,52 +181,63 @@ impl Nest {
         pressed > UNRESOLVED * indenters.into_iter().filter(|&touches| touches).count()
     }
 
-    /// What the present pressure proves about itself; its displacement is left behind.
-    fn certificate(&mut self, load: Load, settings: Settings, displacement: &mut [f64]) -> Certificate {
-        let Self { surface, operator, unknowns } = self;
-        let progress = &mut |_| ();
-        let mut problem = GridProblem { compliance: operator, initial_gap: surface.gaps(), load, settings, progress };
-        Certificate::new(&mut problem, unknowns, displacement)
-    }
-
-    /// Solves on this grid after adding the `change` of the next coarser one; also gives convolutions times samples.
+    /// Solves on this grid after adding the change of the next `coarser` one; also gives convolutions times samples.
     fn solve(
         &mut self,
-        change: Option<([usize; 2], Vec<f64>)>,
+        coarser: Option<Coarser>,
         load: Load,
         settings: Settings,
+        working: &mut Working,
         progress: &mut dyn FnMut(Progress),
     ) -> (Report, f64) {
-        let Self { surface, operator, unknowns } = self;
-        let grid = surface.grid();
-        if let Some((from, change)) = change {
-            let rise = resample(&change, from, grid.points(), Interpolation::on(grid.cell()));
-            // A change below the tolerance is none: it would leave traces of pressure around the contact, which no
-            // iteration takes away again where none is needed.
-            let highest = -sums::least(rise.len(), |i| -unknowns.pressure[i]);
-            let least = settings.tolerance * highest;
-            sums::update(&mut unknowns.pressure, |i, p| if rise[i].abs() > least { p + rise[i] } else { p });
+        if let Some(coarser) = coarser {
+            self.follow(&coarser, settings.tolerance);
         }
-        let before = operator.convolutions();
-        let compliance: &mut Operator = operator;
-        let report = GridProblem { compliance, initial_gap: surface.gaps(), load, settings, progress }.solve(unknowns);
-        (report, (operator.convolutions() - before) as f64 * grid.len() as f64)
+        let Self { surface, largest_gap, operator, unknowns, .. } = self;
+        let (points, samples, before) = (surface.grid().points(), surface.grid().len(), operator.convolutions());
+        let (initial_gap, largest_gap) = (surface.gaps(), *largest_gap);
+        let report = GridProblem { operator, working, points, initial_gap, largest_gap, load, settings, progress }
+            .solve(unknowns);
+        (report, (operator.convolutions() - before) * samples as f64)
+    }
+
+    /// Adds to the pressure what the next `coarser` grid's has changed by.
+    fn follow(&mut self, coarser: &Coarser, tolerance: f64) {
+        let points = self.points();
+        let carried =
+            |Unknowns { pressure, gap, .. }: &Unknowns| prolonged(&coarser.grid, pressure, gap, self.modulus, points);
+        let after = carried(&coarser.after);
+        let highest = -sums::least(after.len(), |i| -after[i]);
+        if coarser.before.pressure.iter().all(|&p| p == 0.0) {
+            self.unknowns.pressure = Arc::new(after);
+            return;
+        }
+        let before = carried(&coarser.before);
+        // A change below the tolerance is none: it would leave traces of pressure around the contact, which no
+        // iteration takes away again where none is needed.
+        let least = tolerance * highest;
+        let pressure = Arc::make_mut(&mut self.unknowns.pressure);
+        sums::update(pressure, |i, p| {
+            let rise = after[i] - before[i];
+            if rise.abs() > least { (p + rise).max(0.0) } else { p }
+        });
     }
 }
 
-/// Peak of the memory that solving and reading on a finest grid of `points` takes, bytes.
+/// Memory that solving on a finest grid of `points` takes, bytes.
 ///
-/// Per sample of each grid: the solver's 5 fields and 1 flag, the initial gap and its owner, 2 multipliers and 2 spectra
-/// of half the components; of the finest grid also the step's 3 fields, one for interpolation, what the step keeps of
-/// coarser grids, and what passes from grid to grid. Per row and column of each grid: what its transforms need.
+/// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier in both precisions (half the
+/// components); of the finest grid also what all grids work on in turn (7 fields of single precision, a spectrum of each
+/// precision; of the baseline two fields in double precision). Per row and column of each grid: what its transforms need.
 pub fn memory(points: [usize; 2], method: Method) -> usize {
-    let (iteration, surface, operator) = (5 * 8 + 1, 8 + 4, 2 * 4 + 2 * 8);
-    let (step, rows) = (4 * 8, 2048);
-    // Changes from grid to grid, and two fields of grids with a quarter and a sixteenth of the samples.
-    let passing = if method == Method::Preconditioned { 5 * 8 + 4 + 5 } else { 0 };
-    let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * (iteration + surface + operator) + (n1 + n2) * rows;
+    let (grid, rows) = (3 * 8 + 4 + 4 + 2, 1024);
+    let working = match method {
+        Method::Preconditioned => 7 * 4 + 4 + 8,
+        Method::PolonskyKeer => 2 * 8,
+    };
+    let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * grid + (n1 + n2) * rows;
     let nested: usize = nested_points(points, method).into_iter().map(of_grid).sum();
-    nested + points[0] * points[1] * (step + passing)
+    nested + points[0] * points[1] * working
 }
 
 impl fmt::Display for Solver {

@@ -11,8 +11,8 @@ use ndarray::{Array2, ArrayView2};
 use std::fmt;
 use std::sync::Arc;
 
-/// A solved load step. It owns its fields and shares grid, surface and problem: it can be kept, sent to another thread,
-/// and read after the solver is gone.
+/// A solved load step. It shares its fields with nobody who could change them, and grid, surface and problem: it can be
+/// kept, sent to another thread, and read after the solver is gone.
 #[derive(Debug, Clone)]
 pub struct Step {
     /// What was prescribed.
@@ -24,7 +24,6 @@ pub struct Step {
     /// Convolutions on all grids, as equivalents of the finest one.
     pub convolutions: f64,
     pub(super) finest: Contact,
-    pub(super) displacement: Array2<f64>,
     pub(super) coarser: Vec<Contact>,
 }
 
@@ -61,8 +60,11 @@ impl Step {
     }
 
     /// Displacement w into the body with zero mean, a length; axes along a₁ and a₂.
-    pub fn displacement(&self) -> ArrayView2<'_, f64> {
-        self.displacement.view()
+    pub fn displacement(&self) -> Array2<f64> {
+        if self.pressure().iter().all(|&p| p == 0.0) {
+            return Array2::zeros(self.grid().points());
+        }
+        &self.gap() - &self.surface().initial_gap() + self.penetration()
     }
 
     /// Gap g = w + f − δ, a length; axes along a₁ and a₂.

@@ -3,8 +3,8 @@
 
 use ndarray::Array2;
 use percoat::{
-    Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Reading, Settings, Shape,
-    Solver, Step, Topography,
+    Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Reading, Route, Settings,
+    Shape, Solver, Step, Topography,
 };
 use std::f64::consts::TAU;
 
@@ -104,6 +104,13 @@ pub fn one_level(lattice: Lattice, level: Level) -> Indenters {
 /// Solves one step with the default settings.
 pub fn solve(problem: &Problem, points: [usize; 2], load: Load) -> (Step, Reading) {
     solve_with(problem, points, load, Settings::default())
+}
+
+/// Solves one step until rounding is all that is left: what is equal by symmetry comes out so however it was reached.
+pub fn solve_sharply(problem: &Problem, points: [usize; 2], load: Load) -> (Step, Reading) {
+    let (step, reading) = solve_with(problem, points, load, Settings { tolerance: 1e-13, ..Settings::default() });
+    assert!(step.report.stop.solved() && step.report.route == Route::Direct, "{}", step.report);
+    (step, reading)
 }
 
 /// Solves one step.

@@ -125,7 +125,7 @@ fn figure(preconditioned: &Data, baseline: &Data) -> Figure {
     let chart = Chart {
         title: String::new(),
         x: Axis::log("points along the cell N").from_to(100.0, 2000.0),
-        y: Axis::log("iterations on the finest grid").from_to(5.0, 300.0),
+        y: Axis::log("iterations on the finest grid").from_to(2.0, 300.0),
         curves,
     };
     draw::figure(

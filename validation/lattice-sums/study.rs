@@ -13,8 +13,7 @@ use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use crate::body::{HalfSpace, Material, TransferFunction};
 use crate::lattice::{Cell, Grid};
 use crate::picture::{Axis, Chart, Figure, Style};
-use crate::spectral::Compliance;
-use crate::spectral::operator::Operator;
+use crate::spectral::operator::{Operator, Workspace};
 use crate::validation::exact::lattice_sums::{SQUARE, TRIANGULAR, coated_triangular};
 use crate::validation::exact::{Coating, Sums};
 use std::f64::consts::PI;
@@ -41,14 +40,15 @@ impl Response {
     /// Six widths s from `width` to twice `width`.
     fn new(cell: Cell, points: usize, half_space: &HalfSpace, width: f64) -> Result<Self, StudyError> {
         let grid = Arc::new(Grid::new(cell, [points, points])?);
-        let mut operator = Operator::new(&grid, &TransferFunction::new(half_space));
+        let (mut operator, mut workspace) =
+            (Operator::new(&grid, &TransferFunction::new(half_space)), Workspace::default());
         let modulus = half_space.surface_material().contact_modulus();
         let third = points / 3 * points + points / 3;
         let mut response = Self { squares: Vec::new(), values: [Vec::new(), Vec::new()] };
         for s in linear(width, 2.0 * width, 6) {
             let pressure: Vec<f64> = (0..grid.len()).map(|index| gaussian(&grid, index, s)).collect();
-            let mut displacement = vec![0.0; grid.len()];
-            operator.displacement(&pressure, &mut displacement);
+            let mut displacement = pressure;
+            operator.displacement(&mut displacement, &mut workspace);
             response.squares.push(s * s);
             response.values[0].push(PI * modulus * displacement[0] - (0.5 * PI).sqrt() / s);
             response.values[1].push(PI * modulus * displacement[third]);

@@ -68,6 +68,17 @@ impl Test {
         }
     }
 
+    /// The number as the table has it: what is zero up to the error of the mesh is told by that error, as its own digits
+    /// are those of the solver's tolerance.
+    fn told(&self) -> String {
+        match self.pin {
+            Some([0.0, error]) if self.value.abs() < error && (1e-8..1e-2).contains(&error) => {
+                format!("below {error:.0e}").replace('-', "−")
+            }
+            _ => digits(self.value),
+        }
+    }
+
     /// The check that a pinned number is where it was found, and on that side of its bound.
     fn check(&self, label: &str) -> Option<Check> {
         let [found, error] = self.pin?;
@@ -161,7 +172,7 @@ impl Claim {
     /// Its row of the table: place, quote, measured numbers, verdict, command.
     pub fn row(&self, study: &str) -> String {
         let list = |tests: &[Test]| {
-            let one = |test: &Test| format!("{}: {}", test.what, digits(test.value));
+            let one = |test: &Test| format!("{}: {}", test.what, test.told());
             tests.iter().map(one).collect::<Vec<_>>().join("; ")
         };
         let mut measured = list(&self.printed);

@@ -4,8 +4,13 @@ use super::certificate::Certificate;
 use super::problem::GridProblem;
 use super::unknowns::Unknowns;
 use crate::load::Load;
+use crate::numeric::lanes::{LANES, Real, lowest, splat, total, vectorised};
+use crate::numeric::rows::{self, Totals};
 use crate::numeric::search::largest;
-use crate::numeric::sums;
+use crate::numeric::sums::{self, BLOCK};
+use fearless_simd::prelude::*;
+use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Largest energy gap of a converged solution, over the tolerance.
 const ENERGY_GAP: f64 = 20.0;
@@ -19,13 +24,92 @@ pub(super) struct Check {
     pub residual: f64,
     /// What the pressure proves about itself.
     pub certificate: Certificate,
+    /// Elastic energy ½⟨p, Cp⟩ over the number of samples.
+    pub energy: f64,
+}
+
+/// What a gap adds up to over the samples.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Residuals {
+    /// Σ p.
+    pub load: f64,
+    /// Σ p g.
+    pub work: f64,
+    /// Σ p|g|.
+    pub complementarity: f64,
+    /// min g.
+    pub least: f64,
+    /// min g where p = 0.
+    pub outside: f64,
+}
+
+impl Residuals {
+    /// With gaps in units of `length`.
+    pub fn times(self, length: f64) -> Self {
+        let Self { load, work, complementarity, least, outside } = self;
+        Self {
+            load,
+            work: length * work,
+            complementarity: length * complementarity,
+            least: length * least,
+            outside: length * outside,
+        }
+    }
 }
 
 impl Check {
     /// Check of the present pressure of `unknowns`, gap and penetration left there.
     pub fn new(problem: &mut GridProblem<'_>, unknowns: &mut Unknowns) -> Self {
-        problem.compliance.displacement(&unknowns.pressure, &mut unknowns.gap);
-        judge(problem, unknowns)
+        let (p, load_control) = (&unknowns.pressure, problem.load.is_mean_pressure());
+        match Arc::get_mut(&mut unknowns.gap) {
+            Some(gap) => gap.copy_from_slice(p),
+            None => unknowns.gap = Arc::new(p.to_vec()),
+        }
+        let g = Arc::make_mut(&mut unknowns.gap);
+        problem.displacement(g);
+        let (f, len) = (problem.initial_gap, p.len() as f64);
+        let mean = if let Load::MeanPressure(mean) = problem.load { mean } else { 0.0 };
+        let fields = (p.par_chunks(BLOCK), g.par_chunks_mut(BLOCK), f.par_chunks(BLOCK));
+        let Totals { sums: [load, energy, work, open], .. } =
+            rows::sweep(BLOCK, fields, |_, (p, w, f)| vectorised!(simd => deformed(simd, p, w, f, mean)));
+        let (penetration, deviation) = match problem.load {
+            Load::MeanPressure(mean) => (relative(work, load), relative((load / len - mean).abs(), mean)),
+            Load::Penetration(given) => (given, relative((work - load * given).abs(), load * given)),
+        };
+        unknowns.penetration = penetration;
+        let Totals { sums: [work, complementarity], least: [least, outside] } = rows::sweep(
+            BLOCK,
+            (p.par_chunks(BLOCK), g.par_chunks_mut(BLOCK)),
+            |_, (p, g)| vectorised!(simd => opened(simd, p, g, penetration)),
+        );
+        let residuals = Residuals { load, work, complementarity, least, outside };
+        let mut check = Self::of(residuals, penetration, energy / len, load_control, len);
+        check.certificate.load = deviation;
+        if load_control && open == 0.0 {
+            // Without p ≥ 0 the excess is ½⟨g, C⁻¹g⟩.
+            let mut free = g.clone();
+            problem.operator.pressure(&mut free, &mut problem.working.transforms);
+            let [excess] = sums::of(free.len(), |i| [0.5 * g[i] * free[i]]);
+            check.certificate.energy_gap = check.certificate.energy_gap.min(relative(excess, energy));
+        }
+        unknowns.certificate = check.certificate;
+        check
+    }
+
+    /// How a gap stands whose residuals are given; `energy` is the elastic one over the number of samples `len`.
+    pub fn of(residuals: Residuals, penetration: f64, energy: f64, load_control: bool, len: f64) -> Self {
+        let Residuals { load, work, complementarity, least, outside } = residuals;
+        let least = if load_control { least } else { least.min(0.0) };
+        Self {
+            // Without any pressure the constraint g ≥ 0 alone decides.
+            residual: relative(complementarity, load * penetration),
+            certificate: Certificate {
+                energy_gap: relative(work - least * load, len * energy),
+                penetration: relative(-outside, penetration),
+                load: 0.0,
+            },
+            energy,
+        }
     }
 
     /// Whether ε, energy gap and penetration all are below their multiples of the tolerance.
@@ -44,50 +128,45 @@ impl Check {
     }
 }
 
-impl Certificate {
-    /// Certificate of `unknowns.pressure`; leaves the fresh gap, penetration and displacement w = C p behind.
-    pub(crate) fn new(problem: &mut GridProblem<'_>, unknowns: &mut Unknowns, displacement: &mut [f64]) -> Self {
-        problem.compliance.displacement(&unknowns.pressure, displacement);
-        unknowns.gap.copy_from_slice(displacement);
-        judge(problem, unknowns).certificate
-    }
+/// A flat counterbody is in complete contact without any deformation: nothing to be relative to.
+fn relative(part: f64, scale: f64) -> f64 {
+    if scale <= 0.0 || part <= 0.0 { 0.0 } else { part / scale }
 }
 
-/// How `unknowns.pressure` stands, whose displacement w = C p is in `unknowns.gap`; leaves gap and penetration there.
-pub(super) fn judge(problem: &mut GridProblem<'_>, unknowns: &mut Unknowns) -> Check {
-    // A flat counterbody is in complete contact without any deformation: nothing to be relative to.
-    let relative = |part: f64, scale: f64| if scale <= 0.0 || part <= 0.0 { 0.0 } else { part / scale };
-    let (f, load_control) = (problem.initial_gap, problem.load.is_mean_pressure());
-    let Unknowns { pressure: p, gap, image, .. } = unknowns;
-    let (w, len) = (&*gap, f.len());
-    // ⟨1, w⟩ = 0, so that a uniform part of p adds nothing but rounding to the elastic energy.
-    let uniform = if let Load::MeanPressure(mean) = problem.load { mean } else { 0.0 };
-    let [load, energy, work, open] = sums::of(len, |i| {
-        [p[i], 0.5 * (p[i] - uniform) * w[i], p[i] * (w[i] + f[i]), if p[i] > 0.0 { 0.0 } else { 1.0 }]
-    });
-    let (penetration, deviation) = match problem.load {
-        Load::MeanPressure(mean) => (relative(work, load), relative((load / len as f64 - mean).abs(), mean)),
-        Load::Penetration(given) => (given, relative((work - load * given).abs(), load * given)),
-    };
-    unknowns.penetration = penetration;
-    sums::update(gap, |i, w| w + f[i] - penetration);
-    let g = &*gap;
-    let outside = sums::least(len, |i| if p[i] > 0.0 { 0.0 } else { g[i] });
-    let least = sums::least(len, |i| g[i]);
-    let least = if load_control { least } else { least.min(0.0) };
-    let [mut excess, complementarity] = sums::of(len, |i| [p[i] * (g[i] - least), p[i] * g[i].abs()]);
-    if load_control && open == 0.0 {
-        problem.compliance.precondition(g, image);
-        let [free] = sums::of(len, |i| [0.5 * g[i] * image[i]]);
-        excess = excess.min(free);
+/// Σ p, ½ Σ (p − `uniform`) w, Σ p (w + f) and the number of samples without pressure; w becomes w + f. As ⟨1, w⟩ = 0, a
+/// uniform part of p would add nothing but rounding to the elastic energy.
+#[inline(always)]
+fn deformed<S: Simd>(simd: S, p: &[f64], w: &mut [f64], f: &[f64], uniform: f64) -> Totals<4, 0> {
+    let zero = splat(simd, 0.0);
+    let (mut load, mut energy, mut work, mut open) = (zero, zero, zero, zero);
+    for at in (0..p.len()).step_by(LANES) {
+        let pressure = Real::group(simd, p, at, 0.0);
+        let (displacement, gap) = (Real::group(simd, w, at, 0.0), Real::group(simd, f, at, 0.0));
+        let deformed = displacement + gap;
+        load += pressure;
+        energy = ((pressure - uniform) * 0.5).mul_add(displacement, energy);
+        work = pressure.mul_add(deformed, work);
+        open += pressure.simd_gt(zero).select(zero, splat(simd, 1.0));
+        Real::put(deformed, w, at);
     }
-    Check {
-        // Without any pressure the constraint g ≥ 0 alone decides.
-        residual: relative(complementarity, load * penetration),
-        certificate: Certificate {
-            energy_gap: relative(excess, energy),
-            penetration: relative(-outside, penetration),
-            load: deviation,
-        },
+    // What lies beyond the end counts as open.
+    let beyond = p.len().next_multiple_of(LANES) - p.len();
+    Totals { sums: [total(load), total(energy), total(work), total(open) - beyond as f64], least: [] }
+}
+
+/// g becomes g − δ; Σ p g, Σ p|g|, min g, and min g where there is no pressure.
+#[inline(always)]
+fn opened<S: Simd>(simd: S, p: &[f64], g: &mut [f64], penetration: f64) -> Totals<2, 2> {
+    let (zero, far) = (splat(simd, 0.0), splat(simd, f64::INFINITY));
+    let (mut work, mut complementarity, mut least, mut outside) = (zero, zero, far, far);
+    for at in (0..p.len()).step_by(LANES) {
+        let pressure = Real::group(simd, p, at, 0.0);
+        let gap = Real::group(simd, g, at, f64::MAX) - penetration;
+        work = pressure.mul_add(gap, work);
+        complementarity = pressure.mul_add(gap.abs(), complementarity);
+        least = least.min(gap);
+        outside = outside.min(pressure.simd_gt(zero).select(far, gap));
+        Real::put(gap, g, at);
     }
+    Totals { sums: [total(work), total(complementarity)], least: [lowest(least), lowest(outside)] }
 }

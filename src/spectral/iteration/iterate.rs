@@ -1,5 +1,7 @@
-//! The method of the settings, and the baseline where it stalls.
+//! The method of the settings, and where it stalls the next more patient one: without the continuation of the residual,
+//! then the baseline.
 
+use super::preconditioned::Beyond;
 use super::problem::GridProblem;
 use super::report::{Report, Route, Stop};
 use super::settings::Method;
@@ -11,11 +13,15 @@ pub(super) fn iterate(problem: &mut GridProblem<'_>, iterations: usize, unknowns
     match problem.settings.method {
         Method::PolonskyKeer => polonsky_keer::solve(problem, iterations, unknowns),
         Method::Preconditioned => {
-            let report = preconditioned::solve(problem, iterations, unknowns);
-            if report.stop != Stop::Stalled {
-                return report;
+            let mut spent = iterations;
+            for (beyond, route) in [(Beyond::Continued, Route::Direct), (Beyond::Zero, Route::WithoutContinuation)] {
+                let report = preconditioned::solve(problem, beyond, spent, unknowns);
+                if report.stop != Stop::Stalled {
+                    return Report { route, ..report };
+                }
+                spent = report.iterations;
             }
-            let rest = polonsky_keer::solve(problem, report.iterations, unknowns);
+            let rest = polonsky_keer::solve(problem, spent, unknowns);
             Report { route: Route::BaselineAfterStall, ..rest }
         }
     }

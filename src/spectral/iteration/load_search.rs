@@ -38,7 +38,8 @@ pub(super) fn solve(
             break;
         }
         let mut trial = GridProblem {
-            compliance: &mut *problem.compliance,
+            operator: &mut *problem.operator,
+            working: &mut *problem.working,
             load: Load::MeanPressure(pressure),
             settings: sharper,
             progress: &mut *problem.progress,

@@ -27,10 +27,13 @@ mod report;
 mod settings;
 mod solve;
 mod stopping;
+mod sweeps;
 mod unknowns;
+mod working;
 
 pub use certificate::Certificate;
-pub use problem::{Compliance, GridProblem};
+pub use problem::GridProblem;
 pub use report::{Progress, Report, Route, Stop};
 pub use settings::{Method, Settings};
 pub use unknowns::Unknowns;
+pub use working::Working;

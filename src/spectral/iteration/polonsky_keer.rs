@@ -10,6 +10,7 @@ use super::report::{Progress, Report, Route, Stop};
 use super::stopping::Patience;
 use super::unknowns::Unknowns;
 use crate::numeric::sums;
+use std::sync::Arc;
 
 /// First window of the patience, iterations: the method is rougher on its way than the preconditioned one.
 const PATIENCE: usize = 100;
@@ -20,7 +21,7 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
     let (load, load_control) = (problem.load, problem.load.is_mean_pressure());
     let mut patience = Patience::new(PATIENCE);
     let (mut norm_before, mut conjugate) = (1.0, false);
-    unknowns.direction.fill(0.0);
+    let (mut t, mut image) = (vec![0.0; len], vec![0.0; len]);
     unknowns.admit(load);
     loop {
         let check = Check::new(problem, unknowns);
@@ -30,7 +31,7 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
         }
         iterations += 1;
 
-        let Unknowns { pressure: p, gap: g, direction: t, image, .. } = unknowns;
+        let (p, g) = (Arc::make_mut(&mut unknowns.pressure), Arc::make_mut(&mut unknowns.gap));
         let over_contact = |field: &[f64]| {
             let [size, sum] = sums::of(len, |i| if p[i] > 0.0 { [1.0, field[i]] } else { [0.0; 2] });
             if load_control && size > 0.0 { sum / size } else { 0.0 }
@@ -43,10 +44,11 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
         norm_before = norm;
         // Contact of one sample (or of equal ones) leaves no direction within contact: the penetrating samples lead.
         let lonely = norm <= 1e-24 * violation;
-        sums::update(t, |i, t| if p[i] > 0.0 || (lonely && g[i] < 0.0) { g[i] + beta * t } else { 0.0 });
+        sums::update(&mut t, |i, t| if p[i] > 0.0 || (lonely && g[i] < 0.0) { g[i] + beta * t } else { 0.0 });
 
-        problem.compliance.displacement(t, image);
-        let image_mean = if lonely { 0.0 } else { over_contact(image) };
+        image.copy_from_slice(&t);
+        problem.displacement(&mut image);
+        let image_mean = if lonely { 0.0 } else { over_contact(&image) };
         let [descent, curvature] = sums::of(len, |i| [g[i] * t[i], (image[i] - image_mean) * t[i]]);
         let step = descent / curvature;
         if !(step.is_finite() && curvature > 0.0) {
@@ -55,6 +57,8 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
                 conjugate = false;
                 continue;
             }
+            // The mean over contact has been taken off the gap.
+            Check::new(problem, unknowns);
             return ended(Stop::Stalled, iterations);
         }
         sums::update(p, |i, p| if p > 0.0 { (p - step * t[i]).max(0.0) } else { p });

@@ -1,66 +1,258 @@
-//! Conjugate gradients preconditioned with C⁻¹ on the active set.
+//! Conjugate gradients preconditioned with C⁻¹ on the active set, in single precision around a double one.
 //!
-//! On I = {p > 0} ∪ {g < 0} the direction is t = z + βt with z = P_I F⁻¹C⁻¹F P_I g (Polak–Ribière β ≥ 0; a restart
-//! where I has grown). Under load control g and z are freed of their mean on I first, so that the load stays: the
-//! preconditioner is then symmetric on the admissible directions. Step τ = ⟨g,t⟩/⟨t,Ct⟩, p ← max(p − τt, 0), and p is
-//! scaled back to its mean. C⁻¹ makes the spectrum of the iteration nearly independent of the grid.
+//! On I = {p > 0} ∪ {g < 0} the direction is t = z + βt with z = M r, r = P_I g, M = P_I Eᵀ C⁻¹ E P_I (E continues the
+//! residual beyond I), β = max(0, ⟨r − r′, z⟩/⟨r′, z′⟩) (Polak–Ribière, primes of the iteration before). Under load control
+//! r and z are freed of their mean on I, so that the load stays: M is then symmetric on the admissible directions. Step
+//! τ = ⟨g, t⟩/⟨t, Ct⟩, p ← max(p − τt, 0), and p is scaled back to its mean. C⁻¹ makes the spectrum of the iteration nearly
+//! independent of the grid, E nearly independent of how ragged the contact is.
+//!
+//! **Descent.** What clipping takes away can raise the energy. Its change along the step d that was really taken is
+//! ⟨g, d⟩ + ½⟨d, Cd⟩; where that is positive a shorter step is clipped afresh (ending at the minimum on the way instead
+//! would bring back what was clipped, to be clipped again and again), and where the way leads uphill it is not taken, and
+//! the next direction starts anew. The first step on a grid is free: it has to sort out what interpolation has left.
+//!
+//! **Precision.** The gap is carried by its changes, g ← g + Cd, in single precision and in units of the largest f. The
+//! pressure is double, and when the criteria are met, or single precision
+//! exhausted, the gap is computed afresh in double precision: that alone decides about convergence.
 
-use super::check::Check;
+use super::check::{Check, Residuals};
 use super::problem::GridProblem;
 use super::report::{Progress, Report, Route, Stop};
 use super::stopping::Patience;
+use super::sweeps::{self, Active};
 use super::unknowns::Unknowns;
-use crate::numeric::sums;
+use super::working::Fields;
+use crate::load::Load;
+use crate::spectral::extension;
+use std::sync::Arc;
 
 /// First window of the patience, iterations.
 const PATIENCE: usize = 30;
+/// Part of its last value in double precision below which a residual of single precision is not believed.
+const TRUSTED: f64 = 1e-5;
+/// Iterations after which the gap is computed afresh whatever it says.
+const RENEWAL: usize = 20;
+
+/// How often a step that raises the energy is shortened before it ends at the minimum on its way, and how much.
+const SHORTENED: usize = 2;
+const LEAST_PART: f64 = 0.25;
+const MOST_PART: f64 = 0.5;
+
+/// How the residual is continued beyond the active set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Beyond {
+    /// By a fading mean: fewer iterations.
+    Continued,
+    /// By zero: C⁻¹ on the active set itself.
+    Zero,
+}
 
 /// Iterates from and into `unknowns`; `iterations` are those before.
-pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknowns: &mut Unknowns) -> Report {
-    let len = problem.initial_gap.len();
-    let (load, load_control) = (problem.load, problem.load.is_mean_pressure());
+pub(super) fn solve(
+    problem: &mut GridProblem<'_>,
+    beyond: Beyond,
+    mut iterations: usize,
+    unknowns: &mut Unknowns,
+) -> Report {
     let mut patience = Patience::new(PATIENCE);
-    let mut norm_before = 0.0;
-    unknowns.direction.fill(0.0);
-    unknowns.active.fill(false);
-    unknowns.admit(load);
+    let mut memory = Memory { norm: 0.0, mean: 0.0, free: true };
     loop {
+        unknowns.admit(problem.load);
         let check = Check::new(problem, unknowns);
-        let ended = |stop, iterations| Report { stop, route: Route::Direct, iterations, residual: check.residual };
-        if let Some(stop) = check.stop(&problem.settings, &mut patience, iterations) {
-            return ended(stop, iterations);
+        let ended = |stop| Report { stop, route: Route::Direct, iterations, residual: check.residual };
+        if check.converged(problem.settings.tolerance) {
+            return ended(Stop::Converged);
         }
-        iterations += 1;
-
-        let Unknowns { pressure: p, gap: g, direction: t, image, previous, active, .. } = unknowns;
-        let belongs = |i: usize| p[i] > 0.0 || g[i] < 0.0;
-        let [size, sum, grown] =
-            sums::of(len, |i| if belongs(i) { [1.0, g[i], f64::from(u8::from(!active[i]))] } else { [0.0; 3] });
-        let mean = if load_control { sum / size } else { 0.0 };
-        sums::update(active, |i, _| belongs(i));
-        sums::update(g, |i, g| if active[i] { g - mean } else { 0.0 });
-        problem.compliance.precondition(g, image);
-        let z_mean = if load_control {
-            let [sum] = sums::of(len, |i| [if active[i] { image[i] } else { 0.0 }]);
-            sum / size
-        } else {
-            0.0
-        };
-        sums::update(image, |i, z| if active[i] { z - z_mean } else { 0.0 });
-        let [norm, overlap] = sums::of(len, |i| [g[i] * image[i], previous[i] * image[i]]);
-        let beta = if grown > 0.0 || norm_before <= 0.0 { 0.0 } else { ((norm - overlap) / norm_before).max(0.0) };
-        norm_before = norm;
-        sums::update(t, |i, t| if active[i] { image[i] + beta * t } else { 0.0 });
-        previous.copy_from_slice(g);
-
-        problem.compliance.displacement(t, image);
-        let [descent, curvature] = sums::of(len, |i| [g[i] * t[i], t[i] * image[i]]);
-        let step = descent / curvature;
-        if !(step.is_finite() && curvature > 0.0) {
-            return ended(Stop::Stalled, iterations);
+        let mut way = Way::new(problem, unknowns, check, beyond);
+        for number in 1.. {
+            let limit = iterations >= problem.settings.max_iterations;
+            let over = patience.ends(way.check.measure()) || limit;
+            if over || !way.iterate(problem, unknowns, &mut memory) {
+                // What the pressure itself says, unless it has just been asked.
+                let check = if over && number == 1 {
+                    check
+                } else {
+                    unknowns.admit(problem.load);
+                    Check::new(problem, unknowns)
+                };
+                let stop = match (check.converged(problem.settings.tolerance), limit) {
+                    (true, _) => Stop::Converged,
+                    (false, true) => Stop::IterationLimit,
+                    (false, false) => Stop::Stalled,
+                };
+                return Report { stop, route: Route::Direct, iterations, residual: check.residual };
+            }
+            iterations += 1;
+            (problem.progress)(Progress { iteration: iterations, residual: way.check.residual });
+            let met = way.check.converged(problem.settings.tolerance);
+            if met || number == RENEWAL || way.check.measure() < TRUSTED * check.measure() {
+                break;
+            }
         }
-        sums::update(p, |i, p| if active[i] { p - step * t[i] } else { 0.0 });
-        unknowns.admit(load);
-        (problem.progress)(Progress { iteration: iterations, residual: check.residual });
+    }
+}
+
+/// What one iteration leaves for the next direction.
+#[derive(Debug)]
+struct Memory {
+    /// ⟨r′, z′⟩; 0 for a new start.
+    norm: f64,
+    /// Mean of r′ on I′.
+    mean: f64,
+    /// Whether the next step may raise the energy.
+    free: bool,
+}
+
+/// A direction t that was found.
+#[derive(Debug, Clone, Copy)]
+struct Direction {
+    /// ⟨r, z⟩.
+    norm: f64,
+    beta: f64,
+    /// Step to the minimum along it, without p ≥ 0.
+    tau: f64,
+}
+
+/// A step that was taken.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    /// Whether the next direction has to start anew.
+    restart: bool,
+    /// Σ p and Σ p g, the gap with the old δ.
+    sums: [f64; 2],
+}
+
+/// From one gap in double precision to the next.
+#[derive(Debug)]
+struct Way {
+    points: [usize; 2],
+    beyond: Beyond,
+    /// The units of the working fields: the largest f, and the pressure that displaces by it at the least wavenumber.
+    length: f64,
+    pressure: f64,
+    active: Active,
+    penetration: f64,
+    /// How the pressure stands by the gap in single precision.
+    check: Check,
+}
+
+impl Way {
+    fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, beyond: Beyond) -> Self {
+        let length = problem.largest_gap;
+        let (Fields { gap, residual, .. }, _) = problem.working.of(unknowns.pressure.len());
+        sweeps::take(&unknowns.gap, length, gap);
+        let (active, _) = sweeps::residual(&unknowns.pressure, 0.0, gap, residual);
+        let (points, pressure) = (problem.points, length / problem.operator.softest());
+        Self { points, beyond, length, pressure, active, penetration: unknowns.penetration, check }
+    }
+
+    /// One iteration; false where no step can be found.
+    fn iterate(&mut self, problem: &mut GridProblem<'_>, unknowns: &mut Unknowns, memory: &mut Memory) -> bool {
+        let p = Arc::make_mut(&mut unknowns.pressure);
+        let Some(direction) = self.turn(problem, p.len(), memory) else { return false };
+        let Some(Step { restart, sums }) = self.advance(problem, p, direction, memory.free) else { return false };
+        *memory = Memory { norm: if restart { 0.0 } else { direction.norm }, mean: self.mean(problem), free: false };
+        self.judge(problem, p, sums);
+        true
+    }
+
+    /// What r is freed of.
+    fn mean(&self, problem: &GridProblem<'_>) -> f64 {
+        if problem.load.is_mean_pressure() { self.active.mean() } else { 0.0 }
+    }
+
+    /// z = M r, t = z + βt and C t, which is left in `image`.
+    fn turn(&self, problem: &mut GridProblem<'_>, samples: usize, memory: &Memory) -> Option<Direction> {
+        let (points, mean, load_control) = (self.points, self.mean(problem), problem.load.is_mean_pressure());
+        let (fields, transforms) = problem.working.of(samples);
+        let Fields { residual, previous, direction, image, weight, aside, .. } = fields;
+        match self.beyond {
+            Beyond::Continued => extension::extend(points, residual, mean as f32, [image, weight, aside]),
+            Beyond::Zero => sweeps::centred(residual, mean, image),
+        }
+        problem.operator.pressure_single(image, transforms);
+        match self.beyond {
+            Beyond::Continued => extension::gather(points, image, [weight, aside]),
+            Beyond::Zero => weight.fill(0.0),
+        }
+        let overlaps = sweeps::overlap([residual, previous, image, weight, direction]);
+        let z_mean = if load_control { overlaps.sum / self.active.size } else { 0.0 };
+        let norm = overlaps.with_residual - mean * overlaps.sum;
+        let overlap = overlaps.with_previous(memory.mean, z_mean);
+        let beta = if memory.norm > 0.0 { ((norm - overlap) / memory.norm).max(0.0) } else { 0.0 };
+        // What is left of the last direction on I is freed of its mean too, or the load would drift.
+        let t_mean = if load_control && beta > 0.0 { overlaps.direction / self.active.size } else { 0.0 };
+        let descent = sweeps::turn(residual, weight, z_mean + beta * t_mean, beta, direction, image);
+        let columns = points[1];
+        let [curvature] = problem.operator.displacement_single(image, transforms, |row, image| {
+            [sweeps::product(&direction[row * columns..][..columns], image)]
+        });
+        let tau = descent / curvature;
+        (tau.is_finite() && curvature > 0.0).then_some(Direction { norm, beta, tau })
+    }
+
+    /// p + d and g + C d; `free`: whatever it does to the energy.
+    fn advance(
+        &self,
+        problem: &mut GridProblem<'_>,
+        p: &mut [f64],
+        Direction { beta, mut tau, .. }: Direction,
+        free: bool,
+    ) -> Option<Step> {
+        let (columns, unit, load) = (self.points[1], self.pressure, problem.load);
+        let (Fields { gap, direction, image, weight: step, aside: copy, .. }, transforms) = problem.working.of(p.len());
+        for shortened in 0.. {
+            let advance = sweeps::advance(p, gap, direction, -tau, unit, [step, copy]);
+            if !advance.clipped {
+                // C d = −τ C t.
+                return Some(Step { restart: false, sums: sweeps::follow(p, gap, image, -tau) });
+            }
+            let scale = match load {
+                Load::MeanPressure(mean) if advance.load > 0.0 => mean * p.len() as f64 / advance.load,
+                Load::MeanPressure(_) => {
+                    sweeps::retreat(p, step, unit);
+                    return None;
+                }
+                Load::Penetration(_) => 1.0,
+            };
+            if scale != 1.0 {
+                sweeps::rescale(p, scale, unit, [step, copy]);
+            }
+            let [curvature] = problem.operator.displacement_single(copy, transforms, |row, image| {
+                [sweeps::product(&step[row * columns..][..columns], image)]
+            });
+            // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
+            let slope = scale * advance.slope;
+            let (uphill, part) = (slope >= 0.0, -slope / curvature);
+            if curvature.is_finite() && (free || slope + 0.5 * curvature <= 0.0) {
+                return Some(Step { restart: false, sums: sweeps::follow(p, gap, copy, 1.0) });
+            }
+            if shortened == SHORTENED && !uphill && part.is_finite() {
+                sweeps::retreat(p, step, (1.0 - part) * unit);
+                return Some(Step { restart: false, sums: sweeps::follow(p, gap, copy, part) });
+            }
+            sweeps::retreat(p, step, unit);
+            if uphill && beta > 0.0 {
+                return Some(Step { restart: true, sums: sweeps::follow(p, gap, copy, 0.0) });
+            }
+            if shortened == SHORTENED || !curvature.is_finite() {
+                return None;
+            }
+            tau *= part.clamp(LEAST_PART, MOST_PART);
+        }
+        None
+    }
+
+    /// The new δ, residual and active set.
+    fn judge(&mut self, problem: &mut GridProblem<'_>, p: &[f64], [load, work]: [f64; 2]) {
+        let load_control = problem.load.is_mean_pressure();
+        std::mem::swap(&mut problem.working.fields.residual, &mut problem.working.fields.previous);
+        let (Fields { gap, residual, .. }, _) = problem.working.of(p.len());
+        let shift = if load_control { work / load } else { 0.0 };
+        self.penetration += shift * self.length;
+        let (active, residuals) = sweeps::residual(p, shift, gap, residual);
+        self.active = active;
+        let residuals = Residuals { load, ..residuals.times(self.length) };
+        self.check = Check::of(residuals, self.penetration, self.check.energy, load_control, p.len() as f64);
     }
 }

@@ -2,31 +2,36 @@
 
 use super::report::Progress;
 use super::settings::Settings;
+use super::working::Working;
 use crate::load::Load;
+use crate::spectral::operator::Operator;
 use std::fmt;
-
-/// The half-space as an iteration meets it: symmetric linear maps between fields of one grid, one value per sample, a₂
-/// fastest. Implementations may panic when a field has another number of samples.
-pub trait Compliance {
-    /// w = C p: displacement into the body with zero mean (a length), from pressure.
-    fn displacement(&mut self, pressure: &[f64], displacement: &mut [f64]);
-
-    /// z ≈ C⁻¹ g, positive definite: the preconditioner.
-    fn precondition(&mut self, gap: &[f64], result: &mut [f64]);
-}
 
 /// One load step on one grid: everything that the methods receive.
 pub struct GridProblem<'a> {
     /// The half-space.
-    pub compliance: &'a mut dyn Compliance,
-    /// f ≥ 0, a length, one value per sample, measured from first touch.
+    pub operator: &'a mut Operator,
+    /// Fields that the methods work on.
+    pub working: &'a mut Working,
+    /// Samples along a₁ and a₂.
+    pub points: [usize; 2],
+    /// f ≥ 0, a length, one value per sample, a₂ fastest, measured from first touch.
     pub initial_gap: &'a [f64],
+    /// Its largest value.
+    pub largest_gap: f64,
     /// What is prescribed.
     pub load: Load,
     /// Tolerance and limits.
     pub settings: Settings,
     /// Hears of each iteration.
     pub progress: &'a mut dyn FnMut(Progress),
+}
+
+impl GridProblem<'_> {
+    /// w = C p, from p to w in place.
+    pub(super) fn displacement(&mut self, field: &mut [f64]) {
+        self.operator.displacement(field, &mut self.working.transforms);
+    }
 }
 
 impl fmt::Debug for GridProblem<'_> {

@@ -49,6 +49,8 @@ impl fmt::Display for Stop {
 pub enum Route {
     /// The method asked for is the preconditioned one, and it has led there or had nothing to solve.
     Direct,
+    /// The preconditioned method without its continuation of the residual beyond contact, after it had stalled with it.
+    WithoutContinuation,
     /// The baseline, as asked for.
     Baseline,
     /// The baseline, after the preconditioned method had stalled.
@@ -71,6 +73,7 @@ impl Route {
         match self {
             Self::Direct => "direct",
             Self::Baseline => "baseline",
+            Self::WithoutContinuation => "without-continuation",
             Self::BaselineAfterStall => "baseline-after-stall",
             Self::LoadSearch { .. } => "load-search",
         }
@@ -95,6 +98,7 @@ impl fmt::Display for Report {
         write!(f, "{} after {} iterations, ε = {:.1e}", self.stop, self.iterations, self.residual)?;
         match self.route {
             Route::Direct | Route::Baseline => Ok(()),
+            Route::WithoutContinuation => write!(f, ", without continuing the residual beyond contact"),
             Route::BaselineAfterStall => write!(f, ", fell back to Polonsky–Keer"),
             Route::LoadSearch { trials } => write!(f, ", by {trials} trials of the mean pressure"),
         }

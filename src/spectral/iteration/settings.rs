@@ -5,7 +5,7 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Method {
-    /// Preconditioned with C⁻¹ on the active set: iterations do not grow with the grid.
+    /// Preconditioned with C⁻¹ between the active set and its surroundings: iterations do not grow with the grid.
     #[default]
     Preconditioned,
     /// Polonsky & Keer, Wear 231 (1999) 206.

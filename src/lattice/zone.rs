@@ -1,0 +1,71 @@
+//! The first Brillouin zone of a grid's samples: the wavevectors it can tell apart.
+//!
+//! The index (k₁, k₂) of a Fourier component means the wavevector k₁**b**₁ + k₂**b**₂ up to multiples of N₁**b**₁ and
+//! N₂**b**₂ (its aliases). Those of least length fill the zone |**q**·**g**| ≤ ½g², for all reciprocal vectors **g** of the
+//! samples.
+
+use super::{Cell, LatticeError, Reduced};
+
+/// The zone of N₁ × N₂ samples on a cell.
+#[derive(Debug, Clone)]
+pub(crate) struct Zone {
+    cell: Cell,
+    points: [usize; 2],
+    /// The lattice of N₁**b**₁, N₂**b**₂, which aliases differ by.
+    sampling: Reduced,
+}
+
+impl Zone {
+    /// Of `points` = [N₁, N₂] samples along a₁ and a₂, none of them zero.
+    pub fn new(cell: Cell, points: [usize; 2]) -> Result<Self, LatticeError> {
+        let [b1, b2] = cell.reciprocal();
+        let [n1, n2] = points.map(|n| n as f64);
+        let sampling = [[n1 * b1[0], n1 * b1[1]], [n2 * b2[0], n2 * b2[1]]];
+        let sampling = Cell::new(sampling[0], sampling[1])?.reduced();
+        Ok(Self { cell, points, sampling })
+    }
+
+    /// The cell.
+    pub fn cell(&self) -> Cell {
+        self.cell
+    }
+
+    /// [N₁, N₂].
+    pub fn points(&self) -> [usize; 2] {
+        self.points
+    }
+
+    /// The shortest alias of the component (k₁, k₂), 1/length.
+    pub fn wavevector(&self, component: [usize; 2]) -> [f64; 2] {
+        self.sampling.nearest(self.fractions_of(component))
+    }
+
+    /// Fractions of N₁b₁ and N₂b₂ that a component stands for.
+    fn fractions_of(&self, component: [usize; 2]) -> [f64; 2] {
+        [0, 1].map(|axis| component[axis] as f64 / self.points[axis] as f64)
+    }
+
+    /// All shortest aliases of the component (k₁, k₂) whose lengths agree to the relative `tolerance`, each with the
+    /// multiples of b₁, b₂ it is made of.
+    pub fn tied_wavevectors(&self, component: [usize; 2], tolerance: f64) -> Vec<([i32; 2], [f64; 2])> {
+        let aliases = self.sampling.shortest(self.fractions_of(component), tolerance).into_iter();
+        let index = |taken: [i32; 2]| [0, 1].map(|k| component[k] as i32 - taken[k] * self.points[k] as i32);
+        aliases.map(|(q, taken)| (index(taken), q)).collect()
+    }
+
+    /// Reciprocal vectors of the samples, one of each pair ±**g**, whose bisectors bound the zone, 1/length.
+    pub fn facets(&self) -> [[f64; 2]; 3] {
+        self.sampling.facets()
+    }
+
+    /// The shortest of them.
+    pub fn shortest_facet(&self) -> [f64; 2] {
+        self.sampling.short()
+    }
+
+    /// Whether a wavevector is on the border up to a relative tolerance, or outside.
+    pub fn on_border(&self, [x, y]: [f64; 2], tolerance: f64) -> bool {
+        let outside = |[gx, gy]: [f64; 2]| (x * gx + y * gy).abs() > 0.5 * (1.0 - tolerance) * (gx * gx + gy * gy);
+        self.facets().into_iter().any(outside)
+    }
+}

@@ -1,0 +1,127 @@
+//! Eight numbers at a time, on what the processor at hand can do.
+//!
+//! Loops over a row take its samples in groups of eight, each in double precision whatever the row is stored in; the
+//! last group is padded. A sum keeps eight lanes apart and adds them in one order at the end, so that the same row gives
+//! the same sum by whichever thread it is taken. (Products are added in one rounding where the processor can: another one may
+//! differ in the last digit.)
+
+use fearless_simd::{f32x8, f64x8, prelude::*};
+use rustfft::FftNum;
+
+/// Numbers of a group.
+pub const LANES: usize = 8;
+
+/// Runs an expression with the vector instructions of this processor.
+macro_rules! vectorised {
+    ($simd:ident => $operation:expr) => {
+        fearless_simd::dispatch!(fearless_simd::Level::new(), $simd => $operation)
+    };
+}
+pub(crate) use vectorised;
+
+/// A real number, of single or double precision.
+pub trait Real: FftNum + SimdFloatElement + Default {
+    /// Eight of them.
+    type Lanes<S: Simd>: SimdFloat<S, Element = Self>;
+
+    /// Rounded to this precision.
+    fn rounded(value: f64) -> Self;
+
+    /// As a number of double precision.
+    fn wide(self) -> f64;
+
+    /// The group of a row that starts at `at`, in double precision; what lies beyond the row's end is `beyond`.
+    fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S>;
+
+    /// Puts a group back, rounded to this precision.
+    fn put<S: Simd>(group: f64x8<S>, row: &mut [Self], at: usize);
+}
+
+impl Real for f64 {
+    type Lanes<S: Simd> = f64x8<S>;
+
+    #[inline(always)]
+    fn rounded(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn wide(self) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S> {
+        f64x8::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES])
+    }
+
+    #[inline(always)]
+    fn put<S: Simd>(group: f64x8<S>, row: &mut [Self], at: usize) {
+        match row.get_mut(at..at + LANES) {
+            Some(whole) => group.store_slice(whole),
+            None => row[at..].iter_mut().zip(group.as_slice()).for_each(|(to, from)| *to = *from),
+        }
+    }
+}
+
+impl Real for f32 {
+    type Lanes<S: Simd> = f32x8<S>;
+
+    #[inline(always)]
+    fn rounded(value: f64) -> Self {
+        value as Self
+    }
+
+    #[inline(always)]
+    fn wide(self) -> f64 {
+        f64::from(self)
+    }
+
+    #[inline(always)]
+    fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S> {
+        let (low, high) = f32x8::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES]).widen();
+        low.combine(high)
+    }
+
+    #[inline(always)]
+    fn put<S: Simd>(group: f64x8<S>, row: &mut [Self], at: usize) {
+        let (low, high) = group.split();
+        let group: f32x8<S> = low.narrow(high);
+        match row.get_mut(at..at + LANES) {
+            Some(whole) => group.store_slice(whole),
+            None => row[at..].iter_mut().zip(group.as_slice()).for_each(|(to, from)| *to = *from),
+        }
+    }
+}
+
+/// Eight numbers from `at` on: of the row, or of `end` where the row ends before.
+#[inline(always)]
+fn padded<'a, T: Real>(row: &'a [T], at: usize, beyond: T, end: &'a mut [T; LANES]) -> &'a [T] {
+    match row.get(at..at + LANES) {
+        Some(whole) => whole,
+        None => {
+            *end = [beyond; LANES];
+            end[..row.len() - at].copy_from_slice(&row[at..]);
+            &end[..]
+        }
+    }
+}
+
+/// Σ over eight lanes, always in the same order.
+#[inline(always)]
+pub fn total<S: Simd>(lanes: f64x8<S>) -> f64 {
+    let l = lanes.as_slice();
+    ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]))
+}
+
+/// The least of eight lanes.
+#[inline(always)]
+pub fn lowest<S: Simd>(lanes: f64x8<S>) -> f64 {
+    lanes.as_slice().iter().fold(f64::INFINITY, |least, &x| least.min(x))
+}
+
+/// Eight times the same number.
+#[inline(always)]
+pub fn splat<S: Simd>(simd: S, value: f64) -> f64x8<S> {
+    f64x8::simd_from(simd, value)
+}

@@ -1,0 +1,109 @@
+//! Short transforms of eight series of complex numbers at a time: X_k = Σ_j x_j e^{−2πi jk/R}, j, k < R.
+
+use crate::numeric::lanes::Real;
+use fearless_simd::prelude::*;
+use std::f64::consts::TAU;
+
+/// Largest radix there is a butterfly for.
+pub const LARGEST: usize = 13;
+
+/// Eight complex numbers.
+#[derive(Debug, Clone, Copy)]
+pub struct Complex<S: Simd, T: Real> {
+    re: T::Lanes<S>,
+    im: T::Lanes<S>,
+}
+
+/// e^{−2πi k/n} as its real and imaginary part.
+pub fn root<T: Real>(k: usize, n: usize) -> [T; 2] {
+    let angle = TAU * (k % n) as f64 / n as f64;
+    [T::rounded(angle.cos()), T::rounded(-angle.sin())]
+}
+
+impl<S: Simd, T: Real> Complex<S, T> {
+    /// The eight numbers of a line, real parts first; with `swapped` parts a transform is its own inverse times R.
+    #[inline(always)]
+    pub fn load(simd: S, line: &[T], swapped: bool) -> Self {
+        let (first, second) =
+            (T::Lanes::<S>::from_slice(simd, &line[..8]), T::Lanes::<S>::from_slice(simd, &line[8..16]));
+        if swapped { Self { re: second, im: first } } else { Self { re: first, im: second } }
+    }
+
+    #[inline(always)]
+    pub fn store(self, line: &mut [T], swapped: bool) {
+        let (first, second) = if swapped { (self.im, self.re) } else { (self.re, self.im) };
+        first.store_slice(&mut line[..8]);
+        second.store_slice(&mut line[8..16]);
+    }
+
+    #[inline(always)]
+    pub fn zero(simd: S) -> Self {
+        let zero = T::Lanes::<S>::simd_from(simd, T::zero());
+        Self { re: zero, im: zero }
+    }
+
+    /// Times one complex number.
+    #[inline(always)]
+    pub fn times(self, [re, im]: [T; 2]) -> Self {
+        let simd = self.re.token();
+        let (re, im) = (T::Lanes::<S>::simd_from(simd, re), T::Lanes::<S>::simd_from(simd, im));
+        Self { re: self.re.mul_sub(re, self.im * im), im: self.re.mul_add(im, self.im * re) }
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self { re: self.re + other.re, im: self.im + other.im }
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self { re: self.re - other.re, im: self.im - other.im }
+    }
+
+    /// self + factor · other.
+    #[inline(always)]
+    fn plus_times(self, factor: T, other: Self) -> Self {
+        let factor = T::Lanes::<S>::simd_from(self.re.token(), factor);
+        Self { re: other.re.mul_add(factor, self.re), im: other.im.mul_add(factor, self.im) }
+    }
+
+    /// self · (−i).
+    #[inline(always)]
+    fn turned(self) -> Self {
+        Self { re: self.im, im: -self.re }
+    }
+}
+
+/// X from x, in place; `roots` are those of R, for radices without a form of their own.
+#[inline(always)]
+pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], roots: &[[T; 2]]) {
+    match R {
+        2 => (x[0], x[1]) = (x[0].plus(x[1]), x[0].minus(x[1])),
+        4 => {
+            let (even, odd) = (x[0].plus(x[2]), x[1].plus(x[3]));
+            let (level, turned) = (x[0].minus(x[2]), x[1].minus(x[3]).turned());
+            (x[0], x[1], x[2], x[3]) = (even.plus(odd), level.plus(turned), even.minus(odd), level.minus(turned));
+        }
+        _ => odd(x, roots),
+    }
+}
+
+/// An odd R: x_j and x_{R−j} enter by their sum and difference.
+#[inline(always)]
+fn odd<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], roots: &[[T; 2]]) {
+    let first = x[0];
+    for j in 1..R.div_ceil(2) {
+        (x[j], x[R - j]) = (x[j].plus(x[R - j]), x[j].minus(x[R - j]));
+        x[0] = x[0].plus(x[j]);
+    }
+    let pairs = *x;
+    for k in 1..R.div_ceil(2) {
+        let (mut even, mut odd) = (first, Complex::zero(first.re.token()));
+        for j in 1..R.div_ceil(2) {
+            let [cosine, sine] = roots[j * k % R];
+            even = even.plus_times(cosine, pairs[j]);
+            odd = odd.plus_times(-sine, pairs[R - j]);
+        }
+        (x[k], x[R - k]) = (even.plus(odd.turned()), even.minus(odd.turned()));
+    }
+}
