@@ -165,17 +165,22 @@ fn displacement_control_reaches_up_to_complete_contact() {
 #[test]
 fn a_load_search_says_so_and_keeps_within_the_iterations_it_is_given() {
     let substrate = Material::from_young(1.0, 0.3).unwrap();
-    let plate = Material::from_shear(1e3 * substrate.shear(), 0.3).unwrap();
-    let half_space = HalfSpace::new(vec![Layer::new(plate, 0.1, Interface::Frictionless).unwrap()], substrate);
+    let plate = |contrast: f64| {
+        let material = Material::from_shear(contrast * substrate.shear(), 0.3).unwrap();
+        HalfSpace::new(vec![Layer::new(material, 0.1, Interface::Frictionless).unwrap()], substrate)
+    };
     let cones = [0.02, 0.01, 0.0].map(|height| Level::new(Shape::Cone { slope: 0.1 }, height).unwrap());
     let indenters = Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), cones.to_vec()).unwrap();
-    let problem = Problem::new(indenters, half_space);
-    let at = |part: f64, max_iterations: usize| {
+    let pushed = |contrast: f64, part: f64, max_iterations: usize| {
         let settings = Settings { max_iterations, ..Settings::default() };
-        let mut solver = Solver::new(problem.clone(), [48, 48], settings).unwrap();
+        let mut solver = Solver::new(Problem::new(indenters.clone(), plate(contrast)), [48, 48], settings).unwrap();
         let penetration = part * solver.full_contact_penetration();
         (solver.solve(Load::Penetration(penetration)), penetration)
     };
+    // A stiffer plate is solved too, by whichever way.
+    let (stiffer, _) = pushed(1e4, 0.99999, 10_000);
+    assert_eq!(stiffer.report.stop, Stop::Converged, "{}", stiffer.report);
+    let at = |part: f64, max_iterations: usize| pushed(1e3, part, max_iterations);
     let (free, penetration) = at(0.999999, 10_000);
     let Route::LoadSearch { trials } = free.report.route else { panic!("{}", free.report) };
     assert!(free.report.stop == Stop::Converged && trials > 0, "{}", free.report);

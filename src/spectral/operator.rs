@@ -1,9 +1,9 @@
 //! The boundary operator C: pressure on the cell → normal surface displacement.
 //!
-//! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse is the
+//! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse makes the
 //! preconditioner. Both are diagonal in Fourier space, and done in place. Pressures and displacements that count are
-//! convolved in double precision; what only leads to them in single precision, in units in which the largest compliance
-//! is one.
+//! convolved in double precision; what only leads to them in single precision, in units in which the
+//! compliance at the least wavenumber is one.
 
 use super::fourier::{self, Action, Fourier, Multiplier};
 use crate::body::TransferFunction;

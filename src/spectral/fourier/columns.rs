@@ -104,11 +104,11 @@ fn radices(len: usize) -> Option<Vec<usize>> {
 #[inline(always)]
 fn forward<S: Simd, T: Real>(simd: S, stages: &[Stage<T>], lines: &mut [T]) {
     let Some((first, rest)) = stages.split_first() else { return };
-    split(simd, first, lines);
+    split::<S, T, false>(simd, first, lines);
     for part in lines.chunks_exact_mut(first.part * LINE) {
         for stage in rest {
             for whole in part.chunks_exact_mut(stage.radix * stage.part * LINE) {
-                split(simd, stage, whole);
+                split::<S, T, false>(simd, stage, whole);
             }
         }
     }
@@ -120,36 +120,24 @@ fn inverse<S: Simd, T: Real>(simd: S, stages: &[Stage<T>], lines: &mut [T]) {
     for part in lines.chunks_exact_mut(first.part * LINE) {
         for stage in rest.iter().rev() {
             for whole in part.chunks_exact_mut(stage.radix * stage.part * LINE) {
-                join(simd, stage, whole);
+                split::<S, T, true>(simd, stage, whole);
             }
         }
     }
-    join(simd, first, lines);
+    split::<S, T, true>(simd, first, lines);
 }
 
+/// One splitting of columns, or (`BACK`) what undoes it.
 #[inline(always)]
-fn split<S: Simd, T: Real>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
+fn split<S: Simd, T: Real, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
     match stage.radix {
-        2 => step::<S, T, 2, false>(simd, stage, lines),
-        3 => step::<S, T, 3, false>(simd, stage, lines),
-        4 => step::<S, T, 4, false>(simd, stage, lines),
-        5 => step::<S, T, 5, false>(simd, stage, lines),
-        7 => step::<S, T, 7, false>(simd, stage, lines),
-        11 => step::<S, T, 11, false>(simd, stage, lines),
-        _ => step::<S, T, LARGEST, false>(simd, stage, lines),
-    }
-}
-
-#[inline(always)]
-fn join<S: Simd, T: Real>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
-    match stage.radix {
-        2 => step::<S, T, 2, true>(simd, stage, lines),
-        3 => step::<S, T, 3, true>(simd, stage, lines),
-        4 => step::<S, T, 4, true>(simd, stage, lines),
-        5 => step::<S, T, 5, true>(simd, stage, lines),
-        7 => step::<S, T, 7, true>(simd, stage, lines),
-        11 => step::<S, T, 11, true>(simd, stage, lines),
-        _ => step::<S, T, LARGEST, true>(simd, stage, lines),
+        2 => step::<S, T, 2, BACK>(simd, stage, lines),
+        3 => step::<S, T, 3, BACK>(simd, stage, lines),
+        4 => step::<S, T, 4, BACK>(simd, stage, lines),
+        5 => step::<S, T, 5, BACK>(simd, stage, lines),
+        7 => step::<S, T, 7, BACK>(simd, stage, lines),
+        11 => step::<S, T, 11, BACK>(simd, stage, lines),
+        _ => step::<S, T, LARGEST, BACK>(simd, stage, lines),
     }
 }
 

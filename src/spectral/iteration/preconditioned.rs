@@ -15,7 +15,7 @@
 //! pressure is double, and when the criteria are met, or single precision
 //! exhausted, the gap is computed afresh in double precision: that alone decides about convergence.
 
-use super::check::{Check, Residuals};
+use super::check::Check;
 use super::problem::GridProblem;
 use super::report::{Progress, Report, Route, Stop};
 use super::stopping::Patience;
@@ -141,7 +141,7 @@ impl Way {
         let length = problem.largest_gap;
         let (Fields { gap, residual, .. }, _) = problem.working.of(unknowns.pressure.len());
         sweeps::take(&unknowns.gap, length, gap);
-        let (active, _) = sweeps::residual(&unknowns.pressure, 0.0, gap, residual);
+        let (active, _) = sweeps::residual(&unknowns.pressure, 0.0, 0.0, gap, residual);
         let (points, pressure) = (problem.points, length / problem.operator.softest());
         Self { points, beyond, length, pressure, active, penetration: unknowns.penetration, check }
     }
@@ -250,9 +250,9 @@ impl Way {
         let (Fields { gap, residual, .. }, _) = problem.working.of(p.len());
         let shift = if load_control { work / load } else { 0.0 };
         self.penetration += shift * self.length;
-        let (active, residuals) = sweeps::residual(p, shift, gap, residual);
+        let (active, residuals) = sweeps::residual(p, load, shift, gap, residual);
         self.active = active;
-        let residuals = Residuals { load, ..residuals.times(self.length) };
-        self.check = Check::of(residuals, self.penetration, self.check.energy, load_control, p.len() as f64);
+        self.check =
+            Check::of(residuals.times(self.length), self.penetration, self.check.energy, load_control, p.len() as f64);
     }
 }

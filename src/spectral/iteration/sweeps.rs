@@ -76,12 +76,12 @@ fn taken<S: Simd>(simd: S, g: &[f64], factor: f64, gap: &mut [f32]) {
     }
 }
 
-/// g ← g − shift; r is g on the active set, never exactly zero there.
-pub(super) fn residual(p: &[f64], shift: f64, gap: &mut [f32], residual: &mut [f32]) -> (Active, Residuals) {
+/// g ← g − shift; r is g on the active set, never exactly zero there. `load` is Σ p.
+pub(super) fn residual(p: &[f64], load: f64, shift: f64, gap: &mut [f32], residual: &mut [f32]) -> (Active, Residuals) {
     let fields = (p.par_chunks(BLOCK), gap.par_chunks_mut(BLOCK), residual.par_chunks_mut(BLOCK));
     let Totals { sums: [size, sum, work, complementarity], least: [least, outside] } =
         sweep(BLOCK, fields, |_, (p, gap, residual)| vectorised!(simd => residuals(simd, p, shift, gap, residual)));
-    (Active { size, sum }, Residuals { load: 0.0, work, complementarity, least, outside })
+    (Active { size, sum }, Residuals { load, work, complementarity, least, outside })
 }
 
 #[inline(always)]
