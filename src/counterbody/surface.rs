@@ -132,7 +132,7 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
     let distance = |index: usize, site: &Site| {
         let here = grid.fractions(index);
         let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
-        site.profile(x.hypot(y))
+        site.profile((x * x + y * y).sqrt())
     };
     let face = |index: usize| {
         let (mut nearest, mut owner, mut tied) = (f64::INFINITY, 0, false);
@@ -144,17 +144,25 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
                 tied |= distance <= nearest * (1.0 + TIE);
             }
         }
-        (nearest, (owner, tied))
+        (nearest, owner, tied)
     };
-    let (gap, owner): (Vec<f64>, Vec<(u32, bool)>) = (0..grid.len()).into_par_iter().map(face).unzip();
-    let all_facing = |index: usize| {
-        let facing = (0..).zip(&sites).filter(|(_, site)| distance(index, site) <= gap[index] * (1.0 + TIE));
+    let all_facing = |index: usize, nearest: f64| {
+        let facing = (0..).zip(&sites).filter(|(_, site)| distance(index, site) <= nearest * (1.0 + TIE));
         (index, facing.map(|(number, _)| number).collect())
     };
-    let tied = owner.iter().enumerate().filter(|(_, (_, tied))| *tied);
-    let ties = tied.map(|(index, _)| all_facing(index)).collect();
-    let owner = owner.into_iter().map(|(owner, _)| owner).collect();
     let points = grid.points();
+    let (mut gap, mut owner) = (vec![0.0; grid.len()], vec![0; grid.len()]);
+    let rows = (gap.par_chunks_mut(points[1]), owner.par_chunks_mut(points[1])).into_par_iter().enumerate();
+    let ties = rows.flat_map_iter(|(row, (gap, owner))| {
+        let samples = (row * points[1]..).zip(gap.iter_mut().zip(owner));
+        let faced = samples.filter_map(|(index, (gap, owner))| {
+            let tied;
+            (*gap, *owner, tied) = face(index);
+            tied.then(|| all_facing(index, *gap))
+        });
+        faced.collect::<Vec<_>>()
+    });
+    let ties = ties.collect();
     Surface { initial_gap: field(points, gap), owner: Some(field(points, owner)), ties, sites, grid }
 }
 

@@ -131,7 +131,7 @@ impl Grid {
     /// Length |q| of [`Grid::wavevector`].
     pub fn wavenumber(&self, component: [usize; 2]) -> f64 {
         let [x, y] = self.wavevector(component);
-        x.hypot(y)
+        (x * x + y * y).sqrt()
     }
 
     /// Least non-zero wavenumber of the cell, 1/length.

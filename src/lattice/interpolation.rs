@@ -3,6 +3,9 @@
 use super::Cell;
 use rayon::prelude::*;
 
+/// Samples that are worth a task of their own.
+const TASK: usize = 8192;
+
 /// How a field is interpolated between four neighbouring samples of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
@@ -41,20 +44,32 @@ impl Interpolation {
 
 /// Periodic interpolation of a field from one grid of a cell to another; exact where samples coincide.
 pub fn resample(field: &[f64], from: [usize; 2], to: [usize; 2], interpolation: Interpolation) -> Vec<f64> {
+    resampled(field, from, to, interpolation, |value| value)
+}
+
+/// The same, and a function of every value.
+pub(crate) fn resampled(
+    field: &[f64],
+    from: [usize; 2],
+    to: [usize; 2],
+    interpolation: Interpolation,
+    value: impl Fn(f64) -> f64 + Sync,
+) -> Vec<f64> {
     if from == to {
-        return field.to_vec();
+        return field.par_iter().with_min_len(TASK).map(|&x| value(x)).collect();
     }
     let place = |index: usize, axis: usize| {
         let (before, rest) = (index * from[axis] / to[axis], index * from[axis] % to[axis]);
         (before, (before + 1) % from[axis], rest as f64 / to[axis] as f64)
     };
+    let columns: Vec<(usize, usize, f64)> = (0..to[1]).map(|j| place(j, 1)).collect();
     let mut result = vec![0.0; to[0] * to[1]];
-    result.par_chunks_mut(to[1]).enumerate().for_each(|(i, row)| {
+    let rows = result.par_chunks_mut(to[1]).with_min_len(TASK.div_ceil(to[1])).enumerate();
+    rows.for_each(|(i, row)| {
         let (low, high, s) = place(i, 0);
-        for (j, value) in row.iter_mut().enumerate() {
-            let (left, right, t) = place(j, 1);
-            let at = |i: usize, j: usize| field[i * from[1] + j];
-            *value = interpolation.between([at(low, left), at(low, right), at(high, left), at(high, right)], s, t);
+        let [low, high] = [low, high].map(|row| &field[row * from[1]..][..from[1]]);
+        for (to, &(left, right, t)) in row.iter_mut().zip(&columns) {
+            *to = value(interpolation.between([low[left], low[right], high[left], high[right]], s, t));
         }
     });
     result

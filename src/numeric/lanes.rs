@@ -20,7 +20,7 @@ macro_rules! vectorised {
 pub(crate) use vectorised;
 
 /// A real number, of single or double precision.
-pub trait Real: FftNum + SimdFloatElement + Default {
+pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
     /// Eight of them.
     type Lanes<S: Simd>: SimdFloat<S, Element = Self>;
 
@@ -32,6 +32,9 @@ pub trait Real: FftNum + SimdFloatElement + Default {
 
     /// The group of a row that starts at `at`, in double precision; what lies beyond the row's end is `beyond`.
     fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S>;
+
+    /// A group, rounded to this precision.
+    fn lanes<S: Simd>(group: f64x8<S>) -> Self::Lanes<S>;
 
     /// Puts a group back, rounded to this precision.
     fn put<S: Simd>(group: f64x8<S>, row: &mut [Self], at: usize);
@@ -53,6 +56,11 @@ impl Real for f64 {
     #[inline(always)]
     fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S> {
         f64x8::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES])
+    }
+
+    #[inline(always)]
+    fn lanes<S: Simd>(group: f64x8<S>) -> Self::Lanes<S> {
+        group
     }
 
     #[inline(always)]
@@ -84,14 +92,25 @@ impl Real for f32 {
     }
 
     #[inline(always)]
-    fn put<S: Simd>(group: f64x8<S>, row: &mut [Self], at: usize) {
+    fn lanes<S: Simd>(group: f64x8<S>) -> Self::Lanes<S> {
         let (low, high) = group.split();
-        let group: f32x8<S> = low.narrow(high);
+        low.narrow(high)
+    }
+
+    #[inline(always)]
+    fn put<S: Simd>(group: f64x8<S>, row: &mut [Self], at: usize) {
+        let group = Self::lanes(group);
         match row.get_mut(at..at + LANES) {
             Some(whole) => group.store_slice(whole),
             None => row[at..].iter_mut().zip(group.as_slice()).for_each(|(to, from)| *to = *from),
         }
     }
+}
+
+/// Eight numbers of a row in its own precision; what lies beyond the row's end is `beyond`.
+#[inline(always)]
+pub fn group<S: Simd, T: Real>(simd: S, row: &[T], at: usize, beyond: T) -> T::Lanes<S> {
+    T::Lanes::<S>::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES])
 }
 
 /// Eight numbers from `at` on: of the row, or of `end` where the row ends before.

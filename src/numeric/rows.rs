@@ -14,6 +14,25 @@ pub struct Totals<const K: usize, const L: usize> {
     pub least: [f64; L],
 }
 
+impl<const K: usize, const L: usize> Totals<K, L> {
+    /// Those of nothing.
+    pub const NONE: Self = Self { sums: [0.0; K], least: [f64::INFINITY; L] };
+
+    /// Takes in those of further samples.
+    pub fn add(&mut self, more: Self) {
+        self.sums.iter_mut().zip(more.sums).for_each(|(sum, term)| *sum += term);
+        self.least.iter_mut().zip(more.least).for_each(|(least, value)| *least = least.min(value));
+    }
+
+    /// Those of all parts, in their order.
+    pub fn of(parts: Vec<Self>) -> Self {
+        parts.into_iter().fold(Self::NONE, |mut totals, part| {
+            totals.add(part);
+            totals
+        })
+    }
+}
+
 /// Calls `row(i, rows of the fields)` for each row of fields with so many `columns`.
 pub fn sweep<const K: usize, const L: usize, R>(
     columns: usize,
@@ -24,13 +43,7 @@ where
     R: IntoParallelIterator<Iter: IndexedParallelIterator>,
 {
     let rows = rows.into_par_iter().with_min_len(TASK.div_ceil(columns)).enumerate();
-    let totals: Vec<Totals<K, L>> = rows.map(|(i, fields)| row(i, fields)).collect();
-    let none = Totals { sums: [0.0; K], least: [f64::INFINITY; L] };
-    totals.into_iter().fold(none, |mut total, row| {
-        total.sums.iter_mut().zip(row.sums).for_each(|(sum, term)| *sum += term);
-        total.least.iter_mut().zip(row.least).for_each(|(least, value)| *least = least.min(value));
-        total
-    })
+    Totals::of(rows.map(|(i, fields)| row(i, fields)).collect())
 }
 
 /// The same without sums.

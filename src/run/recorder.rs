@@ -8,7 +8,7 @@ use std::convert::Infallible;
 use std::error::Error;
 
 /// What hears of a run while it goes on.
-pub trait Recorder {
+pub trait Recorder: Send {
     /// Why it cannot go on.
     type Error: Error + Send + Sync + 'static;
 

@@ -5,75 +5,231 @@
 //!
 //! E = P_I + (1 − P_I) W S P_I,  W = D c/(c² + c₀²),  c = S χ,
 //!
-//! where S is a smoothing over some 15 samples each way (means ¼, ½, ¼ of samples 1, 2, 4 and 8 apart, along a₁ and a₂), χ
-//! is 1 on I and 0 outside, S r/c is then the mean of the residual near by, D and c₀ how much of it is kept at the edge
+//! where S is a smoothing over 15 samples each way (along a₁ and a₂ the mean over 16 samples of the mean over 16), χ is 1 on
+//! I and 0 outside, S r/c is then the mean of the residual near by, D and c₀ how much of it is kept at the edge
 //! and how far out. S is symmetric, so that Eᵀ = P_I + P_I S W (1 − P_I), and M is symmetric and positive.
 
-use crate::numeric::lanes::{LANES, vectorised};
-use crate::numeric::rows;
+use super::fourier::part_of;
+use crate::numeric::lanes::{LANES, group, vectorised};
 use fearless_simd::{f32x8, prelude::*};
 use rayon::prelude::*;
-use std::ops::Range;
 
 /// What is kept of the mean at the edge of contact.
 const DECAY: f32 = 0.8;
 /// Share of I among the samples near by at which the continuation fades.
 const FADE: f32 = 0.07;
-/// Distances of the means, samples.
-const STEPS: [usize; 4] = [1, 2, 4, 8];
+/// Samples of either mean.
+const WIDTH: usize = 16;
 /// Samples that the smoothing reaches each way.
-const REACH: usize = 15;
-/// Rows, and columns, smoothed along a₁ together: with what they reach they stay in the cache.
-const BLOCK: [usize; 2] = [64, 256];
+const REACH: usize = WIDTH - 1;
 
-/// The residual r on I (exactly 0 outside) becomes E (r − mean) in `result`, and `weight` becomes W outside and 0 on I.
-pub(super) fn extend([n1, n2]: [usize; 2], residual: &[f32], mean: f32, [result, weight, aside]: [&mut [f32]; 3]) {
-    along_first(
-        [n1, n2],
-        [&mut *aside, &mut *weight],
-        |from, [near, share]| vectorised!(simd => told_apart(simd, &residual[from], mean, near, share)),
-    );
-    let fields = (result.par_chunks_mut(n2), weight.par_chunks_mut(n2), aside.par_chunks(n2), residual.par_chunks(n2));
-    rows::each(n2, fields, |_, (result, weight, aside, residual)| {
-        if weight.iter().all(|&share| share == 0.0) {
-            result.fill(0.0);
-            return;
+/// Rows of E (r − mean) for a residual r on I (exactly 0 outside), by parts; `weight` becomes W outside and 0 on I.
+pub(super) fn extended<'a>(
+    [n1, n2]: [usize; 2],
+    residual: &'a [f32],
+    mean: f32,
+    weight: &'a mut [f32],
+) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
+    let part = part_of(n1);
+    weight.par_chunks_mut(part * n2).enumerate().map(move |(number, weight)| {
+        let first = number * part;
+        let mut sums = Triangles::new([n1, n2], first, residual, Inside { mean });
+        let [mut near, mut share] = [(); 2].map(|()| Line::new(n2));
+        let mut rows = residual[first * n2..].chunks_exact(n2).zip(weight.chunks_exact_mut(n2));
+        move |row: &mut [f32]| {
+            let (residual, weight) = rows.next().expect("a part has its rows");
+            let [sum, count] = sums.next();
+            if count.iter().all(|&count| count == 0.0) {
+                row.fill(0.0);
+                weight.fill(0.0);
+                return;
+            }
+            let (near, share) = (near.smoothed(&sum[..n2]), share.smoothed(&count[..n2]));
+            vectorised!(simd => continued(simd, residual, mean, [near, share], row, weight));
         }
-        let (near, share) = (along_second(aside), along_second(weight));
-        vectorised!(simd => continued(simd, residual, mean, [&near, &share], result, weight));
-    });
+    })
 }
 
-/// What Eᵀ adds to a `field` on I, S W field, in `weight`.
-pub(super) fn gather([n1, n2]: [usize; 2], field: &[f32], [weight, aside]: [&mut [f32]; 2]) {
-    let fields = (aside.par_chunks_mut(n2), weight.par_chunks(n2), field.par_chunks(n2));
-    rows::each(n2, fields, |_, (aside, weight, field)| {
-        if weight.iter().all(|&w| w == 0.0) {
-            aside.fill(0.0);
-            return;
+/// Takes the rows of a field y, by parts, into `image`; `weight` becomes W y, smoothed along a₂.
+pub(super) fn gathered<'a>(
+    [n1, n2]: [usize; 2],
+    image: &'a mut [f32],
+    weight: &'a mut [f32],
+) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
+    let size = part_of(n1) * n2;
+    image.par_chunks_mut(size).zip(weight.par_chunks_mut(size)).map(move |(image, weight)| {
+        let mut line = Line::new(n2);
+        let mut rows = image.chunks_exact_mut(n2).zip(weight.chunks_exact_mut(n2));
+        move |row: &mut [f32]| {
+            let (image, weight) = rows.next().expect("a part has its rows");
+            image.copy_from_slice(row);
+            if weight.iter().any(|&w| w != 0.0) {
+                row.iter_mut().zip(&*weight).for_each(|(y, w)| *y *= w);
+                weight.copy_from_slice(&line.smoothed(row)[..n2]);
+            }
         }
-        for ((product, w), y) in aside.iter_mut().zip(weight).zip(field) {
-            *product = w * y;
-        }
-        let smooth = along_second(aside);
-        aside.copy_from_slice(&smooth[..n2]);
-    });
-    along_first([n1, n2], [weight], |from, [line]| {
-        line.copy_from_slice(&aside[from]);
-        line.iter().any(|&x| x != 0.0)
-    });
+    })
 }
 
-/// r − mean and χ of a line; whether there is I in it.
-#[inline(always)]
-fn told_apart<S: Simd>(_: S, residual: &[f32], mean: f32, near: &mut [f32], share: &mut [f32]) -> bool {
-    let mut most = 0.0f32;
-    for ((&r, near), share) in residual.iter().zip(near).zip(share) {
-        *near = if r == 0.0 { 0.0 } else { r - mean };
-        *share = if r == 0.0 { 0.0 } else { 1.0 };
-        most = most.max(*share);
+/// S W y on row after row from the row `first` on, from what [`gathered`] has left in `weight`: what Eᵀ adds to y on I.
+pub(super) fn gathering(points: [usize; 2], first: usize, weight: &[f32]) -> Triangles<'_, 1, Itself> {
+    Triangles::new(points, first, weight, Itself)
+}
+
+/// What is summed of each sample of a field.
+pub(super) trait Terms<const F: usize>: Copy {
+    fn of<S: Simd>(self, simd: S, samples: f32x8<S>) -> [f32x8<S>; F];
+}
+
+/// r − mean and χ, of a residual.
+#[derive(Debug, Clone, Copy)]
+struct Inside {
+    mean: f32,
+}
+
+impl Terms<2> for Inside {
+    #[inline(always)]
+    fn of<S: Simd>(self, simd: S, residual: f32x8<S>) -> [f32x8<S>; 2] {
+        let [zero, one, mean] = [0.0, 1.0, self.mean].map(|x| f32x8::simd_from(simd, x));
+        let outside = residual.simd_eq(zero);
+        [outside.select(zero, residual - mean), outside.select(zero, one)]
     }
-    most > 0.0
+}
+
+/// The sample.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Itself;
+
+impl Terms<1> for Itself {
+    #[inline(always)]
+    fn of<S: Simd>(self, _: S, samples: f32x8<S>) -> [f32x8<S>; 1] {
+        [samples]
+    }
+}
+
+/// Means over `WIDTH` rows of means over `WIDTH` rows, times `WIDTH`², on row after row of a periodic field: sums that
+/// each row joins and leaves again. (Those of χ are whole numbers, and exact.)
+#[derive(Debug)]
+pub(super) struct Triangles<'a, const F: usize, T> {
+    rows: usize,
+    columns: usize,
+    field: &'a [f32],
+    terms: T,
+    /// Rows summed so far, from `REACH` before the first one on.
+    summed: usize,
+    first: usize,
+    /// Sums over the last `WIDTH` rows, all of these of the last `WIDTH` rows one after the other, and their sums.
+    once: [Vec<f32>; F],
+    past: [Vec<f32>; F],
+    twice: [Vec<f32>; F],
+}
+
+impl<'a, const F: usize, T: Terms<F>> Triangles<'a, F, T> {
+    fn new([rows, columns]: [usize; 2], first: usize, field: &'a [f32], terms: T) -> Self {
+        let padded = columns.next_multiple_of(LANES);
+        let sums = |rows: usize| std::array::from_fn(|_| vec![0.0; rows * padded]);
+        let (once, past, twice) = (sums(1), sums(WIDTH), sums(1));
+        let mut triangles = Self { rows, columns, field, terms, summed: 0, first, once, past, twice };
+        for _ in 0..2 * REACH {
+            triangles.add();
+        }
+        triangles
+    }
+
+    /// The sums on the next row; what follows its samples means nothing.
+    pub fn next(&mut self) -> [&[f32]; F] {
+        self.add();
+        self.twice.each_ref().map(|sums| &sums[..])
+    }
+
+    fn add(&mut self) {
+        let row = |number: usize| {
+            // (first + number − REACH) mod rows, however few there are.
+            let row = (self.first + number + REACH * (self.rows - 1)) % self.rows;
+            &self.field[row * self.columns..][..self.columns]
+        };
+        let joining = row(self.summed);
+        // None leaves before as many have joined.
+        let leaving = if self.summed < WIDTH { &[][..] } else { row(self.summed - WIDTH) };
+        let padded = self.once[0].len();
+        let slot = self.summed % WIDTH * padded;
+        let past = self.past.each_mut().map(|past| &mut past[slot..][..padded]);
+        let (once, twice) = (self.once.each_mut(), self.twice.each_mut());
+        vectorised!(simd => moved(simd, self.terms, [joining, leaving], once, past, twice));
+        self.summed += 1;
+    }
+}
+
+#[inline(always)]
+fn moved<const F: usize, S: Simd>(
+    simd: S,
+    terms: impl Terms<F>,
+    [joining, leaving]: [&[f32]; 2],
+    once: [&mut Vec<f32>; F],
+    past: [&mut [f32]; F],
+    twice: [&mut Vec<f32>; F],
+) {
+    for at in (0..joining.len()).step_by(LANES) {
+        let mut change = terms.of(simd, group(simd, joining, at, 0.0));
+        if !leaving.is_empty() {
+            let left = terms.of(simd, group(simd, leaving, at, 0.0));
+            for field in 0..F {
+                change[field] = change[field] - left[field];
+            }
+        }
+        for field in 0..F {
+            let place = at..at + LANES;
+            let sum = f32x8::from_slice(simd, &once[field][place.clone()]) + change[field];
+            let last = f32x8::from_slice(simd, &past[field][place.clone()]);
+            let whole = f32x8::from_slice(simd, &twice[field][place.clone()]) + (sum - last);
+            sum.store_slice(&mut once[field][place.clone()]);
+            sum.store_slice(&mut past[field][place.clone()]);
+            whole.store_slice(&mut twice[field][place]);
+        }
+    }
+}
+
+/// A row with what surrounds it periodically.
+#[derive(Debug)]
+struct Line {
+    samples: Vec<f32>,
+}
+
+impl Line {
+    fn new(columns: usize) -> Self {
+        Self { samples: vec![0.0; columns + 2 * REACH + LANES] }
+    }
+
+    /// S of sums over rows; what follows the samples means nothing.
+    fn smoothed(&mut self, row: &[f32]) -> &[f32] {
+        let (n2, line) = (row.len(), &mut self.samples);
+        line[REACH..REACH + n2].copy_from_slice(row);
+        for k in 0..REACH {
+            line[REACH - 1 - k] = row[(n2 - 1) - k % n2];
+            line[REACH + n2 + k] = row[k % n2];
+        }
+        vectorised!(simd => smooth(simd, line, n2));
+        line
+    }
+}
+
+/// Two means over `WIDTH` samples as means ¼, ½, ¼ of samples 1, 2, 4 and 8 apart, in place: the result's `len` numbers
+/// start where the reach of the first one started. They are divided by what sums over rows lack of being means.
+#[inline(always)]
+fn smooth<S: Simd>(simd: S, line: &mut [f32], len: usize) {
+    let mut part = 0.25 / (WIDTH * WIDTH) as f32;
+    let (mut left, mut apart) = (REACH, 1);
+    while apart < WIDTH {
+        left -= apart;
+        let (quarter, half) = (f32x8::simd_from(simd, part), f32x8::simd_from(simd, 2.0 * part));
+        for at in (0..len + 2 * left).step_by(LANES) {
+            let before = f32x8::from_slice(simd, &line[at..][..LANES]);
+            let here = f32x8::from_slice(simd, &line[at + apart..][..LANES]);
+            let after = f32x8::from_slice(simd, &line[at + 2 * apart..][..LANES]);
+            (before + after).mul_add(quarter, here * half).store_slice(&mut line[at..at + LANES]);
+        }
+        (part, apart) = (0.25, 2 * apart);
+    }
 }
 
 #[inline(always)]
@@ -92,72 +248,6 @@ fn continued<S: Simd>(
     }
 }
 
-/// A row smoothed along a₂; what follows its samples means nothing.
-fn along_second(row: &[f32]) -> Vec<f32> {
-    let n2 = row.len();
-    let mut line = vec![0.0; n2 + 2 * REACH + LANES];
-    line[REACH..REACH + n2].copy_from_slice(row);
-    for k in 0..REACH {
-        line[REACH - 1 - k] = row[(n2 - 1) - k % n2];
-        line[REACH + n2 + k] = row[k % n2];
-    }
-    vectorised!(simd => smooth(simd, &mut line, n2, 1));
-    line
-}
-
-/// `F` fields smoothed along a₁; `fill` puts the samples of a range into a line of each, and tells whether any counts.
-fn along_first<const F: usize>(
-    [n1, n2]: [usize; 2],
-    to: [&mut [f32]; F],
-    fill: impl Fn(Range<usize>, [&mut [f32]; F]) -> bool + Sync,
-) {
-    let [block, widest] = BLOCK;
-    let mut blocks: Vec<Vec<&mut [f32]>> = (0..n1.div_ceil(block)).map(|_| Vec::with_capacity(F)).collect();
-    for field in to {
-        field.chunks_mut(block * n2).zip(&mut blocks).for_each(|(rows, block)| block.push(rows));
-    }
-    blocks.into_par_iter().enumerate().for_each(|(number, mut to)| {
-        let height = to[0].len() / n2;
-        let size = (height + 2 * REACH) * widest.min(n2) + LANES;
-        let mut strips: [Vec<f32>; F] = std::array::from_fn(|_| vec![0.0; size]);
-        for left in (0..n2).step_by(widest) {
-            let width = widest.min(n2 - left);
-            let mut any = false;
-            for line in 0..height + 2 * REACH {
-                // (line − REACH) mod n1, however few rows there are.
-                let start = (number * block + line + REACH * (n1 - 1)) % n1 * n2 + left;
-                let lines = strips.each_mut().map(|strip| &mut strip[line * width..][..width]);
-                any |= fill(start..start + width, lines);
-            }
-            for (to, strip) in to.iter_mut().zip(&mut strips) {
-                if any {
-                    vectorised!(simd => smooth(simd, strip, height * width, width));
-                }
-                for (to, line) in to.chunks_exact_mut(n2).zip(strip.chunks_exact(width)) {
-                    to[left..left + width].copy_from_slice(line);
-                }
-            }
-        }
-    });
-}
-
-/// The means one after the other, in place: the result's `len` numbers start where the reach of the first one started.
-#[inline(always)]
-fn smooth<S: Simd>(simd: S, line: &mut [f32], len: usize, stride: usize) {
-    let (quarter, half) = (f32x8::simd_from(simd, 0.25), f32x8::simd_from(simd, 0.5));
-    let mut left = REACH;
-    for step in STEPS {
-        left -= step;
-        let apart = step * stride;
-        for at in (0..len + 2 * left * stride).step_by(LANES) {
-            let before = f32x8::from_slice(simd, &line[at..][..LANES]);
-            let here = f32x8::from_slice(simd, &line[at + apart..][..LANES]);
-            let after = f32x8::from_slice(simd, &line[at + 2 * apart..][..LANES]);
-            (before + after).mul_add(quarter, here * half).store_slice(&mut line[at..at + LANES]);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -171,16 +261,27 @@ mod tests {
             let inside = |k: usize| (k / n2 / 3 + k % n2 / 5) % 4 == 1;
             let residual: Vec<f32> = (0..size).map(|k| if inside(k) { noise(k) + 2.0 } else { 0.0 }).collect();
             let other: Vec<f32> = (0..size).map(|k| noise(k + 77)).collect();
-            let zero = vec![0.0; size];
-            let (mut extended, mut weight, mut aside) = (zero.clone(), zero.clone(), zero);
-            extend([n1, n2], &residual, mean, [&mut extended, &mut weight, &mut aside]);
-            let outside = (0..size).filter(|&k| !inside(k) && extended[k] != 0.0).count();
+            let [mut extension, mut weight, mut image] = [(); 3].map(|()| vec![0.0; size]);
+            let rows = extension.par_chunks_mut(part_of(n1) * n2);
+            extended([n1, n2], &residual, mean, &mut weight)
+                .zip(rows)
+                .for_each(|(mut source, rows)| rows.chunks_mut(n2).for_each(|row| source(row)));
+            let outside = (0..size).filter(|&k| !inside(k) && extension[k] != 0.0).count();
             assert!(outside > size / 2, "{outside} of {size} samples continued");
-            gather([n1, n2], &other, [&mut weight, &mut aside]);
+            let mut rows = other.clone();
+            gathered([n1, n2], &mut image, &mut weight)
+                .zip(rows.par_chunks_mut(part_of(n1) * n2))
+                .for_each(|(mut sink, rows)| rows.chunks_mut(n2).for_each(|row| sink(row)));
+            assert_eq!(image, other);
+            let mut gathered = Vec::new();
+            for first in (0..n1).step_by(part_of(n1)) {
+                let mut rows = gathering([n1, n2], first, &weight);
+                (first..n1.min(first + part_of(n1))).for_each(|_| gathered.extend_from_slice(&rows.next()[0][..n2]));
+            }
             let dot = |a: f32, b: f32| f64::from(a) * f64::from(b);
-            let forth: f64 = (0..size).map(|k| dot(extended[k], other[k])).sum();
+            let forth: f64 = (0..size).map(|k| dot(extension[k], other[k])).sum();
             let back: f64 =
-                (0..size).filter(|&k| inside(k)).map(|k| dot(residual[k] - mean, other[k] + weight[k])).sum();
+                (0..size).filter(|&k| inside(k)).map(|k| dot(residual[k] - mean, other[k] + gathered[k])).sum();
             assert!((forth / back - 1.0).abs() < 1e-5, "{n1} × {n2}: {forth} {back}");
         }
     }

@@ -8,27 +8,23 @@
 //! runs straight through the edge. A is that of the sample and its neighbour across the edge: their distance h holds both
 //! d's, A² h = s_in − s_out. s is interpolated linearly, and p = √max(s, 0).
 
-use crate::lattice::{Grid, Interpolation, resample};
+use crate::lattice::{Grid, Interpolation, resampled};
+use crate::numeric::rows;
 use rayon::prelude::*;
 
 /// Pressure on a grid of `points` of the cell of `grid`, from `pressure` and `gap` on `grid`; `modulus` is E* of the
 /// material at the surface.
 pub(super) fn prolonged(grid: &Grid, pressure: &[f64], gap: &[f64], modulus: f64, points: [usize; 2]) -> Vec<f64> {
     let s = smooth_square(grid, pressure, gap, modulus);
-    let mut finer = resample(&s, grid.points(), points, Interpolation::on(grid.cell()));
-    finer.par_iter_mut().with_min_len(4096).for_each(|s| *s = s.max(0.0).sqrt());
-    finer
+    resampled(&s, grid.points(), points, Interpolation::on(grid.cell()), |s| s.max(0.0).sqrt())
 }
 
 /// s, one value per sample; outside it is right next to contact, and negative elsewhere.
 fn smooth_square(grid: &Grid, pressure: &[f64], gap: &[f64], modulus: f64) -> Vec<f64> {
-    let apart = grid.sample_area().sqrt();
-    let sample = |i: usize| {
-        if pressure[i] > 0.0 {
-            return pressure[i] * pressure[i];
-        }
+    let ([n1, n2], apart) = (grid.points(), grid.sample_area().sqrt());
+    let beyond = |i: usize| {
         let moment = (0.75 * modulus * gap[i].max(0.0)).cbrt().powi(2);
-        let beyond = |neighbours: &mut dyn Iterator<Item = usize>, apart: f64| {
+        let mean = |neighbours: &mut dyn Iterator<Item = usize>, apart: f64| {
             let (mut sum, mut count) = (0.0, 0);
             for inside in neighbours.map(|k| pressure[k]).filter(|&p| p > 0.0) {
                 sum += outside(inside * inside, moment, apart);
@@ -37,11 +33,25 @@ fn smooth_square(grid: &Grid, pressure: &[f64], gap: &[f64], modulus: f64) -> Ve
             (count > 0).then(|| sum / f64::from(count))
         };
         let adjacent = grid.adjacent(i);
-        beyond(&mut adjacent.into_iter(), apart)
-            .or_else(|| beyond(&mut grid.neighbours(i).filter(|k| !adjacent.contains(k)), 2f64.sqrt() * apart))
-            .unwrap_or(-f64::MIN_POSITIVE)
+        mean(&mut adjacent.into_iter(), apart)
+            .or_else(|| mean(&mut grid.neighbours(i).filter(|k| !adjacent.contains(k)), 2f64.sqrt() * apart))
     };
-    (0..pressure.len()).into_par_iter().with_min_len(1024).map(sample).collect()
+    let mut s = vec![0.0; pressure.len()];
+    rows::each(n2, s.par_chunks_mut(n2), |row, s| {
+        let [above, here, below] = [row + n1 - 1, row, row + 1].map(|row| &pressure[row % n1 * n2..][..n2]);
+        let near = |column: usize| above[column].max(here[column]).max(below[column]) > 0.0;
+        let (mut before, mut at) = (near(n2 - 1), near(0));
+        for (column, s) in s.iter_mut().enumerate() {
+            let after = near(if column + 1 < n2 { column + 1 } else { 0 });
+            *s = match here[column] {
+                p if p > 0.0 => p * p,
+                _ if before || at || after => beyond(row * n2 + column).unwrap_or(-f64::MIN_POSITIVE),
+                _ => -f64::MIN_POSITIVE,
+            };
+            (before, at) = (at, after);
+        }
+    });
+    s
 }
 
 /// s outside, −a² c with a = A^{2/3} and c = (¾E*g)^{2/3}, from s inside and the distance of the two samples:

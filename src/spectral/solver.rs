@@ -113,7 +113,12 @@ impl Solver {
     }
 
     /// The same; `progress` hears of the iterations on the finest grid.
-    pub fn solve_with_progress(&mut self, load: Load, progress: &mut dyn FnMut(Progress)) -> Step {
+    pub fn solve_with_progress(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) + Send)) -> Step {
+        // Everything on the threads that share the work: none waits outside for each sweep to be done.
+        rayon::scope(|_| self.solve_here(load, progress))
+    }
+
+    fn solve_here(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) + Send)) -> Step {
         let finest = self.grid().len() as f64;
         let mut convolutions = 0.0;
         let mut coarser = None;
@@ -188,7 +193,7 @@ impl Nest {
         load: Load,
         settings: Settings,
         working: &mut Working,
-        progress: &mut dyn FnMut(Progress),
+        progress: &mut (dyn FnMut(Progress) + Send),
     ) -> (Report, f64) {
         if let Some(coarser) = coarser {
             self.follow(&coarser, settings.tolerance);

@@ -1,4 +1,4 @@
-//! Periodic convolution u = F⁻¹[K · F p] on the grid, in place and in one fused pass.
+//! Periodic convolution u = F⁻¹[K · F p] on the grid, in one fused pass.
 //!
 //! 1. Rows forward, real to complex: N₁ rows of N₂/2 + 1 components.
 //! 2. Eight columns at a time: forward, times K or over K, inverse. Nothing is transposed as a whole.
@@ -7,6 +7,8 @@
 //! Between rows and columns the components stand in tiles: [part of the rows][eight columns][row][8 real, 8 imaginary
 //! parts], so that rows fill, and columns gather, runs of memory that nobody else touches. Work is split into fixed parts:
 //! neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
+//! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Fourier::convolve`],
+//! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.
 //! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Fourier::multiplier`] puts it into K.
 
 mod butterflies;
@@ -14,15 +16,16 @@ mod columns;
 
 use crate::numeric::lanes::{LANES, Real, vectorised};
 use columns::{Columns, LINE};
-use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
 use std::fmt;
 use std::sync::Arc;
 
-/// Parts the rows are divided into.
-const PARTS: usize = 16;
+/// Most parts the rows are divided into, and the least rows of one.
+const PARTS: usize = 64;
+const LEAST: usize = 64;
 
 /// Plans for the transforms of N₁ × N₂ real samples of one precision.
 #[derive(Clone)]
@@ -37,34 +40,34 @@ pub struct Fourier<T: Real> {
 
 /// A positive, even multiplier K(k₁, k₂), k₂ ≤ N₂/2, in the order of the column pass.
 #[derive(Debug, Clone)]
-pub struct Multiplier<T> {
+pub struct Multiplier {
     /// K/(N₁N₂), eight columns at a time, padded with ones.
-    table: Vec<T>,
+    table: Vec<f64>,
     /// 1/(N₁N₂).
     normalisation: f64,
 }
 
-impl Multiplier<f64> {
-    /// `factor` K in single precision.
-    pub fn single(&self, factor: f64) -> Multiplier<f32> {
-        let table = self.table.par_iter().map(|&entry| (factor * entry) as f32).collect();
-        Multiplier { table, normalisation: self.normalisation }
-    }
-}
-
 /// What a convolution does with its multiplier K.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// u = F⁻¹[K · F p], of zero mean: the component (0, 0) is dropped.
-    Times,
-    /// u = F⁻¹[F p / K].
-    Over,
+    /// u = F⁻¹[cK · F p] with a factor c, of zero mean: the component (0, 0) is dropped.
+    Times(f64),
+    /// u = F⁻¹[c F p / K].
+    Over(f64),
 }
 
-/// Buffers of one convolution, used again and again, on any grid.
+/// Buffer of one convolution, used again and again, on any grid and in either precision.
 #[derive(Debug, Default)]
-pub struct Workspace<T> {
-    spectrum: Vec<T>,
+pub struct Workspace {
+    spectrum: Vec<f64>,
+}
+
+/// A convolution but for its last pass.
+#[must_use]
+#[derive(Debug)]
+pub struct Convolved<'a, T: Real> {
+    fourier: &'a Fourier<T>,
+    spectrum: &'a [T],
 }
 
 impl<T: Real> Fourier<T> {
@@ -96,19 +99,24 @@ impl<T: Real> Fourier<T> {
         self.half().div_ceil(LANES)
     }
 
+    /// Numbers between two passes.
+    fn size(&self) -> usize {
+        self.tiles() * self.points[0] * LINE
+    }
+
     /// The multiplier with the values `value([k₁, k₂])` > 0, 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
     ///
     /// The value must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where it is also even in k₁ alone
     /// (`mirrored`), half of them are asked for.
-    pub fn multiplier(&self, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Multiplier<T> {
+    pub fn multiplier(&self, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Multiplier {
         let [n1, n2] = self.points;
         let normalisation = 1.0 / (n1 as f64 * n2 as f64);
-        let mut table = vec![T::one(); self.tiles() * n1 * LANES];
+        let mut table = vec![1.0; self.tiles() * n1 * LANES];
         table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(tile, table)| {
-            let mut lines = vec![[T::one(); LANES]; n1];
+            let mut lines = vec![[1.0; LANES]; n1];
             for k1 in 0..if mirrored { n1 / 2 + 1 } else { n1 } {
                 for (k2, entry) in (tile * LANES..self.half()).zip(&mut lines[k1]) {
-                    *entry = T::rounded(normalisation * value([k1, k2]));
+                    *entry = normalisation * value([k1, k2]);
                 }
                 if mirrored {
                     lines[(n1 - k1) % n1] = lines[k1];
@@ -121,42 +129,43 @@ impl<T: Real> Fourier<T> {
         Multiplier { table, normalisation }
     }
 
-    /// The field u of N₁N₂ samples, a₂ fastest, becomes F⁻¹[K · F u] or F⁻¹[F u / K]; `finish(row, samples)` sees each row
-    /// of the result, and what it returns is added up in the order of rows.
+    /// F⁻¹[cK · F u] or F⁻¹[c F u / K] of a field u, still to be fetched. There is one of the `sources` for each
+    /// [part](part_of) of the rows; it puts row after row of u into what it is given.
     ///
     /// # Panics
-    /// When the field has other than N₁N₂ samples or the multiplier belongs to other `points`.
-    pub fn convolve<const K: usize>(
-        &self,
+    /// When the multiplier belongs to other `points`, or there are not as many sources as parts.
+    pub fn convolve<'a, S>(
+        &'a self,
         action: Action,
-        multiplier: &Multiplier<T>,
-        field: &mut [T],
-        workspace: &mut Workspace<T>,
-        finish: impl Fn(usize, &mut [T]) -> [f64; K] + Sync,
-    ) -> [f64; K] {
-        let [n1, n2] = self.points;
-        assert_eq!(field.len(), n1 * n2, "samples of a convolution");
-        assert_eq!(multiplier.table.len(), self.tiles() * n1 * LANES, "multiplier of a convolution");
-        let size = self.tiles() * n1 * LINE;
-        if workspace.spectrum.len() < size {
-            workspace.spectrum = vec![T::zero(); size];
-        }
-        let spectrum = &mut workspace.spectrum[..size];
-        let part = n1.div_ceil(PARTS);
-        self.rows_forward(field, part, spectrum);
-        self.column_pass(action, multiplier, part, spectrum);
-        self.rows_back(spectrum, part, field, finish)
+        multiplier: &Multiplier,
+        workspace: &'a mut Workspace,
+        sources: S,
+    ) -> Convolved<'a, T>
+    where
+        S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
+    {
+        assert_eq!(multiplier.table.len(), self.tiles() * self.points[0] * LANES, "multiplier of a convolution");
+        let spectrum = workspace.of(self.size());
+        self.rows_forward(sources.into_par_iter(), spectrum);
+        self.column_pass(action, multiplier, spectrum);
+        Convolved { fourier: self, spectrum }
     }
 
-    fn rows_forward(&self, field: &mut [T], part: usize, spectrum: &mut [T]) {
-        let (n2, half, tiles) = (self.points[1], self.half(), self.tiles());
-        let parts = spectrum.par_chunks_mut(part * tiles * LINE).zip(field.par_chunks_mut(part * n2));
-        parts.for_each(|(spectrum, field)| {
+    fn rows_forward<S>(&self, sources: S, spectrum: &mut [T])
+    where
+        S: IndexedParallelIterator<Item: FnMut(&mut [T])>,
+    {
+        let ([n1, n2], half, tiles) = (self.points, self.half(), self.tiles());
+        let parts = spectrum.par_chunks_mut(part_of(n1) * tiles * LINE);
+        assert_eq!(sources.len(), parts.len(), "sources of a convolution");
+        parts.zip(sources).for_each(|(spectrum, mut source)| {
+            let mut row = self.row_forward.make_input_vec();
             let mut components = vec![Complex::new(T::zero(), T::zero()); tiles * LANES];
             let mut scratch = self.row_forward.make_scratch_vec();
-            let run = field.len() / n2 * LINE;
-            for (number, row) in field.chunks_exact_mut(n2).enumerate() {
-                let done = self.row_forward.process_with_scratch(row, &mut components[..half], &mut scratch);
+            let run = spectrum.len() / tiles;
+            for number in 0..run / LINE {
+                source(&mut row[..n2]);
+                let done = self.row_forward.process_with_scratch(&mut row, &mut components[..half], &mut scratch);
                 done.expect("lengths were planned");
                 let lines = spectrum.chunks_exact_mut(run).map(|tile| &mut tile[number * LINE..][..LINE]);
                 vectorised!(simd => separate(simd, &components, lines));
@@ -164,20 +173,18 @@ impl<T: Real> Fourier<T> {
         });
     }
 
-    fn column_pass(&self, action: Action, multiplier: &Multiplier<T>, part: usize, spectrum: &mut [T]) {
+    fn column_pass(&self, action: Action, multiplier: &Multiplier, spectrum: &mut [T]) {
         let (n1, tiles) = (self.points[0], self.tiles());
         let mut gathered: Vec<Vec<&mut [T]>> = (0..tiles).map(|_| Vec::with_capacity(PARTS)).collect();
-        for part in spectrum.chunks_mut(part * tiles * LINE) {
+        for part in spectrum.chunks_mut(part_of(n1) * tiles * LINE) {
             let run = part.len() / tiles;
             part.chunks_exact_mut(run).zip(&mut gathered).for_each(|(run, tile)| tile.push(run));
         }
-        let normalisation = multiplier.normalisation;
-        let square = T::rounded(normalisation * normalisation);
         let buffers = || {
             let scratch = vec![Complex::new(T::zero(), T::zero()); self.columns.scratch(n1)];
             (vec![T::zero(); n1 * LINE], scratch)
         };
-        let tables = multiplier.table.par_chunks(n1 * LANES);
+        let (tables, normalisation) = (multiplier.table.par_chunks(n1 * LANES), multiplier.normalisation);
         gathered.into_par_iter().zip(tables).enumerate().for_each_init(
             buffers,
             |(lines, scratch), (tile, (runs, table))| {
@@ -189,13 +196,17 @@ impl<T: Real> Fourier<T> {
                 }
                 self.columns.forward(lines, scratch);
                 match action {
-                    Action::Times => {
-                        vectorised!(simd => times(simd, table, lines));
+                    Action::Times(factor) => {
+                        vectorised!(simd => times(simd, factor, table, lines));
                         if tile == 0 {
                             (lines[0], lines[LANES]) = (T::zero(), T::zero());
                         }
                     }
-                    Action::Over => vectorised!(simd => over(simd, square, table, lines)),
+                    Action::Over(factor) => {
+                        // The table holds the normalisation already.
+                        let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
+                        vectorised!(simd => over(simd, numerator, common, table, lines));
+                    }
                 }
                 self.columns.inverse(lines, scratch);
                 let mut rest = &lines[..];
@@ -207,43 +218,79 @@ impl<T: Real> Fourier<T> {
             },
         );
     }
+}
 
+impl<T: Real> Convolved<'_, T> {
+    /// Hands its rows over: there is one of the `sinks` for each [part](part_of) of the rows, which takes row after row,
+    /// and may use it as it likes.
+    ///
     /// Components that are their own conjugates are real, and what rounding leaves of their imaginary part is dropped.
-    fn rows_back<const K: usize>(
-        &self,
-        spectrum: &[T],
-        part: usize,
-        field: &mut [T],
-        finish: impl Fn(usize, &mut [T]) -> [f64; K] + Sync,
-    ) -> [f64; K] {
-        let (n2, half, tiles) = (self.points[1], self.half(), self.tiles());
-        let parts = spectrum.par_chunks(part * tiles * LINE).zip(field.par_chunks_mut(part * n2)).enumerate();
-        let sums: Vec<[f64; K]> = parts
-            .map(|(index, (spectrum, field))| {
-                let mut components = vec![Complex::new(T::zero(), T::zero()); tiles * LANES];
-                let mut scratch = self.row_inverse.make_scratch_vec();
-                let run = field.len() / n2 * LINE;
-                let mut sums = [0.0; K];
-                for (number, row) in field.chunks_exact_mut(n2).enumerate() {
-                    let lines = spectrum.chunks_exact(run).map(|tile| &tile[number * LINE..][..LINE]);
-                    vectorised!(simd => unite(simd, lines, &mut components));
-                    components[0].im = T::zero();
-                    if n2.is_multiple_of(2) {
-                        components[half - 1].im = T::zero();
-                    }
-                    let done = self.row_inverse.process_with_scratch(&mut components[..half], row, &mut scratch);
-                    done.expect("lengths were planned, what must be real is");
-                    let of_row = finish(index * part + number, row);
-                    sums.iter_mut().zip(of_row).for_each(|(sum, term)| *sum += term);
+    ///
+    /// # Panics
+    /// When there are not as many sinks as parts.
+    pub fn rows<S>(self, sinks: S)
+    where
+        S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
+    {
+        let (Self { fourier, spectrum }, sinks) = (self, sinks.into_par_iter());
+        let ([n1, n2], half, tiles) = (fourier.points, fourier.half(), fourier.tiles());
+        let parts = spectrum.par_chunks(part_of(n1) * tiles * LINE);
+        assert_eq!(sinks.len(), parts.len(), "sinks of a convolution");
+        parts.zip(sinks).for_each(|(spectrum, mut sink)| {
+            let mut row = fourier.row_inverse.make_output_vec();
+            let mut components = vec![Complex::new(T::zero(), T::zero()); tiles * LANES];
+            let mut scratch = fourier.row_inverse.make_scratch_vec();
+            let run = spectrum.len() / tiles;
+            for number in 0..run / LINE {
+                let lines = spectrum.chunks_exact(run).map(|tile| &tile[number * LINE..][..LINE]);
+                vectorised!(simd => unite(simd, lines, &mut components));
+                components[0].im = T::zero();
+                if n2.is_multiple_of(2) {
+                    components[half - 1].im = T::zero();
                 }
-                sums
-            })
-            .collect();
-        sums.into_iter().fold([0.0; K], |mut total, part| {
-            total.iter_mut().zip(part).for_each(|(total, part)| *total += part);
-            total
-        })
+                let done = fourier.row_inverse.process_with_scratch(&mut components[..half], &mut row, &mut scratch);
+                done.expect("lengths were planned, what must be real is");
+                sink(&mut row);
+            }
+        });
     }
+}
+
+impl Workspace {
+    /// So many numbers of either precision.
+    fn of<T: Real>(&mut self, size: usize) -> &mut [T] {
+        let doubles = (size * size_of::<T>()).div_ceil(size_of::<f64>());
+        if self.spectrum.len() < doubles {
+            self.spectrum = vec![0.0; doubles];
+        }
+        &mut bytemuck::cast_slice_mut(&mut self.spectrum[..doubles])[..size]
+    }
+}
+
+/// Sources that copy the rows of a field.
+pub fn rows_of<T: Real>(field: &[T], [n1, n2]: [usize; 2]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
+    field.par_chunks(part_of(n1) * n2).map(move |part| {
+        let mut rows = part.chunks_exact(n2);
+        move |to: &mut [T]| to.copy_from_slice(rows.next().expect("a part has its rows"))
+    })
+}
+
+/// Sinks that copy rows to those of a field.
+pub fn rows_to<T: Real>(field: &mut [T], [n1, n2]: [usize; 2]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
+    field.par_chunks_mut(part_of(n1) * n2).map(move |part| {
+        let mut rows = part.chunks_exact_mut(n2);
+        move |from: &mut [T]| rows.next().expect("a part has its rows").copy_from_slice(from)
+    })
+}
+
+/// How many parts there are.
+pub fn parts_of(rows: usize) -> usize {
+    rows.div_ceil(part_of(rows))
+}
+
+/// Rows that are transformed one after the other, of `rows` in all; the last part may have fewer.
+pub fn part_of(rows: usize) -> usize {
+    rows.div_ceil(PARTS).max(LEAST)
 }
 
 /// The components of a row, real and imaginary parts apart, to the lines of its tiles.
@@ -278,26 +325,28 @@ fn unite<'a, S: Simd, T: Real>(simd: S, lines: impl Iterator<Item = &'a [T]>, co
     }
 }
 
-/// Each component times its factor.
+/// Each component times its factor and a common one.
 #[inline(always)]
-fn times<S: Simd, T: Real>(simd: S, table: &[T], lines: &mut [T]) {
+fn times<S: Simd, T: Real>(simd: S, common: f64, table: &[f64], lines: &mut [T]) {
     for (line, factors) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
-        let factor = T::Lanes::<S>::from_slice(simd, factors);
-        let (re, im) = line.split_at_mut(LANES);
-        (T::Lanes::<S>::from_slice(simd, re) * factor).store_slice(re);
-        (T::Lanes::<S>::from_slice(simd, im) * factor).store_slice(im);
+        multiply(simd, T::lanes(f64x8::from_slice(simd, factors) * common), line);
     }
 }
 
-/// Each component over its factor, times the square of the normalisation, which the factor holds once.
+/// Each component times `numerator` over its factor and a common one.
 #[inline(always)]
-fn over<S: Simd, T: Real>(simd: S, square: T, table: &[T], lines: &mut [T]) {
+fn over<S: Simd, T: Real>(simd: S, numerator: f64, common: f64, table: &[f64], lines: &mut [T]) {
+    let numerator = T::Lanes::<S>::simd_from(simd, T::rounded(numerator));
     for (line, factors) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
-        let factor = T::Lanes::<S>::simd_from(simd, square) / T::Lanes::<S>::from_slice(simd, factors);
-        let (re, im) = line.split_at_mut(LANES);
-        (T::Lanes::<S>::from_slice(simd, re) * factor).store_slice(re);
-        (T::Lanes::<S>::from_slice(simd, im) * factor).store_slice(im);
+        multiply(simd, numerator / T::lanes(f64x8::from_slice(simd, factors) * common), line);
     }
+}
+
+#[inline(always)]
+fn multiply<S: Simd, T: Real>(simd: S, factor: T::Lanes<S>, line: &mut [T]) {
+    let (re, im) = line.split_at_mut(LANES);
+    (T::Lanes::<S>::from_slice(simd, re) * factor).store_slice(re);
+    (T::Lanes::<S>::from_slice(simd, im) * factor).store_slice(im);
 }
 
 impl<T: Real> fmt::Debug for Fourier<T> {
@@ -357,13 +406,18 @@ mod tests {
                 + 0.1 * (at(i + 1, j + n2 - 1) + at(i + n1 - 1, j + 1))
                 + 0.05 * (at(i, j + 2) + at(i, j + 2 * n2 - 2))
         };
-        let [sum] = fourier.convolve(Action::Times, &multiplier, &mut field, &mut workspace, |i, row| {
-            [row.iter().enumerate().map(|(j, u)| (u.wide() - expected(i, j)).abs()).sum()]
-        });
-        fourier.convolve(Action::Over, &multiplier, &mut field, &mut workspace, |_, _| []);
-        let back = field.iter().enumerate().map(|(k, u)| (u.wide() - at(k / n2, k % n2)).abs());
+        let scale = 3.0;
+        let mut convolve = |action, field: &mut [T]| {
+            let convolved = fourier.convolve(action, &multiplier, &mut workspace, rows_of(field, [n1, n2]));
+            convolved.rows(rows_to(field, [n1, n2]));
+        };
+        convolve(Action::Times(scale), &mut field);
+        let there: f64 =
+            field.iter().enumerate().map(|(k, u)| (u.wide() / scale - expected(k / n2, k % n2)).abs()).sum();
+        convolve(Action::Over(1.0 / scale), &mut field);
+        let back: f64 = field.iter().enumerate().map(|(k, u)| (u.wide() - at(k / n2, k % n2)).abs()).sum();
         // Means, which a number that is none spoils.
-        [sum, back.sum::<f64>()].map(|sum| sum / (n1 * n2) as f64)
+        [there, back].map(|sum| sum / (n1 * n2) as f64)
     }
 
     #[test]

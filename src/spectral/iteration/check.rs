@@ -8,6 +8,7 @@ use crate::numeric::lanes::{LANES, Real, lowest, splat, total, vectorised};
 use crate::numeric::rows::{self, Totals};
 use crate::numeric::search::largest;
 use crate::numeric::sums::{self, BLOCK};
+use crate::spectral::fourier::{part_of, parts_of, rows_of};
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -60,18 +61,25 @@ impl Residuals {
 impl Check {
     /// Check of the present pressure of `unknowns`, gap and penetration left there.
     pub fn new(problem: &mut GridProblem<'_>, unknowns: &mut Unknowns) -> Self {
-        let (p, load_control) = (&unknowns.pressure, problem.load.is_mean_pressure());
-        match Arc::get_mut(&mut unknowns.gap) {
-            Some(gap) => gap.copy_from_slice(p),
-            None => unknowns.gap = Arc::new(p.to_vec()),
+        let (p, f, load_control) = (&unknowns.pressure[..], problem.initial_gap, problem.load.is_mean_pressure());
+        if Arc::get_mut(&mut unknowns.gap).is_none() {
+            unknowns.gap = Arc::new(vec![0.0; p.len()]);
         }
         let g = Arc::make_mut(&mut unknowns.gap);
-        problem.displacement(g);
-        let (f, len) = (problem.initial_gap, p.len() as f64);
-        let mean = if let Load::MeanPressure(mean) = problem.load { mean } else { 0.0 };
-        let fields = (p.par_chunks(BLOCK), g.par_chunks_mut(BLOCK), f.par_chunks(BLOCK));
-        let Totals { sums: [load, energy, work, open], .. } =
-            rows::sweep(BLOCK, fields, |_, (p, w, f)| vectorised!(simd => deformed(simd, p, w, f, mean)));
+        let (len, mean) = (p.len() as f64, if let Load::MeanPressure(mean) = problem.load { mean } else { 0.0 });
+        let (size, mut parts) =
+            (part_of(problem.points[0]) * problem.points[1], vec![Totals::NONE; parts_of(problem.points[0])]);
+        let rows = (p.par_chunks(size), f.par_chunks(size), g.par_chunks_mut(size), &mut parts).into_par_iter();
+        let rows = rows.map(|(p, f, g, totals)| {
+            let mut number = 0;
+            move |w: &mut [f64]| {
+                let at = number * w.len()..(number + 1) * w.len();
+                number += 1;
+                totals.add(vectorised!(simd => deformed(simd, w, &p[at.clone()], &f[at.clone()], &mut g[at], mean)));
+            }
+        });
+        problem.operator.displaced(&mut problem.working.transforms, rows_of(p, problem.points)).rows(rows);
+        let [load, energy, work, open] = Totals::of(parts).sums;
         let (penetration, deviation) = match problem.load {
             Load::MeanPressure(mean) => (relative(work, load), relative((load / len - mean).abs(), mean)),
             Load::Penetration(given) => (given, relative((work - load * given).abs(), load * given)),
@@ -133,21 +141,21 @@ fn relative(part: f64, scale: f64) -> f64 {
     if scale <= 0.0 || part <= 0.0 { 0.0 } else { part / scale }
 }
 
-/// Σ p, ½ Σ (p − `uniform`) w, Σ p (w + f) and the number of samples without pressure; w becomes w + f. As ⟨1, w⟩ = 0, a
+/// g ← w + f; Σ p, ½ Σ (p − `uniform`) w, Σ p (w + f) and the number of samples without pressure. As ⟨1, w⟩ = 0, a
 /// uniform part of p would add nothing but rounding to the elastic energy.
 #[inline(always)]
-fn deformed<S: Simd>(simd: S, p: &[f64], w: &mut [f64], f: &[f64], uniform: f64) -> Totals<4, 0> {
+fn deformed<S: Simd>(simd: S, w: &[f64], p: &[f64], f: &[f64], g: &mut [f64], uniform: f64) -> Totals<4, 0> {
     let zero = splat(simd, 0.0);
     let (mut load, mut energy, mut work, mut open) = (zero, zero, zero, zero);
     for at in (0..p.len()).step_by(LANES) {
-        let pressure = Real::group(simd, p, at, 0.0);
-        let (displacement, gap) = (Real::group(simd, w, at, 0.0), Real::group(simd, f, at, 0.0));
+        let pressure = f64::group(simd, p, at, 0.0);
+        let (displacement, gap) = (f64::group(simd, w, at, 0.0), f64::group(simd, f, at, 0.0));
         let deformed = displacement + gap;
         load += pressure;
         energy = ((pressure - uniform) * 0.5).mul_add(displacement, energy);
         work = pressure.mul_add(deformed, work);
         open += pressure.simd_gt(zero).select(zero, splat(simd, 1.0));
-        Real::put(deformed, w, at);
+        f64::put(deformed, g, at);
     }
     // What lies beyond the end counts as open.
     let beyond = p.len().next_multiple_of(LANES) - p.len();

@@ -23,7 +23,9 @@ use super::sweeps::{self, Active};
 use super::unknowns::Unknowns;
 use super::working::Fields;
 use crate::load::Load;
+use crate::numeric::rows::Totals;
 use crate::spectral::extension;
+use crate::spectral::fourier::{parts_of, rows_of, rows_to};
 use std::sync::Arc;
 
 /// First window of the patience, iterations.
@@ -63,18 +65,20 @@ pub(super) fn solve(
         if check.converged(problem.settings.tolerance) {
             return ended(Stop::Converged);
         }
+        if iterations >= problem.settings.max_iterations {
+            return ended(Stop::IterationLimit);
+        }
+        if patience.ends(check.measure()) {
+            return ended(Stop::Stalled);
+        }
         let mut way = Way::new(problem, unknowns, check, beyond);
         for number in 1.. {
             let limit = iterations >= problem.settings.max_iterations;
-            let over = patience.ends(way.check.measure()) || limit;
+            let over = number > 1 && (limit || patience.ends(way.check.measure()));
             if over || !way.iterate(problem, unknowns, &mut memory) {
-                // What the pressure itself says, unless it has just been asked.
-                let check = if over && number == 1 {
-                    check
-                } else {
-                    unknowns.admit(problem.load);
-                    Check::new(problem, unknowns)
-                };
+                // What the pressure itself says.
+                unknowns.admit(problem.load);
+                let check = Check::new(problem, unknowns);
                 let stop = match (check.converged(problem.settings.tolerance), limit) {
                     (true, _) => Stop::Converged,
                     (false, true) => Stop::IterationLimit,
@@ -118,7 +122,9 @@ struct Direction {
 struct Step {
     /// Whether the next direction has to start anew.
     restart: bool,
-    /// Σ p and Σ p g, the gap with the old δ.
+    /// How much of what `image` holds is added to the gap.
+    factor: f64,
+    /// Σ p and Σ p g after it, the gap with the old δ.
     sums: [f64; 2],
 }
 
@@ -139,20 +145,20 @@ struct Way {
 impl Way {
     fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, beyond: Beyond) -> Self {
         let length = problem.largest_gap;
-        let (Fields { gap, residual, .. }, _) = problem.working.of(unknowns.pressure.len());
-        sweeps::take(&unknowns.gap, length, gap);
-        let (active, _) = sweeps::residual(&unknowns.pressure, 0.0, 0.0, gap, residual);
-        let (points, pressure) = (problem.points, length / problem.operator.softest());
+        let (gap, residual) = problem.working.start(unknowns.gap.len());
+        let active = sweeps::take(&unknowns.pressure, &unknowns.gap, length, gap, residual);
+        let (points, pressure) = (problem.points, length / problem.operator.unit());
         Self { points, beyond, length, pressure, active, penetration: unknowns.penetration, check }
     }
 
     /// One iteration; false where no step can be found.
     fn iterate(&mut self, problem: &mut GridProblem<'_>, unknowns: &mut Unknowns, memory: &mut Memory) -> bool {
-        let p = Arc::make_mut(&mut unknowns.pressure);
-        let Some(direction) = self.turn(problem, p.len(), memory) else { return false };
-        let Some(Step { restart, sums }) = self.advance(problem, p, direction, memory.free) else { return false };
-        *memory = Memory { norm: if restart { 0.0 } else { direction.norm }, mean: self.mean(problem), free: false };
-        self.judge(problem, p, sums);
+        let (p, double) = (Arc::make_mut(&mut unknowns.pressure), Arc::make_mut(&mut unknowns.gap));
+        let Some(direction) = self.turn(problem, double, memory) else { return false };
+        let Some(step) = self.advance(problem, p, double, direction, memory.free) else { return false };
+        let norm = if step.restart { 0.0 } else { direction.norm };
+        *memory = Memory { norm, mean: self.mean(problem), free: false };
+        self.judge(problem, p, double, step);
         true
     }
 
@@ -162,50 +168,54 @@ impl Way {
     }
 
     /// z = M r, t = z + βt and C t, which is left in `image`.
-    fn turn(&self, problem: &mut GridProblem<'_>, samples: usize, memory: &Memory) -> Option<Direction> {
+    fn turn(&self, problem: &mut GridProblem<'_>, double: &mut [f64], memory: &Memory) -> Option<Direction> {
         let (points, mean, load_control) = (self.points, self.mean(problem), problem.load.is_mean_pressure());
-        let (fields, transforms) = problem.working.of(samples);
-        let Fields { residual, previous, direction, image, weight, aside, .. } = fields;
-        match self.beyond {
-            Beyond::Continued => extension::extend(points, residual, mean as f32, [image, weight, aside]),
-            Beyond::Zero => sweeps::centred(residual, mean, image),
-        }
-        problem.operator.pressure_single(image, transforms);
-        match self.beyond {
-            Beyond::Continued => extension::gather(points, image, [weight, aside]),
-            Beyond::Zero => weight.fill(0.0),
-        }
-        let overlaps = sweeps::overlap([residual, previous, image, weight, direction]);
+        let operator = &mut *problem.operator;
+        let (Fields { residual, previous, direction, image, weight, .. }, transforms) = problem.working.of(double);
+        let weight = match self.beyond {
+            Beyond::Continued => {
+                let rows = extension::extended(points, residual, mean as f32, weight);
+                operator.pressed_single(transforms, rows).rows(extension::gathered(points, image, weight));
+                Some(&*weight)
+            }
+            Beyond::Zero => {
+                let rows = sweeps::centred(points, residual, mean as f32);
+                operator.pressed_single(transforms, rows).rows(rows_to(image, points));
+                None
+            }
+        };
+        let overlaps = sweeps::overlap(points, [residual, previous, direction], weight, image);
         let z_mean = if load_control { overlaps.sum / self.active.size } else { 0.0 };
         let norm = overlaps.with_residual - mean * overlaps.sum;
         let overlap = overlaps.with_previous(memory.mean, z_mean);
         let beta = if memory.norm > 0.0 { ((norm - overlap) / memory.norm).max(0.0) } else { 0.0 };
         // What is left of the last direction on I is freed of its mean too, or the load would drift.
         let t_mean = if load_control && beta > 0.0 { overlaps.direction / self.active.size } else { 0.0 };
-        let descent = sweeps::turn(residual, weight, z_mean + beta * t_mean, beta, direction, image);
-        let columns = points[1];
-        let [curvature] = problem.operator.displacement_single(image, transforms, |row, image| {
-            [sweeps::product(&direction[row * columns..][..columns], image)]
-        });
+        let [mut descent, mut curvature] = [(); 2].map(|()| vec![Totals::NONE; parts_of(points[0])]);
+        let rows = sweeps::turned(points, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
+        operator.displaced_single(transforms, rows).rows(sweeps::curved(points, direction, image, &mut curvature));
+        let ([descent], [curvature]) = (Totals::of(descent).sums, Totals::of(curvature).sums);
         let tau = descent / curvature;
         (tau.is_finite() && curvature > 0.0).then_some(Direction { norm, beta, tau })
     }
 
-    /// p + d and g + C d; `free`: whatever it does to the energy.
+    /// p + d, with C t or C d in `image`; `free`: whatever it does to the energy.
     fn advance(
         &self,
         problem: &mut GridProblem<'_>,
         p: &mut [f64],
+        double: &mut [f64],
         Direction { beta, mut tau, .. }: Direction,
         free: bool,
     ) -> Option<Step> {
-        let (columns, unit, load) = (self.points[1], self.pressure, problem.load);
-        let (Fields { gap, direction, image, weight: step, aside: copy, .. }, transforms) = problem.working.of(p.len());
+        let (points, unit, load) = (self.points, self.pressure, problem.load);
+        let operator = &mut *problem.operator;
+        let (Fields { gap, direction, image, weight: step, .. }, transforms) = problem.working.of(double);
         for shortened in 0.. {
-            let advance = sweeps::advance(p, gap, direction, -tau, unit, [step, copy]);
-            if !advance.clipped {
+            let advance = sweeps::advance(p, [gap, direction, image], -tau, unit, step);
+            if shortened == 0 && !advance.clipped {
                 // C d = −τ C t.
-                return Some(Step { restart: false, sums: sweeps::follow(p, gap, image, -tau) });
+                return Some(Step { restart: false, factor: -tau, sums: [advance.load, advance.work] });
             }
             let scale = match load {
                 Load::MeanPressure(mean) if advance.load > 0.0 => mean * p.len() as f64 / advance.load,
@@ -216,24 +226,29 @@ impl Way {
                 Load::Penetration(_) => 1.0,
             };
             if scale != 1.0 {
-                sweeps::rescale(p, scale, unit, [step, copy]);
+                sweeps::rescale(p, scale, unit, step);
             }
-            let [curvature] = problem.operator.displacement_single(copy, transforms, |row, image| {
-                [sweeps::product(&step[row * columns..][..columns], image)]
-            });
+            let mut sums = vec![Totals::NONE; parts_of(points[0])];
+            let convolved = operator.displaced_single(transforms, rows_of(step, points));
+            convolved.rows(sweeps::ended(points, p, [gap, step], image, &mut sums));
+            let [curvature, load, work] = Totals::of(sums).sums;
             // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
             let slope = scale * advance.slope;
             let (uphill, part) = (slope >= 0.0, -slope / curvature);
             if curvature.is_finite() && (free || slope + 0.5 * curvature <= 0.0) {
-                return Some(Step { restart: false, sums: sweeps::follow(p, gap, copy, 1.0) });
+                return Some(Step { restart: false, factor: 1.0, sums: [load, work] });
             }
+            // Elsewhere the sums are taken anew.
+            let ends = |p: &[f64], restart, factor| {
+                Some(Step { restart, factor, sums: sweeps::works(p, gap, (image, factor)) })
+            };
             if shortened == SHORTENED && !uphill && part.is_finite() {
                 sweeps::retreat(p, step, (1.0 - part) * unit);
-                return Some(Step { restart: false, sums: sweeps::follow(p, gap, copy, part) });
+                return ends(p, false, part);
             }
             sweeps::retreat(p, step, unit);
             if uphill && beta > 0.0 {
-                return Some(Step { restart: true, sums: sweeps::follow(p, gap, copy, 0.0) });
+                return ends(p, true, 0.0);
             }
             if shortened == SHORTENED || !curvature.is_finite() {
                 return None;
@@ -243,14 +258,15 @@ impl Way {
         None
     }
 
-    /// The new δ, residual and active set.
-    fn judge(&mut self, problem: &mut GridProblem<'_>, p: &[f64], [load, work]: [f64; 2]) {
+    /// The new gap and δ, residual and active set.
+    fn judge(&mut self, problem: &mut GridProblem<'_>, p: &[f64], double: &mut [f64], step: Step) {
         let load_control = problem.load.is_mean_pressure();
-        std::mem::swap(&mut problem.working.fields.residual, &mut problem.working.fields.previous);
-        let (Fields { gap, residual, .. }, _) = problem.working.of(p.len());
+        problem.working.turn_over();
+        let (Fields { gap, residual, image, .. }, _) = problem.working.of(double);
+        let [load, work] = step.sums;
         let shift = if load_control { work / load } else { 0.0 };
         self.penetration += shift * self.length;
-        let (active, residuals) = sweeps::residual(p, load, shift, gap, residual);
+        let (active, residuals) = sweeps::settle(p, load, (image, step.factor), shift, gap, residual);
         self.active = active;
         self.check =
             Check::of(residuals.times(self.length), self.penetration, self.check.energy, load_control, p.len() as f64);

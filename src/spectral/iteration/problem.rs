@@ -24,7 +24,7 @@ pub struct GridProblem<'a> {
     /// Tolerance and limits.
     pub settings: Settings,
     /// Hears of each iteration.
-    pub progress: &'a mut dyn FnMut(Progress),
+    pub progress: &'a mut (dyn FnMut(Progress) + Send),
 }
 
 impl GridProblem<'_> {
