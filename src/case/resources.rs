@@ -14,18 +14,18 @@ use crate::spectral::{self, fourier::fast_points};
 
 const MEBIBYTE: u64 = 1 << 20;
 /// What the program takes before it solves anything.
-const PROGRAM: u64 = 41 * MEBIBYTE / 4;
-/// Per sample: passing from grid to grid, or reading a step.
-const READING: u64 = 42;
-/// Per sample: waves, their coefficients and what a search for maxima takes; and a plane that is kept.
-const STRESS: u64 = 52;
+const PROGRAM: u64 = 11 * MEBIBYTE;
+/// Per sample: reading a step, when what solving it took is free again.
+const READING: u64 = 45;
+/// Per sample, in its place: waves, their coefficients and what a search for maxima takes; and a plane that is kept.
+const STRESS: u64 = 90;
 const PLANE: u64 = 18;
 /// Per sample: a stress field that is asked at single points only.
-const FIELD: u64 = 16;
+const FIELD: u64 = 18;
 /// Fields that the localized method keeps of each spot.
 const SPOT_FIELDS: u64 = 10;
 /// Per sample: what stays of a solved problem while pictures are drawn.
-const KEPT: u64 = 80;
+const KEPT: u64 = 64;
 /// Per point of a volume: the states of all its planes, kept until they are written.
 const STATE: u64 = 72;
 /// Numbers stored for a place of a stress field in `stress.npz`, and for a point of a VTK file.
@@ -33,8 +33,9 @@ const COMPONENTS: u64 = 12;
 const VTK_NUMBERS: u64 = 16;
 /// Sheets of paper as pixels, several at a time: maps and profiles, cuts, load curves.
 const MAPS: u64 = 22 * MEBIBYTE;
-const CUTS: u64 = 16 * MEBIBYTE;
+const CUTS: u64 = 17 * MEBIBYTE;
 const CURVES: u64 = 8 * MEBIBYTE;
+const COMPARED: u64 = 12 * MEBIBYTE;
 /// `compare.json` with many levels and circles.
 const COMPARISON: u64 = MEBIBYTE;
 /// A picture on disk.
@@ -77,15 +78,15 @@ impl Needs {
 pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = case.surface.as_ref().map_or(0, |_| 8 * samples);
-    let solver = PROGRAM + spectral::memory(points, case.solver.method) as u64 + heights;
+    let [grids, working] = spectral::memory(points, case.solver.method).map(|bytes| bytes as u64);
     let needs = match job {
-        Job::Solve { pictures } => of_solving(case, samples, solver, heights, pictures),
-        Job::Compare { pictures } => of_comparing(case, samples, solver, pictures),
+        Job::Solve { pictures } => of_solving(case, samples, [grids, working, heights], pictures),
+        Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
     };
     Needs { memory: needs.memory + needs.memory / 10, ..needs }
 }
 
-fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bool) -> Needs {
+fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
     let steps = case.load.values().len() as u64;
     let (stress, written, volume) =
         case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
@@ -98,7 +99,8 @@ fn of_solving(case: &Case, samples: u64, solver: u64, heights: u64, pictures: bo
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are all there.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
     let disk_while_running = disk + fields.max(steps * written) + coarser;
-    Needs { memory: (solver + READING * samples + stress).max(drawing), disk, disk_while_running }
+    let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
+    Needs { memory: solving.max(drawing), disk, disk_while_running }
 }
 
 /// The localized method's influence coefficients: of every pair of indenters, inside circles and of the whole lattice,
@@ -109,7 +111,9 @@ fn of_comparing(case: &Case, samples: u64, solver: u64, pictures: bool) -> Needs
     let side = 2 * width - 1;
     let tables = 8 * (sites * sites * side * side * 5 / 2 + SPOT_FIELDS * sites * width * width);
     let disk = COMPARISON + if pictures { PICTURE } else { 0 };
-    Needs { memory: solver + FIELD * samples + tables, disk, disk_while_running: disk }
+    let drawing = if pictures { PROGRAM + COMPARED + FIELD * samples } else { 0 };
+    let comparing = PROGRAM + solver + FIELD * samples + tables;
+    Needs { memory: comparing.max(drawing), disk, disk_while_running: disk }
 }
 
 /// Memory of a stress field, and bytes written a step: those that are gathered at the end, and a volume.
@@ -123,7 +127,7 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
     });
     let stored = planes * samples + section + stress.points.len() as u64;
     let plane = if planes > 0 { PLANE } else { 0 };
-    let memory = ((STRESS + plane) * samples).max(STATE * volume + 64 * samples).max(FIELD * samples + STATE * section);
+    let memory = ((STRESS + plane) * samples + STATE * section).max(STATE * volume + 64 * samples);
     (memory, 8 * COMPONENTS * stored, 8 * VTK_NUMBERS * volume)
 }
 
@@ -214,22 +218,22 @@ mod tests {
         const CUT: &str = "stress={section={from=\"level 1\",toward=\"level 2\",length=1.0,depth=1.0}}";
         const AWRY: &str = "stress={section={from=\"level 1\",toward=[1.0,0.7312],length=1.0,depth=1.0}}";
         let measured: [(usize, &[&str], bool, f64); 16] = [
-            (128, &[], false, 13.7),
-            (256, &[], false, 17.7),
-            (512, &[], false, 45.5),
-            (1024, &[], false, 146.8),
-            (256, &["stress={}"], false, 22.7),
-            (512, &["stress={}"], false, 56.2),
-            (512, &["stress={planes=[0,0.5]}"], false, 65.1),
-            (1024, &["stress={planes=[0,0.5]}"], false, 220.9),
-            (256, &["stress={volume={depth=1.0,rows=100,points=200}}"], false, 306.3),
-            (256, &["solver.method=polonsky-keer"], false, 14.8),
-            (64, &[], true, 32.2),
-            (512, &[], true, 47.1),
-            (1024, &[], true, 146.8),
-            (512, &[CUT], true, 72.4),
-            (512, &[AWRY], false, 56.4),
-            (1024, &[AWRY], false, 195.9),
+            (128, &[], false, 13.8),
+            (256, &[], false, 15.1),
+            (512, &[], false, 32.0),
+            (1024, &[], false, 98.2),
+            (256, &["stress={}"], false, 20.2),
+            (512, &["stress={}"], false, 47.6),
+            (512, &["stress={planes=[0,0.5]}"], false, 53.8),
+            (1024, &["stress={planes=[0,0.5]}"], false, 174.8),
+            (256, &["stress={volume={depth=1.0,rows=100,points=200}}"], false, 303.6),
+            (256, &["solver.method=polonsky-keer"], false, 14.4),
+            (64, &[], true, 31.8),
+            (512, &[], true, 43.2),
+            (1024, &[], true, 98.4),
+            (512, &[CUT], true, 71.3),
+            (512, &[AWRY], false, 47.3),
+            (1024, &[AWRY], false, 159.4),
         ];
         for (points, overrides, pictures, peak) in measured {
             let estimate =
@@ -237,16 +241,17 @@ mod tests {
             println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
             assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
         }
-        // Its picture is drawn when the fields have gone.
-        let compared: [(usize, &[&str], f64); 4] = [
-            (128, &["localized.elements=12"], 13.7),
-            (512, &["localized.elements=12"], 33.9),
-            (1024, &["localized.elements=12"], 107.3),
-            (64, &["localized.elements=120", "layers=[]"], 31.0),
+        let compared: [(usize, &[&str], bool, f64); 6] = [
+            (64, &["localized.elements=12"], true, 23.2),
+            (128, &["localized.elements=12"], false, 13.8),
+            (256, &["localized.elements=12"], true, 25.7),
+            (512, &["localized.elements=12"], true, 34.0),
+            (1024, &["localized.elements=12"], true, 100.9),
+            (64, &["localized.elements=120", "layers=[]"], false, 31.0),
         ];
-        for (points, overrides, peak) in compared {
-            let job = Job::Compare { pictures: true };
-            let estimate = needs(&case(overrides), [points; 2], job).memory as f64 / MEBIBYTE as f64;
+        for (points, overrides, pictures, peak) in compared {
+            let estimate =
+                needs(&case(overrides), [points; 2], Job::Compare { pictures }).memory as f64 / MEBIBYTE as f64;
             println!("compare {points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
             assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
         }

@@ -34,20 +34,33 @@ pub fn moved(radii: &[f64], shifts: &[f64], most: f64) -> Vec<f64> {
 
 /// 1, cos θ, sin θ, … of the harmonics up to `highest`.
 pub fn waves(theta: f64, highest: usize) -> Vec<f64> {
-    let (sine, cosine) = theta.sin_cos();
-    let (mut c, mut s) = (1.0, 0.0);
-    let mut waves = Vec::with_capacity(1 + 2 * highest);
-    waves.push(1.0);
-    for _ in 0..highest {
-        (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
-        waves.extend([c, s]);
-    }
+    let mut waves = vec![0.0; 1 + 2 * highest];
+    waves_into(theta, &mut waves);
     waves
 }
 
-/// Sum of a series of [`waves`] with the coefficients.
+/// The same, as many as there is room for.
+pub fn waves_into(theta: f64, waves: &mut [f64]) {
+    let (sine, cosine) = theta.sin_cos();
+    let (mut c, mut s) = (1.0, 0.0);
+    let (first, pairs) = waves.split_at_mut(1);
+    first[0] = 1.0;
+    for pair in pairs.chunks_exact_mut(2) {
+        (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
+        pair.copy_from_slice(&[c, s]);
+    }
+}
+
+/// Sum of a series of [`waves`] with the coefficients, at least one.
 pub fn series(coefficients: &[f64], theta: f64) -> f64 {
-    waves(theta, coefficients.len() / 2).iter().zip(coefficients).map(|(wave, c)| wave * c).sum()
+    let (sine, cosine) = theta.sin_cos();
+    let (mut c, mut s) = (1.0, 0.0);
+    let mut sum = coefficients[0];
+    for pair in coefficients[1..].chunks_exact(2) {
+        (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
+        sum += c * pair[0] + s * pair[1];
+    }
+    sum
 }
 
 #[cfg(test)]

@@ -13,6 +13,12 @@ pub fn fit(unknowns: usize, rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Opti
             line.iter_mut().zip(&row).for_each(|(sum, other)| *sum += own * other);
         }
     }
+    solved(matrix, right)
+}
+
+/// Solves normal equations, of whose matrix the lower triangle is needed; `None` when they do not determine c.
+pub(super) fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
+    let unknowns = right.len();
     // Cholesky: matrix = L Lᵀ, in place.
     for i in 0..unknowns {
         for j in 0..=i {

@@ -13,4 +13,5 @@ pub mod paraboloid;
 pub mod quadrature;
 pub mod rows;
 pub mod search;
+pub mod series_fit;
 pub mod sums;

@@ -149,6 +149,10 @@ impl Written {
 /// a change, and as fast as the disk.
 fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
     let (mut length, mut hash) = (0, 0xcbf2_9ce4_8422_2325_u64);
+    let mut add = |word: [u8; 8]| {
+        hash = (hash ^ u64::from_le_bytes(word)).wrapping_mul(0x100_0000_01b3);
+        hash ^= hash >> 32;
+    };
     let mut buffer = [0; 1 << 16];
     loop {
         let mut filled = 0;
@@ -158,11 +162,12 @@ fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
                 more => filled += more,
             }
         }
-        for chunk in buffer[..filled].chunks(8) {
+        let (words, rest) = buffer[..filled].as_chunks();
+        words.iter().for_each(|word| add(*word));
+        if !rest.is_empty() {
             let mut word = [0; 8];
-            word[..chunk.len()].copy_from_slice(chunk);
-            hash = (hash ^ u64::from_le_bytes(word)).wrapping_mul(0x100_0000_01b3);
-            hash ^= hash >> 32;
+            word[..rest.len()].copy_from_slice(rest);
+            add(word);
         }
         length += filled as u64;
         if filled < buffer.len() {

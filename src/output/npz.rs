@@ -1,5 +1,6 @@
 //! NumPy archives: uncompressed zip files of `.npy` arrays.
 
+use bytemuck::Pod;
 use npyz::{AutoSerialize, WriterBuilder};
 use std::cell::RefCell;
 use std::io::{self, Seek, SeekFrom, Write};
@@ -11,6 +12,9 @@ pub(super) struct Archive<W: Write + Seek> {
     zip: zip::ZipWriter<Calm<W>>,
     failure: Failure,
 }
+
+/// Values that are written at a time.
+const CHUNK: usize = 1 << 13;
 
 /// What the system said when a write failed.
 type Failure = Rc<RefCell<Option<io::Error>>>;
@@ -34,7 +38,7 @@ impl<W: Write + Seek> Archive<W> {
     }
 
     /// Adds an array of the given shape, its values in C order.
-    pub(super) fn array<T: AutoSerialize>(
+    pub(super) fn array<T: AutoSerialize + Pod>(
         &mut self,
         name: &str,
         shape: &[usize],
@@ -94,16 +98,28 @@ impl<W: Seek> Seek for Calm<W> {
     }
 }
 
-/// Writes one array as `.npy`.
-pub(super) fn npy<T: AutoSerialize>(
-    writer: impl Write,
+/// Writes one array as `.npy`, in the byte order of the machine, which the header tells.
+pub(super) fn npy<T: AutoSerialize + Pod>(
+    mut writer: impl Write,
     shape: &[usize],
     values: impl IntoIterator<Item = T>,
 ) -> io::Result<()> {
-    let shape: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
-    let mut array = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(writer).begin_nd()?;
-    array.extend(values)?;
-    array.finish()
+    let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
+    let mut header = Vec::new();
+    // The library writes value by value, which takes longer than the disk: it has the header alone.
+    drop(npyz::WriteOptions::<T>::new().default_dtype().shape(&sizes).writer(&mut header).begin_nd()?);
+    writer.write_all(&header)?;
+    let (mut values, mut chunk, mut count) = (values.into_iter(), Vec::with_capacity(CHUNK), 0);
+    loop {
+        chunk.extend(values.by_ref().take(CHUNK));
+        writer.write_all(bytemuck::cast_slice(&chunk))?;
+        count += chunk.len();
+        if chunk.len() < CHUNK {
+            break;
+        }
+        chunk.clear();
+    }
+    if count == shape.iter().product::<usize>() { Ok(()) } else { Err(io::ErrorKind::InvalidData.into()) }
 }
 
 #[cfg(test)]

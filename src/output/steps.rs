@@ -6,7 +6,7 @@ use super::gathered::remove_waiting;
 use super::npz::{Archive, npy};
 use super::{OutputError, make_folder, write_file};
 use std::fs;
-use std::io::{self, BufReader, BufWriter};
+use std::io::{self, BufReader, BufWriter, Read};
 use std::path::{Path, PathBuf};
 
 /// An archive that is being gathered on disk.
@@ -102,6 +102,15 @@ impl StepArrays {
     }
 }
 
+/// The values of an array as [`npy`] has written it: behind the header, in the byte order of the machine.
 fn read(path: &Path) -> io::Result<Vec<f64>> {
-    npyz::NpyFile::new(BufReader::new(fs::File::open(path)?))?.into_vec()
+    let mut reader = BufReader::new(fs::File::open(path)?);
+    let header = npyz::NpyHeader::from_reader(&mut reader)?;
+    let mut bytes = Vec::with_capacity(8 * header.len() as usize);
+    reader.read_to_end(&mut bytes)?;
+    let (values, rest) = bytes.as_chunks();
+    if values.len() as u64 != header.len() || !rest.is_empty() {
+        return Err(io::ErrorKind::UnexpectedEof.into());
+    }
+    Ok(values.iter().map(|value| f64::from_ne_bytes(*value)).collect())
 }

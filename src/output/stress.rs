@@ -117,12 +117,18 @@ fn add_plane(
         let [xx, yy, zz, xy, xz, yz] = std::array::from_fn(|c| components[c][index]);
         State { xx, yy, zz, xy, xz, yz, ..State::default() }
     };
-    for c in 9..12 {
-        clock.turn(Phase::Stress);
-        let values: Vec<f64> = (0..len).into_par_iter().map(|index| component(&state(index), c)).collect();
-        clock.turn(Phase::Output);
-        add(c, &values)?;
-    }
+    clock.turn(Phase::Stress);
+    let mut derived = vec![0.0; 3 * len];
+    let (tau1, others) = derived.split_at_mut(len);
+    let (mises, s1) = others.split_at_mut(len);
+    (tau1, mises, s1).into_par_iter().enumerate().for_each(|(index, (tau1, mises, s1))| {
+        let state = state(index);
+        let [first, _, last] = state.principal();
+        (*tau1, *mises, *s1) = (0.5 * (first - last), state.mises(), first);
+    });
+    clock.turn(Phase::Output);
+    (9..12).zip(derived.chunks_exact(len)).try_for_each(|(c, values)| add(c, values))?;
+    drop(derived);
     drop(components);
     drop(stresses);
     clock.turn(Phase::Stress);

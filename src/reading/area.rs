@@ -8,6 +8,7 @@
 
 use crate::lattice::Grid;
 use crate::numeric::least_squares;
+use rayon::prelude::*;
 
 /// Fewest samples of an interval for a parabola, and most samples it uses beyond the square root of their number.
 const FEWEST: usize = 6;
@@ -24,24 +25,27 @@ pub struct Area {
 
 /// Fraction of the cell in contact, from pressure and gap (one value per sample each), without the intervals whose
 /// samples are `known`.
-pub fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(usize) -> bool) -> Area {
+pub fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(usize) -> bool + Sync) -> Area {
     let [n1, n2] = grid.points();
-    let height = |index: usize| match pressure[index] {
-        p if p > 0.0 => p * p,
-        _ => -gap[index].max(0.0).powf(2.0 / 3.0),
-    };
-    let add = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
-    let rows = (0..n1).map(|i| line_fraction(n2, |j| height(i * n2 + j), |j| known(i * n2 + j)));
-    let columns = (0..n2).map(|j| line_fraction(n1, |i| height(i * n2 + j), |i| known(i * n2 + j)));
-    let (along, across) = (rows.fold([0.0; 2], add), columns.fold([0.0; 2], add));
+    let sample = |index: usize| (pressure[index], gap[index], known(index));
+    // Lines are added in their order, whoever has read them.
+    let sum = |lines: Vec<[f64; 2]>| lines.iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    let along = (0..n1).into_par_iter().map(|i| line_fraction(n2, |j| sample(i * n2 + j))).collect();
+    let across = (0..n2).into_par_iter().map(|j| line_fraction(n1, |i| sample(i * n2 + j))).collect();
+    let (along, across) = (sum(along), sum(across));
     let [fraction, error] = [0, 1].map(|k| 0.5 * (along[k] / n1 as f64 + across[k] / n2 as f64));
     Area { fraction, error }
 }
 
-/// Fraction in contact of a closed line of `n` samples with the heights p² in contact and −g^{2/3} outside, and its
-/// estimated error.
-fn line_fraction(n: usize, height: impl Fn(usize) -> f64, known: impl Fn(usize) -> bool) -> [f64; 2] {
-    let touches = |i: usize| height(i % n) > 0.0;
+/// Fraction in contact of a closed line of `n` samples, of each pressure, gap and whether it is known, and its estimated
+/// error.
+fn line_fraction(n: usize, sample: impl Fn(usize) -> (f64, f64, bool)) -> [f64; 2] {
+    let touches = |i: usize| sample(i % n).0 > 0.0;
+    let known = |i: usize| sample(i).2;
+    let height = |i: usize| match sample(i) {
+        (p, ..) if p > 0.0 => p * p,
+        (_, gap, _) => -gap.max(0.0).powf(2.0 / 3.0),
+    };
     let Some(start) = (0..n).find(|&i| !touches(i) && touches(i + 1)) else {
         // No end: all or nothing.
         return [f64::from(u8::from(touches(0) && !known(0))), 0.0];

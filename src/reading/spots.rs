@@ -87,7 +87,7 @@ fn holes(contact: &Contact, label: impl Fn(usize) -> u32) -> Vec<(u32, Component
 fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
     let (grid, surface) = (contact.grid(), contact.surface());
     let (pressure, gap) = (contact.pressures(), contact.gaps());
-    let reduced = grid.cell().reduced();
+    let (reduced, [_, n2]) = (grid.cell().reduced(), grid.points());
     let modulus = contact.problem().half_space().surface_material().contact_modulus();
     // Whose a sample is: in a hole that of the contact around it.
     let mut owner = surface.owners().to_vec();
@@ -109,23 +109,29 @@ fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
             enclosed[own as usize] += grid.sample_area();
         }
     }
-    let polar = |index: usize| {
+    let is_near = |index: usize| {
         let own = owner[index];
         let area = enclosed[own as usize];
         if spots[own as usize].merged || area == 0.0 {
-            return None;
+            return false;
         }
-        let opening = 0.75 * modulus * gap[index];
-        let sample = Polar::new(surface.offset(&reduced, own, index), pressure[index], opening, hole[index]);
-        (sample.r < 2.0 * (area / PI).sqrt() || sample.p > 0.0).then_some((own as usize, sample))
+        let [x, y] = surface.offset(&reduced, own, index);
+        x * x + y * y < 4.0 * area / PI || pressure[index] > 0.0
     };
+    let near: Vec<bool> = (0..grid.len()).into_par_iter().with_min_len(n2).map(is_near).collect();
     // Counted first, so that they take no more room than they need.
+    let near = || (0..grid.len()).filter(|&index| near[index]);
     let mut counts = vec![0; spots.len()];
-    (0..grid.len()).filter_map(polar).for_each(|(own, _)| counts[own] += 1);
-    let mut samples: Vec<Vec<Polar>> = counts.into_iter().map(Vec::with_capacity).collect();
-    (0..grid.len()).filter_map(polar).for_each(|(own, sample)| samples[own].push(sample));
+    near().for_each(|index| counts[owner[index] as usize] += 1);
+    let mut samples: Vec<Vec<usize>> = counts.into_iter().map(Vec::with_capacity).collect();
+    near().for_each(|index| samples[owner[index] as usize].push(index));
+    let polar = |&index: &usize| {
+        let offset = surface.offset(&reduced, owner[index], index);
+        Polar::new(offset, pressure[index], 0.75 * modulus * gap[index], hole[index])
+    };
     spots.par_iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()).for_each(|(spot, samples)| {
-        spot.boundary = Boundary::locate(samples, scale);
+        let samples: Vec<Polar> = samples.par_iter().map(polar).collect();
+        spot.boundary = Boundary::locate(&samples, scale);
     });
 }
 

@@ -1,4 +1,4 @@
-//! What hears of a run while it goes on, and says whether it may.
+//! What hears of a run while it goes on, and says whether it may. It hears from the threads that solve.
 
 use super::StepRecord;
 use crate::load::Load;

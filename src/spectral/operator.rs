@@ -10,7 +10,20 @@ use crate::body::TransferFunction;
 use crate::lattice::Grid;
 use rayon::prelude::*;
 
-pub use super::fourier::Workspace;
+/// Memory that convolutions work in, for any number of grids in turn.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    room: Vec<f64>,
+}
+
+impl Workspace {
+    fn of(&mut self, size: usize) -> &mut [f64] {
+        if self.room.len() < size {
+            self.room = vec![0.0; size];
+        }
+        &mut self.room[..size]
+    }
+}
 
 /// Displacement operator of a layered half-space on a grid, with its inverse.
 #[derive(Debug)]
@@ -59,12 +72,20 @@ impl Operator {
 
     fn in_place(&mut self, action: Action, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
-        let points = self.double.points();
+        let (points, room) = (self.double.points(), workspace.of(self.double.room()));
         // On the threads that share the work, where no pass has to wake them.
         rayon::scope(|_| {
-            let convolved = self.double.convolve(action, &self.compliance, workspace, rows_of(field, points));
+            let convolved = self.double.convolve(action, &self.compliance, room, rows_of(field, points));
             convolved.rows(rows_to(field, points));
         });
+    }
+
+    /// The memory of a convolution in double precision in two: that of one in single precision, and a field in single
+    /// precision that lasts until the next one in double precision.
+    pub(super) fn shared<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
+        let [n1, n2] = self.double.points();
+        let (room, rest) = workspace.of(self.double.room()).split_at_mut(self.single.room());
+        (room, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
     }
 
     /// p → C p by rows.
@@ -73,28 +94,24 @@ impl Operator {
         S: IntoParallelIterator<Item: FnMut(&mut [f64]), Iter: IndexedParallelIterator>,
     {
         self.convolutions += 1.0;
-        self.double.convolve(Action::Times(1.0), &self.compliance, workspace, pressure)
+        self.double.convolve(Action::Times(1.0), &self.compliance, workspace.of(self.double.room()), pressure)
     }
 
     /// p → C p/C(least q) by rows, in single precision.
-    pub(super) fn displaced_single<'a, S>(&'a mut self, workspace: &'a mut Workspace, pressure: S) -> Convolved<'a, f32>
+    pub(super) fn displaced_single<'a, S>(&'a mut self, room: &'a mut [f64], pressure: S) -> Convolved<'a, f32>
     where
         S: IntoParallelIterator<Item: FnMut(&mut [f32]), Iter: IndexedParallelIterator>,
     {
         self.convolutions += 0.5;
-        self.single.convolve(Action::Times(1.0 / self.unit), &self.compliance, workspace, pressure)
+        self.single.convolve(Action::Times(1.0 / self.unit), &self.compliance, room, pressure)
     }
 
     /// w → C(least q) C⁻¹ w by rows, in single precision.
-    pub(super) fn pressed_single<'a, S>(
-        &'a mut self,
-        workspace: &'a mut Workspace,
-        displacement: S,
-    ) -> Convolved<'a, f32>
+    pub(super) fn pressed_single<'a, S>(&'a mut self, room: &'a mut [f64], displacement: S) -> Convolved<'a, f32>
     where
         S: IntoParallelIterator<Item: FnMut(&mut [f32]), Iter: IndexedParallelIterator>,
     {
         self.convolutions += 0.5;
-        self.single.convolve(Action::Over(self.unit), &self.compliance, workspace, displacement)
+        self.single.convolve(Action::Over(self.unit), &self.compliance, room, displacement)
     }
 }

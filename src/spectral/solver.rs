@@ -7,7 +7,7 @@
 
 use super::fourier::fast_points;
 use super::iteration::{GridProblem, Method, Progress, Report, Settings, Stop, Unknowns, Working};
-use super::operator::Operator;
+use super::operator::{Operator, Workspace};
 use super::prolongation::prolonged;
 use super::{Contact, Step};
 use crate::body::TransferFunction;
@@ -36,8 +36,6 @@ pub struct Solver {
     settings: Settings,
     /// From the finest to the coarsest.
     nests: Vec<Nest>,
-    /// What every grid works on in turn.
-    working: Working,
 }
 
 #[derive(Debug)]
@@ -73,7 +71,7 @@ impl Solver {
             Ok(Nest { surface: Arc::new(surface), largest_gap, operator, unknowns, modulus })
         };
         let nests = nested_points(points, settings.method).into_iter().map(nest).collect::<Result<_, _>>()?;
-        Ok(Self { problem, settings, nests, working: Working::default() })
+        Ok(Self { problem, settings, nests })
     }
 
     /// What is pressed into what.
@@ -103,7 +101,7 @@ impl Solver {
         let Nest { surface, operator, .. } = &mut self.nests[0];
         let mean = surface.mean();
         let mut pressure: Vec<f64> = surface.gaps().iter().map(|f| f - mean).collect();
-        operator.pressure(&mut pressure, &mut self.working.transforms);
+        operator.pressure(&mut pressure, &mut Workspace::default());
         -sums::least(pressure.len(), |i| -pressure[i])
     }
 
@@ -125,10 +123,12 @@ impl Solver {
         // A coarser grid may be beyond complete contact where the finest is not: it has no part in the step, and keeps
         // its pressure for the next.
         let mut left_out = Vec::new();
-        let Self { nests, working, settings, .. } = self;
+        // What every grid works on in turn; others may have the memory between load steps.
+        let mut working = Working::default();
+        let Self { nests, settings, .. } = self;
         for (index, nest) in nests.iter_mut().enumerate().skip(1).rev() {
             let before = nest.unknowns.clone();
-            let (report, work) = nest.solve(coarser.take(), load, *settings, working, &mut |_| ());
+            let (report, work) = nest.solve(coarser.take(), load, *settings, &mut working, &mut |_| ());
             convolutions += work / finest;
             if report.stop == Stop::BeyondFullContact {
                 left_out.push((index, before));
@@ -136,7 +136,8 @@ impl Solver {
             }
             coarser = Some(Coarser { grid: Arc::clone(nest.surface.grid()), before, after: nest.unknowns.clone() });
         }
-        let (mut report, work) = nests[0].solve(coarser, load, *settings, working, progress);
+        let (mut report, work) = nests[0].solve(coarser, load, *settings, &mut working, progress);
+        drop(working);
         if report.stop == Stop::Converged && !load.is_mean_pressure() && !nests[0].is_resolved() {
             report.stop = Stop::Unresolved;
         }
@@ -229,20 +230,19 @@ impl Nest {
     }
 }
 
-/// Memory that solving on a finest grid of `points` takes, bytes.
+/// Memory that grids take from load to load, and what solving a load takes besides, bytes, on a finest grid of `points`.
 ///
-/// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier in both precisions (half the
-/// components); of the finest grid also what all grids work on in turn (7 fields of single precision, a spectrum of each
-/// precision; of the baseline two fields in double precision). Per row and column of each grid: what its transforms need.
-pub fn memory(points: [usize; 2], method: Method) -> usize {
-    let (grid, rows) = (3 * 8 + 4 + 4 + 2, 1024);
+/// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier (half the components). Per row and
+/// column of each grid: what its transforms need. In turn, per sample of the finest grid: three fields of single precision
+/// and a spectrum in double precision; for the baseline two fields in double precision and the spectrum.
+pub fn memory(points: [usize; 2], method: Method) -> [usize; 2] {
+    let (grid, rows) = (3 * 8 + 4 + 4, 512);
     let working = match method {
-        Method::Preconditioned => 7 * 4 + 4 + 8,
-        Method::PolonskyKeer => 2 * 8,
+        Method::Preconditioned => 3 * 4 + 8,
+        Method::PolonskyKeer => 3 * 8,
     };
     let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * grid + (n1 + n2) * rows;
-    let nested: usize = nested_points(points, method).into_iter().map(of_grid).sum();
-    nested + points[0] * points[1] * working
+    [nested_points(points, method).into_iter().map(of_grid).sum(), points[0] * points[1] * working]
 }
 
 impl fmt::Display for Solver {

@@ -2,7 +2,8 @@
 
 use super::sample::{NEAREST, Polar, RISE, Scale};
 use crate::numeric::closed_line::{self, ANGLES, angle, mean_radius, series, waves};
-use crate::numeric::least_squares;
+use crate::numeric::series_fit::SeriesFit;
+use rayon::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// Which boundary of a contact.
@@ -48,6 +49,8 @@ const FAR: f64 = 0.7;
 const ROOM: f64 = 0.6;
 /// Fits, each from the boundary of the last.
 const ROUNDS: usize = 8;
+/// Samples that are summed together.
+const BLOCK: usize = 2048;
 /// Change of a boundary, in spacings, below which it stands.
 const STANDS: f64 = 1e-7;
 /// What an error estimate adds to the differences of readings, in spacings; the error of a counted radius.
@@ -194,50 +197,58 @@ impl Fit {
         let range = [scale.edge.pressure(reach)[0].abs(), scale.edge.opening(reach)[0]];
         // Per sample: angle, distance over the reach, side, value, φ or γ, its change with the boundary, weight; the
         // last four over the side's value at the reach.
-        let near: Vec<_> = samples
-            .iter()
-            .filter(in_band)
-            .filter_map(|sample| {
-                let d = self.distance(sample, radii);
-                let (open, part) = (self.open(sample), d.abs() / reach);
-                let wanted = self.sees(sample, d) || sample.p > 0.0 && d < 0.0 && self.inside > 0.0;
-                if !wanted || part >= 1.0 || d.abs() < NEAREST * scale.spacing {
-                    return None;
-                }
-                let rise = (d.abs() / (RISE * scale.spacing)).min(1.0);
-                let side = usize::from(open);
-                let ([value, slope], weight, y) = if open {
-                    let [value, slope] = scale.edge.opening(d);
-                    ([value, -slope], rise / part.sqrt() / 1.5, sample.opening.max(0.0))
-                } else {
-                    (scale.edge.pressure(-d), 2.0 * self.inside * rise * part.sqrt(), sample.p)
-                };
-                let unit = range[side];
-                Some((sample.theta, part, side, y / unit, value / unit, slope * reach / unit, weight))
-            })
-            .collect();
+        let seen = |sample: &Polar| {
+            let d = self.distance(sample, radii);
+            let (open, part) = (self.open(sample), d.abs() / reach);
+            let wanted = self.sees(sample, d) || sample.p > 0.0 && d < 0.0 && self.inside > 0.0;
+            if !wanted || part >= 1.0 || d.abs() < NEAREST * scale.spacing {
+                return None;
+            }
+            let rise = (d.abs() / (RISE * scale.spacing)).min(1.0);
+            let side = usize::from(open);
+            let ([value, slope], weight, y) = if open {
+                let [value, slope] = scale.edge.opening(d);
+                ([value, -slope], rise / part.sqrt() / 1.5, sample.opening.max(0.0))
+            } else {
+                (scale.edge.pressure(-d), 2.0 * self.inside * rise * part.sqrt(), sample.p)
+            };
+            let unit = range[side];
+            Some((sample.theta, part, side, y / unit, value / unit, slope * reach / unit, weight))
+        };
+        let near: Vec<_> = samples.par_iter().with_min_len(BLOCK).filter(in_band).filter_map(seen).collect();
         let harmonics = self.harmonics.min(near.len() / 24);
         let count = 1 + 2 * harmonics;
-        let varying = if self.room.iter().all(|room| room.is_infinite()) { 1 } else { count };
+        let varying = if self.room.iter().all(|room| room.is_infinite()) { 0 } else { harmonics };
         if amplitude.is_empty() {
             let sum = |term: fn(f64, f64) -> f64| -> f64 { near.iter().map(|s| s.6 * s.6 * term(s.3, s.4)).sum() };
             amplitude.push(sum(|y, value| y * value) / sum(|_, value| value * value));
         }
         let unit = amplitude[0];
         let sides = if self.inside > 0.0 { 0..2 } else { 1..2 };
-        let rows = near.iter().map(|&(theta, part, side, y, value, slope, weight)| {
-            let waves = waves(theta, harmonics);
-            let shift = series(amplitude, theta) / unit * slope;
-            // What modifies each side: κ, which varies around the spot as near neighbours do, then κ′.
-            let ways = sides.clone().flat_map(|own| {
-                let modified = if own == side { value * part } else { 0.0 };
-                let higher = (1..powers as i32).map(move |power| modified * part.powi(power));
-                waves[..varying].iter().map(move |wave| modified * wave).chain(higher)
-            });
-            let row = waves.iter().map(|wave| value * wave).chain(waves.iter().map(|wave| shift * wave)).chain(ways);
-            (row.map(|x| weight * x).collect(), weight * y / unit)
+        // A, the shift, and what modifies each side: κ, which varies around the spot as near neighbours do, then κ′.
+        let modified = sides.clone().flat_map(|_| std::iter::once(varying).chain((1..powers).map(|_| 0)));
+        let empty = SeriesFit::new([harmonics; 2].into_iter().chain(modified).collect());
+        let summed = |samples: &[(f64, f64, usize, f64, f64, f64, f64)]| {
+            let mut fit = empty.clone();
+            let mut factors = Vec::new();
+            for &(theta, part, side, y, value, slope, weight) in samples {
+                factors.clear();
+                factors.extend([value, series(amplitude, theta) / unit * slope]);
+                for own in sides.clone() {
+                    let modified = if own == side { value * part } else { 0.0 };
+                    factors.extend((0..powers as i32).map(|power| modified * part.powi(power)));
+                }
+                factors.iter_mut().for_each(|factor| *factor *= weight);
+                fit.add(theta, &factors, weight * y / unit);
+            }
+            fit
+        };
+        let blocks: Vec<SeriesFit> = near.par_chunks(BLOCK).map(summed).collect();
+        let whole = blocks.iter().fold(empty.clone(), |mut whole, block| {
+            whole.merge(block);
+            whole
         });
-        let c = least_squares::fit(2 * count + (varying + powers - 1) * sides.len(), rows)?;
+        let c = whole.solve()?;
         *amplitude = c[..count].iter().map(|c| c * unit).collect();
         if amplitude[0].is_nan() || amplitude[0] <= 0.0 {
             return None;

@@ -56,12 +56,6 @@ pub enum Action {
     Over(f64),
 }
 
-/// Buffer of one convolution, used again and again, on any grid and in either precision.
-#[derive(Debug, Default)]
-pub struct Workspace {
-    spectrum: Vec<f64>,
-}
-
 /// A convolution but for its last pass.
 #[must_use]
 #[derive(Debug)]
@@ -104,6 +98,12 @@ impl<T: Real> Fourier<T> {
         self.tiles() * self.points[0] * LINE
     }
 
+    /// Numbers of double precision that a convolution has for its [room](Self::convolve).
+    pub fn room(&self) -> usize {
+        // Lines are even.
+        self.size() * size_of::<T>() / size_of::<f64>()
+    }
+
     /// The multiplier with the values `value([k₁, k₂])` > 0, 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
     ///
     /// The value must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where it is also even in k₁ alone
@@ -130,22 +130,23 @@ impl<T: Real> Fourier<T> {
     }
 
     /// F⁻¹[cK · F u] or F⁻¹[c F u / K] of a field u, still to be fetched. There is one of the `sources` for each
-    /// [part](part_of) of the rows; it puts row after row of u into what it is given.
+    /// [part](part_of) of the rows; it puts row after row of u into what it is given. The [`room`](Self::room) is what the
+    /// convolution works in.
     ///
     /// # Panics
-    /// When the multiplier belongs to other `points`, or there are not as many sources as parts.
+    /// When the multiplier belongs to other `points`, the room is too small, or there are not as many sources as parts.
     pub fn convolve<'a, S>(
         &'a self,
         action: Action,
         multiplier: &Multiplier,
-        workspace: &'a mut Workspace,
+        room: &'a mut [f64],
         sources: S,
     ) -> Convolved<'a, T>
     where
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
         assert_eq!(multiplier.table.len(), self.tiles() * self.points[0] * LANES, "multiplier of a convolution");
-        let spectrum = workspace.of(self.size());
+        let spectrum = &mut bytemuck::cast_slice_mut(room)[..self.size()];
         self.rows_forward(sources.into_par_iter(), spectrum);
         self.column_pass(action, multiplier, spectrum);
         Convolved { fourier: self, spectrum }
@@ -253,17 +254,6 @@ impl<T: Real> Convolved<'_, T> {
                 sink(&mut row);
             }
         });
-    }
-}
-
-impl Workspace {
-    /// So many numbers of either precision.
-    fn of<T: Real>(&mut self, size: usize) -> &mut [T] {
-        let doubles = (size * size_of::<T>()).div_ceil(size_of::<f64>());
-        if self.spectrum.len() < doubles {
-            self.spectrum = vec![0.0; doubles];
-        }
-        &mut bytemuck::cast_slice_mut(&mut self.spectrum[..doubles])[..size]
     }
 }
 
@@ -397,8 +387,8 @@ mod tests {
         let input = noise(n1 * n2);
         let mean = input.iter().sum::<f64>() / input.len() as f64;
         let multiplier = fourier.multiplier(false, |[k1, k2]| symbol(k1, k2));
-        let (mut field, mut workspace) =
-            (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), Workspace::default());
+        let (mut field, mut room) =
+            (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), vec![0.0; fourier.room()]);
         let at = |i: usize, j: usize| input[(i % n1) * n2 + j % n2] - mean;
         let expected = |i: usize, j: usize| {
             at(i, j)
@@ -408,7 +398,7 @@ mod tests {
         };
         let scale = 3.0;
         let mut convolve = |action, field: &mut [T]| {
-            let convolved = fourier.convolve(action, &multiplier, &mut workspace, rows_of(field, [n1, n2]));
+            let convolved = fourier.convolve(action, &multiplier, &mut room, rows_of(field, [n1, n2]));
             convolved.rows(rows_to(field, [n1, n2]));
         };
         convolve(Action::Times(scale), &mut field);

@@ -145,7 +145,7 @@ struct Way {
 impl Way {
     fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, beyond: Beyond) -> Self {
         let length = problem.largest_gap;
-        let (gap, residual) = problem.working.start(unknowns.gap.len());
+        let (gap, residual) = problem.working.start(problem.operator);
         let active = sweeps::take(&unknowns.pressure, &unknowns.gap, length, gap, residual);
         let (points, pressure) = (problem.points, length / problem.operator.unit());
         Self { points, beyond, length, pressure, active, penetration: unknowns.penetration, check }
@@ -171,16 +171,16 @@ impl Way {
     fn turn(&self, problem: &mut GridProblem<'_>, double: &mut [f64], memory: &Memory) -> Option<Direction> {
         let (points, mean, load_control) = (self.points, self.mean(problem), problem.load.is_mean_pressure());
         let operator = &mut *problem.operator;
-        let (Fields { residual, previous, direction, image, weight, .. }, transforms) = problem.working.of(double);
+        let Fields { residual, previous, direction, image, weight, room, .. } = problem.working.of(operator, double);
         let weight = match self.beyond {
             Beyond::Continued => {
                 let rows = extension::extended(points, residual, mean as f32, weight);
-                operator.pressed_single(transforms, rows).rows(extension::gathered(points, image, weight));
+                operator.pressed_single(room, rows).rows(extension::gathered(points, image, weight));
                 Some(&*weight)
             }
             Beyond::Zero => {
                 let rows = sweeps::centred(points, residual, mean as f32);
-                operator.pressed_single(transforms, rows).rows(rows_to(image, points));
+                operator.pressed_single(room, rows).rows(rows_to(image, points));
                 None
             }
         };
@@ -193,7 +193,7 @@ impl Way {
         let t_mean = if load_control && beta > 0.0 { overlaps.direction / self.active.size } else { 0.0 };
         let [mut descent, mut curvature] = [(); 2].map(|()| vec![Totals::NONE; parts_of(points[0])]);
         let rows = sweeps::turned(points, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
-        operator.displaced_single(transforms, rows).rows(sweeps::curved(points, direction, image, &mut curvature));
+        operator.displaced_single(room, rows).rows(sweeps::curved(points, direction, image, &mut curvature));
         let ([descent], [curvature]) = (Totals::of(descent).sums, Totals::of(curvature).sums);
         let tau = descent / curvature;
         (tau.is_finite() && curvature > 0.0).then_some(Direction { norm, beta, tau })
@@ -210,7 +210,7 @@ impl Way {
     ) -> Option<Step> {
         let (points, unit, load) = (self.points, self.pressure, problem.load);
         let operator = &mut *problem.operator;
-        let (Fields { gap, direction, image, weight: step, .. }, transforms) = problem.working.of(double);
+        let Fields { gap, direction, image, weight: step, room, .. } = problem.working.of(operator, double);
         for shortened in 0.. {
             let advance = sweeps::advance(p, [gap, direction, image], -tau, unit, step);
             if shortened == 0 && !advance.clipped {
@@ -229,7 +229,7 @@ impl Way {
                 sweeps::rescale(p, scale, unit, step);
             }
             let mut sums = vec![Totals::NONE; parts_of(points[0])];
-            let convolved = operator.displaced_single(transforms, rows_of(step, points));
+            let convolved = operator.displaced_single(room, rows_of(step, points));
             convolved.rows(sweeps::ended(points, p, [gap, step], image, &mut sums));
             let [curvature, load, work] = Totals::of(sums).sums;
             // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
@@ -262,7 +262,7 @@ impl Way {
     fn judge(&mut self, problem: &mut GridProblem<'_>, p: &[f64], double: &mut [f64], step: Step) {
         let load_control = problem.load.is_mean_pressure();
         problem.working.turn_over();
-        let (Fields { gap, residual, image, .. }, _) = problem.working.of(double);
+        let Fields { gap, residual, image, .. } = problem.working.of(problem.operator, double);
         let [load, work] = step.sums;
         let shift = if load_control { work / load } else { 0.0 };
         self.penetration += shift * self.length;

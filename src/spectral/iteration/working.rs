@@ -1,14 +1,13 @@
 //! What the methods work on besides the unknowns: fields that no grid needs while another one is solved.
 
-use crate::spectral::operator::Workspace;
+use crate::spectral::operator::{Operator, Workspace};
 
-/// Working fields in single precision and a buffer of the transforms, shared by all grids of a problem: each takes as much
+/// Working fields in single precision and memory for the transforms, shared by all grids of a problem: each takes as much
 /// of them as it has samples.
 #[derive(Debug, Default)]
 pub struct Working {
-    /// Buffer of the transforms.
+    /// Memory of the transforms.
     pub transforms: Workspace,
-    gap: Vec<f32>,
     residual: Vec<f32>,
     previous: Vec<f32>,
     direction: Vec<f32>,
@@ -29,23 +28,27 @@ pub(super) struct Fields<'a> {
     pub image: &'a mut [f32],
     /// W of the extension, and what it gathers; then the step d.
     pub weight: &'a mut [f32],
+    /// What convolutions in single precision work in.
+    pub room: &'a mut [f64],
 }
 
 impl Working {
-    /// The fields, with whatever values they have, and the transforms' buffer. Two fields take the place of a gap in
-    /// double precision, which is computed afresh when it is needed again.
-    pub(super) fn of<'a>(&'a mut self, double: &'a mut [f64]) -> (Fields<'a>, &'a mut Workspace) {
+    /// The fields, with whatever values they have. Some are in the place of what is in double precision and computed
+    /// afresh when it is needed again: one in that of a spectrum, two in that of the gap `double`.
+    pub(super) fn of<'a>(&'a mut self, operator: &Operator, double: &'a mut [f64]) -> Fields<'a> {
         let samples = double.len();
-        let Self { transforms, gap, residual, previous, direction } = self;
-        let [gap, residual, previous, direction] =
-            [gap, residual, previous, direction].map(|field| of_size(field, samples));
+        let Self { transforms, residual, previous, direction } = self;
+        let (room, gap) = operator.shared(transforms);
+        let [residual, previous, direction] = [residual, previous, direction].map(|field| of_size(field, samples));
         let (image, weight) = bytemuck::cast_slice_mut(double).split_at_mut(samples);
-        (Fields { gap, residual, previous, direction, image, weight }, transforms)
+        Fields { gap, residual, previous, direction, image, weight, room }
     }
 
     /// Gap and residual alone.
-    pub(super) fn start(&mut self, samples: usize) -> (&mut [f32], &mut [f32]) {
-        (of_size(&mut self.gap, samples), of_size(&mut self.residual, samples))
+    pub(super) fn start(&mut self, operator: &Operator) -> (&mut [f32], &mut [f32]) {
+        let (_, gap) = operator.shared(&mut self.transforms);
+        let residual = of_size(&mut self.residual, gap.len());
+        (gap, residual)
     }
 
     /// r becomes that of the iteration before.
