@@ -16,6 +16,7 @@
 //! - `interior`: everything above a depth imposes "no shear at the surface", one linear functional carried from the
 //!   surface down. Plane and functional meet in one vector: the amplitudes at that depth.
 
+mod compliances;
 mod depth;
 mod half_space;
 mod interior;
@@ -24,6 +25,7 @@ mod mean;
 mod minors;
 mod transfer;
 
+pub use compliances::Compliances;
 pub use depth::Depth;
 pub use half_space::{HalfSpace, Interface, Layer};
 pub use interior::{Amplitudes, Interior};

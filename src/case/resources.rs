@@ -18,8 +18,8 @@ const PROGRAM: u64 = 11 * MEBIBYTE;
 /// Per sample: reading a step, when what solving it took is free again.
 const READING: u64 = 45;
 /// Per sample, in its place: waves, their coefficients and what a search for maxima takes; and a plane that is kept.
-const STRESS: u64 = 90;
-const PLANE: u64 = 18;
+const STRESS: u64 = 92;
+const PLANE: u64 = 26;
 /// Per sample: a stress field that is asked at single points only.
 const FIELD: u64 = 18;
 /// Fields that the localized method keeps of each spot.

@@ -139,6 +139,13 @@ impl Grid {
         norm(self.cell().dual().reduced().short())
     }
 
+    /// A wavenumber that none of the grid's components exceeds, 1/length.
+    pub(crate) fn largest_wavenumber(&self) -> f64 {
+        // The zone lies within the circle of radius ½(|g₁| + |g₂|) for the two shortest of its facets.
+        let [a, b, c] = self.zone.facets().map(norm);
+        0.5 * (a + b + c - a.max(b).max(c))
+    }
+
     /// Least wavenumber that the grid cannot hold in all directions, 1/length.
     pub fn least_aliased(&self) -> f64 {
         0.5 * norm(self.zone.shortest_facet())

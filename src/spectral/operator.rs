@@ -6,7 +6,7 @@
 //! least wavenumber is one.
 
 use super::fourier::{Action, Convolved, Fourier, Multiplier, rows_of, rows_to};
-use crate::body::TransferFunction;
+use crate::body::{Compliances, TransferFunction};
 use crate::lattice::Grid;
 use rayon::prelude::*;
 
@@ -40,12 +40,14 @@ impl Operator {
     /// Operator of the half-space with the given transfer function.
     pub fn new(grid: &Grid, transfer: &TransferFunction) -> Self {
         let (double, single) = (Fourier::new(grid.points()), Fourier::new(grid.points()));
-        let unit = transfer.compliance(grid.least_wavenumber());
+        let (least, most) = (grid.least_wavenumber(), grid.largest_wavenumber());
+        let (unit, compliances) =
+            (transfer.compliance(least), Compliances::new(transfer, [least, most], grid.len() / 2));
         // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
         // positive: it takes the mean for a component of the least wavenumber.
         let compliance = double.multiplier(grid.cell().is_rectangular(), |component| match component {
             [0, 0] => unit,
-            component => transfer.compliance(grid.wavenumber(component)),
+            component => compliances.at(grid.wavenumber(component)),
         });
         Self { double, single, compliance, unit, convolutions: 0.0 }
     }
