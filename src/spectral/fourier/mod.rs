@@ -1,6 +1,6 @@
 //! Periodic convolution u = F⁻¹[K · F p] on the grid, in one fused pass.
 //!
-//! 1. Rows forward, real to complex: N₁ rows of N₂/2 + 1 components.
+//! 1. Rows forward, eight at a time, real to complex: N₁ rows of N₂/2 + 1 components.
 //! 2. Eight columns at a time: forward, times K or over K, inverse. Nothing is transposed as a whole.
 //! 3. Rows back, complex to real.
 //!
@@ -13,15 +13,15 @@
 
 mod butterflies;
 mod columns;
+mod rows;
 
 use crate::numeric::lanes::{LANES, Real, vectorised};
 use columns::{Columns, LINE};
 use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use rows::Rows;
 use rustfft::num_complex::Complex;
 use std::fmt;
-use std::sync::Arc;
 
 /// Most parts the rows are divided into, and the least rows of one.
 const PARTS: usize = 64;
@@ -31,8 +31,7 @@ const LEAST: usize = 64;
 #[derive(Clone)]
 pub struct Fourier<T: Real> {
     points: [usize; 2],
-    row_forward: Arc<dyn RealToComplex<T>>,
-    row_inverse: Arc<dyn ComplexToReal<T>>,
+    rows: Rows<T>,
     columns: Columns<T>,
     /// k₁ at each place of a column between forward and inverse.
     order: Vec<usize>,
@@ -67,15 +66,8 @@ pub struct Convolved<'a, T: Real> {
 impl<T: Real> Fourier<T> {
     /// Plans for `points` = [N₁, N₂].
     pub fn new(points: [usize; 2]) -> Self {
-        let [n1, n2] = points;
-        let (mut planner, columns) = (RealFftPlanner::new(), Columns::new(n1));
-        Self {
-            points,
-            row_forward: planner.plan_fft_forward(n2),
-            row_inverse: planner.plan_fft_inverse(n2),
-            order: columns.order(n1),
-            columns,
-        }
+        let ([n1, n2], columns) = (points, Columns::new(points[0]));
+        Self { points, rows: Rows::new(n2), order: columns.order(n1), columns }
     }
 
     /// [N₁, N₂].
@@ -156,20 +148,15 @@ impl<T: Real> Fourier<T> {
     where
         S: IndexedParallelIterator<Item: FnMut(&mut [T])>,
     {
-        let ([n1, n2], half, tiles) = (self.points, self.half(), self.tiles());
-        let parts = spectrum.par_chunks_mut(part_of(n1) * tiles * LINE);
+        let (rows, tiles) = (self.points[0], self.tiles());
+        let parts = spectrum.par_chunks_mut(part_of(rows) * tiles * LINE);
         assert_eq!(sources.len(), parts.len(), "sources of a convolution");
         parts.zip(sources).for_each(|(spectrum, mut source)| {
-            let mut row = self.row_forward.make_input_vec();
-            let mut components = vec![Complex::new(T::zero(), T::zero()); tiles * LANES];
-            let mut scratch = self.row_forward.make_scratch_vec();
-            let run = spectrum.len() / tiles;
-            for number in 0..run / LINE {
-                source(&mut row[..n2]);
-                let done = self.row_forward.process_with_scratch(&mut row, &mut components[..half], &mut scratch);
-                done.expect("lengths were planned");
-                let lines = spectrum.chunks_exact_mut(run).map(|tile| &mut tile[number * LINE..][..LINE]);
-                vectorised!(simd => separate(simd, &components, lines));
+            let (run, mut buffers) = (spectrum.len() / tiles, self.rows.buffers());
+            for first in (0..run).step_by(LANES * LINE) {
+                let group = (run - first).min(LANES * LINE);
+                let lines = spectrum.chunks_exact_mut(run).map(|tile| &mut tile[first..first + group]);
+                self.rows.forward(group / LINE, &mut source, &mut buffers, lines);
             }
         });
     }
@@ -225,8 +212,6 @@ impl<T: Real> Convolved<'_, T> {
     /// Hands its rows over: there is one of the `sinks` for each [part](part_of) of the rows, which takes row after row,
     /// and may use it as it likes.
     ///
-    /// Components that are their own conjugates are real, and what rounding leaves of their imaginary part is dropped.
-    ///
     /// # Panics
     /// When there are not as many sinks as parts.
     pub fn rows<S>(self, sinks: S)
@@ -234,24 +219,15 @@ impl<T: Real> Convolved<'_, T> {
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
         let (Self { fourier, spectrum }, sinks) = (self, sinks.into_par_iter());
-        let ([n1, n2], half, tiles) = (fourier.points, fourier.half(), fourier.tiles());
-        let parts = spectrum.par_chunks(part_of(n1) * tiles * LINE);
+        let (rows, tiles) = (fourier.points[0], fourier.tiles());
+        let parts = spectrum.par_chunks(part_of(rows) * tiles * LINE);
         assert_eq!(sinks.len(), parts.len(), "sinks of a convolution");
         parts.zip(sinks).for_each(|(spectrum, mut sink)| {
-            let mut row = fourier.row_inverse.make_output_vec();
-            let mut components = vec![Complex::new(T::zero(), T::zero()); tiles * LANES];
-            let mut scratch = fourier.row_inverse.make_scratch_vec();
-            let run = spectrum.len() / tiles;
-            for number in 0..run / LINE {
-                let lines = spectrum.chunks_exact(run).map(|tile| &tile[number * LINE..][..LINE]);
-                vectorised!(simd => unite(simd, lines, &mut components));
-                components[0].im = T::zero();
-                if n2.is_multiple_of(2) {
-                    components[half - 1].im = T::zero();
-                }
-                let done = fourier.row_inverse.process_with_scratch(&mut components[..half], &mut row, &mut scratch);
-                done.expect("lengths were planned, what must be real is");
-                sink(&mut row);
+            let (run, mut buffers) = (spectrum.len() / tiles, fourier.rows.buffers());
+            for first in (0..run).step_by(LANES * LINE) {
+                let group = (run - first).min(LANES * LINE);
+                let lines = spectrum.chunks_exact(run).map(|tile| &tile[first..first + group]);
+                fourier.rows.back(group / LINE, lines, &mut buffers, &mut sink);
             }
         });
     }
@@ -281,38 +257,6 @@ pub fn parts_of(rows: usize) -> usize {
 /// Rows that are transformed one after the other, of `rows` in all; the last part may have fewer.
 pub fn part_of(rows: usize) -> usize {
     rows.div_ceil(PARTS).max(LEAST)
-}
-
-/// The components of a row, real and imaginary parts apart, to the lines of its tiles.
-#[inline(always)]
-fn separate<'a, S: Simd, T: Real>(simd: S, components: &[Complex<T>], lines: impl Iterator<Item = &'a mut [T]>) {
-    for (group, line) in components.chunks_exact(LANES).zip(lines) {
-        let mut flat = [T::zero(); LINE];
-        for (number, value) in group.iter().enumerate() {
-            (flat[2 * number], flat[2 * number + 1]) = (value.re, value.im);
-        }
-        let (low, high) =
-            (T::Lanes::<S>::from_slice(simd, &flat[..LANES]), T::Lanes::<S>::from_slice(simd, &flat[LANES..]));
-        let (re, im) = low.deinterleave(high);
-        re.store_slice(&mut line[..LANES]);
-        im.store_slice(&mut line[LANES..]);
-    }
-}
-
-/// The other way round.
-#[inline(always)]
-fn unite<'a, S: Simd, T: Real>(simd: S, lines: impl Iterator<Item = &'a [T]>, components: &mut [Complex<T>]) {
-    for (group, line) in components.chunks_exact_mut(LANES).zip(lines) {
-        let (re, im) =
-            (T::Lanes::<S>::from_slice(simd, &line[..LANES]), T::Lanes::<S>::from_slice(simd, &line[LANES..]));
-        let (low, high) = re.interleave(im);
-        let mut flat = [T::zero(); LINE];
-        low.store_slice(&mut flat[..LANES]);
-        high.store_slice(&mut flat[LANES..]);
-        for (number, value) in group.iter_mut().enumerate() {
-            *value = Complex::new(flat[2 * number], flat[2 * number + 1]);
-        }
-    }
 }
 
 /// Each component times its factor and a common one.
