@@ -96,7 +96,8 @@ mod tests {
     fn series_are_those_of_a_fit_to_rows() {
         let samples = |i: usize| {
             let theta = 0.37 * i as f64;
-            let factors = [1.0 + 0.3 * (theta * 1.7).sin(), (theta * 0.6).cos(), if i % 3 == 0 { 0.0 } else { 0.8 }];
+            let factors =
+                [1.0 + 0.3 * (theta * 1.7).sin(), (theta * 0.6).cos(), if i.is_multiple_of(3) { 0.0 } else { 0.8 }];
             (theta, factors, (theta * 2.3).sin() + 0.1 * theta.cos())
         };
         let harmonics = [3, 2, 0];

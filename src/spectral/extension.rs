@@ -174,7 +174,7 @@ fn moved<const F: usize, S: Simd>(
         if !leaving.is_empty() {
             let left = terms.of(simd, group(simd, leaving, at, 0.0));
             for field in 0..F {
-                change[field] = change[field] - left[field];
+                change[field] -= left[field];
             }
         }
         for field in 0..F {
@@ -265,13 +265,13 @@ mod tests {
             let rows = extension.par_chunks_mut(part_of(n1) * n2);
             extended([n1, n2], &residual, mean, &mut weight)
                 .zip(rows)
-                .for_each(|(mut source, rows)| rows.chunks_mut(n2).for_each(|row| source(row)));
+                .for_each(|(mut source, rows)| rows.chunks_mut(n2).for_each(&mut source));
             let outside = (0..size).filter(|&k| !inside(k) && extension[k] != 0.0).count();
             assert!(outside > size / 2, "{outside} of {size} samples continued");
             let mut rows = other.clone();
             gathered([n1, n2], &mut image, &mut weight)
                 .zip(rows.par_chunks_mut(part_of(n1) * n2))
-                .for_each(|(mut sink, rows)| rows.chunks_mut(n2).for_each(|row| sink(row)));
+                .for_each(|(mut sink, rows)| rows.chunks_mut(n2).for_each(&mut sink));
             assert_eq!(image, other);
             let mut gathered = Vec::new();
             for first in (0..n1).step_by(part_of(n1)) {
