@@ -53,6 +53,25 @@ fn a_displacement_is_the_direct_sum_over_wavevectors() {
     }
 }
 
+/// A grid that is worth series of the compliance: waves of a pressure come back times that of the layers themselves.
+#[test]
+fn on_large_grids_too_waves_are_multiplied_by_their_compliance() {
+    let (half_space, n) = (common::coated(200.0, 0.03, [0.25, 0.4], Interface::Bonded), 160);
+    let transfer = TransferFunction::new(&half_space);
+    for cell in [Cell::hexagonal(1.0).unwrap(), Cell::square(1.0).unwrap()] {
+        let grid = Arc::new(Grid::new(cell, [n, n]).unwrap());
+        let mut operator = Operator::new(&grid, &transfer);
+        for [k1, k2] in [[1, 0], [3, 7], [80, 0], [41, 55], [0, 79], [80, 80]] {
+            let wave = |i: usize| (TAU * ((k1 * (i / n) + k2 * (i % n)) % n) as f64 / n as f64).cos();
+            let mut field: Vec<f64> = (0..n * n).map(wave).collect();
+            operator.displacement(&mut field, &mut Workspace::default());
+            let compliance = transfer.compliance(grid.wavenumber([k1, k2]));
+            let error = (0..n * n).map(|i| (field[i] / compliance - wave(i)).abs()).fold(0.0, f64::max);
+            assert!(error < 1e-12, "{cell}, {k1}, {k2}: {error:e}");
+        }
+    }
+}
+
 /// C⁻¹ C p = p up to the mean, which C drops.
 #[test]
 fn the_pressure_inverts_the_displacement() {

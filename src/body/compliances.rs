@@ -1,7 +1,7 @@
 //! Surface compliance at very many wavenumbers: the layer correction T as short series.
 //!
-//! T varies with ln q on the scale of one, whatever the layers: a panel from one wavenumber to one an eighth of an octave
-//! higher holds it as a Chebyshev series of few terms to rounding. What a panel has been seen not to hold is asked of the
+//! T varies with ln q on the scale of one, whatever the layers: on a panel, one of the eight equal parts between a power of
+//! two and the next, a Chebyshev series of few terms holds it to rounding. What a panel has been seen not to hold is asked of the
 //! layers themselves.
 
 use super::TransferFunction;
@@ -13,12 +13,12 @@ const TERMS: usize = 12;
 /// Where a series is held to T, and the relative difference from which on it is not believed.
 const PROBES: [f64; 4] = [-0.97, -0.41, 0.37, 0.95];
 const BELIEF: f64 = 1e-14;
-/// Bits of a number below its exponent and the eighth of an octave.
+/// Bits of a number below its exponent and the eighth part.
 const BELOW: u32 = 49;
 
 /// Compliances of a half-space within a range of wavenumbers.
 #[derive(Debug)]
-pub struct Compliances<'a> {
+pub(crate) struct Compliances<'a> {
     transfer: &'a TransferFunction,
     /// Number of the first panel.
     first: u64,
@@ -48,15 +48,14 @@ impl<'a> Compliances<'a> {
         match self.panels.get(number.wrapping_sub(self.first) as usize) {
             Some(Some(series)) => {
                 let ends = [0, 1].map(|k| f64::from_bits((number + k) << BELOW));
-                let material = self.transfer.surface_material();
-                (1.0 - material.poisson) * series.at(inside(ends, wavenumber)) / (material.shear * wavenumber)
+                self.transfer.compliance_of(series.at(inside(ends, wavenumber)), wavenumber)
             }
             _ => self.transfer.compliance(wavenumber),
         }
     }
 }
 
-/// Number of the panel of a wavenumber: its exponent and eighth of an octave.
+/// Number of the panel of a wavenumber: its exponent and eighth part.
 fn panel(wavenumber: f64) -> u64 {
     wavenumber.to_bits() >> BELOW
 }
@@ -83,12 +82,12 @@ mod tests {
             let layers = stack.len();
             let transfer = TransferFunction::new(&HalfSpace::new(stack, material(1.0, 0.3)));
             let compliances = Compliances::new(&transfer, [1e-3, 1e5], usize::MAX);
-            let (mut worst, mut asked) = (0.0f64, 0);
+            let mut worst = 0.0f64;
             for k in 0..20_000 {
                 let q = 1e-3 * 1e8f64.powf((f64::from(k) + 0.37) / 20_000.0);
                 worst = worst.max((compliances.at(q) / transfer.compliance(q) - 1.0).abs());
             }
-            asked += compliances.panels.iter().filter(|series| series.is_none()).count();
+            let asked = compliances.panels.iter().filter(|series| series.is_none()).count();
             assert!(worst < 3e-14, "{layers} layers: {worst:e}");
             assert!(10 * asked <= compliances.panels.len(), "{layers} layers: {asked} panels are not held");
             assert_eq!(compliances.at(1e7), transfer.compliance(1e7));

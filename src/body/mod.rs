@@ -25,7 +25,7 @@ mod mean;
 mod minors;
 mod transfer;
 
-pub use compliances::Compliances;
+pub(crate) use compliances::Compliances;
 pub use depth::Depth;
 pub use half_space::{HalfSpace, Interface, Layer};
 pub use interior::{Amplitudes, Interior};

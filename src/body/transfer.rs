@@ -54,6 +54,12 @@ impl TransferFunction {
         minors.c / minors.n / (1.0 - self.surface_material().poisson)
     }
 
+    /// The compliance at the wavenumber q > 0 that a layer correction makes.
+    pub(super) fn compliance_of(&self, correction: f64, wavenumber: f64) -> f64 {
+        let material = self.surface_material();
+        (1.0 - material.poisson) * correction / (material.shear * wavenumber)
+    }
+
     pub(super) fn surface_material(&self) -> &PlaneStrain {
         self.strata.first().map_or(&self.substrate, |layer| &layer.material)
     }

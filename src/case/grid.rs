@@ -5,8 +5,8 @@ use std::ops::{Bound, RangeInclusive};
 use super::error::Refusal;
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
+use crate::numeric::fourier::has_fast_factors;
 use crate::run::Sampling;
-use crate::spectral::fourier::has_fast_factors;
 
 /// Points along a cell vector when nothing is said.
 const POINTS: usize = 512;

@@ -164,6 +164,20 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
+    #[test]
+    fn no_component_has_a_larger_wavenumber_than_the_largest() {
+        for (cell, points) in [
+            (Cell::square(1.0).unwrap(), [8, 8]),
+            (Cell::hexagonal(2.0).unwrap(), [12, 9]),
+            (Cell::new([1.0, 0.2], [1.7, 0.9]).unwrap(), [7, 30]),
+            (Cell::square(1.0).unwrap(), [1, 6]),
+        ] {
+            let grid = Grid::new(cell, points).unwrap();
+            let largest = (0..grid.len()).map(|k| grid.wavenumber([k / points[1], k % points[1]])).fold(0.0, f64::max);
+            assert!(largest <= grid.largest_wavenumber() * (1.0 + 1e-12), "{cell}: {largest}");
+        }
+    }
+
     /// Rotation by 60° of the rhombus a₁ = (1, 0), a₂ = (½, √3/2) maps b₁ → b₁ + b₂, b₂ → −b₁.
     #[test]
     fn shortest_aliases_keep_the_sixfold_symmetry() {

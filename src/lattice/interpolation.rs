@@ -1,10 +1,9 @@
 //! Fields between the samples of a grid, in the way that keeps the symmetry of the cell.
 
 use super::Cell;
+use crate::numeric::rows;
+use crate::numeric::sums::BLOCK;
 use rayon::prelude::*;
-
-/// Samples that are worth a task of their own.
-const TASK: usize = 8192;
 
 /// How a field is interpolated between four neighbouring samples of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,7 +55,7 @@ pub(crate) fn resampled(
     value: impl Fn(f64) -> f64 + Sync,
 ) -> Vec<f64> {
     if from == to {
-        return field.par_iter().with_min_len(TASK).map(|&x| value(x)).collect();
+        return field.par_iter().with_min_len(BLOCK).map(|&x| value(x)).collect();
     }
     let place = |index: usize, axis: usize| {
         let (before, rest) = (index * from[axis] / to[axis], index * from[axis] % to[axis]);
@@ -64,8 +63,7 @@ pub(crate) fn resampled(
     };
     let columns: Vec<(usize, usize, f64)> = (0..to[1]).map(|j| place(j, 1)).collect();
     let mut result = vec![0.0; to[0] * to[1]];
-    let rows = result.par_chunks_mut(to[1]).with_min_len(TASK.div_ceil(to[1])).enumerate();
-    rows.for_each(|(i, row)| {
+    rows::each(to[1], result.par_chunks_mut(to[1]), |i, row| {
         let (low, high, s) = place(i, 0);
         let [low, high] = [low, high].map(|row| &field[row * from[1]..][..from[1]]);
         for (to, &(left, right, t)) in row.iter_mut().zip(&columns) {

@@ -28,6 +28,7 @@ pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
     fn rounded(value: f64) -> Self;
 
     /// As a number of double precision.
+    #[cfg(test)]
     fn wide(self) -> f64;
 
     /// The group of a row that starts at `at`, in double precision; what lies beyond the row's end is `beyond`.
@@ -48,7 +49,7 @@ impl Real for f64 {
         value
     }
 
-    #[inline(always)]
+    #[cfg(test)]
     fn wide(self) -> f64 {
         self
     }
@@ -80,7 +81,7 @@ impl Real for f32 {
         value as Self
     }
 
-    #[inline(always)]
+    #[cfg(test)]
     fn wide(self) -> f64 {
         f64::from(self)
     }
@@ -107,9 +108,9 @@ impl Real for f32 {
     }
 }
 
-/// Eight numbers of a row in its own precision; what lies beyond the row's end is `beyond`.
+/// A group of a row in the row's own precision; what lies beyond its end is `beyond`.
 #[inline(always)]
-pub fn group<S: Simd, T: Real>(simd: S, row: &[T], at: usize, beyond: T) -> T::Lanes<S> {
+pub fn own_group<S: Simd, T: Real>(simd: S, row: &[T], at: usize, beyond: T) -> T::Lanes<S> {
     T::Lanes::<S>::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES])
 }
 

@@ -1,8 +1,13 @@
 //! Sweeps over fields row by row, on all threads, with sums that do not depend on how many there are.
 //!
-//! Each row gives its own sums and minima; those of the rows are added in order.
+//! Each row, or each part of the rows, gives its own sums and minima; they are added in order.
 
 use rayon::prelude::*;
+use std::slice::{ChunksExact, ChunksExactMut};
+
+/// Most parts the rows are divided into, and the least rows of one.
+const PARTS: usize = 64;
+const LEAST: usize = 64;
 
 /// Samples that are worth a task of their own.
 const TASK: usize = 8192;
@@ -31,6 +36,65 @@ impl<const K: usize, const L: usize> Totals<K, L> {
             totals
         })
     }
+}
+
+/// The rows of fields in parts, whatever the number of threads: each is the work of one of them, row after row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parts {
+    points: [usize; 2],
+}
+
+impl Parts {
+    /// Of fields of `points` = [rows, columns].
+    pub fn new(points: [usize; 2]) -> Self {
+        Self { points }
+    }
+
+    /// [rows, columns] of the fields.
+    pub fn points(&self) -> [usize; 2] {
+        self.points
+    }
+
+    /// Rows of a part; the last one may have fewer.
+    pub fn rows(&self) -> usize {
+        self.points[0].div_ceil(PARTS).max(LEAST)
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.points[0].div_ceil(self.rows())
+    }
+
+    /// Totals of each, of nothing yet.
+    pub fn totals<const K: usize, const L: usize>(&self) -> Vec<Totals<K, L>> {
+        vec![Totals::NONE; self.count()]
+    }
+
+    /// The rows of a field, by parts.
+    pub fn of<'a, T: Sync>(
+        &self,
+        field: &'a [T],
+    ) -> impl IndexedParallelIterator<Item = ChunksExact<'a, T>> + use<'a, T> {
+        let columns = self.points[1];
+        field.par_chunks(self.rows() * columns).map(move |part| part.chunks_exact(columns))
+    }
+
+    /// The same, to be written.
+    pub fn of_mut<'a, T: Send>(
+        &self,
+        field: &'a mut [T],
+    ) -> impl IndexedParallelIterator<Item = ChunksExactMut<'a, T>> + use<'a, T> {
+        let columns = self.points[1];
+        field.par_chunks_mut(self.rows() * columns).map(move |part| part.chunks_exact_mut(columns))
+    }
+}
+
+/// The next row of a part.
+///
+/// # Panics
+/// When there is none.
+pub fn next<I: Iterator>(rows: &mut I) -> I::Item {
+    rows.next().expect("a part has its rows")
 }
 
 /// Calls `row(i, rows of the fields)` for each row of fields with so many `columns`.

@@ -105,10 +105,9 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
     values: impl IntoIterator<Item = T>,
 ) -> io::Result<()> {
     let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
-    let mut header = Vec::new();
     // The library writes value by value, which takes longer than the disk: it has the header alone.
-    drop(npyz::WriteOptions::<T>::new().default_dtype().shape(&sizes).writer(&mut header).begin_nd()?);
-    writer.write_all(&header)?;
+    let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
+    header.writer(&mut writer).write_header_only()?;
     let (mut values, mut chunk, mut count) = (values.into_iter(), Vec::with_capacity(CHUNK), 0);
     loop {
         chunk.extend(values.by_ref().take(CHUNK));
@@ -119,7 +118,11 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
         }
         chunk.clear();
     }
-    if count == shape.iter().product::<usize>() { Ok(()) } else { Err(io::ErrorKind::InvalidData.into()) }
+    if count == shape.iter().product::<usize>() {
+        Ok(())
+    } else {
+        Err(io::Error::new(io::ErrorKind::InvalidData, format!("{count} values for an array of {shape:?}")))
+    }
 }
 
 #[cfg(test)]
@@ -155,6 +158,18 @@ mod tests {
         archive.array("a", &[3], [1.0, 2.0, 3.0])?;
         archive.array("b", &[2], [1.0, 2.0])?;
         archive.finish()
+    }
+
+    #[test]
+    fn an_array_is_read_back_and_has_as_many_values_as_its_shape_says() {
+        let mut file = Vec::new();
+        let values: Vec<f64> = (0..3 * CHUNK + 5).map(|k| k as f64 / 7.0).collect();
+        npy(&mut file, &[values.len()], values.iter().copied()).unwrap();
+        assert_eq!(npyz::NpyFile::new(&file[..]).unwrap().into_vec::<f64>().unwrap(), values);
+        for count in [CHUNK - 1, CHUNK + 1] {
+            let error = npy(io::sink(), &[CHUNK], vec![0.0; count]).unwrap_err().to_string();
+            assert!(error.contains(&format!("{count} values")), "{error}");
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@
 use super::gathered::remove_waiting;
 use super::npz::{Archive, npy};
 use super::{OutputError, make_folder, write_file};
+use npyz::AutoSerialize;
 use std::fs;
 use std::io::{self, BufReader, BufWriter, Read};
 use std::path::{Path, PathBuf};
@@ -106,11 +107,10 @@ impl StepArrays {
 fn read(path: &Path) -> io::Result<Vec<f64>> {
     let mut reader = BufReader::new(fs::File::open(path)?);
     let header = npyz::NpyHeader::from_reader(&mut reader)?;
-    let mut bytes = Vec::with_capacity(8 * header.len() as usize);
-    reader.read_to_end(&mut bytes)?;
-    let (values, rest) = bytes.as_chunks();
-    if values.len() as u64 != header.len() || !rest.is_empty() {
-        return Err(io::ErrorKind::UnexpectedEof.into());
+    if header.dtype() != f64::default_dtype() {
+        return Err(io::ErrorKind::InvalidData.into());
     }
-    Ok(values.iter().map(|value| f64::from_ne_bytes(*value)).collect())
+    let mut values = vec![0.0; header.len() as usize];
+    reader.read_exact(bytemuck::cast_slice_mut(&mut values))?;
+    Ok(values)
 }

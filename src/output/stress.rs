@@ -122,9 +122,7 @@ fn add_plane(
     let (tau1, others) = derived.split_at_mut(len);
     let (mises, s1) = others.split_at_mut(len);
     (tau1, mises, s1).into_par_iter().enumerate().for_each(|(index, (tau1, mises, s1))| {
-        let state = state(index);
-        let [first, _, last] = state.principal();
-        (*tau1, *mises, *s1) = (0.5 * (first - last), state.mises(), first);
+        [*tau1, *mises, *s1] = state(index).derived();
     });
     clock.turn(Phase::Output);
     (9..12).zip(derived.chunks_exact(len)).try_for_each(|(c, values)| add(c, values))?;
@@ -153,10 +151,5 @@ fn add_states<'a>(
 
 /// A component by its place in [`COMPONENTS`].
 fn component(state: &State, c: usize) -> f64 {
-    match c {
-        9 => state.tau1(),
-        10 => state.mises(),
-        11 => state.s1(),
-        c => state.components()[c],
-    }
+    if c < 9 { state.components()[c] } else { state.derived()[c - 9] }
 }

@@ -118,9 +118,9 @@ fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
         let [x, y] = surface.offset(&reduced, own, index);
         x * x + y * y < 4.0 * area / PI || pressure[index] > 0.0
     };
-    let near: Vec<bool> = (0..grid.len()).into_par_iter().with_min_len(n2).map(is_near).collect();
+    let is_near: Vec<bool> = (0..grid.len()).into_par_iter().with_min_len(n2).map(is_near).collect();
     // Counted first, so that they take no more room than they need.
-    let near = || (0..grid.len()).filter(|&index| near[index]);
+    let near = || (0..grid.len()).filter(|&index| is_near[index]);
     let mut counts = vec![0; spots.len()];
     near().for_each(|index| counts[owner[index] as usize] += 1);
     let mut samples: Vec<Vec<usize>> = counts.into_iter().map(Vec::with_capacity).collect();

@@ -2,9 +2,9 @@
 
 use super::StepRecord;
 use crate::lattice::Cell;
+use crate::numeric::fourier::fast_points;
 use crate::numeric::search::largest;
 use crate::reading::Reading;
-use crate::spectral::fourier::fast_points;
 use std::fmt;
 
 /// Points along the shorter cell vector at which a refinement starts, fewer where the cell is too oblong for them.

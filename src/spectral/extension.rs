@@ -9,8 +9,8 @@
 //! I and 0 outside, S r/c is then the mean of the residual near by, D and c₀ how much of it is kept at the edge
 //! and how far out. S is symmetric, so that Eᵀ = P_I + P_I S W (1 − P_I), and M is symmetric and positive.
 
-use super::fourier::part_of;
-use crate::numeric::lanes::{LANES, group, vectorised};
+use crate::numeric::lanes::{LANES, own_group, vectorised};
+use crate::numeric::rows::{Parts, next};
 use fearless_simd::{f32x8, prelude::*};
 use rayon::prelude::*;
 
@@ -18,33 +18,32 @@ use rayon::prelude::*;
 const DECAY: f32 = 0.8;
 /// Share of I among the samples near by at which the continuation fades.
 const FADE: f32 = 0.07;
-/// Samples of either mean.
+/// Samples of either mean, a power of two.
 const WIDTH: usize = 16;
 /// Samples that the smoothing reaches each way.
 const REACH: usize = WIDTH - 1;
 
 /// Rows of E (r − mean) for a residual r on I (exactly 0 outside), by parts; `weight` becomes W outside and 0 on I.
 pub(super) fn extended<'a>(
-    [n1, n2]: [usize; 2],
+    parts: Parts,
     residual: &'a [f32],
     mean: f32,
     weight: &'a mut [f32],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
-    let part = part_of(n1);
-    weight.par_chunks_mut(part * n2).enumerate().map(move |(number, weight)| {
-        let first = number * part;
-        let mut sums = Triangles::new([n1, n2], first, residual, Inside { mean });
-        let [mut near, mut share] = [(); 2].map(|()| Line::new(n2));
-        let mut rows = residual[first * n2..].chunks_exact(n2).zip(weight.chunks_exact_mut(n2));
+    let [_, columns] = parts.points();
+    parts.of(residual).zip(parts.of_mut(weight)).enumerate().map(move |(part, (own, weight))| {
+        let mut sums = Triangles::new(parts, part, residual, Inside { mean });
+        let [mut near, mut share] = [(); 2].map(|()| Line::new(columns));
+        let mut rows = own.zip(weight);
         move |row: &mut [f32]| {
-            let (residual, weight) = rows.next().expect("a part has its rows");
+            let (residual, weight) = next(&mut rows);
             let [sum, count] = sums.next();
             if count.iter().all(|&count| count == 0.0) {
                 row.fill(0.0);
                 weight.fill(0.0);
                 return;
             }
-            let (near, share) = (near.smoothed(&sum[..n2]), share.smoothed(&count[..n2]));
+            let (near, share) = (near.smoothed(&sum[..columns]), share.smoothed(&count[..columns]));
             vectorised!(simd => continued(simd, residual, mean, [near, share], row, weight));
         }
     })
@@ -52,28 +51,28 @@ pub(super) fn extended<'a>(
 
 /// Takes the rows of a field y, by parts, into `image`; `weight` becomes W y, smoothed along a₂.
 pub(super) fn gathered<'a>(
-    [n1, n2]: [usize; 2],
+    parts: Parts,
     image: &'a mut [f32],
     weight: &'a mut [f32],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
-    let size = part_of(n1) * n2;
-    image.par_chunks_mut(size).zip(weight.par_chunks_mut(size)).map(move |(image, weight)| {
-        let mut line = Line::new(n2);
-        let mut rows = image.chunks_exact_mut(n2).zip(weight.chunks_exact_mut(n2));
+    let [_, columns] = parts.points();
+    parts.of_mut(image).zip(parts.of_mut(weight)).map(move |(image, weight)| {
+        let mut line = Line::new(columns);
+        let mut rows = image.zip(weight);
         move |row: &mut [f32]| {
-            let (image, weight) = rows.next().expect("a part has its rows");
+            let (image, weight) = next(&mut rows);
             image.copy_from_slice(row);
             if weight.iter().any(|&w| w != 0.0) {
                 row.iter_mut().zip(&*weight).for_each(|(y, w)| *y *= w);
-                weight.copy_from_slice(&line.smoothed(row)[..n2]);
+                weight.copy_from_slice(&line.smoothed(row)[..columns]);
             }
         }
     })
 }
 
-/// S W y on row after row from the row `first` on, from what [`gathered`] has left in `weight`: what Eᵀ adds to y on I.
-pub(super) fn gathering(points: [usize; 2], first: usize, weight: &[f32]) -> Triangles<'_, 1, Itself> {
-    Triangles::new(points, first, weight, Itself)
+/// S W y on row after row of a part, from what [`gathered`] has left in `weight`: what Eᵀ adds to y on I.
+pub(super) fn gathering(parts: Parts, part: usize, weight: &[f32]) -> Triangles<'_, 1, Itself> {
+    Triangles::new(parts, part, weight, Itself)
 }
 
 /// What is summed of each sample of a field.
@@ -90,9 +89,9 @@ struct Inside {
 impl Terms<2> for Inside {
     #[inline(always)]
     fn of<S: Simd>(self, simd: S, residual: f32x8<S>) -> [f32x8<S>; 2] {
-        let [zero, one, mean] = [0.0, 1.0, self.mean].map(|x| f32x8::simd_from(simd, x));
+        let (zero, one) = (f32x8::simd_from(simd, 0.0), f32x8::simd_from(simd, 1.0));
         let outside = residual.simd_eq(zero);
-        [outside.select(zero, residual - mean), outside.select(zero, one)]
+        [outside.select(zero, residual - self.mean), outside.select(zero, one)]
     }
 }
 
@@ -108,7 +107,8 @@ impl Terms<1> for Itself {
 }
 
 /// Means over `WIDTH` rows of means over `WIDTH` rows, times `WIDTH`², on row after row of a periodic field: sums that
-/// each row joins and leaves again. (Those of χ are whole numbers, and exact.)
+/// each row joins and leaves again. Those of χ are whole numbers, and exact; others err by some 1e-7 of the largest sample
+/// that has passed in this part.
 #[derive(Debug)]
 pub(super) struct Triangles<'a, const F: usize, T> {
     rows: usize,
@@ -125,7 +125,8 @@ pub(super) struct Triangles<'a, const F: usize, T> {
 }
 
 impl<'a, const F: usize, T: Terms<F>> Triangles<'a, F, T> {
-    fn new([rows, columns]: [usize; 2], first: usize, field: &'a [f32], terms: T) -> Self {
+    fn new(parts: Parts, part: usize, field: &'a [f32], terms: T) -> Self {
+        let ([rows, columns], first) = (parts.points(), part * parts.rows());
         let padded = columns.next_multiple_of(LANES);
         let sums = |rows: usize| std::array::from_fn(|_| vec![0.0; rows * padded]);
         let (once, past, twice) = (sums(1), sums(WIDTH), sums(1));
@@ -170,9 +171,9 @@ fn moved<const F: usize, S: Simd>(
     twice: [&mut Vec<f32>; F],
 ) {
     for at in (0..joining.len()).step_by(LANES) {
-        let mut change = terms.of(simd, group(simd, joining, at, 0.0));
+        let mut change = terms.of(simd, own_group(simd, joining, at, 0.0));
         if !leaving.is_empty() {
-            let left = terms.of(simd, group(simd, leaving, at, 0.0));
+            let left = terms.of(simd, own_group(simd, leaving, at, 0.0));
             for field in 0..F {
                 change[field] -= left[field];
             }
@@ -252,7 +253,7 @@ fn continued<S: Simd>(
 mod tests {
     use super::*;
 
-    /// ⟨E r, y⟩ = ⟨r, Eᵀ y⟩, on grids smaller than the reach and wider than a block.
+    /// ⟨E r, y⟩ = ⟨r, Eᵀ y⟩, on grids smaller than the reach and of several parts.
     #[test]
     fn what_is_gathered_is_the_adjoint_of_what_is_extended() {
         for [n1, n2] in [[4, 7], [90, 24], [131, 300]] {
@@ -262,21 +263,22 @@ mod tests {
             let residual: Vec<f32> = (0..size).map(|k| if inside(k) { noise(k) + 2.0 } else { 0.0 }).collect();
             let other: Vec<f32> = (0..size).map(|k| noise(k + 77)).collect();
             let [mut extension, mut weight, mut image] = [(); 3].map(|()| vec![0.0; size]);
-            let rows = extension.par_chunks_mut(part_of(n1) * n2);
-            extended([n1, n2], &residual, mean, &mut weight)
-                .zip(rows)
+            let parts = Parts::new([n1, n2]);
+            extended(parts, &residual, mean, &mut weight)
+                .zip(extension.par_chunks_mut(parts.rows() * n2))
                 .for_each(|(mut source, rows)| rows.chunks_mut(n2).for_each(&mut source));
             let outside = (0..size).filter(|&k| !inside(k) && extension[k] != 0.0).count();
             assert!(outside > size / 2, "{outside} of {size} samples continued");
             let mut rows = other.clone();
-            gathered([n1, n2], &mut image, &mut weight)
-                .zip(rows.par_chunks_mut(part_of(n1) * n2))
+            gathered(parts, &mut image, &mut weight)
+                .zip(rows.par_chunks_mut(parts.rows() * n2))
                 .for_each(|(mut sink, rows)| rows.chunks_mut(n2).for_each(&mut sink));
             assert_eq!(image, other);
             let mut gathered = Vec::new();
-            for first in (0..n1).step_by(part_of(n1)) {
-                let mut rows = gathering([n1, n2], first, &weight);
-                (first..n1.min(first + part_of(n1))).for_each(|_| gathered.extend_from_slice(&rows.next()[0][..n2]));
+            for part in 0..parts.count() {
+                let mut rows = gathering(parts, part, &weight);
+                let own = parts.rows().min(n1 - part * parts.rows());
+                (0..own).for_each(|_| gathered.extend_from_slice(&rows.next()[0][..n2]));
             }
             let dot = |a: f32, b: f32| f64::from(a) * f64::from(b);
             let forth: f64 = (0..size).map(|k| dot(extension[k], other[k])).sum();

@@ -1,6 +1,6 @@
 //! The spectral method: the whole cell on a doubly periodic grid, the half-space exact in Fourier space.
 //!
-//! - [`fourier`]: convolution in one fused pass, in place;
+//! - `convolution`: transforms there and back in one fused pass;
 //! - [`operator`]: pressure → displacement and back, the one that counts and the one that leads there;
 //! - `extension`: the residual continued beyond the contact, for the preconditioner;
 //! - `iteration`: conjugate gradients on one grid, and the certificate of what they return;
@@ -8,8 +8,8 @@
 //! - [`Solver`]: a problem on its nested grids, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid.
 
 mod contact;
+mod convolution;
 mod extension;
-pub mod fourier;
 mod iteration;
 pub mod operator;
 mod prolongation;
@@ -18,5 +18,5 @@ mod step;
 
 pub use contact::Contact;
 pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop};
-pub use solver::{Solver, memory};
+pub use solver::{Memory, Solver};
 pub use step::Step;

@@ -1,13 +1,14 @@
 //! The boundary operator C: pressure on the cell → normal surface displacement.
 //!
 //! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse makes the
-//! preconditioner. Both are diagonal in Fourier space, and done in place. Pressures and displacements that count are
+//! preconditioner. Both are diagonal in Fourier space. Pressures and displacements that count are
 //! convolved in double precision; what only leads to them in single precision, in units in which the compliance at the
 //! least wavenumber is one.
 
-use super::fourier::{Action, Convolved, Fourier, Multiplier, rows_of, rows_to};
+use super::convolution::{Action, Convolution, Convolved, Multiplier, rows_of, rows_to};
 use crate::body::{Compliances, TransferFunction};
 use crate::lattice::Grid;
+use crate::numeric::rows::Parts;
 use rayon::prelude::*;
 
 /// Memory that convolutions work in, for any number of grids in turn.
@@ -28,8 +29,8 @@ impl Workspace {
 /// Displacement operator of a layered half-space on a grid, with its inverse.
 #[derive(Debug)]
 pub struct Operator {
-    double: Fourier<f64>,
-    single: Fourier<f32>,
+    double: Convolution<f64>,
+    single: Convolution<f32>,
     compliance: Multiplier,
     /// Compliance at the least wavenumber.
     unit: f64,
@@ -39,7 +40,7 @@ pub struct Operator {
 impl Operator {
     /// Operator of the half-space with the given transfer function.
     pub fn new(grid: &Grid, transfer: &TransferFunction) -> Self {
-        let (double, single) = (Fourier::new(grid.points()), Fourier::new(grid.points()));
+        let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
         let (least, most) = (grid.least_wavenumber(), grid.largest_wavenumber());
         let (unit, compliances) =
             (transfer.compliance(least), Compliances::new(transfer, [least, most], grid.len() / 2));
@@ -55,6 +56,11 @@ impl Operator {
     /// Compliance at the least wavenumber, a length per pressure: the unit of the convolutions in single precision.
     pub fn unit(&self) -> f64 {
         self.unit
+    }
+
+    /// The parts of the rows that sources and sinks of convolutions are asked for.
+    pub(super) fn parts(&self) -> Parts {
+        self.double.parts()
     }
 
     /// Convolutions done so far; one in single precision counts half.
@@ -74,18 +80,18 @@ impl Operator {
 
     fn in_place(&mut self, action: Action, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
-        let (points, room) = (self.double.points(), workspace.of(self.double.room()));
+        let (parts, room) = (self.parts(), workspace.of(self.double.room()));
         // On the threads that share the work, where no pass has to wake them.
         rayon::scope(|_| {
-            let convolved = self.double.convolve(action, &self.compliance, room, rows_of(field, points));
-            convolved.rows(rows_to(field, points));
+            let convolved = self.double.convolve(action, &self.compliance, room, rows_of(parts, field));
+            convolved.rows(rows_to(parts, field));
         });
     }
 
     /// The memory of a convolution in double precision in two: that of one in single precision, and a field in single
     /// precision that lasts until the next one in double precision.
     pub(super) fn shared<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
-        let [n1, n2] = self.double.points();
+        let [n1, n2] = self.parts().points();
         let (room, rest) = workspace.of(self.double.room()).split_at_mut(self.single.room());
         (room, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
     }

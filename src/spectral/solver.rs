@@ -5,7 +5,6 @@
 //! the next coarser one, carried over, so that what a step leaves alone is never interpolated twice. The baseline method
 //! works on the finest grid alone, as published.
 
-use super::fourier::fast_points;
 use super::iteration::{GridProblem, Method, Progress, Report, Settings, Stop, Unknowns, Working};
 use super::operator::{Operator, Workspace};
 use super::prolongation::prolonged;
@@ -14,6 +13,7 @@ use crate::body::TransferFunction;
 use crate::counterbody::Surface;
 use crate::lattice::{Grid, LatticeError};
 use crate::load::Load;
+use crate::numeric::fourier::fast_points;
 use crate::numeric::sums;
 use crate::problem::Problem;
 use std::fmt;
@@ -200,10 +200,10 @@ impl Nest {
             self.follow(&coarser, settings.tolerance);
         }
         let Self { surface, largest_gap, operator, unknowns, .. } = self;
-        let (points, samples, before) = (surface.grid().points(), surface.grid().len(), operator.convolutions());
+        let (samples, before) = (surface.grid().len(), operator.convolutions());
         let (initial_gap, largest_gap) = (surface.gaps(), *largest_gap);
-        let report = GridProblem { operator, working, points, initial_gap, largest_gap, load, settings, progress }
-            .solve(unknowns);
+        let report =
+            GridProblem { operator, working, initial_gap, largest_gap, load, settings, progress }.solve(unknowns);
         (report, (operator.convolutions() - before) * samples as f64)
     }
 
@@ -230,19 +230,31 @@ impl Nest {
     }
 }
 
-/// Memory that grids take from load to load, and what solving a load takes besides, bytes, on a finest grid of `points`.
-///
-/// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier (half the components). Per row and
-/// column of each grid: what its transforms need. In turn, per sample of the finest grid: three fields of single precision
-/// and a spectrum in double precision; for the baseline two fields in double precision and the spectrum.
-pub fn memory(points: [usize; 2], method: Method) -> [usize; 2] {
-    let (grid, rows) = (3 * 8 + 4 + 4, 512);
-    let working = match method {
-        Method::Preconditioned => 3 * 4 + 8,
-        Method::PolonskyKeer => 3 * 8,
-    };
-    let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * grid + (n1 + n2) * rows;
-    [nested_points(points, method).into_iter().map(of_grid).sum(), points[0] * points[1] * working]
+/// Memory of a solver, bytes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Memory {
+    /// What its grids keep from load to load.
+    pub kept: usize,
+    /// What solving a load takes besides, by the method that begins.
+    pub working: usize,
+}
+
+impl Memory {
+    /// On a finest grid of `points`.
+    ///
+    /// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier (half the components). Per row
+    /// and column of each grid: what its transforms need. In turn, per sample of the finest grid: three fields of single
+    /// precision and a spectrum in double precision; for the baseline two fields in double precision and the spectrum.
+    pub fn of(points: [usize; 2], method: Method) -> Self {
+        let (grid, rows) = (3 * 8 + 4 + 4, 512);
+        let working = match method {
+            Method::Preconditioned => 3 * 4 + 8,
+            Method::PolonskyKeer => 3 * 8,
+        };
+        let of_grid = |[n1, n2]: [usize; 2]| n1 * n2 * grid + (n1 + n2) * rows;
+        let kept = nested_points(points, method).into_iter().map(of_grid).sum();
+        Self { kept, working: points[0] * points[1] * working }
+    }
 }
 
 impl fmt::Display for Solver {

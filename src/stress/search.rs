@@ -17,8 +17,8 @@ use super::surface::Flat;
 use super::tensor::State;
 use super::transform::Transform;
 use crate::body::Depth;
+use crate::numeric::fourier::fast_points;
 use crate::numeric::search::{first_largest, golden_maximum};
-use crate::spectral::fourier::fast_points;
 
 /// Ratio of successive distances from a face.
 const RATIO: f64 = 1.35;

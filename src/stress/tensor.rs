@@ -79,13 +79,19 @@ impl State {
 
     /// Principal shear stress τ₁ = (σ₁ − σ₃)/2.
     pub fn tau1(&self) -> f64 {
-        let [first, _, last] = self.principal();
-        0.5 * (first - last)
+        let [tau1, _, _] = self.derived();
+        tau1
     }
 
     /// Largest tension σ₁.
     pub fn s1(&self) -> f64 {
         self.principal()[0]
+    }
+
+    /// τ₁, the stress of von Mises and σ₁.
+    pub(crate) fn derived(&self) -> [f64; 3] {
+        let [first, _, last] = self.principal();
+        [0.5 * (first - last), self.mises(), first]
     }
 
     /// Unit vector along which σ₁ acts, its first non-zero component positive.

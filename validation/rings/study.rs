@@ -10,8 +10,8 @@ use crate::body::{HalfSpace, Interface, Layer, Material};
 use crate::counterbody::{Indenters, Level, Shape};
 use crate::lattice::Lattice;
 use crate::load::Load;
+use crate::numeric::fourier::fast_points;
 use crate::picture::{Axis, Chart, Figure, Style};
-use crate::spectral::fourier::fast_points;
 
 pub const STUDY: Study = Study {
     name: "rings",

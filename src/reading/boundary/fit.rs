@@ -29,6 +29,23 @@ struct Fit {
     room: [f64; SECTORS],
 }
 
+/// A sample as the fit sees it.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    /// Angle, radians.
+    theta: f64,
+    /// Distance from the edge over the reach.
+    part: f64,
+    /// 0 in contact, 1 outside.
+    side: usize,
+    /// Pressure or gap, φ or γ, and its change with the boundary times the reach; all over the side's φ or γ at the reach.
+    y: f64,
+    value: f64,
+    slope: f64,
+    /// Its weight.
+    weight: f64,
+}
+
 /// Highest harmonics of the boundary: the first that leave no sample on its wrong side. Contacts about to merge are
 /// polygons. And those of the counted boundary from which the fits start.
 const HARMONICS: [usize; 2] = [6, 12];
@@ -195,8 +212,6 @@ impl Fit {
         let band = radii.iter().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &r| [a.min(r), b.max(r)]);
         let in_band = |sample: &&Polar| band[0] - reach < sample.r && sample.r < band[1] + reach;
         let range = [scale.edge.pressure(reach)[0].abs(), scale.edge.opening(reach)[0]];
-        // Per sample: angle, distance over the reach, side, value, φ or γ, its change with the boundary, weight; the
-        // last four over the side's value at the reach.
         let seen = |sample: &Polar| {
             let d = self.distance(sample, radii);
             let (open, part) = (self.open(sample), d.abs() / reach);
@@ -213,14 +228,17 @@ impl Fit {
                 (scale.edge.pressure(-d), 2.0 * self.inside * rise * part.sqrt(), sample.p)
             };
             let unit = range[side];
-            Some((sample.theta, part, side, y / unit, value / unit, slope * reach / unit, weight))
+            let (y, value, slope) = (y / unit, value / unit, slope * reach / unit);
+            Some(Seen { theta: sample.theta, part, side, y, value, slope, weight })
         };
-        let near: Vec<_> = samples.par_iter().with_min_len(BLOCK).filter(in_band).filter_map(seen).collect();
+        let near: Vec<Seen> = samples.par_iter().with_min_len(BLOCK).filter(in_band).filter_map(seen).collect();
         let harmonics = self.harmonics.min(near.len() / 24);
         let count = 1 + 2 * harmonics;
         let varying = if self.room.iter().all(|room| room.is_infinite()) { 0 } else { harmonics };
         if amplitude.is_empty() {
-            let sum = |term: fn(f64, f64) -> f64| -> f64 { near.iter().map(|s| s.6 * s.6 * term(s.3, s.4)).sum() };
+            let sum = |term: fn(f64, f64) -> f64| -> f64 {
+                near.iter().map(|s| s.weight * s.weight * term(s.y, s.value)).sum()
+            };
             amplitude.push(sum(|y, value| y * value) / sum(|_, value| value * value));
         }
         let unit = amplitude[0];
@@ -228,10 +246,10 @@ impl Fit {
         // A, the shift, and what modifies each side: κ, which varies around the spot as near neighbours do, then κ′.
         let modified = sides.clone().flat_map(|_| std::iter::once(varying).chain((1..powers).map(|_| 0)));
         let empty = SeriesFit::new([harmonics; 2].into_iter().chain(modified).collect());
-        let summed = |samples: &[(f64, f64, usize, f64, f64, f64, f64)]| {
+        let summed = |samples: &[Seen]| {
             let mut fit = empty.clone();
             let mut factors = Vec::new();
-            for &(theta, part, side, y, value, slope, weight) in samples {
+            for &Seen { theta, part, side, y, value, slope, weight } in samples {
                 factors.clear();
                 factors.extend([value, series(amplitude, theta) / unit * slope]);
                 for own in sides.clone() {

@@ -5,10 +5,10 @@ use super::problem::GridProblem;
 use super::unknowns::Unknowns;
 use crate::load::Load;
 use crate::numeric::lanes::{LANES, Real, lowest, splat, total, vectorised};
-use crate::numeric::rows::{self, Totals};
+use crate::numeric::rows::{self, Totals, next};
 use crate::numeric::search::largest;
 use crate::numeric::sums::{self, BLOCK};
-use crate::spectral::fourier::{part_of, parts_of, rows_of};
+use crate::spectral::convolution::rows_of;
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -67,19 +67,18 @@ impl Check {
         }
         let g = Arc::make_mut(&mut unknowns.gap);
         let (len, mean) = (p.len() as f64, if let Load::MeanPressure(mean) = problem.load { mean } else { 0.0 });
-        let (size, mut parts) =
-            (part_of(problem.points[0]) * problem.points[1], vec![Totals::NONE; parts_of(problem.points[0])]);
-        let rows = (p.par_chunks(size), f.par_chunks(size), g.par_chunks_mut(size), &mut parts).into_par_iter();
-        let rows = rows.map(|(p, f, g, totals)| {
-            let mut number = 0;
+        let parts = problem.operator.parts();
+        let mut totals = parts.totals();
+        let fields = parts.of(p).zip(parts.of(f)).zip(parts.of_mut(g)).zip(&mut totals);
+        let rows = fields.map(|(((p, f), g), totals)| {
+            let mut rows = p.zip(f).zip(g);
             move |w: &mut [f64]| {
-                let at = number * w.len()..(number + 1) * w.len();
-                number += 1;
-                totals.add(vectorised!(simd => deformed(simd, w, &p[at.clone()], &f[at.clone()], &mut g[at], mean)));
+                let ((p, f), g) = next(&mut rows);
+                totals.add(vectorised!(simd => deformed(simd, w, p, f, g, mean)));
             }
         });
-        problem.operator.displaced(&mut problem.working.transforms, rows_of(p, problem.points)).rows(rows);
-        let [load, energy, work, open] = Totals::of(parts).sums;
+        problem.operator.displaced(&mut problem.working.transforms, rows_of(parts, p)).rows(rows);
+        let [load, energy, work, open] = Totals::of(totals).sums;
         let (penetration, deviation) = match problem.load {
             Load::MeanPressure(mean) => (relative(work, load), relative((load / len - mean).abs(), mean)),
             Load::Penetration(given) => (given, relative((work - load * given).abs(), load * given)),

@@ -18,16 +18,18 @@
 
 mod certificate;
 mod check;
+mod directions;
 mod iterate;
 mod load_search;
 mod polonsky_keer;
 mod preconditioned;
 mod problem;
 mod report;
+mod residuals;
 mod settings;
 mod solve;
+mod steps;
 mod stopping;
-mod sweeps;
 mod unknowns;
 mod working;
 

@@ -18,14 +18,15 @@
 use super::check::Check;
 use super::problem::GridProblem;
 use super::report::{Progress, Report, Route, Stop};
+use super::residuals::{self, Active};
 use super::stopping::Patience;
-use super::sweeps::{self, Active};
 use super::unknowns::Unknowns;
 use super::working::Fields;
+use super::{directions, steps};
 use crate::load::Load;
-use crate::numeric::rows::Totals;
+use crate::numeric::rows::{Parts, Totals};
+use crate::spectral::convolution::{rows_of, rows_to};
 use crate::spectral::extension;
-use crate::spectral::fourier::{parts_of, rows_of, rows_to};
 use std::sync::Arc;
 
 /// First window of the patience, iterations.
@@ -131,7 +132,7 @@ struct Step {
 /// From one gap in double precision to the next.
 #[derive(Debug)]
 struct Way {
-    points: [usize; 2],
+    parts: Parts,
     beyond: Beyond,
     /// The units of the working fields: the largest f, and the pressure that displaces by it at the least wavenumber.
     length: f64,
@@ -146,9 +147,9 @@ impl Way {
     fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, beyond: Beyond) -> Self {
         let length = problem.largest_gap;
         let (gap, residual) = problem.working.start(problem.operator);
-        let active = sweeps::take(&unknowns.pressure, &unknowns.gap, length, gap, residual);
-        let (points, pressure) = (problem.points, length / problem.operator.unit());
-        Self { points, beyond, length, pressure, active, penetration: unknowns.penetration, check }
+        let active = residuals::take(&unknowns.pressure, &unknowns.gap, length, gap, residual);
+        let (parts, pressure) = (problem.operator.parts(), length / problem.operator.unit());
+        Self { parts, beyond, length, pressure, active, penetration: unknowns.penetration, check }
     }
 
     /// One iteration; false where no step can be found.
@@ -169,31 +170,31 @@ impl Way {
 
     /// z = M r, t = z + βt and C t, which is left in `image`.
     fn turn(&self, problem: &mut GridProblem<'_>, double: &mut [f64], memory: &Memory) -> Option<Direction> {
-        let (points, mean, load_control) = (self.points, self.mean(problem), problem.load.is_mean_pressure());
+        let (parts, mean, load_control) = (self.parts, self.mean(problem), problem.load.is_mean_pressure());
         let operator = &mut *problem.operator;
         let Fields { residual, previous, direction, image, weight, room, .. } = problem.working.of(operator, double);
         let weight = match self.beyond {
             Beyond::Continued => {
-                let rows = extension::extended(points, residual, mean as f32, weight);
-                operator.pressed_single(room, rows).rows(extension::gathered(points, image, weight));
+                let rows = extension::extended(parts, residual, mean as f32, weight);
+                operator.pressed_single(room, rows).rows(extension::gathered(parts, image, weight));
                 Some(&*weight)
             }
             Beyond::Zero => {
-                let rows = sweeps::centred(points, residual, mean as f32);
-                operator.pressed_single(room, rows).rows(rows_to(image, points));
+                let rows = directions::centred(parts, residual, mean as f32);
+                operator.pressed_single(room, rows).rows(rows_to(parts, image));
                 None
             }
         };
-        let overlaps = sweeps::overlap(points, [residual, previous, direction], weight, image);
+        let overlaps = directions::overlap(parts, [residual, previous, direction], weight, image);
         let z_mean = if load_control { overlaps.sum / self.active.size } else { 0.0 };
         let norm = overlaps.with_residual - mean * overlaps.sum;
         let overlap = overlaps.with_previous(memory.mean, z_mean);
         let beta = if memory.norm > 0.0 { ((norm - overlap) / memory.norm).max(0.0) } else { 0.0 };
         // What is left of the last direction on I is freed of its mean too, or the load would drift.
         let t_mean = if load_control && beta > 0.0 { overlaps.direction / self.active.size } else { 0.0 };
-        let [mut descent, mut curvature] = [(); 2].map(|()| vec![Totals::NONE; parts_of(points[0])]);
-        let rows = sweeps::turned(points, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
-        operator.displaced_single(room, rows).rows(sweeps::curved(points, direction, image, &mut curvature));
+        let [mut descent, mut curvature] = [(); 2].map(|()| parts.totals());
+        let rows = directions::turned(parts, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
+        operator.displaced_single(room, rows).rows(directions::curved(parts, direction, image, &mut curvature));
         let ([descent], [curvature]) = (Totals::of(descent).sums, Totals::of(curvature).sums);
         let tau = descent / curvature;
         (tau.is_finite() && curvature > 0.0).then_some(Direction { norm, beta, tau })
@@ -208,11 +209,11 @@ impl Way {
         Direction { beta, mut tau, .. }: Direction,
         free: bool,
     ) -> Option<Step> {
-        let (points, unit, load) = (self.points, self.pressure, problem.load);
+        let (parts, unit, load) = (self.parts, self.pressure, problem.load);
         let operator = &mut *problem.operator;
         let Fields { gap, direction, image, weight: step, room, .. } = problem.working.of(operator, double);
         for shortened in 0.. {
-            let advance = sweeps::advance(p, [gap, direction, image], -tau, unit, step);
+            let advance = steps::advance(p, [gap, direction, image], -tau, unit, step);
             if shortened == 0 && !advance.clipped {
                 // C d = −τ C t.
                 return Some(Step { restart: false, factor: -tau, sums: [advance.load, advance.work] });
@@ -220,17 +221,17 @@ impl Way {
             let scale = match load {
                 Load::MeanPressure(mean) if advance.load > 0.0 => mean * p.len() as f64 / advance.load,
                 Load::MeanPressure(_) => {
-                    sweeps::retreat(p, step, unit);
+                    steps::retreat(p, step, unit);
                     return None;
                 }
                 Load::Penetration(_) => 1.0,
             };
             if scale != 1.0 {
-                sweeps::rescale(p, scale, unit, step);
+                steps::rescale(p, scale, unit, step);
             }
-            let mut sums = vec![Totals::NONE; parts_of(points[0])];
-            let convolved = operator.displaced_single(room, rows_of(step, points));
-            convolved.rows(sweeps::ended(points, p, [gap, step], image, &mut sums));
+            let mut sums = parts.totals();
+            let convolved = operator.displaced_single(room, rows_of(parts, step));
+            convolved.rows(steps::ended(parts, p, [gap, step], image, &mut sums));
             let [curvature, load, work] = Totals::of(sums).sums;
             // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.
             let slope = scale * advance.slope;
@@ -240,13 +241,13 @@ impl Way {
             }
             // Elsewhere the sums are taken anew.
             let ends = |p: &[f64], restart, factor| {
-                Some(Step { restart, factor, sums: sweeps::works(p, gap, (image, factor)) })
+                Some(Step { restart, factor, sums: steps::works(p, gap, (image, factor)) })
             };
             if shortened == SHORTENED && !uphill && part.is_finite() {
-                sweeps::retreat(p, step, (1.0 - part) * unit);
+                steps::retreat(p, step, (1.0 - part) * unit);
                 return ends(p, false, part);
             }
-            sweeps::retreat(p, step, unit);
+            steps::retreat(p, step, unit);
             if uphill && beta > 0.0 {
                 return ends(p, true, 0.0);
             }
@@ -266,7 +267,7 @@ impl Way {
         let [load, work] = step.sums;
         let shift = if load_control { work / load } else { 0.0 };
         self.penetration += shift * self.length;
-        let (active, residuals) = sweeps::settle(p, load, (image, step.factor), shift, gap, residual);
+        let (active, residuals) = residuals::settle(p, load, (image, step.factor), shift, gap, residual);
         self.active = active;
         self.check =
             Check::of(residuals.times(self.length), self.penetration, self.check.energy, load_control, p.len() as f64);

@@ -13,8 +13,6 @@ pub struct GridProblem<'a> {
     pub operator: &'a mut Operator,
     /// Fields that the methods work on.
     pub working: &'a mut Working,
-    /// Samples along a₁ and a₂.
-    pub points: [usize; 2],
     /// f ≥ 0, a length, one value per sample, a₂ fastest, measured from first touch.
     pub initial_gap: &'a [f64],
     /// Its largest value.

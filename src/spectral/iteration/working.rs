@@ -6,7 +6,7 @@ use crate::spectral::operator::{Operator, Workspace};
 /// of them as it has samples.
 #[derive(Debug, Default)]
 pub struct Working {
-    /// Memory of the transforms.
+    /// Memory of the transforms, and of the gap in single precision.
     pub transforms: Workspace,
     residual: Vec<f32>,
     previous: Vec<f32>,

@@ -33,6 +33,7 @@ pub struct Stage<T> {
 }
 
 impl<T: Real> Columns<T> {
+    /// Plan for columns of `len` numbers.
     pub fn new(len: usize) -> Self {
         match radices(len) {
             Some(radices) => {

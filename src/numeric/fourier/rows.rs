@@ -45,6 +45,7 @@ pub struct Buffers<T> {
 }
 
 impl<T: Real> Rows<T> {
+    /// Plan for rows of `len` samples.
     pub fn new(len: usize) -> Self {
         if len.is_multiple_of(2) {
             let halves = Columns::new(len / 2);
@@ -64,6 +65,7 @@ impl<T: Real> Rows<T> {
         self.len.next_multiple_of(2 * LANES)
     }
 
+    /// What a group of rows takes.
     pub fn buffers(&self) -> Buffers<T> {
         let (lines, half) = (self.stride() / 2, self.len / 2 + 1);
         let scratch = match &self.way {
@@ -222,7 +224,7 @@ fn parted<S: Simd, T: Real>(simd: S, places: &[usize], turns: &[[T; 2]], pairs: 
         let [b_re, b_im] = line(simd, pairs, places[(number - k) % number]);
         let (e_re, e_im) = ((a_re + b_re) * half, (a_im - b_im) * half);
         let (o_re, o_im) = ((a_im + b_im) * half, (b_re - a_re) * half);
-        let [re, im] = turn.map(|turn| T::Lanes::<S>::simd_from(simd, turn));
+        let (re, im) = (T::Lanes::<S>::simd_from(simd, turn[0]), T::Lanes::<S>::simd_from(simd, turn[1]));
         let (t_re, t_im) = (o_re.mul_sub(re, o_im * im), o_re.mul_add(im, o_im * re));
         put::<S, T>([e_re + t_re, e_im + t_im], components, k);
         put::<S, T>([e_re - t_re, t_im - e_im], components, number - k);
@@ -239,7 +241,7 @@ fn joined<S: Simd, T: Real>(simd: S, places: &[usize], turns: &[[T; 2]], compone
         let (e_re, e_im) = (a_re + b_re, a_im - b_im);
         let (t_re, t_im) = (a_re - b_re, a_im + b_im);
         // O = ω^{−k}(X_k − X*_{M−k}).
-        let [re, im] = turn.map(|turn| T::Lanes::<S>::simd_from(simd, turn));
+        let (re, im) = (T::Lanes::<S>::simd_from(simd, turn[0]), T::Lanes::<S>::simd_from(simd, turn[1]));
         let (o_re, o_im) = (t_re.mul_add(re, t_im * im), t_im.mul_sub(re, t_re * im));
         put::<S, T>([e_re - o_im, e_im + o_re], pairs, places[k]);
         put::<S, T>([e_re + o_im, o_re - e_im], pairs, places[(number - k) % number]);

@@ -7,30 +7,22 @@
 //! Between rows and columns the components stand in tiles: [part of the rows][eight columns][row][8 real, 8 imaginary
 //! parts], so that rows fill, and columns gather, runs of memory that nobody else touches. Work is split into fixed parts:
 //! neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
-//! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Fourier::convolve`],
+//! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Convolution::convolve`],
 //! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.
-//! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Fourier::multiplier`] puts it into K.
+//! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Convolution::multiplier`] puts it into K.
 
-mod butterflies;
-mod columns;
-mod rows;
-
+use crate::numeric::fourier::{Columns, LINE, Rows};
 use crate::numeric::lanes::{LANES, Real, vectorised};
-use columns::{Columns, LINE};
+use crate::numeric::rows::{Parts, next};
 use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
-use rows::Rows;
 use rustfft::num_complex::Complex;
 use std::fmt;
 
-/// Most parts the rows are divided into, and the least rows of one.
-const PARTS: usize = 64;
-const LEAST: usize = 64;
-
 /// Plans for the transforms of N₁ × N₂ real samples of one precision.
 #[derive(Clone)]
-pub struct Fourier<T: Real> {
-    points: [usize; 2],
+pub struct Convolution<T: Real> {
+    parts: Parts,
     rows: Rows<T>,
     columns: Columns<T>,
     /// k₁ at each place of a column between forward and inverse.
@@ -57,27 +49,30 @@ pub enum Action {
 
 /// A convolution but for its last pass.
 #[must_use]
-#[derive(Debug)]
 pub struct Convolved<'a, T: Real> {
-    fourier: &'a Fourier<T>,
+    convolution: &'a Convolution<T>,
     spectrum: &'a [T],
 }
 
-impl<T: Real> Fourier<T> {
+impl<T: Real> Convolution<T> {
     /// Plans for `points` = [N₁, N₂].
     pub fn new(points: [usize; 2]) -> Self {
         let ([n1, n2], columns) = (points, Columns::new(points[0]));
-        Self { points, rows: Rows::new(n2), order: columns.order(n1), columns }
+        Self { parts: Parts::new(points), rows: Rows::new(n2), order: columns.order(n1), columns }
     }
 
-    /// [N₁, N₂].
-    pub fn points(&self) -> [usize; 2] {
-        self.points
+    /// The parts of the rows that sources and sinks are for.
+    pub fn parts(&self) -> Parts {
+        self.parts
+    }
+
+    fn points(&self) -> [usize; 2] {
+        self.parts.points()
     }
 
     /// Components of a row, N₂/2 + 1.
     fn half(&self) -> usize {
-        self.points[1] / 2 + 1
+        self.points()[1] / 2 + 1
     }
 
     /// Groups of eight columns.
@@ -87,7 +82,7 @@ impl<T: Real> Fourier<T> {
 
     /// Numbers between two passes.
     fn size(&self) -> usize {
-        self.tiles() * self.points[0] * LINE
+        self.tiles() * self.points()[0] * LINE
     }
 
     /// Numbers of double precision that a convolution has for its [room](Self::convolve).
@@ -101,7 +96,7 @@ impl<T: Real> Fourier<T> {
     /// The value must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where it is also even in k₁ alone
     /// (`mirrored`), half of them are asked for.
     pub fn multiplier(&self, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Multiplier {
-        let [n1, n2] = self.points;
+        let [n1, n2] = self.points();
         let normalisation = 1.0 / (n1 as f64 * n2 as f64);
         let mut table = vec![1.0; self.tiles() * n1 * LANES];
         table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(tile, table)| {
@@ -122,7 +117,7 @@ impl<T: Real> Fourier<T> {
     }
 
     /// F⁻¹[cK · F u] or F⁻¹[c F u / K] of a field u, still to be fetched. There is one of the `sources` for each
-    /// [part](part_of) of the rows; it puts row after row of u into what it is given. The [`room`](Self::room) is what the
+    /// [part](Self::parts) of the rows; it puts row after row of u into what it is given. The [`room`](Self::room) is what the
     /// convolution works in.
     ///
     /// # Panics
@@ -137,19 +132,19 @@ impl<T: Real> Fourier<T> {
     where
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
-        assert_eq!(multiplier.table.len(), self.tiles() * self.points[0] * LANES, "multiplier of a convolution");
+        assert_eq!(multiplier.table.len(), self.tiles() * self.points()[0] * LANES, "multiplier of a convolution");
         let spectrum = &mut bytemuck::cast_slice_mut(room)[..self.size()];
         self.rows_forward(sources.into_par_iter(), spectrum);
         self.column_pass(action, multiplier, spectrum);
-        Convolved { fourier: self, spectrum }
+        Convolved { convolution: self, spectrum }
     }
 
     fn rows_forward<S>(&self, sources: S, spectrum: &mut [T])
     where
         S: IndexedParallelIterator<Item: FnMut(&mut [T])>,
     {
-        let (rows, tiles) = (self.points[0], self.tiles());
-        let parts = spectrum.par_chunks_mut(part_of(rows) * tiles * LINE);
+        let tiles = self.tiles();
+        let parts = spectrum.par_chunks_mut(self.parts.rows() * tiles * LINE);
         assert_eq!(sources.len(), parts.len(), "sources of a convolution");
         parts.zip(sources).for_each(|(spectrum, mut source)| {
             let (run, mut buffers) = (spectrum.len() / tiles, self.rows.buffers());
@@ -162,9 +157,9 @@ impl<T: Real> Fourier<T> {
     }
 
     fn column_pass(&self, action: Action, multiplier: &Multiplier, spectrum: &mut [T]) {
-        let (n1, tiles) = (self.points[0], self.tiles());
-        let mut gathered: Vec<Vec<&mut [T]>> = (0..tiles).map(|_| Vec::with_capacity(PARTS)).collect();
-        for part in spectrum.chunks_mut(part_of(n1) * tiles * LINE) {
+        let (n1, tiles) = (self.points()[0], self.tiles());
+        let mut gathered: Vec<Vec<&mut [T]>> = (0..tiles).map(|_| Vec::with_capacity(self.parts.count())).collect();
+        for part in spectrum.chunks_mut(self.parts.rows() * tiles * LINE) {
             let run = part.len() / tiles;
             part.chunks_exact_mut(run).zip(&mut gathered).for_each(|(run, tile)| tile.push(run));
         }
@@ -209,7 +204,7 @@ impl<T: Real> Fourier<T> {
 }
 
 impl<T: Real> Convolved<'_, T> {
-    /// Hands its rows over: there is one of the `sinks` for each [part](part_of) of the rows, which takes row after row,
+    /// Hands its rows over: there is one of the `sinks` for each [part](Self::parts) of the rows, which takes row after row,
     /// and may use it as it likes.
     ///
     /// # Panics
@@ -218,45 +213,29 @@ impl<T: Real> Convolved<'_, T> {
     where
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
-        let (Self { fourier, spectrum }, sinks) = (self, sinks.into_par_iter());
-        let (rows, tiles) = (fourier.points[0], fourier.tiles());
-        let parts = spectrum.par_chunks(part_of(rows) * tiles * LINE);
+        let (Self { convolution, spectrum }, sinks) = (self, sinks.into_par_iter());
+        let tiles = convolution.tiles();
+        let parts = spectrum.par_chunks(convolution.parts.rows() * tiles * LINE);
         assert_eq!(sinks.len(), parts.len(), "sinks of a convolution");
         parts.zip(sinks).for_each(|(spectrum, mut sink)| {
-            let (run, mut buffers) = (spectrum.len() / tiles, fourier.rows.buffers());
+            let (run, mut buffers) = (spectrum.len() / tiles, convolution.rows.buffers());
             for first in (0..run).step_by(LANES * LINE) {
                 let group = (run - first).min(LANES * LINE);
                 let lines = spectrum.chunks_exact(run).map(|tile| &tile[first..first + group]);
-                fourier.rows.back(group / LINE, lines, &mut buffers, &mut sink);
+                convolution.rows.back(group / LINE, lines, &mut buffers, &mut sink);
             }
         });
     }
 }
 
 /// Sources that copy the rows of a field.
-pub fn rows_of<T: Real>(field: &[T], [n1, n2]: [usize; 2]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
-    field.par_chunks(part_of(n1) * n2).map(move |part| {
-        let mut rows = part.chunks_exact(n2);
-        move |to: &mut [T]| to.copy_from_slice(rows.next().expect("a part has its rows"))
-    })
+pub fn rows_of<T: Real>(parts: Parts, field: &[T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
+    parts.of(field).map(|mut rows| move |to: &mut [T]| to.copy_from_slice(next(&mut rows)))
 }
 
 /// Sinks that copy rows to those of a field.
-pub fn rows_to<T: Real>(field: &mut [T], [n1, n2]: [usize; 2]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
-    field.par_chunks_mut(part_of(n1) * n2).map(move |part| {
-        let mut rows = part.chunks_exact_mut(n2);
-        move |from: &mut [T]| rows.next().expect("a part has its rows").copy_from_slice(from)
-    })
-}
-
-/// How many parts there are.
-pub fn parts_of(rows: usize) -> usize {
-    rows.div_ceil(part_of(rows))
-}
-
-/// Rows that are transformed one after the other, of `rows` in all; the last part may have fewer.
-pub fn part_of(rows: usize) -> usize {
-    rows.div_ceil(PARTS).max(LEAST)
+pub fn rows_to<T: Real>(parts: Parts, field: &mut [T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
+    parts.of_mut(field).map(|mut rows| move |from: &mut [T]| next(&mut rows).copy_from_slice(from))
 }
 
 /// Each component times its factor and a common one.
@@ -283,25 +262,16 @@ fn multiply<S: Simd, T: Real>(simd: S, factor: T::Lanes<S>, line: &mut [T]) {
     (T::Lanes::<S>::from_slice(simd, im) * factor).store_slice(im);
 }
 
-impl<T: Real> fmt::Debug for Fourier<T> {
+impl<T: Real> fmt::Debug for Convolved<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Fourier").field("points", &self.points).finish_non_exhaustive()
+        f.debug_struct("Convolved").field("points", &self.convolution.points()).finish_non_exhaustive()
     }
-}
-/// The least number ≥ `n` whose prime factors are 2, 3, 5 and 7, for which transforms are fast.
-pub fn fast_points(n: usize) -> usize {
-    (n.max(1)..).find(|&m| has_fast_factors(m)).unwrap_or(n)
 }
 
-/// Whether the prime factors of `n` are 2, 3, 5 and 7 only.
-pub fn has_fast_factors(n: usize) -> bool {
-    let mut rest = n;
-    for factor in [2, 3, 5, 7] {
-        while rest > 0 && rest.is_multiple_of(factor) {
-            rest /= factor;
-        }
+impl<T: Real> fmt::Debug for Convolution<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Convolution").field("points", &self.points()).finish_non_exhaustive()
     }
-    rest == 1
 }
 
 #[cfg(test)]
@@ -323,16 +293,16 @@ mod tests {
 
     /// Mean errors of a convolution, and of what undoes it, against a symbol that is a sum of shifts.
     fn errors<T: Real>([n1, n2]: [usize; 2]) -> [f64; 2] {
-        let fourier = Fourier::<T>::new([n1, n2]);
+        let convolution = Convolution::<T>::new([n1, n2]);
         let symbol = |k1: usize, k2: usize| {
             let (c1, c2) = (TAU * k1 as f64 / n1 as f64, TAU * k2 as f64 / n2 as f64);
             1.0 + 0.3 * c1.cos() + 0.2 * (c1 - c2).cos() + 0.1 * (2.0 * c2).cos()
         };
         let input = noise(n1 * n2);
         let mean = input.iter().sum::<f64>() / input.len() as f64;
-        let multiplier = fourier.multiplier(false, |[k1, k2]| symbol(k1, k2));
+        let multiplier = convolution.multiplier(false, |[k1, k2]| symbol(k1, k2));
         let (mut field, mut room) =
-            (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), vec![0.0; fourier.room()]);
+            (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), vec![0.0; convolution.room()]);
         let at = |i: usize, j: usize| input[(i % n1) * n2 + j % n2] - mean;
         let expected = |i: usize, j: usize| {
             at(i, j)
@@ -342,8 +312,8 @@ mod tests {
         };
         let scale = 3.0;
         let mut convolve = |action, field: &mut [T]| {
-            let convolved = fourier.convolve(action, &multiplier, &mut room, rows_of(field, [n1, n2]));
-            convolved.rows(rows_to(field, [n1, n2]));
+            let convolved = convolution.convolve(action, &multiplier, &mut room, rows_of(convolution.parts(), field));
+            convolved.rows(rows_to(convolution.parts(), field));
         };
         convolve(Action::Times(scale), &mut field);
         let there: f64 =
@@ -356,7 +326,24 @@ mod tests {
 
     #[test]
     fn a_convolution_is_its_direct_double_sum_and_can_be_undone() {
-        for points in [[1, 1], [8, 6], [5, 9], [12, 20], [7, 4], [36, 50], [26, 22], [64, 128], [17, 34], [37, 19]] {
+        for points in [
+            [1, 1],
+            [8, 6],
+            [5, 9],
+            [12, 20],
+            [7, 4],
+            [36, 50],
+            [26, 22],
+            [64, 128],
+            [17, 34],
+            [37, 19],
+            [130, 9],
+            [65, 16],
+            [129, 2],
+            [70, 1],
+            [1, 40],
+            [3, 2],
+        ] {
             assert!(
                 errors::<f64>(points).into_iter().all(|error| error < 1e-15),
                 "{points:?}: {:?}",

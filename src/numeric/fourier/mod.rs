@@ -1,0 +1,31 @@
+//! Discrete Fourier transforms, eight series of numbers at a time.
+//!
+//! - `butterflies`: short ones, of eight series in the lanes of vectors;
+//! - `columns`: of complex columns, forth and back, without reordering between;
+//! - `rows`: of real rows, by the same steps.
+//!
+//! A field is transformed by groups of eight rows, then by tiles of eight columns, which are lines of eight real and eight
+//! imaginary parts, one line a row.
+
+mod butterflies;
+mod columns;
+mod rows;
+
+pub use columns::{Columns, LINE};
+pub use rows::Rows;
+
+/// The least number ≥ `n` whose prime factors are 2, 3, 5 and 7, for which transforms are fast.
+pub fn fast_points(n: usize) -> usize {
+    (n.max(1)..).find(|&m| has_fast_factors(m)).unwrap_or(n)
+}
+
+/// Whether the prime factors of `n` are 2, 3, 5 and 7 only.
+pub fn has_fast_factors(n: usize) -> bool {
+    let mut rest = n;
+    for factor in [2, 3, 5, 7] {
+        while rest > 0 && rest.is_multiple_of(factor) {
+            rest /= factor;
+        }
+    }
+    rest == 1
+}
