@@ -13,7 +13,12 @@ pub struct Component {
 
 /// The sample of the cell that a row and a column beyond its borders repeat.
 fn index([n1, n2]: [usize; 2], [i, j]: [i32; 2]) -> usize {
-    i.rem_euclid(n1 as i32) as usize * n2 + j.rem_euclid(n2 as i32) as usize
+    // Most stand in the cell: a division costs more than all else that is done with a sample.
+    let within = |k: i32, n: usize| match usize::try_from(k) {
+        Ok(k) if k < n => k,
+        _ => k.rem_euclid(n as i32) as usize,
+    };
+    within(i, n1) * n2 + within(j, n2)
 }
 
 fn place(grid: &Grid, [i, j]: [i32; 2]) -> [f64; 2] {

@@ -97,18 +97,20 @@ impl Waves {
         &self.shells
     }
 
-    /// All rows.
-    pub fn rows(&self) -> &[Row] {
-        &self.rows
-    }
-
     /// The rows cut down to waves of the first `count` shells: by convexity an interval again.
     pub fn rows_within(&self, count: usize) -> Vec<Row> {
+        let [x, y] = self.step;
         let cut = |row: &Row| {
             let shells = &self.shells[row.start..row.start + row.len];
             let within = |shell: &u32| (*shell as usize) < count;
-            let skipped = shells.iter().position(within)?;
-            let last = shells.iter().rposition(within)?;
+            // Wavenumbers grow to both sides of the one nearest to the origin.
+            let nearest = -(row.origin[0] * x + row.origin[1] * y) / (x * x + y * y);
+            let nearest = (nearest.round().max(0.0) as usize).min(row.len - 1);
+            if !within(&shells[nearest]) {
+                return None;
+            }
+            let skipped = shells[..nearest].partition_point(|shell| !within(shell));
+            let last = nearest + shells[nearest..].partition_point(within) - 1;
             Some(Row {
                 first: row.first + skipped as i32,
                 origin: row.at(skipped, self.step),
@@ -240,7 +242,7 @@ mod tests {
             let waves = Waves::new(&zone);
             let parts = waves.coefficients(|_| 1.0);
             let mut whole = vec![0.0; n1 * n2];
-            for row in waves.rows() {
+            for row in &waves.rows {
                 for k in 0..row.len {
                     let index = [row.first + k as i32, row.across];
                     for index in [index, index.map(|k| -k)] {

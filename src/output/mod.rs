@@ -85,20 +85,42 @@ pub fn write_file(
     path: &Path,
     content: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
-    let write = || -> io::Result<()> {
-        let mut writer = BufWriter::new(fs::File::create(&temporary)?);
-        content(&mut writer)?;
-        writer.flush()?;
-        drop(writer);
-        fs::rename(&temporary, path)
-    };
-    write().map_err(|error| {
-        // The first error is the one to report; a leftover that cannot be removed changes nothing about it.
-        let _ = fs::remove_file(&temporary);
-        OutputError::new(path, error)
-    })
+    let mut file = Draft::new(path)?;
+    file.write(content)?;
+    file.keep()
+}
+
+/// A file under a temporary name in its folder, which gets its own when it is kept. Dropped, it leaves nothing behind.
+#[derive(Debug)]
+struct Draft {
+    path: PathBuf,
+    temporary: PathBuf,
+    writer: BufWriter<fs::File>,
+}
+
+impl Draft {
+    fn new(path: &Path) -> Result<Self, OutputError> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
+        let file = fs::File::create(&temporary).map_err(|error| OutputError::new(path, error))?;
+        Ok(Self { path: path.to_owned(), temporary, writer: BufWriter::new(file) })
+    }
+
+    fn write(&mut self, content: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>) -> Result<(), OutputError> {
+        content(&mut self.writer).map_err(|error| OutputError::new(&self.path, error))
+    }
+
+    fn keep(mut self) -> Result<(), OutputError> {
+        self.write(|writer| writer.flush())?;
+        fs::rename(&self.temporary, &self.path).map_err(|error| OutputError::new(&self.path, error))
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        // Nothing is there when it was kept; a leftover that cannot be removed changes nothing about an error.
+        let _ = fs::remove_file(&self.temporary);
+    }
 }
 
 /// Writes a text file as [`write_file`] does.

@@ -104,10 +104,7 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
     shape: &[usize],
     values: impl IntoIterator<Item = T>,
 ) -> io::Result<()> {
-    let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
-    // The library writes value by value, which takes longer than the disk: it has the header alone.
-    let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
-    header.writer(&mut writer).write_header_only()?;
+    header::<T>(&mut writer, shape)?;
     let (mut values, mut chunk, mut count) = (values.into_iter(), Vec::with_capacity(CHUNK), 0);
     loop {
         chunk.extend(values.by_ref().take(CHUNK));
@@ -118,6 +115,19 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
         }
         chunk.clear();
     }
+    complete(shape, count)
+}
+
+/// What stands before the values of an array. The library would write those one by one, which takes longer than the disk.
+pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> io::Result<()> {
+    let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
+    let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
+    header.writer(writer).write_header_only()?;
+    Ok(())
+}
+
+/// Whether an array has as many values as its shape says.
+pub(super) fn complete(shape: &[usize], count: usize) -> io::Result<()> {
     if count == shape.iter().product::<usize>() {
         Ok(())
     } else {

@@ -3,11 +3,11 @@
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
 use super::gathered::remove_waiting;
-use super::npz::{Archive, npy};
-use super::{OutputError, make_folder, write_file};
+use super::npz::{Archive, complete, header, npy};
+use super::{Draft, OutputError, make_folder, write_file};
 use npyz::AutoSerialize;
 use std::fs;
-use std::io::{self, BufReader, BufWriter, Read};
+use std::io::{self, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// An archive that is being gathered on disk.
@@ -27,6 +27,14 @@ struct Entry {
     shape: Vec<usize>,
     /// Number of equal parts it comes in, one after the other; none: it comes whole.
     parts: Option<usize>,
+}
+
+/// A step's entry of an array, or a part of it, that is being written.
+#[derive(Debug)]
+pub(super) struct GrowingEntry {
+    file: Draft,
+    shape: Vec<usize>,
+    count: usize,
 }
 
 impl StepArrays {
@@ -65,13 +73,30 @@ impl StepArrays {
         shape: &[usize],
         values: impl IntoIterator<Item = f64>,
     ) -> Result<(), OutputError> {
+        self.enter(array, part, shape);
+        write_file(&self.waiting(array, self.steps, part), |writer| npy(writer, shape, values))
+    }
+
+    /// The same, its values to come piece by piece.
+    pub(super) fn begin(
+        &mut self,
+        array: &str,
+        part: Option<usize>,
+        shape: &[usize],
+    ) -> Result<GrowingEntry, OutputError> {
+        self.enter(array, part, shape);
+        let mut file = Draft::new(&self.waiting(array, self.steps, part))?;
+        file.write(|writer| header::<f64>(writer, shape))?;
+        Ok(GrowingEntry { file, shape: shape.to_vec(), count: 0 })
+    }
+
+    fn enter(&mut self, array: &str, part: Option<usize>, shape: &[usize]) {
         if self.steps == 1 {
             match self.arrays.iter_mut().find(|entry| entry.array == array) {
                 Some(entry) => entry.parts = part,
                 None => self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: part }),
             }
         }
-        write_file(&self.waiting(array, self.steps, part), |writer| npy(writer, shape, values))
     }
 
     /// Gathers all steps in the archive, after the arrays that `constants` adds; the waiting files stay if that fails.
@@ -100,6 +125,20 @@ impl StepArrays {
             archive.finish()
         })?;
         remove_waiting(&self.partial()).map(|_| ())
+    }
+}
+
+impl GrowingEntry {
+    /// Adds the next values.
+    pub(super) fn add(&mut self, values: &[f64]) -> Result<(), OutputError> {
+        self.count += values.len();
+        self.file.write(|writer| writer.write_all(bytemuck::cast_slice(values)))
+    }
+
+    /// All values are there.
+    pub(super) fn finish(mut self) -> Result<(), OutputError> {
+        self.file.write(|_| complete(&self.shape, self.count))?;
+        self.file.keep()
     }
 }
 

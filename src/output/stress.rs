@@ -2,13 +2,12 @@
 //! VTK file of the volume for each.
 
 use super::clock::{Clock, Phase};
-use super::steps::StepArrays;
+use super::steps::{GrowingEntry, StepArrays};
 use super::{OutputError, write_volume};
 use crate::body::{Depth, HalfSpace};
-use crate::numeric::array::samples;
 use crate::run::StressRequest;
 use crate::stress::{Section, State, StressField};
-use rayon::prelude::*;
+use ndarray::ArrayView3;
 use std::path::{Path, PathBuf};
 
 /// Names of the stored components: σ_xx … σ_yz, displacements, and what is derived from the tensor.
@@ -59,8 +58,8 @@ impl Stresses {
             let (path, depths) =
                 (folder.join(format!("stress.{step:04}.vts")), half_space.rows(volume.depth, volume.rows));
             write_volume(&path, field, &depths, [volume.points; 2])?;
-            clock.turn(Phase::Output);
         }
+        clock.turn(Phase::Output);
         Ok(())
     }
 
@@ -94,8 +93,8 @@ impl Stresses {
     }
 }
 
-/// Adds the components of a plane to the arrays `planes_<component>`: the stresses and what is derived from them, then the
-/// displacements, so that no more than the one or the other is in memory.
+/// Adds the components of a plane to the arrays `planes_<component>`, by some rows at a time: the stresses and what is
+/// derived from them, then the displacements.
 fn add_plane(
     arrays: &mut StepArrays,
     number: usize,
@@ -104,35 +103,42 @@ fn add_plane(
     clock: &mut Clock,
 ) -> Result<(), OutputError> {
     let points = field.grid().points();
-    let len = points[0] * points[1];
-    let mut add = |c: usize, values: &[f64]| {
-        arrays.add(&format!("planes_{}", COMPONENTS[c]), Some(number), &points, values.iter().copied())
-    };
     clock.turn(Phase::Stress);
-    let stresses = field.stresses(depth, points);
+    let mut entries = begin(arrays, number, &points, [&COMPONENTS[..6], &COMPONENTS[9..]].concat())?;
+    field.stresses_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
+    finish(entries, clock)?;
+    let mut entries = begin(arrays, number, &points, COMPONENTS[6..9].to_vec())?;
+    field.displacements_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
+    finish(entries, clock)
+}
+
+/// The plane of this number of some components.
+fn begin(
+    arrays: &mut StepArrays,
+    number: usize,
+    points: &[usize],
+    components: Vec<&str>,
+) -> Result<Vec<GrowingEntry>, OutputError> {
+    let names = components.into_iter().map(|component| format!("planes_{component}"));
+    names.map(|name| arrays.begin(&name, Some(number), points)).collect()
+}
+
+/// Adds rows to each component, in the time of writing.
+fn add_rows(entries: &mut [GrowingEntry], rows: ArrayView3<'_, f64>, clock: &mut Clock) -> Result<(), OutputError> {
     clock.turn(Phase::Output);
-    let components: Vec<&[f64]> = samples(&stresses).chunks_exact(len).collect();
-    (0..6).try_for_each(|c| add(c, components[c]))?;
-    let state = |index: usize| {
-        let [xx, yy, zz, xy, xz, yz] = std::array::from_fn(|c| components[c][index]);
-        State { xx, yy, zz, xy, xz, yz, ..State::default() }
-    };
+    let components = entries.iter_mut().zip(rows.outer_iter());
+    components
+        .into_iter()
+        .try_for_each(|(entry, rows)| entry.add(rows.as_slice().expect("rows follow one another")))?;
     clock.turn(Phase::Stress);
-    let mut derived = vec![0.0; 3 * len];
-    let (tau1, others) = derived.split_at_mut(len);
-    let (mises, s1) = others.split_at_mut(len);
-    (tau1, mises, s1).into_par_iter().enumerate().for_each(|(index, (tau1, mises, s1))| {
-        [*tau1, *mises, *s1] = state(index).derived();
-    });
+    Ok(())
+}
+
+fn finish(entries: Vec<GrowingEntry>, clock: &mut Clock) -> Result<(), OutputError> {
     clock.turn(Phase::Output);
-    (9..12).zip(derived.chunks_exact(len)).try_for_each(|(c, values)| add(c, values))?;
-    drop(derived);
-    drop(components);
-    drop(stresses);
+    entries.into_iter().try_for_each(GrowingEntry::finish)?;
     clock.turn(Phase::Stress);
-    let displacements = field.displacements(depth, points);
-    clock.turn(Phase::Output);
-    (6..9).zip(samples(&displacements).chunks_exact(len)).try_for_each(|(c, values)| add(c, values))
+    Ok(())
 }
 
 /// Adds the components of states of this shape to the arrays `<place>_<component>`, as a part if they come in parts.

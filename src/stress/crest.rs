@@ -99,10 +99,10 @@ impl StressField {
             return None;
         }
         let skin = Skin::new(self, 1.0);
-        let transform = Transform::new(self.grid().points());
-        let (edges, band) = self.edges(&skin, &transform);
-        let (edges, band) = self.along_edges(&skin, &transform, edges, band);
-        let (highest, pressed) = self.highest_sample(&skin, &transform, &band)?;
+        let (transform, mut room) = (Transform::new(self.grid().points()), Vec::new());
+        let (edges, band) = self.edges(&skin, &transform, &mut room);
+        let (edges, band) = self.along_edges(&skin, &transform, &mut room, edges, band);
+        let (highest, pressed) = self.highest_sample(&skin, &transform, room, &band)?;
         let mut finalists = vec![(Kind::Open, highest)];
         finalists.extend(edges.iter().take(FINALISTS).map(|edge| (Kind::Edge, edge.place)));
         let Highest { kind, place, state, smoothed } = self.highest(&skin, &finalists)?;
@@ -123,11 +123,13 @@ impl StressField {
 
     /// Edges beside the samples where contact ends, their tension not known yet; and row by row the samples near edges,
     /// with p̃ and its slopes.
-    fn edges(&self, skin: &Skin, transform: &Transform) -> (Vec<Edge>, Band<[f64; 3]>) {
+    fn edges(&self, skin: &Skin, transform: &Transform, room: &mut Vec<f64>) -> (Vec<Edge>, Band<[f64; 3]>) {
         let (grid, regions) = (self.grid(), self.regions());
         let ([_, n2], cell, len) = (grid.points(), grid.cell(), grid.len());
         let mut fields = vec![0.0; 3 * len];
-        self.series.on_plane(transform, Vec::new(), &skin.near).write(&mut fields);
+        let columns = self.series.on_plane(transform, std::mem::take(room), &skin.near);
+        columns.write(&mut fields);
+        *room = columns.into_room();
         let near = |index: usize| [0, 1, 2].map(|k| fields[k * len + index]);
         let found = (0..len).into_par_iter().filter(|&index| regions.touches(index)).filter_map(|index| {
             let open = grid.neighbours(index).filter(|&next| !regions.touches(next));
@@ -153,6 +155,7 @@ impl StressField {
         &self,
         skin: &Skin,
         transform: &Transform,
+        room: &mut Vec<f64>,
         mut edges: Vec<Edge>,
         band: Band<[f64; 3]>,
     ) -> (Vec<Edge>, Band<Sharp>) {
@@ -163,7 +166,8 @@ impl StressField {
         for (number, place) in places.iter().enumerate() {
             place.rows.iter().for_each(|&(i, weight)| beside[i].push((number, weight)));
         }
-        let read = self.series.on_plane(transform, Vec::new(), &skin.edge).map(|i, row| {
+        let columns = self.series.on_plane(transform, std::mem::take(room), &skin.edge);
+        let read = columns.map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let sharp: Vec<_> = band[i].iter().map(|&(j, near)| (j, skin.sharp(near, at(j)))).collect();
             let parts: Vec<[f64; 4]> = beside[i]
@@ -172,6 +176,7 @@ impl StressField {
                 .collect();
             (sharp, parts)
         });
+        *room = columns.into_room();
         let mut sums = vec![[0.0; 4]; edges.len()];
         let (mut sharp, mut rows) = (Vec::with_capacity(read.len()), beside.iter());
         for (own, parts) in read {
@@ -188,8 +193,14 @@ impl StressField {
     }
 
     /// Place of the sample under the largest tension, and the largest smoothed pressure of all.
-    fn highest_sample(&self, skin: &Skin, transform: &Transform, band: &Band<Sharp>) -> Option<([f64; 2], f64)> {
-        let rows = self.series.on_plane(transform, Vec::new(), &skin.open).map(|i, row| {
+    fn highest_sample(
+        &self,
+        skin: &Skin,
+        transform: &Transform,
+        room: Vec<f64>,
+        band: &Band<Sharp>,
+    ) -> Option<([f64; 2], f64)> {
+        let rows = self.series.on_plane(transform, room, &skin.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let mut states: Vec<State> = (0..row[0].len()).map(|j| toward_open([0.0; 4], at(j), 1.0)).collect();
             for &(j, (sharp, part)) in &band[i] {

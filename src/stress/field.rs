@@ -98,8 +98,9 @@ impl StressField {
         let waves = &self.series.waves;
         let count = waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
         let amplitude = |&q: &f64| self.transfer.amplitudes(q, depth);
-        let amplitudes = waves.wavenumbers()[..count].par_iter().with_min_len(512).map(amplitude).collect();
-        Slice { amplitudes, mean: self.mean(depth) }
+        let wavenumbers = &waves.wavenumbers()[..count];
+        let amplitudes = wavenumbers.par_iter().with_min_len(512).map(amplitude).collect();
+        Slice { amplitudes, lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(), mean: self.mean(depth) }
     }
 
     /// The state that the mean pressure causes at a depth.

@@ -8,10 +8,9 @@
 //! with the amplitudes of [`crate::body::Interior`]; the mean pressure adds the state of [`crate::MeanStress`]. At the
 //! depth z only waves with qz up to 41 count: shorter ones are lost in rounding.
 //!
-//! - **planes**: inverse transforms of three components at a time, the waves that reach the depth filled in column by column
-//!   ([`StressField::plane`], [`StressField::stresses`]);
-//! - **sections** and **lines**: the waves are first collapsed across the section onto their wavenumbers along it
-//!   ([`StressField::section`]);
+//! - **planes**: inverse transforms of the components asked for, the waves that reach the depth filled in column by column,
+//!   as arrays or handed on row by row ([`StressField::plane`], [`StressField::stresses_by_rows`]);
+//! - **sections** and **lines**: the waves summed by their wavenumbers along the line ([`StressField::section`]);
 //! - **points**: the sum itself ([`StressField::points`]);
 //! - **maxima** over each material and each face ([`maxima`]).
 

@@ -1,13 +1,11 @@
 //! Planes of constant depth.
 
 use super::field::{REACH, StressField};
-use super::series::Response;
-use super::slice::Third;
+use super::slice::{Displacements, Stresses};
 use super::tensor::State;
 use super::transform::Transform;
 use crate::body::Depth;
-use ndarray::{Array2, Array3};
-use rustfft::num_complex::Complex64;
+use ndarray::{Array2, Array3, ArrayView3};
 
 /// The states on a plane of constant depth.
 #[derive(Debug, Clone)]
@@ -42,50 +40,54 @@ impl StressField {
     /// # Panics
     /// When a number of points is zero, or the depth in a material that is not there.
     pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
-        Plane { depth, components: self.thirds(depth, points, &[0, 1, 2]) }
+        let (transform, slice, [n1, n2]) = (Transform::new(points), self.slice(depth, REACH), points);
+        let mut components = vec![0.0; 9 * n1 * n2];
+        let (stresses, displacements) = components.split_at_mut(6 * n1 * n2);
+        let columns = self.series.on_plane(&transform, Vec::new(), &Stresses(&slice));
+        columns.write(stresses);
+        self.series.on_plane(&transform, columns.into_room(), &Displacements(&slice)).write(displacements);
+        let components = Array3::from_shape_vec([9, n1, n2], components);
+        Plane { depth, components: components.expect("nine fields") }
     }
 
-    /// Stresses alone on the whole plane, as [`Self::plane`] has them. Axis 0: xx, yy, zz, xy, xz, yz.
+    /// Stresses on the whole plane, as [`Self::plane`] has them, handed on by some rows at a time, from the first to the
+    /// last: the plane itself is never in memory. Axis 0: xx, yy, zz, xy, xz, yz, then τ₁, von Mises and σ₁; axis 1: rows;
+    /// axis 2 along a₂.
+    ///
+    /// # Errors
+    /// That of `sink`, which is then asked no more.
     ///
     /// # Panics
     /// As [`Self::plane`].
-    pub fn stresses(&self, depth: Depth, points: [usize; 2]) -> Array3<f64> {
-        self.thirds(depth, points, &[0, 1])
-    }
-
-    /// Displacements alone on the whole plane, lengths, as [`Self::plane`] has them. Axis 0: u_x, u_y, u_z.
-    ///
-    /// # Panics
-    /// As [`Self::plane`].
-    pub fn displacements(&self, depth: Depth, points: [usize; 2]) -> Array3<f64> {
-        self.thirds(depth, points, &[2])
-    }
-
-    /// Some of xx, yy, zz (0), xy, xz, yz (1) and u_x, u_y, u_z (2). Three at a time are transformed: that takes as much
-    /// room as they do.
-    fn thirds(&self, depth: Depth, points: [usize; 2], numbers: &[usize]) -> Array3<f64> {
-        let (transform, slice) = (Transform::new(points), self.slice(depth, REACH));
-        let [n1, n2] = points;
-        let (mut room, mut all) = (Vec::new(), vec![0.0; 3 * numbers.len() * n1 * n2]);
-        for (number, fields) in numbers.iter().zip(all.chunks_exact_mut(3 * n1 * n2)) {
-            room = match number {
-                0 => self.write(&transform, room, &Third::<0>(&slice), fields),
-                1 => self.write(&transform, room, &Third::<1>(&slice), fields),
-                _ => self.write(&transform, room, &Third::<2>(&slice), fields),
-            };
-        }
-        Array3::from_shape_vec([3 * numbers.len(), n1, n2], all).expect("three fields each")
-    }
-
-    fn write(
+    pub fn stresses_by_rows<E>(
         &self,
-        transform: &Transform,
-        room: Vec<Complex64>,
-        response: &impl Response<3>,
-        fields: &mut [f64],
-    ) -> Vec<Complex64> {
-        let columns = self.series.on_plane(transform, room, response);
-        columns.write(fields);
-        columns.into_room()
+        depth: Depth,
+        points: [usize; 2],
+        sink: impl FnMut(ArrayView3<'_, f64>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (transform, slice) = (Transform::new(points), self.slice(depth, REACH));
+        let columns = self.series.on_plane(&transform, Vec::new(), &Stresses(&slice));
+        let read = |stresses @ [xx, yy, zz, xy, xz, yz]: [f64; 6]| {
+            let [tau1, mises, s1] = State::from_stresses(stresses).derived();
+            [xx, yy, zz, xy, xz, yz, tau1, mises, s1]
+        };
+        columns.hand_on(read, sink)
+    }
+
+    /// Displacements on the whole plane, lengths, handed on as [`Self::stresses_by_rows`] does. Axis 0: u_x, u_y, u_z.
+    ///
+    /// # Errors
+    /// That of `sink`, which is then asked no more.
+    ///
+    /// # Panics
+    /// As [`Self::plane`].
+    pub fn displacements_by_rows<E>(
+        &self,
+        depth: Depth,
+        points: [usize; 2],
+        sink: impl FnMut(ArrayView3<'_, f64>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let (transform, slice) = (Transform::new(points), self.slice(depth, REACH));
+        self.series.on_plane(&transform, Vec::new(), &Displacements(&slice)).hand_on(|row| row, sink)
     }
 }

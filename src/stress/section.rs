@@ -9,8 +9,12 @@ use super::tensor::State;
 use super::trace::Trace;
 use crate::body::Depth;
 use crate::numeric::array::field;
+use crate::numeric::search::first_largest;
 use ndarray::Array2;
 use rayon::prelude::*;
+
+/// Into so many parts the distance of two points is divided to find the largest stress between them.
+const BETWEEN: usize = 512;
 
 /// Equally spaced points on a straight line along the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,18 +113,16 @@ impl<'a> Below<'a> {
     fn rows(&self, depths: &[Depth]) -> Vec<Vec<State>> {
         let shallow = self.field.shallow();
         let between = |depth: &Depth| depth.material == 1 && depth.z > 0.0 && depth.z < shallow;
-        let ends =
-            depths.iter().any(between).then(|| [0.0, shallow].map(|z| self.row(&self.line, Depth { z, material: 1 })));
-        let row = |depth: &Depth| {
-            let own = self.row(&self.line, *depth);
-            match &ends {
-                Some([surface, below]) if between(depth) => {
-                    let part = depth.z / shallow;
-                    let pairs = surface.iter().zip(below).zip(own);
-                    pairs.map(|((a, b), own)| State { displacement: own.displacement, ..a.toward(b, part) }).collect()
-                }
-                _ => own,
+        let at = |z: f64| self.row(&self.line, Depth { z, material: 1 });
+        let ends = depths.iter().any(between).then(|| rayon::join(|| at(0.0), || at(shallow)));
+        let row = |depth: &Depth| match &ends {
+            Some((surface, _)) if *depth == Depth::SURFACE => surface.clone(),
+            Some((surface, below)) if between(depth) => {
+                let part = depth.z / shallow;
+                let pairs = surface.iter().zip(below).zip(self.row(&self.line, *depth));
+                pairs.map(|((a, b), own)| State { displacement: own.displacement, ..a.toward(b, part) }).collect()
             }
+            _ => self.row(&self.line, *depth),
         };
         depths.par_iter().map(row).collect()
     }
@@ -129,24 +131,16 @@ impl<'a> Below<'a> {
     /// `surface` holds the states at the points.
     fn highest(&self, surface: &[State]) -> Option<[f64; 2]> {
         let line = self.line;
-        let stress = |state: &State| state.along(line.direction);
-        let best = (0..surface.len()).max_by(|&a, &b| stress(&surface[a]).total_cmp(&stress(&surface[b])))?;
-        let mut highest = [line.distances()[best], stress(&surface[best])];
-        let mut half = line.step();
-        // The stress drops at once at an edge: a search without slopes, to 1/512 of the distance of two points.
-        for _ in 0..if self.skin.is_some() { 3 } else { 0 } {
-            let [s, _] = highest;
-            let span = [(s - half).max(line.span[0]), (s + half).min(line.span[1])];
-            let finer = Line { span, points: 17, ..line };
-            let states = self.row(&finer, Depth::SURFACE);
-            for (s, state) in finer.distances().into_iter().zip(&states) {
-                if stress(state) > highest[1] {
-                    highest = [s, stress(state)];
-                }
-            }
-            half /= 8.0;
-        }
-        Some(highest)
+        let highest = |states: &[State], line: Line| {
+            let (best, stress) = first_largest(states.iter().map(|state| state.along(line.direction)))?;
+            Some([line.distances()[best], stress])
+        };
+        let [s, stress] = highest(surface, line)?;
+        let Some(skin) = &self.skin else { return Some([s, stress]) };
+        // The stress drops at once at an edge: as many points between two as say where.
+        let span = [(s - line.step()).max(line.span[0]), (s + line.step()).min(line.span[1])];
+        let finer = Line { span, points: 2 * BETWEEN + 1, ..line };
+        highest(&self.sharp(skin, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
     }
 
     /// States at a depth, at the points of `line`: of its own or a part of it.
@@ -155,10 +149,15 @@ impl<'a> Below<'a> {
         let slice = self.field.slice(depth, REACH);
         let states = self.trace.sums(&slice, [first, step], line.points).into_iter().map(State::from_components);
         let Some(skin) = self.skin.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
-        let near = self.trace.sums(&skin.near, [first, step], line.points);
-        let [edge, open] = [&skin.edge, &skin.open].map(|flat| self.trace.sums(flat, [first, step], line.points));
-        let smooth = near.into_iter().zip(edge).zip(open);
-        let sharp = smooth.map(|((near, edge), open)| skin.state(near, edge, open));
-        sharp.zip(states).map(|(sharp, state)| State { displacement: state.displacement, ..sharp }).collect()
+        let sharp = self.sharp(skin, line).into_iter().zip(states);
+        sharp.map(|(sharp, state)| State { displacement: state.displacement, ..sharp }).collect()
+    }
+
+    /// States on the surface, displacements left out, at the points of `line`.
+    fn sharp(&self, skin: &Skin, line: &Line) -> Vec<State> {
+        let places = [line.span[0], line.step()];
+        let near = self.trace.sums(&skin.near, places, line.points);
+        let [edge, open] = [&skin.edge, &skin.open].map(|flat| self.trace.sums(flat, places, line.points));
+        near.into_iter().zip(edge).zip(open).map(|((near, edge), open)| skin.state(near, edge, open)).collect()
     }
 }

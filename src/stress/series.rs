@@ -4,11 +4,12 @@
 //! the same sum with c times a real factor f(**q**), or with −ic f(**q**) where it is odd in **q**: a [`Response`]. It is
 //! summed over points of a plane by transforms, and at single places term by term.
 
-use super::transform::{Columns, Transform};
+use super::transform::{Column, Columns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{Row, Waves};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// K components that the pressure causes.
@@ -69,7 +70,7 @@ impl Series {
     pub fn on_plane<'t, const K: usize, R: Response<K>>(
         &self,
         transform: &'t Transform,
-        room: Vec<Complex64>,
+        room: Vec<f64>,
         response: &R,
     ) -> Columns<'t, K> {
         let [n1, n2] = transform.points().map(|n| n as i32);
@@ -82,24 +83,23 @@ impl Series {
             .collect();
         placed.sort_by_key(|&(column, ..)| column);
         let mean = response.mean();
-        transform.columns(room, |k2, columns: &mut [&mut [Complex64]; K]| {
-            let k2 = k2 as i32;
-            let first = placed.partition_point(|&(column, ..)| column < k2);
-            let own = placed[first..].iter().take_while(|&&(column, ..)| column == k2);
-            let mut any = k2 == 0;
-            if any {
-                columns.iter_mut().zip(mean).for_each(|(column, mean)| column[0].re = mean);
+        let of = |columns: Range<usize>| {
+            let [first, end] =
+                [columns.start, columns.end].map(|k2| placed.partition_point(|&(column, ..)| column < k2 as i32));
+            &placed[first..end]
+        };
+        let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
+        transform.columns(room, occupied, |k2, column: &mut Column<'_, K>| {
+            if k2 == 0 {
+                column.add(0, mean.map(Complex64::from));
             }
-            for &(_, sign, row) in own {
-                any = true;
+            for &(_, sign, row) in of(k2..k2 + 1) {
                 let side = 0.5 * f64::from(sign);
                 let mut bin = (sign * row.first).rem_euclid(n1);
                 for (q, shell, Complex64 { re, im }) in self.of(row) {
                     let (even, odd) = (Complex64::new(0.5 * re, side * im), Complex64::new(0.5 * im, -side * re));
                     let factors = response.factors(q, shell);
-                    for k in 0..K {
-                        columns[k][bin as usize] += factors[k] * if R::ODD[k] { odd } else { even };
-                    }
+                    column.add(bin as usize, std::array::from_fn(|k| factors[k] * if R::ODD[k] { odd } else { even }));
                     bin += sign;
                     if bin == n1 {
                         bin = 0;
@@ -108,7 +108,6 @@ impl Series {
                     }
                 }
             }
-            any
         })
     }
 

@@ -11,6 +11,8 @@ const ODD: [bool; 9] = [false, false, false, false, true, true, true, true, fals
 #[derive(Debug)]
 pub(super) struct Slice {
     pub amplitudes: Vec<Amplitudes>,
+    /// Wavelengths of the shells over 2π.
+    pub lengths: Vec<f64>,
     pub mean: State,
 }
 
@@ -18,14 +20,14 @@ pub(super) struct Slice {
 #[derive(Debug)]
 pub(super) struct Stresses<'a>(pub &'a Slice);
 
-/// Three of the nine components: xx, yy, zz (0), xy, xz, yz (1) or u_x, u_y, u_z (2).
+/// Displacements only: u_x, u_y, u_z.
 #[derive(Debug)]
-pub(super) struct Third<'a, const T: usize>(pub &'a Slice);
+pub(super) struct Displacements<'a>(pub &'a Slice);
 
-/// Factors of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave.
-pub(super) fn components([x, y]: [f64; 2], amplitudes: &Amplitudes) -> [f64; 9] {
-    let over = 1.0 / (x * x + y * y).sqrt();
-    let (nx, ny) = (x * over, y * over);
+/// Factors of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave of this `length` over 2π.
+#[inline(always)]
+fn components([x, y]: [f64; 2], length: f64, amplitudes: &Amplitudes) -> [f64; 9] {
+    let (nx, ny) = (x * length, y * length);
     let (xx, yy, xy) = (nx * nx, ny * ny, nx * ny);
     let Amplitudes { szz, sqz, sqq, stt, uz, uq } = *amplitudes;
     [xx * sqq + yy * stt, yy * sqq + xx * stt, szz, xy * (sqq - stt), nx * sqz, ny * sqz, nx * uq, ny * uq, uz]
@@ -39,7 +41,7 @@ impl Response<9> for Slice {
     }
 
     fn factors(&self, q: [f64; 2], shell: usize) -> [f64; 9] {
-        components(q, &self.amplitudes[shell])
+        components(q, self.lengths[shell], &self.amplitudes[shell])
     }
 
     fn mean(&self) -> [f64; 9] {
@@ -65,20 +67,20 @@ impl Response<6> for Stresses<'_> {
     }
 }
 
-impl<const T: usize> Response<3> for Third<'_, T> {
-    const ODD: [bool; 3] = [ODD[3 * T], ODD[3 * T + 1], ODD[3 * T + 2]];
+impl Response<3> for Displacements<'_> {
+    const ODD: [bool; 3] = [ODD[6], ODD[7], ODD[8]];
 
     fn shells(&self) -> usize {
         self.0.shells()
     }
 
     fn factors(&self, q: [f64; 2], shell: usize) -> [f64; 3] {
-        let all = self.0.factors(q, shell);
-        [all[3 * T], all[3 * T + 1], all[3 * T + 2]]
+        let [.., ux, uy, uz] = self.0.factors(q, shell);
+        [ux, uy, uz]
     }
 
     fn mean(&self) -> [f64; 3] {
-        let all = self.0.mean();
-        [all[3 * T], all[3 * T + 1], all[3 * T + 2]]
+        let [.., ux, uy, uz] = self.0.mean();
+        [ux, uy, uz]
     }
 }

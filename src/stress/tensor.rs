@@ -64,9 +64,9 @@ impl State {
         let [a, b, c, xy, xz, yz] = [a, b, c, xy, xz, yz].map(|s| s / radius);
         let j3 = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
         let angle = (0.5 * j3).clamp(-1.0, 1.0).acos() / 3.0;
-        let third = std::f64::consts::TAU / 3.0;
-        let first = 2.0 * radius * angle.cos();
-        let last = 2.0 * radius * (angle + third).cos();
+        let (sine, cosine) = angle.sin_cos();
+        let first = 2.0 * radius * cosine;
+        let last = -radius * (cosine + 3f64.sqrt() * sine);
         [mean + first, mean - first - last, mean + last]
     }
 

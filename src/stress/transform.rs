@@ -2,49 +2,50 @@
 //!
 //! f(i, j) = Σ F(k₁, k₂) e^{2πi (k₁i/n₁ + k₂j/n₂)},  F(−k₁, −k₂) = F*(k₁, k₂): half of the columns k₂ tell all.
 //!
-//! Several fields are transformed at once: first all columns, by blocks, each where it is filled in, then single rows,
-//! which may be used up as they come and need not be kept. A column or a row is the work of one thread, so that their number
-//! does not reach the result.
+//! Several fields are transformed at once: first all columns, by tiles of eight, each where it is filled in, then groups of
+//! eight rows, which may be used up as they come and need not be kept. A tile or a group is the work of one thread, so
+//! that their number does not reach the result.
 
+use crate::numeric::fourier::{self, Buffers, LINE, Rows};
+use crate::numeric::lanes::LANES;
+use ndarray::ArrayView3;
 use rayon::prelude::*;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
 use std::fmt;
-use std::sync::Arc;
+use std::ops::Range;
 
-/// Columns of a block: 8 complex numbers are two lines of a cache.
-const BLOCK: usize = 8;
-/// Complex numbers between columns, so that a power of two does not put them all into the same lines of a cache.
-const PAD: usize = 8;
+/// Groups of rows that are read before they are handed on.
+const BATCH: usize = 8;
 
 /// Transforms between fields and coefficients on [n₁, n₂] points.
 pub(super) struct Transform {
     points: [usize; 2],
-    columns: [Arc<dyn Fft<f64>>; 2],
-    forward: Arc<dyn RealToComplex<f64>>,
-    back: Arc<dyn ComplexToReal<f64>>,
+    columns: fourier::Columns<f64>,
+    /// Where the component k₁ of a column stands.
+    places: Vec<usize>,
+    rows: Rows<f64>,
 }
 
-/// K fields transformed along their columns: by blocks of columns, then fields, rows, columns of the block.
+/// K fields transformed along their columns: by tiles, then fields, then lines of eight columns.
 pub(super) struct Columns<'a, const K: usize> {
     transform: &'a Transform,
-    values: Vec<Complex64>,
+    values: Vec<f64>,
 }
 
-/// K rows of real fields, and what their transform needs.
-pub(super) struct Rows<const K: usize> {
-    spectrum: Vec<Complex64>,
-    scratch: Vec<Complex64>,
-    samples: Vec<f64>,
+/// One column of K fields, in its tile.
+pub(super) struct Column<'a, const K: usize> {
+    lines: &'a mut [f64],
+    lane: usize,
+    places: &'a [usize],
 }
 
 impl Transform {
     /// On [n₁, n₂] points.
-    pub fn new(points: [usize; 2]) -> Self {
-        let (mut complex, mut real) = (FftPlanner::new(), RealFftPlanner::new());
-        let columns = [complex.plan_fft_forward(points[0]), complex.plan_fft_inverse(points[0])];
-        Self { points, columns, forward: real.plan_fft_forward(points[1]), back: real.plan_fft_inverse(points[1]) }
+    pub fn new([n1, n2]: [usize; 2]) -> Self {
+        let columns = fourier::Columns::new(n1);
+        let mut places = vec![0; n1];
+        columns.order(n1).into_iter().enumerate().for_each(|(place, k1)| places[k1] = place);
+        Self { points: [n1, n2], columns, places, rows: Rows::new(n2) }
     }
 
     /// [n₁, n₂].
@@ -57,79 +58,77 @@ impl Transform {
         self.points[1] / 2 + 1
     }
 
+    /// Numbers of a tile.
+    fn tile(&self) -> usize {
+        self.points[0] * LINE
+    }
+
+    fn scratch(&self) -> Vec<Complex64> {
+        vec![Complex64::default(); self.columns.scratch(self.points[0])]
+    }
+
     /// Fourier coefficients of a field, its samples row by row: half of the columns, k₁ fastest.
     pub fn analysed(&self, samples: &[f64]) -> Vec<Complex64> {
         let ([n1, n2], half) = (self.points, self.half());
-        let mut rows = vec![Complex64::default(); n1 * half];
-        rows.par_chunks_mut(half).zip(samples.par_chunks(n2)).for_each_init(
-            || (vec![0.0; n2], self.forward.make_scratch_vec()),
-            |(input, scratch), (row, samples)| {
-                input.copy_from_slice(samples);
-                let done = self.forward.process_with_scratch(input, row, scratch);
-                debug_assert!(done.is_ok(), "lengths were planned");
+        let mut tiles = vec![0.0; half.div_ceil(LANES) * self.tile()];
+        let mut groups: Vec<Vec<&mut [f64]>> = (0..n1.div_ceil(LANES)).map(|_| Vec::new()).collect();
+        for tile in tiles.chunks_exact_mut(self.tile()) {
+            tile.chunks_mut(LANES * LINE).zip(&mut groups).for_each(|(lines, group)| group.push(lines));
+        }
+        groups.into_par_iter().zip(samples.par_chunks(LANES * n2)).for_each_init(
+            || self.rows.buffers(),
+            |buffers, (lines, samples)| {
+                let mut rows = samples.chunks_exact(n2);
+                let mut next = |row: &mut [f64]| row.copy_from_slice(rows.next().expect("a group has its rows"));
+                self.rows.forward(samples.len() / n2, &mut next, buffers, lines.into_iter());
             },
         );
         let normalisation = 1.0 / (n1 as f64 * n2 as f64);
-        let [forward, _] = &self.columns;
         let mut columns = vec![Complex64::default(); half * n1];
-        columns.par_chunks_mut(BLOCK * n1).enumerate().for_each_init(
-            || vec![Complex64::default(); forward.get_inplace_scratch_len()],
-            |scratch, (block, columns)| {
-                for (i, row) in rows.chunks_exact(half).enumerate() {
-                    for (column, value) in columns.chunks_exact_mut(n1).zip(&row[block * BLOCK..]) {
-                        column[i] = normalisation * value;
+        columns.par_chunks_mut(LANES * n1).zip(tiles.par_chunks_exact_mut(self.tile())).for_each_init(
+            || self.scratch(),
+            |scratch, (columns, lines)| {
+                self.columns.forward(lines, scratch);
+                for (c, column) in columns.chunks_exact_mut(n1).enumerate() {
+                    for (value, place) in column.iter_mut().zip(&self.places) {
+                        let line = &lines[place * LINE..][..LINE];
+                        *value = normalisation * Complex64::new(line[c], line[LANES + c]);
                     }
                 }
-                forward.process_with_scratch(columns, scratch);
             },
         );
         columns
     }
 
-    /// K fields along their columns. `fill` adds the coefficients of column k₂ to K columns of zeros; where it says that
-    /// there are none, nothing is transformed. The `room` is that of columns that are needed no more, or empty.
+    /// K fields along their columns. `fill` adds the coefficients of column k₂ to zeros; what is not `occupied`, a tile of
+    /// columns, has none. The `room` is that of columns that are needed no more, or empty.
     pub fn columns<const K: usize>(
         &self,
-        room: Vec<Complex64>,
-        fill: impl Fn(usize, &mut [&mut [Complex64]; K]) -> bool + Sync,
+        room: Vec<f64>,
+        occupied: impl Fn(Range<usize>) -> bool + Sync,
+        fill: impl Fn(usize, &mut Column<'_, K>) + Sync,
     ) -> Columns<'_, K> {
-        let ([n1, _], half) = (self.points, self.half());
-        let [_, inverse] = &self.columns;
-        let (size, mut values) = (half.div_ceil(BLOCK) * K * n1 * BLOCK, room);
+        let half = self.half();
+        let size = half.div_ceil(LANES) * K * self.tile();
         // Fresh memory is zero, and costs nothing before it is written.
-        let is_fresh = values.len() != size;
-        if is_fresh {
-            values = vec![Complex64::default(); size];
-        }
-        values.par_chunks_mut(K * n1 * BLOCK).enumerate().for_each_init(
-            || {
-                let scratch = vec![Complex64::default(); inverse.get_inplace_scratch_len()];
-                (vec![Complex64::default(); K * BLOCK * (n1 + PAD)], scratch)
-            },
-            |(columns, scratch), (block, values)| {
-                let first = block * BLOCK;
-                let count = BLOCK.min(half - first);
-                let mut any = [false; BLOCK];
-                for c in 0..count {
-                    let mut all = columns[c * K * (n1 + PAD)..].chunks_mut(n1 + PAD);
-                    let mut own: [&mut [Complex64]; K] =
-                        std::array::from_fn(|_| all.next().map_or(&mut [][..], |column| &mut column[..n1]));
-                    own.iter_mut().for_each(|column| column.fill(Complex64::default()));
-                    any[c] = fill(first + c, &mut own);
-                    if any[c] {
-                        own.iter_mut().for_each(|column| inverse.process_with_scratch(column, scratch));
-                    }
+        let is_fresh = room.is_empty();
+        let mut values = if is_fresh { vec![0.0; size] } else { room };
+        values.resize(size, 0.0);
+        values.par_chunks_exact_mut(K * self.tile()).enumerate().for_each_init(
+            || self.scratch(),
+            |scratch, (tile, lines)| {
+                let columns = tile * LANES..half.min((tile + 1) * LANES);
+                let any = occupied(columns.clone());
+                if any || !is_fresh {
+                    // Fresh memory too: to read it first would have the system map it twice.
+                    lines.fill(0.0);
                 }
-                if any.contains(&true) {
-                    for (k, field) in values.chunks_exact_mut(n1 * BLOCK).enumerate() {
-                        for (i, line) in field.chunks_exact_mut(BLOCK).enumerate() {
-                            for (c, value) in line[..count].iter_mut().enumerate() {
-                                *value = columns[(c * K + k) * (n1 + PAD) + i];
-                            }
-                        }
+                if any {
+                    for (lane, k2) in columns.enumerate() {
+                        fill(k2, &mut Column { lines, lane, places: &self.places });
                     }
-                } else if !is_fresh {
-                    values.fill(Complex64::default());
+                    let fields = lines.chunks_exact_mut(self.tile());
+                    fields.for_each(|lines| self.columns.inverse(lines, scratch));
                 }
             },
         );
@@ -137,60 +136,113 @@ impl Transform {
     }
 }
 
-impl<const K: usize> Columns<'_, K> {
-    /// What rows need, for one thread.
-    pub fn rows(&self) -> Rows<K> {
-        let transform = self.transform;
-        Rows {
-            spectrum: vec![Complex64::default(); transform.half()],
-            scratch: transform.back.make_scratch_vec(),
-            samples: vec![0.0; K * transform.points[1]],
+impl<const K: usize> Column<'_, K> {
+    /// Adds to the coefficients k₁ of the fields.
+    #[inline(always)]
+    pub fn add(&mut self, k1: usize, coefficients: [Complex64; K]) {
+        let (size, at) = (self.places.len() * LINE, self.places[k1] * LINE + self.lane);
+        for (k, coefficient) in coefficients.into_iter().enumerate() {
+            self.lines[k * size + at] += coefficient.re;
+            self.lines[k * size + at + LANES] += coefficient.im;
         }
     }
+}
 
-    /// Row i of the fields.
-    pub fn row<'a>(&self, i: usize, rows: &'a mut Rows<K>) -> [&'a [f64]; K] {
-        let Transform { points: [n1, n2], ref back, .. } = *self.transform;
-        let size = K * n1 * BLOCK;
-        for (k, samples) in rows.samples.chunks_exact_mut(n2).enumerate() {
-            for (line, block) in rows.spectrum.chunks_mut(BLOCK).zip(self.values.chunks_exact(size)) {
-                let from = (k * n1 + i) * BLOCK;
-                line.copy_from_slice(&block[from..from + line.len()]);
-            }
-            // Coefficients that are their own conjugates are real up to rounding.
-            rows.spectrum[0].im = 0.0;
-            if n2.is_multiple_of(2) {
-                rows.spectrum[n2 / 2].im = 0.0;
-            }
-            let done = back.process_with_scratch(&mut rows.spectrum, samples, &mut rows.scratch);
-            debug_assert!(done.is_ok(), "lengths were planned");
+impl<const K: usize> Columns<'_, K> {
+    /// What groups of rows need, for one thread.
+    fn buffers(&self) -> [Buffers<f64>; K] {
+        std::array::from_fn(|_| self.transform.rows.buffers())
+    }
+
+    /// Brings a group of eight rows (at the end fewer) of the fields into the buffers: how many there are.
+    fn group(&self, group: usize, buffers: &mut [Buffers<f64>; K]) -> usize {
+        let Transform { points: [n1, _], ref rows, .. } = *self.transform;
+        let (tile, first) = (self.transform.tile(), group * LANES);
+        let count = LANES.min(n1 - first);
+        for (k, buffers) in buffers.iter_mut().enumerate() {
+            let lines = k * tile + first * LINE..k * tile + (first + count) * LINE;
+            let tiles = self.values.chunks_exact(K * tile).map(|fields| &fields[lines.clone()]);
+            rows.back(count, tiles, buffers, &mut |_| ());
         }
-        let samples = &rows.samples;
-        std::array::from_fn(|k| &samples[k * n2..(k + 1) * n2])
+        count
     }
 
     /// The room they take, for others.
-    pub fn into_room(self) -> Vec<Complex64> {
+    pub fn into_room(self) -> Vec<f64> {
         self.values
     }
 
     /// `read` of each row: its number, and the rows of the fields.
     pub fn map<R: Send>(&self, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
-        let each = |rows: &mut Rows<K>, i: usize| read(i, self.row(i, rows));
-        (0..self.transform.points[0]).into_par_iter().map_init(|| self.rows(), each).collect()
+        let each = |buffers: &mut [Buffers<f64>; K], group: usize| -> Vec<R> {
+            let rows = 0..self.group(group, buffers);
+            let row = |row: usize| std::array::from_fn(|k| self.transform.rows.row(row, &buffers[k]));
+            rows.map(|number| read(group * LANES + number, row(number))).collect()
+        };
+        let groups = (0..self.transform.points[0].div_ceil(LANES)).into_par_iter();
+        let groups: Vec<Vec<R>> = groups.map_init(|| self.buffers(), each).collect();
+        groups.into_iter().flatten().collect()
     }
 
     /// The fields, one after the other.
     pub fn write(&self, fields: &mut [f64]) {
         let [n1, n2] = self.transform.points;
-        let mut lines: Vec<Vec<&mut [f64]>> = (0..n1).map(|_| Vec::with_capacity(K)).collect();
+        let mut groups: Vec<Vec<&mut [f64]>> = (0..n1.div_ceil(LANES)).map(|_| Vec::with_capacity(K)).collect();
         for field in fields.chunks_exact_mut(n1 * n2) {
-            lines.iter_mut().zip(field.chunks_exact_mut(n2)).for_each(|(line, row)| line.push(row));
+            field.chunks_mut(LANES * n2).zip(&mut groups).for_each(|(rows, group)| group.push(rows));
         }
-        lines.par_iter_mut().enumerate().for_each_init(
-            || self.rows(),
-            |rows, (i, line)| line.iter_mut().zip(self.row(i, rows)).for_each(|(to, from)| to.copy_from_slice(from)),
+        groups.into_par_iter().enumerate().for_each_init(
+            || self.buffers(),
+            |buffers, (group, fields)| {
+                self.group(group, buffers);
+                for (rows, buffers) in fields.into_iter().zip(buffers) {
+                    for (number, row) in rows.chunks_exact_mut(n2).enumerate() {
+                        row.copy_from_slice(self.transform.rows.row(number, buffers));
+                    }
+                }
+            },
         );
+    }
+
+    /// What `read` makes of each sample of the K fields, C numbers, is handed on in their order: [C, rows, n₂] of some rows
+    /// at a time.
+    pub fn hand_on<const C: usize, E>(
+        &self,
+        read: impl Fn([f64; K]) -> [f64; C] + Sync,
+        mut sink: impl FnMut(ArrayView3<'_, f64>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let [n1, n2] = self.transform.points;
+        let groups = n1.div_ceil(LANES);
+        let mut batch = vec![vec![0.0; C * LANES * n2]; BATCH.min(groups)];
+        for first in (0..groups).step_by(BATCH) {
+            let own = &mut batch[..BATCH.min(groups - first)];
+            let counts: Vec<usize> = own
+                .par_iter_mut()
+                .enumerate()
+                .map_init(
+                    || self.buffers(),
+                    |buffers, (group, results)| {
+                        let count = self.group(first + group, buffers);
+                        for number in 0..count {
+                            let rows: [&[f64]; K] =
+                                std::array::from_fn(|k| self.transform.rows.row(number, &buffers[k]));
+                            for j in 0..n2 {
+                                let values = read(std::array::from_fn(|k| rows[k][j]));
+                                for c in 0..C {
+                                    results[(c * count + number) * n2 + j] = values[c];
+                                }
+                            }
+                        }
+                        count
+                    },
+                )
+                .collect();
+            for (results, count) in own.iter().zip(counts) {
+                let rows = ArrayView3::from_shape([C, count, n2], &results[..C * count * n2]);
+                sink(rows.expect("as many numbers as rows take"))?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -218,11 +270,13 @@ mod tests {
             let direct: Complex64 = field(1).enumerate().map(|(i, x)| x * Complex64::cis(wave(i))).sum();
             assert!((spectra[0][k2 * n1 + k1] - direct / (n1 * n2) as f64).norm() < 1e-14);
 
-            let columns = transform.columns(Vec::new(), |k2, own: &mut [&mut [Complex64]; 2]| {
-                let from = spectra.iter().map(|spectrum| &spectrum[k2 * n1..][..n1]);
-                own.iter_mut().zip(from).for_each(|(column, from)| column.copy_from_slice(from));
-                true
-            });
+            let columns = transform.columns(
+                Vec::new(),
+                |_| true,
+                |k2, column: &mut Column<'_, 2>| {
+                    (0..n1).for_each(|k1| column.add(k1, [0, 1].map(|field| spectra[field][k2 * n1 + k1])));
+                },
+            );
             let mut back = vec![0.0; 2 * n1 * n2];
             columns.write(&mut back);
             assert!(back.iter().zip(&fields).all(|(a, b)| (a - b).abs() < 1e-13), "{n1} × {n2}");

@@ -2,17 +2,20 @@
 //!
 //! - `butterflies`: short ones, of eight series in the lanes of vectors;
 //! - `columns`: of complex columns, forth and back, without reordering between;
-//! - `rows`: of real rows, by the same steps.
+//! - `rows`: of real rows, by the same steps;
+//! - `nonuniform`: sums of waves of any frequency at equally spaced points.
 //!
 //! A field is transformed by groups of eight rows, then by tiles of eight columns, which are lines of eight real and eight
 //! imaginary parts, one line a row.
 
 mod butterflies;
 mod columns;
+mod nonuniform;
 mod rows;
 
 pub use columns::{Columns, LINE};
-pub use rows::Rows;
+pub use nonuniform::Nonuniform;
+pub use rows::{Buffers, Rows};
 
 /// The least number ≥ `n` whose prime factors are 2, 3, 5 and 7, for which transforms are fast.
 pub fn fast_points(n: usize) -> usize {

@@ -144,6 +144,11 @@ impl<T: Real> Rows<T> {
         let rows = samples.chunks_exact_mut(self.stride()).take(count);
         rows.for_each(|row| sink(&mut row[..self.len]));
     }
+
+    /// A row of the group that has come [back](Self::back) last.
+    pub fn row<'a>(&self, number: usize, buffers: &'a Buffers<T>) -> &'a [T] {
+        &buffers.samples[number * self.stride()..][..self.len]
+    }
 }
 
 /// Eight vectors of eight numbers turned into those of their first, second, … numbers: the six bits of a number's place,
