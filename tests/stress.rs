@@ -145,6 +145,81 @@ fn planes_and_sections_agree_with_points() {
     }
 }
 
+/// Waves across a line have no wavenumber along it, but for rounding of either sign.
+#[test]
+fn sections_across_rows_of_a_square_lattice_agree_with_points() {
+    let (half_space, cell) = (two_layers(Interface::Bonded), Cell::square(1.0).unwrap());
+    let field = field(&grid(cell, [108, 108]), &noise([108, 108]), &half_space, MeanStress::HalfSpace);
+    let depth = Depth { z: 0.02, material: 1 };
+    for direction in [[1.0, 0.86], [1.0, 0.47], [-0.6, 0.8]] {
+        let line = Line { origin: [0.1, 0.2], direction, span: [0.0, 1.0], points: 401 };
+        let section = field.section(&line, &[depth]);
+        for k in [0, 57, 200, 333, 400] {
+            let point = field.points(depth, &[line.places()[k]])[0];
+            assert!(worst(&section.states[[0, k]], &point) < 1e-12, "{direction:?}, {k}");
+        }
+    }
+}
+
+/// A line and the same one from its other end.
+#[test]
+fn a_section_is_the_same_from_both_ends() {
+    let (half_space, cell) = (two_layers(Interface::Bonded), Cell::square(1.0).unwrap());
+    let disc = Array2::from_shape_fn([48, 48], |(i, j)| {
+        let r = (i as f64 - 24.0).hypot(j as f64 - 24.0) / 12.0;
+        (1.0 - r * r).max(0.0).sqrt()
+    });
+    let field = StressField::under(&grid(cell, [48, 48]), disc.view(), &half_space, MeanStress::Confined).unwrap();
+    let line = Line { origin: [0.5, 0.5], direction: [1.0, 0.3], span: [0.0, 0.6], points: 61 };
+    let [there, back] = [line, Line { span: [0.6, 0.0], ..line }].map(|line| field.section(&line, &[Depth::SURFACE]));
+    let ([s, stress], [s_back, stress_back]) = (there.highest.unwrap(), back.highest.unwrap());
+    assert!(
+        (s - s_back).abs() < 1e-9 && (stress / stress_back - 1.0).abs() < 1e-9,
+        "{s}, {s_back}: {stress}, {stress_back}"
+    );
+    for k in 0..61 {
+        // Far from contact the smoothed pressure is rounding, which may look like an edge: what is then taken differs by
+        // what the two widths of smoothing leave.
+        assert!(worst(&there.states[[0, k]], &back.states[[0, 60 - k]]) < 1e-9, "{k}");
+    }
+}
+
+#[test]
+fn planes_by_rows_are_the_planes_and_end_when_nobody_takes_them() {
+    let (half_space, cell) = (two_layers(Interface::Bonded), Cell::hexagonal(1.0).unwrap());
+    let field = field(&grid(cell, [18, 18]), &noise([18, 18]), &half_space, MeanStress::HalfSpace);
+    let depth = Depth { z: 0.05, material: 1 };
+    for [n1, n2] in [[75, 26], [17, 9], [64, 18], [1, 4]] {
+        let plane = field.plane(depth, [n1, n2]);
+        let (mut stresses, mut displacements) = (Vec::new(), Vec::new());
+        let taken: Result<(), ()> = field.stresses_by_rows(depth, [n1, n2], |rows| {
+            rows.axis_iter(Axis(1)).for_each(|row| stresses.push(row.to_owned()));
+            Ok(())
+        });
+        taken.unwrap();
+        let taken: Result<(), ()> = field.displacements_by_rows(depth, [n1, n2], |rows| {
+            rows.axis_iter(Axis(1)).for_each(|row| displacements.push(row.to_owned()));
+            Ok(())
+        });
+        taken.unwrap();
+        assert_eq!((stresses.len(), displacements.len()), (n1, n1));
+        for (i, (stresses, displacements)) in stresses.iter().zip(&displacements).enumerate() {
+            for j in 0..n2 {
+                let state = plane.state([i, j]);
+                let expected = [state.components().as_slice(), &[state.tau1(), state.mises(), state.s1()]].concat();
+                let [own, moved] = [stresses, displacements].map(|row| row.column(j).to_vec());
+                assert_eq!([&own[..6], &moved, &own[6..]].concat(), expected, "[{i}, {j}] of {n1} × {n2}");
+            }
+        }
+    }
+    let mut calls = 0;
+    let ended = field.stresses_by_rows(depth, [75, 26], |_| {
+        calls += 1;
+        if calls == 2 { Err("enough") } else { Ok(()) }
+    });
+    assert_eq!((ended, calls), (Err("enough"), 2));
+}
+
 #[test]
 fn equilibrium_and_hookes_law_hold_everywhere() {
     let half_space = two_layers(Interface::Bonded);

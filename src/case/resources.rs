@@ -18,7 +18,8 @@ const MEBIBYTE: u64 = 1 << 20;
 const PROGRAM: u64 = 11 * MEBIBYTE;
 /// Per sample: reading a step, when what solving it took is free again.
 const READING: u64 = 45;
-/// Per sample, in its place: waves, their coefficients and what a search for maxima takes; and a plane that is kept.
+/// Per sample, in its place: waves, their coefficients and what a search for maxima takes; and what a plane that is written
+/// takes more.
 const STRESS: u64 = 101;
 const PLANE: u64 = 18;
 /// Per sample: a stress field that is asked at single points only.

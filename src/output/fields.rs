@@ -25,12 +25,12 @@ impl Fields {
     /// Puts the fields of the next step on disk; its `mean_pressure` is known.
     pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<(), OutputError> {
         self.arrays.next_step();
-        self.arrays.add("mean_pressure", None, &[], [mean_pressure])?;
-        self.arrays.add("penetration", None, &[], [step.penetration()])?;
+        self.arrays.add("mean_pressure", &[], [mean_pressure])?;
+        self.arrays.add("penetration", &[], [step.penetration()])?;
         let displacement = step.displacement();
         for (name, field) in [("pressure", step.pressure()), ("displacement", displacement.view()), ("gap", step.gap())]
         {
-            self.arrays.add(name, None, field.shape(), field.iter().copied())?;
+            self.arrays.add(name, field.shape(), field.iter().copied())?;
         }
         Ok(())
     }

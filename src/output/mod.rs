@@ -95,7 +95,8 @@ pub fn write_file(
 struct Draft {
     path: PathBuf,
     temporary: PathBuf,
-    writer: BufWriter<fs::File>,
+    /// None once it is whole.
+    writer: Option<BufWriter<fs::File>>,
 }
 
 impl Draft {
@@ -103,24 +104,32 @@ impl Draft {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let temporary = path.with_file_name(format!(".{name}.{}.tmp", std::process::id()));
         let file = fs::File::create(&temporary).map_err(|error| OutputError::new(path, error))?;
-        Ok(Self { path: path.to_owned(), temporary, writer: BufWriter::new(file) })
+        Ok(Self { path: path.to_owned(), temporary, writer: Some(BufWriter::new(file)) })
     }
 
     fn write(&mut self, content: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>) -> Result<(), OutputError> {
-        content(&mut self.writer).map_err(|error| OutputError::new(&self.path, error))
+        self.writer.as_mut().map_or(Ok(()), content).map_err(|error| OutputError::new(&self.path, error))
     }
 
     fn keep(mut self) -> Result<(), OutputError> {
         self.write(|writer| writer.flush())?;
-        fs::rename(&self.temporary, &self.path).map_err(|error| OutputError::new(&self.path, error))
+        self.writer = None;
+        let kept = fs::rename(&self.temporary, &self.path);
+        kept.inspect_err(|_| remove(&self.temporary)).map_err(|error| OutputError::new(&self.path, error))
     }
 }
 
 impl Drop for Draft {
     fn drop(&mut self) {
-        // Nothing is there when it was kept; a leftover that cannot be removed changes nothing about an error.
-        let _ = fs::remove_file(&self.temporary);
+        if self.writer.take().is_some() {
+            remove(&self.temporary);
+        }
     }
+}
+
+/// Removes what failed; a leftover that cannot be removed changes nothing about the first error.
+fn remove(temporary: &Path) {
+    let _ = fs::remove_file(temporary);
 }
 
 /// Writes a text file as [`write_file`] does.

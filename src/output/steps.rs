@@ -29,7 +29,7 @@ struct Entry {
     parts: Option<usize>,
 }
 
-/// A step's entry of an array, or a part of it, that is being written.
+/// A part of a step's entry of an array, that is being written.
 #[derive(Debug)]
 pub(super) struct GrowingEntry {
     file: Draft,
@@ -64,28 +64,22 @@ impl StepArrays {
         self.steps
     }
 
-    /// Puts the present step's entry of an array on disk, or the next `part` (from 1) of it: parts become its first axis.
-    /// Every step has the same arrays of the same shapes.
+    /// Puts the present step's entry of an array on disk. Every step has the same arrays of the same shapes.
     pub(super) fn add(
         &mut self,
         array: &str,
-        part: Option<usize>,
         shape: &[usize],
         values: impl IntoIterator<Item = f64>,
     ) -> Result<(), OutputError> {
-        self.enter(array, part, shape);
-        write_file(&self.waiting(array, self.steps, part), |writer| npy(writer, shape, values))
+        self.enter(array, None, shape);
+        write_file(&self.waiting(array, self.steps, None), |writer| npy(writer, shape, values))
     }
 
-    /// The same, its values to come piece by piece.
-    pub(super) fn begin(
-        &mut self,
-        array: &str,
-        part: Option<usize>,
-        shape: &[usize],
-    ) -> Result<GrowingEntry, OutputError> {
-        self.enter(array, part, shape);
-        let mut file = Draft::new(&self.waiting(array, self.steps, part))?;
+    /// Begins the next `part` (from 1) of the present step's entry of an array, its values to come piece by piece: parts
+    /// become its first axis.
+    pub(super) fn begin(&mut self, array: &str, part: usize, shape: &[usize]) -> Result<GrowingEntry, OutputError> {
+        self.enter(array, Some(part), shape);
+        let mut file = Draft::new(&self.waiting(array, self.steps, Some(part)))?;
         file.write(|writer| header::<f64>(writer, shape))?;
         Ok(GrowingEntry { file, shape: shape.to_vec(), count: 0 })
     }
@@ -152,4 +146,33 @@ fn read(path: &Path) -> io::Result<Vec<f64>> {
     let mut values = vec![0.0; header.len() as usize];
     reader.read_exact(bytemuck::cast_slice_mut(&mut values))?;
     Ok(values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_entry_that_is_given_up_or_not_whole_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut arrays = StepArrays::new(folder.path(), "some").unwrap();
+        arrays.next_step();
+        let partial = folder.path().join("some.partial");
+        let files = || fs::read_dir(&partial).unwrap().count();
+        for whole in [false, true] {
+            let mut entry = arrays.begin("a", 1, &[2, 3]).unwrap();
+            entry.add(&[1.0, 2.0, 3.0]).unwrap();
+            assert_eq!(files(), 1);
+            if whole {
+                assert!(entry.finish().unwrap_err().to_string().contains("3 values"));
+            } else {
+                drop(entry);
+            }
+            assert_eq!(files(), 0);
+        }
+        let mut entry = arrays.begin("a", 1, &[2, 3]).unwrap();
+        [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]].iter().for_each(|row| entry.add(row).unwrap());
+        entry.finish().unwrap();
+        assert_eq!(read(&partial.join("a.0001.001.npy")).unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    }
 }

@@ -7,7 +7,7 @@ use super::{OutputError, write_volume};
 use crate::body::{Depth, HalfSpace};
 use crate::run::StressRequest;
 use crate::stress::{Section, State, StressField};
-use ndarray::ArrayView3;
+use ndarray::{ArrayView3, Axis};
 use std::path::{Path, PathBuf};
 
 /// Names of the stored components: σ_xx … σ_yz, displacements, and what is derived from the tensor.
@@ -43,7 +43,7 @@ impl Stresses {
             clock.turn(Phase::Stress);
             let section = field.section(&cut.line, &cut.depths(half_space));
             clock.turn(Phase::Output);
-            add_states(arrays, "section", None, section.states.shape(), section.states.iter())?;
+            add_states(arrays, "section", section.states.shape(), section.states.iter())?;
             self.section = Some(section);
         }
         let points = request.points_at(half_space);
@@ -51,15 +51,15 @@ impl Stresses {
             clock.turn(Phase::Stress);
             let states: Vec<State> = points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
             clock.turn(Phase::Output);
-            add_states(arrays, "points", None, &[states.len()], states.iter())?;
+            add_states(arrays, "points", &[states.len()], states.iter())?;
         }
         if let Some(volume) = request.volume {
             clock.turn(Phase::Stress);
             let (path, depths) =
                 (folder.join(format!("stress.{step:04}.vts")), half_space.rows(volume.depth, volume.rows));
             write_volume(&path, field, &depths, [volume.points; 2])?;
+            clock.turn(Phase::Output);
         }
-        clock.turn(Phase::Output);
         Ok(())
     }
 
@@ -103,55 +103,43 @@ fn add_plane(
     clock: &mut Clock,
 ) -> Result<(), OutputError> {
     let points = field.grid().points();
+    let [stresses, displacements, derived] = [&COMPONENTS[..6], &COMPONENTS[6..9], &COMPONENTS[9..]];
+    let mut begin = |components: &[&str]| -> Result<Vec<GrowingEntry>, OutputError> {
+        components.iter().map(|name| arrays.begin(&format!("planes_{name}"), number, &points)).collect()
+    };
+    let mut entries = begin(&[stresses, derived].concat())?;
     clock.turn(Phase::Stress);
-    let mut entries = begin(arrays, number, &points, [&COMPONENTS[..6], &COMPONENTS[9..]].concat())?;
     field.stresses_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
-    finish(entries, clock)?;
-    let mut entries = begin(arrays, number, &points, COMPONENTS[6..9].to_vec())?;
-    field.displacements_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
-    finish(entries, clock)
-}
-
-/// The plane of this number of some components.
-fn begin(
-    arrays: &mut StepArrays,
-    number: usize,
-    points: &[usize],
-    components: Vec<&str>,
-) -> Result<Vec<GrowingEntry>, OutputError> {
-    let names = components.into_iter().map(|component| format!("planes_{component}"));
-    names.map(|name| arrays.begin(&name, Some(number), points)).collect()
-}
-
-/// Adds rows to each component, in the time of writing.
-fn add_rows(entries: &mut [GrowingEntry], rows: ArrayView3<'_, f64>, clock: &mut Clock) -> Result<(), OutputError> {
-    clock.turn(Phase::Output);
-    let components = entries.iter_mut().zip(rows.outer_iter());
-    components
-        .into_iter()
-        .try_for_each(|(entry, rows)| entry.add(rows.as_slice().expect("rows follow one another")))?;
-    clock.turn(Phase::Stress);
-    Ok(())
-}
-
-fn finish(entries: Vec<GrowingEntry>, clock: &mut Clock) -> Result<(), OutputError> {
     clock.turn(Phase::Output);
     entries.into_iter().try_for_each(GrowingEntry::finish)?;
+    let mut entries = begin(displacements)?;
+    clock.turn(Phase::Stress);
+    field.displacements_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
+    clock.turn(Phase::Output);
+    entries.into_iter().try_for_each(GrowingEntry::finish)
+}
+
+/// Adds rows to the entries of their components, in the time of writing.
+fn add_rows(entries: &mut [GrowingEntry], rows: ArrayView3<'_, f64>, clock: &mut Clock) -> Result<(), OutputError> {
+    assert_eq!(entries.len(), rows.len_of(Axis(0)), "an entry for each component");
+    clock.turn(Phase::Output);
+    for (entry, rows) in entries.iter_mut().zip(rows.outer_iter()) {
+        entry.add(rows.as_slice().expect("rows follow one another"))?;
+    }
     clock.turn(Phase::Stress);
     Ok(())
 }
 
-/// Adds the components of states of this shape to the arrays `<place>_<component>`, as a part if they come in parts.
+/// Adds the components of states of this shape to the arrays `<place>_<component>`.
 fn add_states<'a>(
     arrays: &mut StepArrays,
     place: &str,
-    part: Option<usize>,
     shape: &[usize],
     states: impl Iterator<Item = &'a State> + Clone,
 ) -> Result<(), OutputError> {
     (0..).zip(COMPONENTS).try_for_each(|(c, name)| {
         let values = states.clone().map(|state| component(state, c));
-        arrays.add(&format!("{place}_{name}"), part, shape, values)
+        arrays.add(&format!("{place}_{name}"), shape, values)
     })
 }
 

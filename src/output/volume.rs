@@ -28,7 +28,7 @@ const SCALARS: [&str; 10] =
 ///   length, along the drawn axes.
 ///
 /// `sigma_xz` and `sigma_yz` too are along the drawn axes, the opposite of [`State`]'s, where z points into the body.
-/// Waves that `points` cannot hold are left out. Planes are computed one at a time; the states of all points are kept
+/// Values are exact at the points, however few they are. Planes are computed one at a time; the states of all points are kept
 /// until they are written, about the size of the file.
 ///
 /// # Errors

@@ -51,8 +51,8 @@ impl StressField {
     }
 
     /// Stresses on the whole plane, as [`Self::plane`] has them, handed on by some rows at a time, from the first to the
-    /// last: the plane itself is never in memory. Axis 0: xx, yy, zz, xy, xz, yz, then τ₁, von Mises and σ₁; axis 1: rows;
-    /// axis 2 along a₂.
+    /// last: what is in memory are six fields transformed along their columns. Axis 0: xx, yy, zz, xy, xz, yz, then τ₁,
+    /// von Mises and σ₁; axis 1: rows; axis 2 along a₂.
     ///
     /// # Errors
     /// That of `sink`, which is then asked no more.

@@ -138,7 +138,8 @@ impl<'a> Below<'a> {
         let [s, stress] = highest(surface, line)?;
         let Some(skin) = &self.skin else { return Some([s, stress]) };
         // The stress drops at once at an edge: as many points between two as say where.
-        let span = [(s - line.step()).max(line.span[0]), (s + line.step()).min(line.span[1])];
+        let [first, last] = line.span;
+        let span = [s - line.step(), s + line.step()].map(|s| s.clamp(first.min(last), first.max(last)));
         let finer = Line { span, points: 2 * BETWEEN + 1, ..line };
         highest(&self.sharp(skin, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
     }

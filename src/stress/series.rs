@@ -7,6 +7,7 @@
 use super::transform::{Column, Columns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{Row, Waves};
+use crate::numeric::lanes::LANES;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::ops::Range;
@@ -34,8 +35,6 @@ pub(super) struct Series {
     pub coefficients: Vec<Complex64>,
 }
 
-/// Places summed at together.
-const LANES: usize = 8;
 /// Waves from which on a sum is worth more than one thread.
 const MANY: usize = 4096;
 

@@ -21,7 +21,7 @@ pub(super) struct Trace<'a> {
     /// Fractions of a₁ and a₂ of the origin **x**₀, and of the unit vector **d**.
     origin: [f64; 2],
     unit: [f64; 2],
-    /// m₁, m₂ and one over the length of m₁**a**₁ + m₂**a**₂.
+    /// m₁, m₂, and 1/s of m₁**a**₁ + m₂**a**₂.
     lattice: Option<([i32; 2], f64)>,
 }
 
@@ -93,8 +93,8 @@ impl<'a> Trace<'a> {
     }
 }
 
-/// m₁, m₂ without a common factor along a unit vector of these fractions of a₁ and a₂, and one over the length of
-/// m₁**a**₁ + m₂**a**₂; none for a direction that is incommensurate with the lattice.
+/// m₁, m₂ without a common factor along a unit vector of these fractions of a₁ and a₂, and one over the distance s of
+/// m₁**a**₁ + m₂**a**₂ along it (of either sign); none for a direction that is incommensurate with the lattice.
 fn lattice_direction([s, t]: [f64; 2]) -> Option<([i32; 2], f64)> {
     let larger = if s.abs() > t.abs() { s } else { t };
     let near = |x: f64| (x - x.round()).abs() <= WHOLE;

@@ -14,7 +14,7 @@ use rustfft::num_complex::Complex64;
 use std::fmt;
 use std::ops::Range;
 
-/// Groups of rows that are read before they are handed on.
+/// Groups of rows that are read before they are handed on, at least.
 const BATCH: usize = 8;
 
 /// Transforms between fields and coefficients on [n₁, n₂] points.
@@ -43,8 +43,7 @@ impl Transform {
     /// On [n₁, n₂] points.
     pub fn new([n1, n2]: [usize; 2]) -> Self {
         let columns = fourier::Columns::new(n1);
-        let mut places = vec![0; n1];
-        columns.order(n1).into_iter().enumerate().for_each(|(place, k1)| places[k1] = place);
+        let places = columns.places(n1);
         Self { points: [n1, n2], columns, places, rows: Rows::new(n2) }
     }
 
@@ -213,32 +212,24 @@ impl<const K: usize> Columns<'_, K> {
     ) -> Result<(), E> {
         let [n1, n2] = self.transform.points;
         let groups = n1.div_ceil(LANES);
-        let mut batch = vec![vec![0.0; C * LANES * n2]; BATCH.min(groups)];
-        for first in (0..groups).step_by(BATCH) {
-            let own = &mut batch[..BATCH.min(groups - first)];
-            let counts: Vec<usize> = own
-                .par_iter_mut()
-                .enumerate()
-                .map_init(
-                    || self.buffers(),
-                    |buffers, (group, results)| {
-                        let count = self.group(first + group, buffers);
-                        for number in 0..count {
-                            let rows: [&[f64]; K] =
-                                std::array::from_fn(|k| self.transform.rows.row(number, &buffers[k]));
-                            for j in 0..n2 {
-                                let values = read(std::array::from_fn(|k| rows[k][j]));
-                                for c in 0..C {
-                                    results[(c * count + number) * n2 + j] = values[c];
-                                }
-                            }
+        let at_a_time = BATCH.max(rayon::current_num_threads()).min(groups);
+        let mut batch: Vec<_> = (0..at_a_time).map(|_| (self.buffers(), vec![0.0; C * LANES * n2], 0)).collect();
+        for first in (0..groups).step_by(at_a_time) {
+            let own = &mut batch[..at_a_time.min(groups - first)];
+            own.par_iter_mut().enumerate().for_each(|(group, (buffers, results, count))| {
+                *count = self.group(first + group, buffers);
+                for number in 0..*count {
+                    let rows: [&[f64]; K] = std::array::from_fn(|k| self.transform.rows.row(number, &buffers[k]));
+                    for j in 0..n2 {
+                        let values = read(std::array::from_fn(|k| rows[k][j]));
+                        for c in 0..C {
+                            results[(c * *count + number) * n2 + j] = values[c];
                         }
-                        count
-                    },
-                )
-                .collect();
-            for (results, count) in own.iter().zip(counts) {
-                let rows = ArrayView3::from_shape([C, count, n2], &results[..C * count * n2]);
+                    }
+                }
+            });
+            for (_, results, count) in own {
+                let rows = ArrayView3::from_shape([C, *count, n2], &results[..C * *count * n2]);
                 sink(rows.expect("as many numbers as rows take"))?;
             }
         }
@@ -256,6 +247,38 @@ impl fmt::Debug for Transform {
 mod tests {
     use super::*;
     use std::f64::consts::TAU;
+
+    /// Room of columns of other numbers of fields, tiles without coefficients in it, and lengths left to the library.
+    #[test]
+    fn room_that_has_served_others_leaves_nothing_behind() {
+        fn waves<const K: usize>(transform: &Transform, room: Vec<f64>, k2: usize) -> Vec<f64> {
+            let [n1, n2] = transform.points();
+            let columns = transform.columns(
+                room,
+                |columns| columns.contains(&k2),
+                |column, own: &mut Column<'_, K>| {
+                    if column == k2 {
+                        own.add(1, std::array::from_fn(|k| Complex64::from(0.5 * (k + 1) as f64)));
+                    }
+                },
+            );
+            let mut fields = vec![0.0; K * n1 * n2];
+            columns.write(&mut fields);
+            for (index, value) in fields.iter().enumerate() {
+                let (k, i, j) = (index / (n1 * n2), index / n2 % n1, index % n2);
+                let expected = (k + 1) as f64 * (TAU * (i as f64 / n1 as f64 + (k2 * j) as f64 / n2 as f64)).cos();
+                assert!((value - expected).abs() < 1e-13, "{n1} × {n2}, {k2}: {value}, {expected}");
+            }
+            columns.into_room()
+        }
+        for points in [[17, 34], [24, 60], [9, 41]] {
+            let transform = Transform::new(points);
+            let room = waves::<3>(&transform, Vec::new(), 1);
+            let room = waves::<4>(&transform, room, 9);
+            let room = waves::<2>(&transform, room, 16);
+            waves::<6>(&transform, room, 2);
+        }
+    }
 
     #[test]
     fn fields_come_back_from_their_coefficients_and_those_are_direct_sums() {

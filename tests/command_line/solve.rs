@@ -2,6 +2,7 @@
 
 use crate::program::{Desk, Folder, assert_close, number};
 use serde_json::Value;
+use std::fs;
 use std::time::Instant;
 
 #[test]
@@ -91,12 +92,20 @@ fn an_accuracy_asked_for_is_reached_between_two_grids() {
 #[test]
 fn the_number_of_threads_does_not_change_a_bit() {
     let desk = Desk::new();
-    let settings = ["--set", "grid.points=192", "--set", "load.mean_pressure=[0.01, 0.06]"];
-    let one = desk.solve("one", &[&["--threads", "1"], &settings[..]].concat());
-    let two = desk.solve("two", &[&["--threads", "2"], &settings[..]].concat());
-    assert_eq!(one.names(), two.names());
-    for name in one.names() {
-        assert!(one.result(&name) == two.result(&name), "{name} depends on the number of threads");
+    let contact = ["--set", "grid.points=192", "--set", "load.mean_pressure=[0.01, 0.06]"];
+    let awry = "stress.section={from=\"level 1\",toward=[1.0,0.7312],length=0.6,depth=0.1}";
+    let stresses = ["fig6b", "--set", "grid.points=90", "--set", "stress.planes=[0.0, 0.1]", "--set", awry];
+    for settings in [&contact[..], &stresses] {
+        let of = |threads: &str| desk.solve(threads, &[settings, &["--threads", threads]].concat());
+        let one = of("1");
+        for other in ["2", "3"].map(of) {
+            assert_eq!(one.names(), other.names());
+            for name in one.names() {
+                assert!(one.result(&name) == other.result(&name), "{name} depends on the number of threads");
+            }
+            fs::remove_dir_all(&other.0).unwrap();
+        }
+        fs::remove_dir_all(&one.0).unwrap();
     }
 }
 

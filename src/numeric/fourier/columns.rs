@@ -61,6 +61,13 @@ impl<T: Real> Columns<T> {
         })
     }
 
+    /// The place of each component between forth and back.
+    pub fn places(&self, len: usize) -> Vec<usize> {
+        let mut places = vec![0; len];
+        self.order(len).into_iter().enumerate().for_each(|(place, component)| places[component] = place);
+        places
+    }
+
     /// Complex numbers that a transform needs besides the lines.
     pub fn scratch(&self, len: usize) -> usize {
         match self {

@@ -49,8 +49,7 @@ impl<T: Real> Rows<T> {
     pub fn new(len: usize) -> Self {
         if len.is_multiple_of(2) {
             let halves = Columns::new(len / 2);
-            let mut places = vec![0; len / 2];
-            halves.order(len / 2).into_iter().enumerate().for_each(|(place, k)| places[k] = place);
+            let places = halves.places(len / 2);
             let turns = (0..=len / 4).map(|k| super::butterflies::root(k, len)).collect();
             Self { len, way: Way::Paired { halves, places, turns } }
         } else {
