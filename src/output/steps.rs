@@ -159,11 +159,11 @@ mod tests {
         arrays.next_step();
         let partial = folder.path().join("some.partial");
         let files = || fs::read_dir(&partial).unwrap().count();
-        for whole in [false, true] {
+        for finished in [false, true] {
             let mut entry = arrays.begin("a", 1, &[2, 3]).unwrap();
             entry.add(&[1.0, 2.0, 3.0]).unwrap();
             assert_eq!(files(), 1);
-            if whole {
+            if finished {
                 assert!(entry.finish().unwrap_err().to_string().contains("3 values"));
             } else {
                 drop(entry);
