@@ -1,6 +1,6 @@
 //! **percoat**: periodic contact of coated bodies.
 //!
-//! Frictionless normal contact of a doubly periodic, multi-level system of rigid indenters (or any periodic topography)
+//! Normal and sliding contact of a doubly periodic, multi-level system of rigid indenters (or any periodic topography)
 //! with a layered elastic half-space: I. Goryacheva & E. Torskaya, *Contact of multi-level periodic system of indenters
 //! with coated elastic half-space*, Facta Universitatis, Mech. Eng. 17 (2019) 149–159.
 //!
@@ -20,12 +20,12 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → lattice → body → counterbody → problem → load → spectral → stress → reading → localized → run → comparison
+//! numeric → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
 //! → case → output → picture → validation
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
-//! - [`problem`], [`load`]: what is solved;
+//! - [`friction`], [`problem`], [`load`]: what is solved;
 //! - [`spectral`]: the whole cell, by conjugate gradients in Fourier space; [`localized`]: the paper's boundary elements;
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
@@ -57,6 +57,7 @@ pub mod body;
 pub mod case;
 pub mod comparison;
 pub mod counterbody;
+pub mod friction;
 pub mod lattice;
 pub mod load;
 pub mod localized;
@@ -76,6 +77,7 @@ pub mod validation;
 
 pub use body::{Depth, HalfSpace, Interface, Layer, Material, MaterialError, MeanStress};
 pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
+pub use friction::{Friction, FrictionError};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};
 pub use load::Load;
 pub use problem::Problem;

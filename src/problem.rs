@@ -1,7 +1,8 @@
-//! The contact problem: a rigid counterbody above a layered elastic half-space.
+//! The contact problem: a rigid counterbody above a layered elastic half-space, at rest or sliding.
 
-use crate::body::HalfSpace;
+use crate::body::{HalfSpace, Interface};
 use crate::counterbody::Counterbody;
+use crate::friction::{Friction, FrictionError};
 use crate::lattice::Cell;
 use std::fmt;
 
@@ -10,13 +11,26 @@ use std::fmt;
 pub struct Problem {
     counterbody: Counterbody,
     half_space: HalfSpace,
+    friction: Option<Friction>,
 }
 
 impl Problem {
     /// The counterbody ([`Indenters`](crate::counterbody::Indenters) or a
     /// [`Topography`](crate::counterbody::Topography)) above the half-space, in one unit of length.
     pub fn new(counterbody: impl Into<Counterbody>, half_space: HalfSpace) -> Self {
-        Self { counterbody: counterbody.into(), half_space }
+        Self { counterbody: counterbody.into(), half_space, friction: None }
+    }
+
+    /// The same with friction.
+    ///
+    /// # Errors
+    /// [`FrictionError::Unheld`] when a layer lies on a frictionless interface, unless the coefficient is zero.
+    pub fn sliding(self, friction: Friction) -> Result<Self, FrictionError> {
+        let loose = self.half_space.layers().iter().position(|layer| layer.interface() == Interface::Frictionless);
+        match loose.filter(|_| friction.coefficient() > 0.0) {
+            Some(layer) => Err(FrictionError::Unheld(layer + 1)),
+            None => Ok(Self { friction: Some(friction), ..self }),
+        }
     }
 
     /// The rigid counterbody.
@@ -29,6 +43,11 @@ impl Problem {
         &self.half_space
     }
 
+    /// The friction of a counterbody that slides.
+    pub fn friction(&self) -> Option<&Friction> {
+        self.friction.as_ref()
+    }
+
     /// The unit cell.
     pub fn cell(&self) -> Cell {
         self.counterbody.cell()
@@ -37,6 +56,7 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\n{}", self.counterbody, self.half_space)
+        write!(f, "{}\n{}", self.counterbody, self.half_space)?;
+        self.friction.iter().try_for_each(|friction| write!(f, "\n{friction}"))
     }
 }

@@ -1,4 +1,5 @@
-//! Surface compliance at very many wavenumbers: the layer correction T as short series.
+//! Surface compliance at very many wavenumbers: the layer correction T, and the coupling over the compliance, as short
+//! series.
 //!
 //! T varies with ln q on the scale of one, whatever the layers: on a panel, one of the eight equal parts between a power of
 //! two and the next, a Chebyshev series of few terms holds it to rounding. What a panel has been seen not to hold is asked of the
@@ -20,38 +21,78 @@ const BELOW: u32 = 49;
 #[derive(Debug)]
 pub(crate) struct Compliances<'a> {
     transfer: &'a TransferFunction,
+    corrections: Panels,
+    ratios: Panels,
+}
+
+/// Series of a function of the wavenumber, where one holds.
+#[derive(Debug, Default)]
+struct Panels {
     /// Number of the first panel.
     first: u64,
-    panels: Vec<Option<Chebyshev<TERMS>>>,
+    series: Vec<Option<Chebyshev<TERMS>>>,
+}
+
+impl Panels {
+    /// Of a function that is asked for `times` between two wavenumbers, as far as that is less work; errors are relative to
+    /// the function, or to one where that is `at_least`.
+    fn new(
+        [least, most]: [f64; 2],
+        times: usize,
+        at_least: f64,
+        function: impl Fn(f64) -> f64 + Sync,
+    ) -> Self {
+        let (first, end) = (panel(least), panel(most) + 1);
+        let count = (end - first) as usize;
+        let series = |index: usize| {
+            let ends = [0, 1].map(|k| f64::from_bits((first + index as u64 + k) << BELOW));
+            let within = |x: f64| function(place(ends, x));
+            let series = Chebyshev::of(within);
+            let holds = |&x: &f64| {
+                let value = within(x);
+                (series.at(x) - value).abs() < BELIEF * value.abs().max(at_least)
+            };
+            PROBES.iter().all(holds).then_some(series)
+        };
+        // Few wavenumbers are not worth it.
+        let pays = 2 * count * (TERMS + PROBES.len()) < times;
+        Self { first, series: (0..if pays { count } else { 0 }).into_par_iter().map(series).collect() }
+    }
+
+    fn at(&self, wavenumber: f64) -> Option<f64> {
+        let number = panel(wavenumber);
+        let series = self.series.get(number.wrapping_sub(self.first) as usize)?.as_ref()?;
+        Some(series.at(inside([0, 1].map(|k| f64::from_bits((number + k) << BELOW)), wavenumber)))
+    }
 }
 
 impl<'a> Compliances<'a> {
     /// To be asked `times` between the wavenumbers `least` and `most` (1/length); elsewhere it takes longer.
     pub fn new(transfer: &'a TransferFunction, [least, most]: [f64; 2], times: usize) -> Self {
-        let (first, end) = (panel(least), panel(most) + 1);
-        let count = if transfer.strata.is_empty() { 0 } else { (end - first) as usize };
-        // A bare half-space needs no help, and few wavenumbers are not worth it.
-        let pays = 2 * count * (TERMS + PROBES.len()) < times;
-        let series = |index: usize| {
-            let [from, to] = [0, 1].map(|k| f64::from_bits((first + index as u64 + k) << BELOW));
-            let correction = |x: f64| transfer.correction(place([from, to], x));
-            let series = Chebyshev::of(correction);
-            let holds = |&x: &f64| (series.at(x) / correction(x) - 1.0).abs() < BELIEF;
-            PROBES.iter().all(holds).then_some(series)
-        };
-        Self { transfer, first, panels: (0..if pays { count } else { 0 }).into_par_iter().map(series).collect() }
+        // A bare half-space needs no help.
+        let times = if transfer.strata.is_empty() { 0 } else { times };
+        let corrections = Panels::new([least, most], times, 0.0, |q| transfer.correction(q));
+        Self { transfer, corrections, ratios: Panels::default() }
+    }
+
+    /// The same, to be asked for [`Self::coupling_ratio`] too.
+    pub fn coupled(transfer: &'a TransferFunction, [least, most]: [f64; 2], times: usize) -> Self {
+        let own = Self::new(transfer, [least, most], times);
+        let times = if transfer.strata.is_empty() { 0 } else { times };
+        Self { ratios: Panels::new([least, most], times, 1.0, |q| transfer.coupling_ratio(q)), ..own }
     }
 
     /// Compliance ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
     pub fn at(&self, wavenumber: f64) -> f64 {
-        let number = panel(wavenumber);
-        match self.panels.get(number.wrapping_sub(self.first) as usize) {
-            Some(Some(series)) => {
-                let ends = [0, 1].map(|k| f64::from_bits((number + k) << BELOW));
-                self.transfer.compliance_of(series.at(inside(ends, wavenumber)), wavenumber)
-            }
-            _ => self.transfer.compliance(wavenumber),
+        match self.corrections.at(wavenumber) {
+            Some(correction) => self.transfer.compliance_of(correction, wavenumber),
+            None => self.transfer.compliance(wavenumber),
         }
+    }
+
+    /// K/C of the [`SurfaceResponse`](super::SurfaceResponse) at the wavenumber q > 0 (1/length).
+    pub fn coupling_ratio(&self, wavenumber: f64) -> f64 {
+        self.ratios.at(wavenumber).unwrap_or_else(|| self.transfer.coupling_ratio(wavenumber))
     }
 }
 
@@ -81,15 +122,19 @@ mod tests {
         for stack in stacks {
             let layers = stack.len();
             let transfer = TransferFunction::new(&HalfSpace::new(stack, material(1.0, 0.3)));
-            let compliances = Compliances::new(&transfer, [1e-3, 1e5], usize::MAX);
-            let mut worst = 0.0f64;
+            let compliances = Compliances::coupled(&transfer, [1e-3, 1e5], usize::MAX);
+            let (mut worst, mut worst_ratio) = (0.0f64, 0.0f64);
             for k in 0..20_000 {
                 let q = 1e-3 * 1e8f64.powf((f64::from(k) + 0.37) / 20_000.0);
                 worst = worst.max((compliances.at(q) / transfer.compliance(q) - 1.0).abs());
+                let ratio = transfer.coupling_ratio(q);
+                worst_ratio = worst_ratio.max((compliances.coupling_ratio(q) - ratio).abs() / ratio.abs().max(1.0));
             }
-            let asked = compliances.panels.iter().filter(|series| series.is_none()).count();
-            assert!(worst < 3e-14, "{layers} layers: {worst:e}");
-            assert!(10 * asked <= compliances.panels.len(), "{layers} layers: {asked} panels are not held");
+            assert!(worst < 3e-14 && worst_ratio < 3e-14, "{layers} layers: {worst:e}, {worst_ratio:e}");
+            for series in [&compliances.corrections.series, &compliances.ratios.series] {
+                let asked = series.iter().filter(|series| series.is_none()).count();
+                assert!(10 * asked <= series.len(), "{layers} layers: {asked} panels are not held");
+            }
             assert_eq!(compliances.at(1e7), transfer.compliance(1e7));
         }
     }

@@ -1,34 +1,48 @@
-//! Amplitudes of stress and displacement at any depth of a layered half-space under p = cos(qξ).
+//! Amplitudes of stress and displacement at any depth of a layered half-space under a pressure or a shear traction along
+//! the wavevector.
 //!
 //! The state y = (U, w, t, p) at a depth lies in the plane of minors of what is below, and satisfies
-//! ℓ·y = 0, where ℓ is the functional "shear at the surface" expressed in the state at that depth. Both together leave
-//! one vector, the contraction
+//! ℓ·y = 0, where ℓ is the functional "shear at the surface" (under a shear traction "pressure at the surface") expressed
+//! in the state at that depth. Both together leave one vector, the contraction
 //!
 //! y_U = −ℓ_w D + ℓ_t B − ℓ_p A,  y_w = ℓ_U D + ℓ_t C − ℓ_p B,  y_t = −ℓ_U B − ℓ_w C − ℓ_p N,  y_p = ℓ_U A + ℓ_w B +
 //! ℓ_t N,
 //!
-//! divided by the surface's N so that p = 1 there. Going down a layer, ℓ is multiplied by exp(d𝒜) from the right, where
+//! divided by the surface's N so that p = 1 there (t = −1: σ_qz = −q is the traction q on the body). Going down a layer, ℓ
+//! is multiplied by exp(d𝒜) from the right, where
 //! (𝒜²−1)² = 0 gives exp(d𝒜) = cosh d + ½d sinh d (𝒜²−1) + 𝒜 sinh d + ½(d cosh d − sinh d)(𝒜³−𝒜).
-//! A frictionless interface transmits p alone: below it ℓ starts afresh.
+//! A frictionless interface transmits p alone: below it ℓ starts afresh, as "shear at the interface".
 
 use super::minors::{EXTINCT, Minors, PlaneStrain};
 use super::transfer::TransferFunction;
 use super::{Depth, Interface};
 
-/// Amplitudes at one depth for a surface pressure cos(qξ).
+/// A surface traction cos(qξ) that deforms the plane of the wavevector and the depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InPlane {
+    /// A pressure.
+    Normal,
+    /// A shear traction on the body along the wavevector.
+    Along,
+}
+
+/// Amplitudes at one depth for a surface traction cos(qξ).
+///
+/// Under a pressure σ_zz, σ_qq, σ_tt and u_z are of cos(qξ), σ_qz and u_q of sin(qξ); under a shear traction along the
+/// wavevector it is the other way round.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Amplitudes {
-    /// σ_zz, of cos(qξ), over the pressure.
+    /// σ_zz over the traction.
     pub szz: f64,
-    /// σ_qz, of sin(qξ), over the pressure.
+    /// σ_qz over the traction.
     pub sqz: f64,
-    /// σ_qq along the wavevector, of cos(qξ), over the pressure.
+    /// σ_qq along the wavevector, over the traction.
     pub sqq: f64,
-    /// σ_tt across the wavevector, of cos(qξ), over the pressure.
+    /// σ_tt across the wavevector, over the traction.
     pub stt: f64,
-    /// u_z into the body, of cos(qξ), a length per pressure.
+    /// u_z into the body, a length per pressure.
     pub uz: f64,
-    /// u_q along the wavevector, of sin(qξ), a length per pressure.
+    /// u_q along the wavevector, a length per pressure.
     pub uq: f64,
 }
 
@@ -56,22 +70,31 @@ struct Body {
     above: Functional,
 }
 
-/// Interior of a layered half-space at one wavenumber.
+/// Interior of a layered half-space under a traction of one wavenumber.
 #[derive(Debug, Clone)]
 pub struct Interior {
     wavenumber: f64,
+    traction: InPlane,
     bodies: Vec<Body>,
 }
 
 impl Interior {
-    /// Interior at the wavenumber q > 0 (1/length).
+    /// Interior under a pressure of the wavenumber q > 0 (1/length).
     pub fn new(transfer: &TransferFunction, wavenumber: f64) -> Self {
+        Self::under(InPlane::Normal, transfer, wavenumber)
+    }
+
+    /// Interior under a traction of the wavenumber q > 0 (1/length).
+    pub fn under(traction: InPlane, transfer: &TransferFunction, wavenumber: f64) -> Self {
         let substrate = &transfer.substrate;
         let mut planes = Vec::with_capacity(transfer.strata.len() + 1);
         let surface = transfer.surface(wavenumber, |minors| planes.push(minors));
         planes.reverse();
 
-        let mut functional = Functional::shear(&surface);
+        let mut functional = match traction {
+            InPlane::Normal => Functional::shear(&surface),
+            InPlane::Along => Functional::pressure(&surface),
+        };
         let mut bodies = Vec::with_capacity(planes.len());
         let mut top = 0.0;
         for (k, layer) in transfer.strata.iter().enumerate() {
@@ -109,7 +132,7 @@ impl Interior {
             below: planes[planes.len() - 1],
             above: functional,
         });
-        Self { wavenumber, bodies }
+        Self { wavenumber, traction, bodies }
     }
 
     /// Amplitudes at a depth below the surface. Depths outside their material are brought back to its faces.
@@ -121,43 +144,59 @@ impl Interior {
         let below = (depth.z - body.top).max(0.0);
         let [u, w, t, p] = body.state((self.wavenumber * below).min(body.thickness).min(EXTINCT));
         let PlaneStrain { shear, poisson, e, r, .. } = body.material;
+        // A quarter wave further cos(qξ) is −sin(qξ), and sin(qξ) is cos(qξ).
+        let turn = match self.traction {
+            InPlane::Normal => 1.0,
+            InPlane::Along => -1.0,
+        };
         let sqq = -e * u - r * p;
         let per_displacement = 1.0 / (shear * self.wavenumber);
         Amplitudes {
-            szz: -p,
+            szz: turn * -p,
             sqz: t,
-            sqq,
-            stt: poisson * (sqq - p),
-            uz: w * per_displacement,
+            sqq: turn * sqq,
+            stt: turn * poisson * (sqq - p),
+            uz: turn * w * per_displacement,
             uq: -u * per_displacement,
         }
     }
 }
 
 /// Layers thicker than this, over 1/q, hide what is below them: e^{−45} of the pressure comes through.
-const HIDDEN: f64 = 45.0;
+pub(super) const HIDDEN: f64 = 45.0;
 
 impl TransferFunction {
-    /// Amplitudes at a depth for the wavenumber q > 0 (1/length); those of the surface material, where a layer of it hides
-    /// what lies below, in closed form: F = (1 + s)e^{−s}, s = qz.
+    /// Amplitudes at a depth under a traction of the wavenumber q > 0 (1/length); those of the surface material, where a
+    /// layer of it hides what lies below, in closed form: F = (1 + s)e^{−s} under a pressure, F = se^{−s} under a shear
+    /// traction, s = qz.
     ///
     /// # Panics
     /// When there is no such material.
-    pub fn amplitudes(&self, wavenumber: f64, depth: Depth) -> Amplitudes {
+    pub fn amplitudes(&self, traction: InPlane, wavenumber: f64, depth: Depth) -> Amplitudes {
         if depth.material > 1 || self.strata.first().is_some_and(|layer| wavenumber * layer.thickness < HIDDEN) {
-            return Interior::new(self, wavenumber).at(depth);
+            return Interior::under(traction, self, wavenumber).at(depth);
         }
         let PlaneStrain { shear, poisson, .. } = *self.surface_material();
         let s = (wavenumber * depth.z.max(0.0)).min(EXTINCT);
         let decay = (-s).exp();
         let per_displacement = 0.5 * decay / (shear * wavenumber);
-        Amplitudes {
-            szz: -(1.0 + s) * decay,
-            sqz: -s * decay,
-            sqq: -(1.0 - s) * decay,
-            stt: -2.0 * poisson * decay,
-            uz: (2.0 * (1.0 - poisson) + s) * per_displacement,
-            uq: (s - (1.0 - 2.0 * poisson)) * per_displacement,
+        match traction {
+            InPlane::Normal => Amplitudes {
+                szz: -(1.0 + s) * decay,
+                sqz: -s * decay,
+                sqq: -(1.0 - s) * decay,
+                stt: -2.0 * poisson * decay,
+                uz: (2.0 * (1.0 - poisson) + s) * per_displacement,
+                uq: (s - (1.0 - 2.0 * poisson)) * per_displacement,
+            },
+            InPlane::Along => Amplitudes {
+                szz: -s * decay,
+                sqz: -(1.0 - s) * decay,
+                sqq: -(2.0 - s) * decay,
+                stt: -2.0 * poisson * decay,
+                uz: (1.0 - 2.0 * poisson + s) * per_displacement,
+                uq: (2.0 * (1.0 - poisson) - s) * per_displacement,
+            },
         }
     }
 }
@@ -183,6 +222,11 @@ impl Functional {
     /// The shear traction at the top of a plane, scaled so that its contraction with the plane has p = 1.
     fn shear(plane: &Minors) -> Self {
         Self { u: 0.0, w: 0.0, t: 1.0 / plane.n, p: 0.0, exponent: -plane.exponent }
+    }
+
+    /// The pressure on the top of a plane, scaled so that its contraction with the plane has t = −1.
+    fn pressure(plane: &Minors) -> Self {
+        Self { u: 0.0, w: 0.0, t: 0.0, p: 1.0 / plane.n, exponent: -plane.exponent }
     }
 
     fn times(self, factor: f64) -> Self {
@@ -281,15 +325,17 @@ mod tests {
     fn what_is_hidden_is_left_out() {
         let coating = Material::from_shear(20.0, 0.2).unwrap();
         let layer = Layer::new(coating, 2.0, Interface::Frictionless).unwrap();
-        for layers in [vec![], vec![layer]] {
+        let tractions = [InPlane::Normal, InPlane::Along];
+        for (layers, traction) in [vec![], vec![layer]].into_iter().flat_map(|l| tractions.map(|t| (l.clone(), t))) {
             let transfer = TransferFunction::new(&HalfSpace::new(layers, Material::from_shear(1.0, 0.3).unwrap()));
             for (q, z) in [(22.6, 0.0), (22.6, 0.01), (30.0, 0.3), (25.0, 2.0), (1e3, 1.0)] {
                 let depth = Depth { z, material: 1 };
-                let (short, long) = (transfer.amplitudes(q, depth), Interior::new(&transfer, q).at(depth));
+                let long = Interior::under(traction, &transfer, q).at(depth);
+                let short = transfer.amplitudes(traction, q, depth);
                 for (a, b) in
                     [(short.szz, long.szz), (short.sqz, long.sqz), (short.sqq, long.sqq), (short.stt, long.stt)]
                 {
-                    assert!((a - b).abs() < 1e-14, "q = {q}, z = {z}: {short:?} {long:?}");
+                    assert!((a - b).abs() < 1e-14, "{traction:?}, q = {q}, z = {z}: {short:?} {long:?}");
                 }
                 assert!((short.uz - long.uz).abs() < 1e-14 && (short.uq - long.uq).abs() < 1e-14);
             }

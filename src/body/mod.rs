@@ -1,4 +1,5 @@
-//! Response of a layered elastic half-space to a plane harmonic pressure p cos(qξ) on its surface.
+//! Response of a layered elastic half-space to plane harmonic tractions on its surface: pressure, and shear along and across
+//! the wavevector.
 //!
 //! ξ runs along the wavevector, z into the body, x = qz. With the amplitudes p and t of the tractions
 //! σ_zz = −p cos, σ_qz = t sin, and of the displacements u_z = w cos, u_q = −U sin, plane strain
@@ -13,9 +14,13 @@
 //! - `minors`: everything below a depth confines (U, w, t, p) to a plane; the plane's five 2 × 2 minors are
 //!   carried from the substrate up (delta-matrix method, Dunkin 1965). The surface compliance is a ratio of two
 //!   of them (`transfer`).
-//! - `interior`: everything above a depth imposes "no shear at the surface", one linear functional carried from the
-//!   surface down. Plane and functional meet in one vector: the amplitudes at that depth.
+//! - `interior`: everything above a depth imposes "no shear at the surface" (under a shear traction: no pressure), one
+//!   linear functional carried from the surface down. Plane and functional meet in one vector: the amplitudes at that depth.
+//!
+//! Across the wavevector the body is sheared alone (`across`). What the surface answers to all three tractions is one
+//! Hermitian 3 × 3 matrix, the [`SurfaceResponse`].
 
+mod across;
 mod compliances;
 mod depth;
 mod half_space;
@@ -23,12 +28,15 @@ mod interior;
 mod material;
 mod mean;
 mod minors;
+mod response;
 mod transfer;
 
+pub use across::Antiplane;
 pub(crate) use compliances::Compliances;
 pub use depth::Depth;
 pub use half_space::{HalfSpace, Interface, Layer};
-pub use interior::{Amplitudes, Interior};
+pub use interior::{Amplitudes, InPlane, Interior};
 pub use material::{Material, MaterialError};
 pub use mean::MeanStress;
+pub use response::SurfaceResponse;
 pub use transfer::TransferFunction;

@@ -7,7 +7,7 @@
 //! zone of the sampling lattice) keeps it.
 
 use super::cell::norm;
-use super::waves::Waves;
+use super::waves::{BORDER, TIE, Waves};
 use super::zone::Zone;
 use super::{Cell, LatticeError};
 use crate::numeric::number::number;
@@ -126,6 +126,26 @@ impl Grid {
     /// The plane waves it holds; found when they are first asked for, and kept.
     pub(crate) fn waves(&self) -> &Arc<Waves> {
         self.waves.get_or_init(|| Arc::new(Waves::new(&self.zone)))
+    }
+
+    /// Mean unit vector of the shortest aliases of the component (k₁, k₂), of length one but where several are tied; zero for
+    /// a component that is its own conjugate.
+    pub fn mean_direction(&self, component: [usize; 2]) -> [f64; 2] {
+        let unit = |[x, y]: [f64; 2]| {
+            let length = norm([x, y]);
+            if length > 0.0 { [x / length, y / length] } else { [0.0; 2] }
+        };
+        let own = (0..2).all(|axis| 2 * component[axis] % self.points()[axis] == 0);
+        if own {
+            return [0.0; 2];
+        }
+        let q = self.wavevector(component);
+        if !self.zone.on_border(q, BORDER) {
+            return unit(q);
+        }
+        let tied = self.tied_wavevectors(component, TIE);
+        let sum = tied.iter().fold([0.0; 2], |sum, &(_, q)| [sum[0] + unit(q)[0], sum[1] + unit(q)[1]]);
+        sum.map(|x| x / tied.len() as f64)
     }
 
     /// Length |q| of [`Grid::wavevector`].

@@ -12,9 +12,9 @@ use super::zone::Zone;
 use std::f64::consts::TAU;
 
 /// Wavenumbers closer than this, relatively, are one shell; aliases closer than this are tied.
-const TIE: f64 = 1e-11;
+pub(super) const TIE: f64 = 1e-11;
 /// How near the border of the zone, relatively, ties are looked for.
-const BORDER: f64 = 1e-9;
+pub(super) const BORDER: f64 = 1e-9;
 /// Beyond this many rows per sample along the sides, most rows of a skewed cell are empty.
 const MANY: f64 = 4.0;
 

@@ -38,13 +38,31 @@ pub struct Multiplier {
     normalisation: f64,
 }
 
+/// An odd multiplier T(k₁, k₂), k₂ ≤ N₂/2, in the order of the column pass.
+#[derive(Debug, Clone)]
+pub struct Turns {
+    /// Eight columns at a time, padded with zeros.
+    table: Vec<f64>,
+}
+
+impl Turns {
+    /// The largest |T|.
+    pub fn largest(&self) -> f64 {
+        self.table.iter().fold(0.0, |largest, turn| turn.abs().max(largest))
+    }
+}
+
 /// What a convolution does with its multiplier K.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Action {
+#[derive(Debug, Clone, Copy)]
+pub enum Action<'a> {
     /// u = F⁻¹[cK · F p] with a factor c, of zero mean: the component (0, 0) is dropped.
     Times(f64),
     /// u = F⁻¹[c F p / K].
     Over(f64),
+    /// u = F⁻¹[K(1 − iT) · F p], of zero mean.
+    TimesTurned(&'a Turns),
+    /// u = F⁻¹[F p / K(1 − iT)].
+    OverTurned(&'a Turns),
 }
 
 /// A convolution but for its last pass.
@@ -98,12 +116,27 @@ impl<T: Real> Convolution<T> {
     pub fn multiplier(&self, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Multiplier {
         let [n1, n2] = self.points();
         let normalisation = 1.0 / (n1 as f64 * n2 as f64);
-        let mut table = vec![1.0; self.tiles() * n1 * LANES];
+        let table = self.table(1.0, mirrored, |component| normalisation * value(component));
+        Multiplier { table, normalisation }
+    }
+
+    /// The odd multiplier with the values `value([k₁, k₂])`, 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
+    ///
+    /// The value must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero where that changes nothing: then real fields stay
+    /// real.
+    pub fn turns(&self, value: impl Fn([usize; 2]) -> f64 + Sync) -> Turns {
+        Turns { table: self.table(0.0, false, value) }
+    }
+
+    /// Values in the order of the column pass, eight columns at a time, padded.
+    fn table(&self, padding: f64, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Vec<f64> {
+        let n1 = self.points()[0];
+        let mut table = vec![padding; self.tiles() * n1 * LANES];
         table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(tile, table)| {
-            let mut lines = vec![[1.0; LANES]; n1];
+            let mut lines = vec![[padding; LANES]; n1];
             for k1 in 0..if mirrored { n1 / 2 + 1 } else { n1 } {
                 for (k2, entry) in (tile * LANES..self.half()).zip(&mut lines[k1]) {
-                    *entry = normalisation * value([k1, k2]);
+                    *entry = value([k1, k2]);
                 }
                 if mirrored {
                     lines[(n1 - k1) % n1] = lines[k1];
@@ -113,7 +146,7 @@ impl<T: Real> Convolution<T> {
                 line.copy_from_slice(&lines[k1]);
             }
         });
-        Multiplier { table, normalisation }
+        table
     }
 
     /// F⁻¹[cK · F u] or F⁻¹[c F u / K] of a field u, still to be fetched. There is one of the `sources` for each
@@ -124,7 +157,7 @@ impl<T: Real> Convolution<T> {
     /// When the multiplier belongs to other `points`, the room is too small, or there are not as many sources as parts.
     pub fn convolve<'a, S>(
         &'a self,
-        action: Action,
+        action: Action<'_>,
         multiplier: &Multiplier,
         room: &'a mut [f64],
         sources: S,
@@ -156,7 +189,7 @@ impl<T: Real> Convolution<T> {
         });
     }
 
-    fn column_pass(&self, action: Action, multiplier: &Multiplier, spectrum: &mut [T]) {
+    fn column_pass(&self, action: Action<'_>, multiplier: &Multiplier, spectrum: &mut [T]) {
         let (n1, tiles) = (self.points()[0], self.tiles());
         let mut gathered: Vec<Vec<&mut [T]>> = (0..tiles).map(|_| Vec::with_capacity(self.parts.count())).collect();
         for part in spectrum.chunks_mut(self.parts.rows() * tiles * LINE) {
@@ -178,17 +211,28 @@ impl<T: Real> Convolution<T> {
                     rest = after;
                 }
                 self.columns.forward(lines, scratch);
+                let own = tile * n1 * LANES..(tile + 1) * n1 * LANES;
+                let factor = if let Action::Times(factor) | Action::Over(factor) = action { factor } else { 1.0 };
                 match action {
-                    Action::Times(factor) => {
+                    Action::Times(_) | Action::TimesTurned(_) => {
                         vectorised!(simd => times(simd, factor, table, lines));
                         if tile == 0 {
                             (lines[0], lines[LANES]) = (T::zero(), T::zero());
                         }
                     }
-                    Action::Over(factor) => {
+                    Action::Over(_) | Action::OverTurned(_) => {
                         // The table holds the normalisation already.
                         let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
                         vectorised!(simd => over(simd, numerator, common, table, lines));
+                    }
+                }
+                match action {
+                    Action::Times(_) | Action::Over(_) => {}
+                    Action::TimesTurned(turns) => {
+                        vectorised!(simd => turn(simd, &turns.table[own], lines));
+                    }
+                    Action::OverTurned(turns) => {
+                        vectorised!(simd => turn_back(simd, &turns.table[own], lines));
                     }
                 }
                 self.columns.inverse(lines, scratch);
@@ -252,6 +296,32 @@ fn over<S: Simd, T: Real>(simd: S, numerator: f64, common: f64, table: &[f64], l
     let numerator = T::Lanes::<S>::simd_from(simd, T::rounded(numerator));
     for (line, factors) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
         multiply(simd, numerator / T::lanes(f64x8::from_slice(simd, factors) * common), line);
+    }
+}
+
+/// Each component times 1 − iT.
+#[inline(always)]
+fn turn<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T]) {
+    for (line, turns) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
+        let turns = T::lanes(f64x8::from_slice(simd, turns));
+        let (re, im) = line.split_at_mut(LANES);
+        let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
+        (x + y * turns).store_slice(re);
+        (y - x * turns).store_slice(im);
+    }
+}
+
+/// Each component over 1 − iT.
+#[inline(always)]
+fn turn_back<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T]) {
+    let one = T::Lanes::<S>::simd_from(simd, T::rounded(1.0));
+    for (line, turns) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
+        let turns = T::lanes(f64x8::from_slice(simd, turns));
+        let (re, im) = line.split_at_mut(LANES);
+        let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
+        let scale = one / (one + turns * turns);
+        ((x - y * turns) * scale).store_slice(re);
+        ((y + x * turns) * scale).store_slice(im);
     }
 }
 

@@ -1,12 +1,18 @@
-//! The boundary operator C: pressure on the cell → normal surface displacement.
+//! The boundary operator: pressure on the cell → normal surface displacement.
 //!
 //! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse makes the
-//! preconditioner. Both are diagonal in Fourier space. Pressures and displacements that count are
+//! preconditioner. Both are diagonal in Fourier space. Under coupled friction the traction μ p **e** displaces too,
+//!
+//! ŵ = (C − iμK cos θ) p̂ = C(1 − iT) p̂,  T = μ (K/C) cos θ,
+//!
+//! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and what is its own
+//! conjugate has none. Pressures and displacements that count are
 //! convolved in double precision; what only leads to them in single precision, in units in which the compliance at the
 //! least wavenumber is one.
 
-use super::convolution::{Action, Convolution, Convolved, Multiplier, rows_of, rows_to};
+use super::convolution::{Action, Convolution, Convolved, Multiplier, Turns, rows_of, rows_to};
 use crate::body::{Compliances, TransferFunction};
+use crate::friction::Friction;
 use crate::lattice::Grid;
 use crate::numeric::rows::Parts;
 use rayon::prelude::*;
@@ -32,25 +38,46 @@ pub struct Operator {
     double: Convolution<f64>,
     single: Convolution<f32>,
     compliance: Multiplier,
+    /// T, and the largest |T|.
+    coupling: Option<(Turns, f64)>,
     /// Compliance at the least wavenumber.
     unit: f64,
     convolutions: f64,
 }
 
 impl Operator {
-    /// Operator of the half-space with the given transfer function.
+    /// Operator of the half-space with the given transfer function, without friction.
     pub fn new(grid: &Grid, transfer: &TransferFunction) -> Self {
+        let compliances = Compliances::new(transfer, range(grid), grid.len() / 2);
+        Self::with(grid, transfer, &compliances)
+    }
+
+    /// The same under a counterbody that slides with `friction`.
+    pub fn sliding(grid: &Grid, transfer: &TransferFunction, friction: &Friction) -> Self {
+        let [x, y] = friction.traction();
+        if !friction.is_coupled() || friction.coefficient() == 0.0 {
+            return Self::new(grid, transfer);
+        }
+        let compliances = Compliances::coupled(transfer, range(grid), grid.len() / 2);
+        let own = Self::with(grid, transfer, &compliances);
+        let turns = own.double.turns(|component| match grid.mean_direction(component) {
+            [0.0, 0.0] => 0.0,
+            [nx, ny] => (x * nx + y * ny) * compliances.coupling_ratio(grid.wavenumber(component)),
+        });
+        let largest = turns.largest();
+        Self { coupling: Some((turns, largest)), ..own }
+    }
+
+    fn with(grid: &Grid, transfer: &TransferFunction, compliances: &Compliances<'_>) -> Self {
         let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
-        let (least, most) = (grid.least_wavenumber(), grid.largest_wavenumber());
-        let (unit, compliances) =
-            (transfer.compliance(least), Compliances::new(transfer, [least, most], grid.len() / 2));
+        let unit = transfer.compliance(grid.least_wavenumber());
         // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
         // positive: it takes the mean for a component of the least wavenumber.
         let compliance = double.multiplier(grid.cell().is_rectangular(), |component| match component {
             [0, 0] => unit,
             component => compliances.at(grid.wavenumber(component)),
         });
-        Self { double, single, compliance, unit, convolutions: 0.0 }
+        Self { double, single, compliance, coupling: None, unit, convolutions: 0.0 }
     }
 
     /// Compliance at the least wavenumber, a length per pressure: the unit of the convolutions in single precision.
@@ -68,24 +95,22 @@ impl Operator {
         self.convolutions
     }
 
-    /// p → w = C p: displacement into the body with zero mean (a length), from pressure.
+    /// The largest part |T| that coupling adds to the operator; 0 without it.
+    pub fn coupling(&self) -> f64 {
+        self.coupling.as_ref().map_or(0.0, |&(_, largest)| largest)
+    }
+
+    /// p → w: displacement into the body with zero mean (a length), from pressure and the traction that goes with it.
     pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        self.in_place(Action::Times(1.0), field, workspace);
-    }
-
-    /// w → C⁻¹ w: the pressure that displaces so. The mean is treated like a component of the least wavenumber.
-    pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        self.in_place(Action::Over(1.0), field, workspace);
-    }
-
-    fn in_place(&mut self, action: Action, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
-        let (parts, room) = (self.parts(), workspace.of(self.double.room()));
-        // On the threads that share the work, where no pass has to wake them.
-        rayon::scope(|_| {
-            let convolved = self.double.convolve(action, &self.compliance, room, rows_of(parts, field));
-            convolved.rows(rows_to(parts, field));
-        });
+        in_place(&self.double, times(&self.coupling), &self.compliance, field, workspace);
+    }
+
+    /// w → p: the pressure that displaces so. The mean is treated like a component of the least wavenumber.
+    pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        self.convolutions += 1.0;
+        let action = self.coupling.as_ref().map_or(Action::Over(1.0), |(turns, _)| Action::OverTurned(turns));
+        in_place(&self.double, action, &self.compliance, field, workspace);
     }
 
     /// The memory of a convolution in double precision in two: that of one in single precision, and a field in single
@@ -96,13 +121,13 @@ impl Operator {
         (room, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
     }
 
-    /// p → C p by rows.
+    /// p → w by rows.
     pub(super) fn displaced<'a, S>(&'a mut self, workspace: &'a mut Workspace, pressure: S) -> Convolved<'a, f64>
     where
         S: IntoParallelIterator<Item: FnMut(&mut [f64]), Iter: IndexedParallelIterator>,
     {
         self.convolutions += 1.0;
-        self.double.convolve(Action::Times(1.0), &self.compliance, workspace.of(self.double.room()), pressure)
+        self.double.convolve(times(&self.coupling), &self.compliance, workspace.of(self.double.room()), pressure)
     }
 
     /// p → C p/C(least q) by rows, in single precision.
@@ -122,4 +147,28 @@ impl Operator {
         self.convolutions += 0.5;
         self.single.convolve(Action::Over(self.unit), &self.compliance, room, displacement)
     }
+}
+
+/// Wavenumbers that a grid asks for.
+fn range(grid: &Grid) -> [f64; 2] {
+    [grid.least_wavenumber(), grid.largest_wavenumber()]
+}
+
+fn times(coupling: &Option<(Turns, f64)>) -> Action<'_> {
+    coupling.as_ref().map_or(Action::Times(1.0), |(turns, _)| Action::TimesTurned(turns))
+}
+
+fn in_place(
+    convolution: &Convolution<f64>,
+    action: Action<'_>,
+    compliance: &Multiplier,
+    field: &mut [f64],
+    workspace: &mut Workspace,
+) {
+    let (parts, room) = (convolution.parts(), workspace.of(convolution.room()));
+    // On the threads that share the work, where no pass has to wake them.
+    rayon::scope(|_| {
+        let convolved = convolution.convolve(action, compliance, room, rows_of(parts, field));
+        convolved.rows(rows_to(parts, field));
+    });
 }

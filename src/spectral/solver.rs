@@ -66,7 +66,11 @@ impl Solver {
         let modulus = problem.half_space().surface_material().contact_modulus();
         let nest = |points| -> Result<Nest, LatticeError> {
             let surface = Surface::new(problem.counterbody(), points)?;
-            let (operator, unknowns) = (Operator::new(surface.grid(), &transfer), Unknowns::new(surface.grid().len()));
+            let operator = match problem.friction() {
+                Some(friction) => Operator::sliding(surface.grid(), &transfer, friction),
+                None => Operator::new(surface.grid(), &transfer),
+            };
+            let unknowns = Unknowns::new(surface.grid().len());
             let largest_gap = surface.largest();
             Ok(Nest { surface: Arc::new(surface), largest_gap, operator, unknowns, modulus })
         };
@@ -94,7 +98,8 @@ impl Solver {
         self.surface().mean()
     }
 
-    /// Least mean pressure of complete contact on the finest grid: max of C⁻¹(f − mean f).
+    /// Least mean pressure of complete contact on the finest grid: that of the pressure which displaces the surface by
+    /// mean f − f.
     ///
     /// It grows with the grid for shapes with ridges, whose complete contact takes an infinite pressure.
     pub fn full_contact_pressure(&mut self) -> f64 {
@@ -203,7 +208,7 @@ impl Nest {
         let (samples, before) = (surface.grid().len(), operator.convolutions());
         let (initial_gap, largest_gap) = (surface.gaps(), *largest_gap);
         let report =
-            GridProblem { operator, working, initial_gap, largest_gap, load, settings, progress }.solve(unknowns);
+            GridProblem { operator, working, initial_gap, largest_gap, load, settings, outer: 0, progress }.solve(unknowns);
         (report, (operator.convolutions() - before) * samples as f64)
     }
 

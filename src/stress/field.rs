@@ -4,7 +4,7 @@ use super::regions::Regions;
 use super::series::{Response, Series};
 use super::slice::Slice;
 use super::tensor::State;
-use crate::body::{Depth, HalfSpace, Interface, MeanStress, TransferFunction};
+use crate::body::{Depth, HalfSpace, InPlane, Interface, MeanStress, TransferFunction};
 use crate::lattice::{Grid, NotOnGrid};
 use crate::numeric::number::number;
 use crate::spectral::Contact;
@@ -97,7 +97,7 @@ impl StressField {
     pub(super) fn slice(&self, depth: Depth, reach: f64) -> Slice {
         let waves = &self.series.waves;
         let count = waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
-        let amplitude = |&q: &f64| self.transfer.amplitudes(q, depth);
+        let amplitude = |&q: &f64| self.transfer.amplitudes(InPlane::Normal, q, depth);
         let wavenumbers = &waves.wavenumbers()[..count];
         let amplitudes = wavenumbers.par_iter().with_min_len(512).map(amplitude).collect();
         Slice { amplitudes, lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(), mean: self.mean(depth) }

@@ -32,7 +32,13 @@ pub(super) fn solve(
     // Mean pressures and what their penetrations lack, on either side of the root.
     let (mut low, mut high) = ((0.0, -penetration), None);
     let mut last =
-        Report { stop: Stop::Stalled, route: Route::LoadSearch { trials: 0 }, iterations, residual: f64::INFINITY };
+        Report {
+            stop: Stop::Stalled,
+            route: Route::LoadSearch { trials: 0 },
+            iterations,
+            outer: 0,
+            residual: f64::INFINITY,
+        };
     for trials in 1..=TRIALS {
         if !(pressure.is_finite() && pressure > 0.0) {
             break;
@@ -46,6 +52,7 @@ pub(super) fn solve(
             ..*problem
         };
         let report = iterate(&mut trial, last.iterations, unknowns);
+        problem.outer = trial.outer;
         let lack = unknowns.penetration - penetration;
         let check = Check::new(problem, unknowns);
         last = Report { route: Route::LoadSearch { trials }, residual: check.residual, ..report };

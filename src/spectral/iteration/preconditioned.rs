@@ -11,6 +11,15 @@
 //! would bring back what was clipped, to be clipped again and again), and where the way leads uphill it is not taken, and
 //! the next direction starts anew. The first step on a grid is free: it has to sort out what interpolation has left.
 //!
+//! **Sliding.** Under coupled friction the operator has a skew part D, T = C⁻¹D, and there is no energy. With D p of the last
+//! gap in double precision standing still there is one: minimising
+//!
+//! ½⟨p − p_k, C(p − p_k)⟩ + ω⟨g_k, p⟩  over p ≥ 0,  ω = 1/(1 + f²),  f = max |T|,
+//!
+//! is the iteration above from p_k and the gap ωg_k on, and these **outer** iterations (forward–backward splitting in the
+//! energy's norm; C + D is monotone with the constants 1 and √(1 + f²)) bring every f nearer by f/√(1 + f²) at least. Each
+//! ends when its own criteria have fallen to a tenth.
+//!
 //! **Precision.** The gap is carried by its changes, g ← g + Cd, in single precision and in units of the largest f. The
 //! pressure is double, and when the criteria are met, or single precision
 //! exhausted, the gap is computed afresh in double precision: that alone decides about convergence.
@@ -35,6 +44,8 @@ const PATIENCE: usize = 30;
 const TRUSTED: f64 = 1e-5;
 /// Iterations after which the gap is computed afresh whatever it says.
 const RENEWAL: usize = 20;
+/// Part of its first value to which the measure falls in an outer iteration.
+const OUTER: f64 = 0.1;
 
 /// How often a step that raises the energy is shortened before it ends at the minimum on its way, and how much.
 const SHORTENED: usize = 2;
@@ -58,11 +69,14 @@ pub(super) fn solve(
     unknowns: &mut Unknowns,
 ) -> Report {
     let mut patience = Patience::new(PATIENCE);
+    let coupling = problem.operator.coupling();
+    let share = 1.0 / (1.0 + coupling * coupling);
+    let enough = if coupling > 0.0 { OUTER * share } else { TRUSTED };
     let mut memory = Memory { norm: 0.0, mean: 0.0, free: true };
     loop {
         unknowns.admit(problem.load);
         let check = Check::new(problem, unknowns);
-        let ended = |stop| Report { stop, route: Route::Direct, iterations, residual: check.residual };
+        let ended = |stop| Report { stop, route: Route::Direct, iterations, outer: 0, residual: check.residual };
         if check.converged(problem.settings.tolerance) {
             return ended(Stop::Converged);
         }
@@ -72,7 +86,8 @@ pub(super) fn solve(
         if patience.ends(check.measure()) {
             return ended(Stop::Stalled);
         }
-        let mut way = Way::new(problem, unknowns, check, beyond);
+        problem.outer += usize::from(coupling > 0.0);
+        let mut way = Way::new(problem, unknowns, check, share, beyond);
         for number in 1.. {
             let limit = iterations >= problem.settings.max_iterations;
             let over = number > 1 && (limit || patience.ends(way.check.measure()));
@@ -85,12 +100,12 @@ pub(super) fn solve(
                     (false, true) => Stop::IterationLimit,
                     (false, false) => Stop::Stalled,
                 };
-                return Report { stop, route: Route::Direct, iterations, residual: check.residual };
+                return Report { stop, route: Route::Direct, iterations, outer: 0, residual: check.residual };
             }
             iterations += 1;
             (problem.progress)(Progress { iteration: iterations, residual: way.check.residual });
             let met = way.check.converged(problem.settings.tolerance);
-            if met || number == RENEWAL || way.check.measure() < TRUSTED * check.measure() {
+            if met || number == RENEWAL || way.check.measure() < enough * check.measure() {
                 break;
             }
         }
@@ -144,10 +159,11 @@ struct Way {
 }
 
 impl Way {
-    fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, beyond: Beyond) -> Self {
+    /// From a `share` of the gap of the `check`.
+    fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, share: f64, beyond: Beyond) -> Self {
         let length = problem.largest_gap;
         let (gap, residual) = problem.working.start(problem.operator);
-        let active = residuals::take(&unknowns.pressure, &unknowns.gap, length, gap, residual);
+        let active = residuals::take(&unknowns.pressure, &unknowns.gap, length / share, gap, residual);
         let (parts, pressure) = (problem.operator.parts(), length / problem.operator.unit());
         Self { parts, beyond, length, pressure, active, penetration: unknowns.penetration, check }
     }

@@ -21,6 +21,8 @@ pub struct GridProblem<'a> {
     pub load: Load,
     /// Tolerance and limits.
     pub settings: Settings,
+    /// Outer iterations so far.
+    pub outer: usize,
     /// Hears of each iteration.
     pub progress: &'a mut (dyn FnMut(Progress) + Send),
 }

@@ -89,13 +89,19 @@ pub struct Report {
     pub route: Route,
     /// Iterations of all methods and trials on this grid.
     pub iterations: usize,
+    /// Outer iterations among them: contacts solved under a traction that stood still. 0 unless friction is coupled.
+    pub outer: usize,
     /// ε = Σ p|g| / (δ Σp) of the last iterate.
     pub residual: f64,
 }
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} after {} iterations, ε = {:.1e}", self.stop, self.iterations, self.residual)?;
+        write!(f, "{} after {} iterations", self.stop, self.iterations)?;
+        if self.outer > 0 {
+            write!(f, " in {} outer ones", self.outer)?;
+        }
+        write!(f, ", ε = {:.1e}", self.residual)?;
         match self.route {
             Route::Direct | Route::Baseline => Ok(()),
             Route::WithoutContinuation => write!(f, ", without continuing the residual beyond contact"),

@@ -14,11 +14,16 @@ use std::sync::Arc;
 impl GridProblem<'_> {
     /// Solves from and into `unknowns` (any values; negative pressures are dropped).
     pub fn solve(&mut self, unknowns: &mut Unknowns) -> Report {
+        let report = self.solve_by_route(unknowns);
+        Report { outer: self.outer, ..report }
+    }
+
+    fn solve_by_route(&mut self, unknowns: &mut Unknowns) -> Report {
         let route = match self.settings.method {
             Method::Preconditioned => Route::Direct,
             Method::PolonskyKeer => Route::Baseline,
         };
-        let done = |stop, residual| Report { stop, route, iterations: 0, residual };
+        let done = |stop, residual| Report { stop, route, iterations: 0, outer: 0, residual };
         let gap = self.initial_gap;
         if !self.load.value().is_finite() {
             unknowns.rest();
