@@ -23,7 +23,7 @@ fn grid(cell: Cell, points: [usize; 2]) -> Arc<Grid> {
 
 /// The field under `pressure` on the whole of a grid.
 fn field(grid: &Arc<Grid>, pressure: &Array2<f64>, half_space: &HalfSpace, mean: MeanStress) -> StressField {
-    StressField::under(grid, pressure.view(), half_space, mean).unwrap()
+    StressField::under(grid, pressure.view(), half_space, None, mean).unwrap()
 }
 
 fn two_layers(interface: Interface) -> HalfSpace {
@@ -169,7 +169,7 @@ fn a_section_is_the_same_from_both_ends() {
         let r = (i as f64 - 24.0).hypot(j as f64 - 24.0) / 12.0;
         (1.0 - r * r).max(0.0).sqrt()
     });
-    let field = StressField::under(&grid(cell, [48, 48]), disc.view(), &half_space, MeanStress::Confined).unwrap();
+    let field = StressField::under(&grid(cell, [48, 48]), disc.view(), &half_space, None, MeanStress::Confined).unwrap();
     let line = Line { origin: [0.5, 0.5], direction: [1.0, 0.3], span: [0.0, 0.6], points: 61 };
     let [there, back] = [line, Line { span: [0.6, 0.0], ..line }].map(|line| field.section(&line, &[Depth::SURFACE]));
     let ([s, stress], [s_back, stress_back]) = (there.highest.unwrap(), back.highest.unwrap());
@@ -334,7 +334,7 @@ fn one_level_on_a_hexagonal_lattice_has_sixfold_stresses_to_round_off() {
         turns.map(|at| step.pressure()[at] / 6.0).sum::<f64>()
     });
     assert!((&sixfold - &step.pressure()).iter().all(|difference| difference.abs() < 1e-10 * sixfold[[0, 0]]));
-    let field = StressField::under(step.grid(), sixfold.view(), &half_space, MeanStress::Confined).unwrap();
+    let field = StressField::under(step.grid(), sixfold.view(), &half_space, None, MeanStress::Confined).unwrap();
     for z in [0.0, 0.02, 0.087, 0.3] {
         for depth in half_space.depths(z) {
             let states = field.plane(depth, [n, n]).states();

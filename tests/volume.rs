@@ -24,7 +24,7 @@ fn coated() -> (StressField, Vec<Depth>) {
     let grid = Arc::new(Grid::new(Cell::hexagonal(SIDE).unwrap(), POINTS).unwrap());
     let mut random = Random(4711);
     let pressure = Array2::from_shape_fn(POINTS, |_| random.unit());
-    let field = StressField::under(&grid, pressure.view(), &half_space, MeanStress::Confined).unwrap();
+    let field = StressField::under(&grid, pressure.view(), &half_space, None, MeanStress::Confined).unwrap();
     let depths = [0.0, 0.1, 0.25, 0.5].iter().flat_map(|&z| half_space.depths(z)).collect();
     (field, depths)
 }
@@ -98,7 +98,7 @@ fn stresses_displacements_and_coordinates_have_one_set_of_axes() {
     let grid = Arc::new(Grid::new(Cell::square(1.0).unwrap(), POINTS).unwrap());
     let wave = |i: usize| 1.0 + (std::f64::consts::TAU * i as f64 / POINTS[0] as f64).cos();
     let pressure = Array2::from_shape_fn(POINTS, |(i, _)| wave(i));
-    let field = StressField::under(&grid, pressure.view(), &half_space, MeanStress::Confined).unwrap();
+    let field = StressField::under(&grid, pressure.view(), &half_space, None, MeanStress::Confined).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("stress.vts");
     let (z, step) = (0.2, 1e-3);

@@ -51,6 +51,7 @@ pub struct Layer {
     material: Material,
     thickness: f64,
     interface: Interface,
+    residual: f64,
 }
 
 impl Layer {
@@ -69,7 +70,21 @@ impl Layer {
                 }
             }
         }
-        Ok(Self { material, thickness, interface })
+        Ok(Self { material, thickness, interface, residual: 0.0 })
+    }
+
+    /// The same with an equi-biaxial residual stress σ_r, a pressure, positive in tension: deposited with the layer, it adds to
+    /// σ_xx and σ_yy everywhere in it and does not change the contact.
+    ///
+    /// # Errors
+    /// [`MaterialError::Residual`] for a stress that is not finite.
+    pub fn with_residual_stress(self, residual: f64) -> Result<Self, MaterialError> {
+        if residual.is_finite() { Ok(Self { residual, ..self }) } else { Err(MaterialError::Residual(residual)) }
+    }
+
+    /// Equi-biaxial residual stress σ_r, a pressure, positive in tension.
+    pub fn residual_stress(&self) -> f64 {
+        self.residual
     }
 
     /// Material of the layer.
@@ -171,11 +186,12 @@ impl fmt::Display for HalfSpace {
         for (index, layer) in (1..).zip(&self.layers) {
             writeln!(
                 f,
-                "layer {index}: thickness {}, χ {}, {}, {}",
+                "layer {index}: thickness {}, χ {}, {}, {}{}",
                 number(layer.thickness),
                 number(layer.material.shear() / self.substrate.shear()),
                 layer.material,
-                layer.interface
+                layer.interface,
+                if layer.residual == 0.0 { String::new() } else { format!(", σ_r {}", number(layer.residual)) }
             )?;
         }
         write!(f, "substrate: {}", self.substrate)

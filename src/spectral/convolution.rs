@@ -59,10 +59,10 @@ pub enum Action<'a> {
     Times(f64),
     /// u = F⁻¹[c F p / K].
     Over(f64),
-    /// u = F⁻¹[K(1 − iT) · F p], of zero mean.
-    TimesTurned(&'a Turns),
-    /// u = F⁻¹[F p / K(1 − iT)].
-    OverTurned(&'a Turns),
+    /// u = F⁻¹[cK(1 − iT) · F p], of zero mean.
+    TimesTurned(f64, &'a Turns),
+    /// u = F⁻¹[c F p / K(1 − iT)].
+    OverTurned(f64, &'a Turns),
 }
 
 /// A convolution but for its last pass.
@@ -211,27 +211,26 @@ impl<T: Real> Convolution<T> {
                     rest = after;
                 }
                 self.columns.forward(lines, scratch);
-                let own = tile * n1 * LANES..(tile + 1) * n1 * LANES;
-                let factor = if let Action::Times(factor) | Action::Over(factor) = action { factor } else { 1.0 };
-                match action {
-                    Action::Times(_) | Action::TimesTurned(_) => {
+                                match action {
+                    Action::Times(factor) | Action::TimesTurned(factor, _) => {
                         vectorised!(simd => times(simd, factor, table, lines));
                         if tile == 0 {
                             (lines[0], lines[LANES]) = (T::zero(), T::zero());
                         }
                     }
-                    Action::Over(_) | Action::OverTurned(_) => {
+                    Action::Over(factor) | Action::OverTurned(factor, _) => {
                         // The table holds the normalisation already.
                         let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
                         vectorised!(simd => over(simd, numerator, common, table, lines));
                     }
                 }
+                let own = tile * n1 * LANES..(tile + 1) * n1 * LANES;
                 match action {
                     Action::Times(_) | Action::Over(_) => {}
-                    Action::TimesTurned(turns) => {
+                    Action::TimesTurned(_, turns) => {
                         vectorised!(simd => turn(simd, &turns.table[own], lines));
                     }
-                    Action::OverTurned(turns) => {
+                    Action::OverTurned(_, turns) => {
                         vectorised!(simd => turn_back(simd, &turns.table[own], lines));
                     }
                 }

@@ -32,6 +32,15 @@ impl Workspace {
     }
 }
 
+/// The traction of coupled friction while the pressure changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Traction {
+    /// It follows.
+    Follows,
+    /// It stands still.
+    Stands,
+}
+
 /// Displacement operator of a layered half-space on a grid, with its inverse.
 #[derive(Debug)]
 pub struct Operator {
@@ -103,13 +112,13 @@ impl Operator {
     /// p → w: displacement into the body with zero mean (a length), from pressure and the traction that goes with it.
     pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
-        in_place(&self.double, times(&self.coupling), &self.compliance, field, workspace);
+        in_place(&self.double, times(1.0, &self.coupling), &self.compliance, field, workspace);
     }
 
     /// w → p: the pressure that displaces so. The mean is treated like a component of the least wavenumber.
     pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
-        let action = self.coupling.as_ref().map_or(Action::Over(1.0), |(turns, _)| Action::OverTurned(turns));
+        let action = self.coupling.as_ref().map_or(Action::Over(1.0), |(turns, _)| Action::OverTurned(1.0, turns));
         in_place(&self.double, action, &self.compliance, field, workspace);
     }
 
@@ -127,16 +136,26 @@ impl Operator {
         S: IntoParallelIterator<Item: FnMut(&mut [f64]), Iter: IndexedParallelIterator>,
     {
         self.convolutions += 1.0;
-        self.double.convolve(times(&self.coupling), &self.compliance, workspace.of(self.double.room()), pressure)
+        self.double.convolve(times(1.0, &self.coupling), &self.compliance, workspace.of(self.double.room()), pressure)
     }
 
-    /// p → C p/C(least q) by rows, in single precision.
-    pub(super) fn displaced_single<'a, S>(&'a mut self, room: &'a mut [f64], pressure: S) -> Convolved<'a, f32>
+    /// Changes of p → changes of w/C(least q) by rows, in single precision.
+    pub(super) fn displaced_single<'a, S>(
+        &'a mut self,
+        traction: Traction,
+        room: &'a mut [f64],
+        pressure: S,
+    ) -> Convolved<'a, f32>
     where
         S: IntoParallelIterator<Item: FnMut(&mut [f32]), Iter: IndexedParallelIterator>,
     {
         self.convolutions += 0.5;
-        self.single.convolve(Action::Times(1.0 / self.unit), &self.compliance, room, pressure)
+        let factor = 1.0 / self.unit;
+        let action = match traction {
+            Traction::Follows => times(factor, &self.coupling),
+            Traction::Stands => Action::Times(factor),
+        };
+        self.single.convolve(action, &self.compliance, room, pressure)
     }
 
     /// w → C(least q) C⁻¹ w by rows, in single precision.
@@ -154,8 +173,8 @@ fn range(grid: &Grid) -> [f64; 2] {
     [grid.least_wavenumber(), grid.largest_wavenumber()]
 }
 
-fn times(coupling: &Option<(Turns, f64)>) -> Action<'_> {
-    coupling.as_ref().map_or(Action::Times(1.0), |(turns, _)| Action::TimesTurned(turns))
+fn times(factor: f64, coupling: &Option<(Turns, f64)>) -> Action<'_> {
+    coupling.as_ref().map_or(Action::Times(factor), |(turns, _)| Action::TimesTurned(factor, turns))
 }
 
 fn in_place(

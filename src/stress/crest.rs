@@ -10,7 +10,7 @@
 use super::field::StressField;
 use super::peak::Peak;
 use super::quantity::Quantity;
-use super::surface::{Skin, toward_open};
+use super::surface::Skin;
 use super::tensor::State;
 use super::transform::Transform;
 use crate::numeric::search::{first_largest, largest};
@@ -202,9 +202,9 @@ impl StressField {
     ) -> Option<([f64; 2], f64)> {
         let rows = self.series.on_plane(transform, room, &skin.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
-            let mut states: Vec<State> = (0..row[0].len()).map(|j| toward_open([0.0; 4], at(j), 1.0)).collect();
+            let mut states: Vec<State> = (0..row[0].len()).map(|j| skin.toward_open([0.0; 4], at(j), 1.0)).collect();
             for &(j, (sharp, part)) in &band[i] {
-                states[j] = toward_open(sharp, at(j), part);
+                states[j] = skin.toward_open(sharp, at(j), part);
             }
             (Quantity::Tension.largest(&states), largest(row[3].iter().copied()))
         });

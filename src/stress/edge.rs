@@ -5,26 +5,31 @@
 //! P(u) = ∫₀^∞ √t φ(u − t) dt,  φ the normal density.
 //!
 //! p̃/(w|∇p̃|) = P/P′ grows with u on both sides of the edge: it tells the distance from the edge without A, and whatever
-//! lies below the surface. √u/P(u) is then what the pressure itself is of the smoothed one.
+//! lies below the surface. √u/P(u) is then what the pressure itself is of the smoothed one. A cusp A√d on the other side of
+//! the edge is smoothed alike, by the smoothing of the fourth order P − P″/2.
 
 /// Distances covered, in widths.
 const SPAN: [f64; 2] = [-4.0, 12.0];
 /// Intervals of the table.
 const INTERVALS: usize = 320;
 
-/// P and P/P′ as tables.
+/// P, P/P′ and P − P″/2 as tables.
 #[derive(Debug)]
 pub(super) struct Edge {
     smoothed: Vec<f64>,
     ratio: Vec<f64>,
+    fourth: Vec<f64>,
 }
 
 impl Edge {
     pub fn new() -> Self {
         let place = |k: usize| SPAN[0] + (SPAN[1] - SPAN[0]) * k as f64 / INTERVALS as f64;
-        let (smoothed, slope): (Vec<f64>, Vec<f64>) = (0..=INTERVALS).map(|k| response(place(k))).unzip();
-        let ratio = smoothed.iter().zip(slope).map(|(p, slope)| p / slope).collect();
-        Self { smoothed, ratio }
+        let responses: Vec<[f64; 3]> = (0..=INTERVALS).map(|k| response(place(k))).collect();
+        Self {
+            smoothed: responses.iter().map(|[p, ..]| *p).collect(),
+            ratio: responses.iter().map(|[p, slope, _]| p / slope).collect(),
+            fourth: responses.iter().map(|[p, _, curvature]| p - 0.5 * curvature).collect(),
+        }
     }
 
     /// u, positive inside contact, from P/P′; clamped to the table.
@@ -52,27 +57,41 @@ impl Edge {
         if u >= SPAN[1] {
             return 1.0;
         }
-        let place = (u - SPAN[0]) / (SPAN[1] - SPAN[0]) * INTERVALS as f64;
-        let (k, rest) = (place as usize, place.fract());
-        u.sqrt() / ((1.0 - rest) * self.smoothed[k] + rest * self.smoothed[k + 1])
+        u.sqrt() / between(&self.smoothed, u)
+    }
+
+    /// What has to be added to a cusp √(−u)₊ A√w that was smoothed to the fourth order, over the smoothed pressure, for it to
+    /// be sharp; within four widths of the edge.
+    pub fn cusp(&self, u: f64) -> f64 {
+        let u = u.clamp(SPAN[0], -SPAN[0]);
+        ((-u).max(0.0).sqrt() - between(&self.fourth, -u)) / between(&self.smoothed, u)
     }
 }
 
-/// P(u) and P′(u): with t = s² the integrand is smooth, and the trapezoidal rule exact.
-fn response(u: f64) -> (f64, f64) {
+/// A table's value at the distance u in its span.
+fn between(table: &[f64], u: f64) -> f64 {
+    let place = (u - SPAN[0]) / (SPAN[1] - SPAN[0]) * INTERVALS as f64;
+    let k = (place as usize).min(INTERVALS - 1);
+    let rest = place - k as f64;
+    (1.0 - rest) * table[k] + rest * table[k + 1]
+}
+
+/// P(u), P′(u) and P″(u): with t = s² the integrand is smooth, and the trapezoidal rule exact.
+fn response(u: f64) -> [f64; 3] {
     const STEPS: usize = 600;
     let last = (u.max(0.0) + 9.0).sqrt();
     let step = last / STEPS as f64;
-    let (mut value, mut slope) = (0.0, 0.0);
+    let (mut value, mut slope, mut curvature) = (0.0, 0.0, 0.0);
     for k in 1..=STEPS {
         let s = k as f64 * step;
         let x = u - s * s;
         let weight = 2.0 * s * s * (-0.5 * x * x).exp();
         value += weight;
         slope -= x * weight;
+        curvature += (x * x - 1.0) * weight;
     }
     let scale = step / std::f64::consts::TAU.sqrt();
-    (scale * value, scale * slope)
+    [value, slope, curvature].map(|sum| scale * sum)
 }
 
 #[cfg(test)]
@@ -83,12 +102,17 @@ mod tests {
     fn an_edge_is_found_at_its_distance_and_sharpened_to_its_square_root() {
         let edge = Edge::new();
         // P(0) = ∫ √t φ dt = 2^{−3/4} Γ(3/4)/√π; linear interpolation in a table of steps 0.05 errs by some 1e-4.
-        let (at_edge, _) = response(0.0);
+        let [at_edge, ..] = response(0.0);
         assert!((at_edge - 0.411_089_5).abs() < 1e-6, "{at_edge}");
         for u in [-3.0, -1.01, -0.02, 0.33, 1.0, 2.72, 7.0] {
-            let (p, slope) = response(u);
+            let [p, slope, _] = response(u);
             assert!((edge.distance(p / slope) - u).abs() < 1e-3, "{u}: {}", edge.distance(p / slope));
             assert!((p * edge.sharp(u) - u.max(0.0).sqrt()).abs() < 1e-3, "{u}");
+        }
+        for u in [-2.0f64, -0.3, 0.0, 0.4, 1.7] {
+            let ([p, ..], [q, _, curvature]) = (response(u), response(-u));
+            let cusp = (-u).max(0.0).sqrt() - (q - 0.5 * curvature);
+            assert!((p * edge.cusp(u) - cusp).abs() < 2e-3, "{u}: {} for {cusp}", p * edge.cusp(u));
         }
         assert_eq!((edge.distance(0.0), edge.distance(f64::INFINITY)), (SPAN[0], SPAN[1]));
     }

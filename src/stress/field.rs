@@ -4,16 +4,16 @@ use super::regions::Regions;
 use super::series::{Response, Series};
 use super::slice::Slice;
 use super::tensor::State;
-use crate::body::{Depth, HalfSpace, InPlane, Interface, MeanStress, TransferFunction};
+use crate::body::{Depth, HalfSpace, Interface, Layer, MeanStress, TransferFunction};
+use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
 use crate::numeric::number::number;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
-use rayon::prelude::*;
 use std::fmt;
 use std::sync::Arc;
 
-/// Largest qz of a wave that still counts: its stresses are below (1 + qz)e^{−qz} of the pressure, 10⁻¹⁶.
+/// Largest qz of a wave that still counts: its stresses are below (2 + qz)e^{−qz} of the traction, 10⁻¹⁶.
 pub(super) const REACH: f64 = 41.0;
 
 /// The stress field of one load step.
@@ -23,19 +23,22 @@ pub struct StressField {
     grid: Arc<Grid>,
     half_space: HalfSpace,
     transfer: TransferFunction,
-    /// State under the mean pressure at the upper face of each material, and the slope of u_z there.
-    mean: Vec<(State, f64)>,
+    /// State under the mean pressure at the upper face of each material, and the slope of its displacement there.
+    mean: Vec<(State, [f64; 3])>,
     mean_stress: MeanStress,
     regions: Regions,
+    /// μ **e** of a counterbody that slides.
+    traction: Option<[f64; 2]>,
 }
 
 impl StressField {
     /// Under a solved contact.
     pub fn new(contact: &Contact, mean: MeanStress) -> Self {
-        Self::of_samples(contact.grid(), contact.pressures(), contact.problem().half_space(), mean)
+        let problem = contact.problem();
+        Self::of_samples(contact.grid(), contact.pressures(), problem.half_space(), problem.friction(), mean)
     }
 
-    /// Under any `pressure` on a `half_space`; axes along a₁ and a₂.
+    /// Under any `pressure` on a `half_space`, and the traction that `friction` adds to it; axes along a₁ and a₂.
     ///
     /// # Errors
     /// [`NotOnGrid`] unless the pressure has one value per sample of the grid.
@@ -43,22 +46,31 @@ impl StressField {
         grid: &Arc<Grid>,
         pressure: ArrayView2<'_, f64>,
         half_space: &HalfSpace,
+        friction: Option<&Friction>,
         mean: MeanStress,
     ) -> Result<Self, NotOnGrid> {
         grid.check(pressure.dim().into())?;
         let samples: Vec<f64> = pressure.iter().copied().collect();
-        Ok(Self::of_samples(grid, &samples, half_space, mean))
+        Ok(Self::of_samples(grid, &samples, half_space, friction, mean))
     }
 
-    fn of_samples(grid: &Arc<Grid>, pressure: &[f64], half_space: &HalfSpace, mean: MeanStress) -> Self {
+    fn of_samples(
+        grid: &Arc<Grid>,
+        pressure: &[f64],
+        half_space: &HalfSpace,
+        friction: Option<&Friction>,
+        mean: MeanStress,
+    ) -> Self {
         let series = Series::new(grid, pressure);
+        let traction = friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]);
         Self {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
             transfer: TransferFunction::new(half_space),
-            mean: mean_states(half_space, mean, series.mean),
+            mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
             regions: Regions::new(grid, pressure),
+            traction,
             series,
         }
     }
@@ -76,6 +88,11 @@ impl StressField {
     /// What the mean lateral stress is.
     pub fn mean_stress(&self) -> MeanStress {
         self.mean_stress
+    }
+
+    /// μ **e** of a counterbody that slides: the traction on the surface over the pressure.
+    pub fn traction(&self) -> [f64; 2] {
+        self.traction.unwrap_or_default()
     }
 
     /// Contact spots and what is open between them.
@@ -97,16 +114,14 @@ impl StressField {
     pub(super) fn slice(&self, depth: Depth, reach: f64) -> Slice {
         let waves = &self.series.waves;
         let count = waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
-        let amplitude = |&q: &f64| self.transfer.amplitudes(InPlane::Normal, q, depth);
-        let wavenumbers = &waves.wavenumbers()[..count];
-        let amplitudes = wavenumbers.par_iter().with_min_len(512).map(amplitude).collect();
-        Slice { amplitudes, lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(), mean: self.mean(depth) }
+        Slice::new(&self.transfer, depth, &waves.wavenumbers()[..count], self.traction, self.mean(depth))
     }
 
     /// The state that the mean pressure causes at a depth.
     pub(super) fn mean(&self, depth: Depth) -> State {
         let (mut state, slope) = self.mean[depth.material - 1];
-        state.displacement[2] += slope * (depth.z - self.half_space.faces(depth.material).0);
+        let below = depth.z - self.half_space.faces(depth.material).0;
+        state.displacement.iter_mut().zip(slope).for_each(|(u, slope)| *u += slope * below);
         state
     }
 
@@ -139,22 +154,32 @@ impl fmt::Display for StressField {
     }
 }
 
-/// State at the upper face of each material under the mean pressure, and the slope of u_z in it.
+/// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, and the slope of the
+/// displacement in it. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
 ///
-/// u_z is measured from the mean plane of the deformed surface; lateral displacements under a lateral mean strain are
-/// left out.
-fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64) -> Vec<(State, f64)> {
-    let mut uz = 0.0;
+/// Displacements are measured from the mean plane of the deformed surface; those under a lateral mean strain are left out.
+fn mean_states(
+    half_space: &HalfSpace,
+    mean: MeanStress,
+    pressure: f64,
+    traction: [f64; 2],
+) -> Vec<(State, [f64; 3])> {
+    let shear = traction.map(|t| -pressure * t);
+    let mut displacement = [0.0; 3];
     let mut states = Vec::new();
     for (index, (material, lateral)) in half_space.materials().zip(mean.lateral(half_space)).enumerate() {
         let lateral = pressure * lateral;
-        let slope = (-pressure - 2.0 * material.poisson() * lateral) / material.young();
-        let state = State { xx: lateral, yy: lateral, zz: -pressure, displacement: [0.0, 0.0, uz], ..State::default() };
-        states.push((state, slope));
-        if let Some(layer) = half_space.layers().get(index) {
-            uz += slope * layer.thickness();
-            if let Interface::Spring { normal, .. } = layer.interface() {
-                uz -= pressure / normal;
+        let closing = (-pressure - 2.0 * material.poisson() * lateral) / material.young();
+        let slope = [shear[0] / material.shear(), shear[1] / material.shear(), closing];
+        let layer = half_space.layers().get(index);
+        let residual = layer.map_or(0.0, Layer::residual_stress);
+        let [xx, yy] = [lateral + residual; 2];
+        states.push((State { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..State::default() }, slope));
+        if let Some(layer) = layer {
+            displacement.iter_mut().zip(slope).for_each(|(u, slope)| *u += slope * layer.thickness());
+            if let Interface::Spring { tangential, normal } = layer.interface() {
+                let jumps = [shear[0] / tangential, shear[1] / tangential, -pressure / normal];
+                displacement.iter_mut().zip(jumps).for_each(|(u, jump)| *u += jump);
             }
         }
     }

@@ -19,6 +19,7 @@ use super::transform::Transform;
 use crate::body::Depth;
 use crate::numeric::fourier::fast_points;
 use crate::numeric::search::{first_largest, golden_maximum};
+use std::sync::Arc;
 
 /// Ratio of successive distances from a face.
 const RATIO: f64 = 1.35;
@@ -131,14 +132,19 @@ impl StressField {
         let slice = self.slice(depth, PLANE_REACH);
         let largest = |states: Vec<State>| QUANTITIES.map(|quantity| quantity.largest(&states));
         if depth == Depth::SURFACE {
-            // Free of shear: σ_zz is −p.
-            let columns = self.series.on_plane(
-                transform,
-                Vec::new(),
-                &Flat::new(&slice, self.series.waves.wavenumbers(), |_| 1.0),
-            );
+            // σ_zz is −p, and the shear what friction makes of it.
+            let [tx, ty] = self.traction();
+            let columns = self.series.on_plane(transform, Vec::new(), &Flat::new(&Arc::new(slice), |_| 1.0));
             return columns.map(|_, [xx, yy, xy, p]| {
-                let state = |j: usize| State { xx: xx[j], yy: yy[j], xy: xy[j], zz: -p[j], ..State::default() };
+                let state = |j: usize| State {
+                    xx: xx[j],
+                    yy: yy[j],
+                    xy: xy[j],
+                    zz: -p[j],
+                    xz: -tx * p[j],
+                    yz: -ty * p[j],
+                    ..State::default()
+                };
                 largest((0..p.len()).map(state).collect())
             });
         }

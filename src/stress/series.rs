@@ -1,8 +1,8 @@
 //! The pressure as a sum of plane waves, and what becomes of it elsewhere in the body.
 //!
 //! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**} over the [`Waves`] of the grid. A component of stress or displacement at a depth is
-//! the same sum with c times a real factor f(**q**), or with −ic f(**q**) where it is odd in **q**: a [`Response`]. It is
-//! summed over points of a plane by transforms, and at single places term by term.
+//! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over points of a plane by transforms,
+//! and at single places term by term.
 
 use super::transform::{Column, Columns, Transform};
 use crate::lattice::Grid;
@@ -15,12 +15,10 @@ use std::sync::Arc;
 
 /// K components that the pressure causes.
 pub(super) trait Response<const K: usize>: Sync {
-    /// Those whose factor changes its sign with **q**.
-    const ODD: [bool; K];
     /// Shells that count, from the longest waves on.
     fn shells(&self) -> usize;
-    /// Factors of a wave of this wavevector and shell.
-    fn factors(&self, q: [f64; 2], shell: usize) -> [f64; K];
+    /// What a wave of this wavevector and shell with the coefficient c causes: c times factors that are conjugate for −**q**.
+    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; K];
     /// What the mean pressure causes.
     fn mean(&self) -> [f64; K];
 }
@@ -93,12 +91,11 @@ impl Series {
                 column.add(0, mean.map(Complex64::from));
             }
             for &(_, sign, row) in of(k2..k2 + 1) {
-                let side = 0.5 * f64::from(sign);
+                let side = f64::from(sign);
                 let mut bin = (sign * row.first).rem_euclid(n1);
-                for (q, shell, Complex64 { re, im }) in self.of(row) {
-                    let (even, odd) = (Complex64::new(0.5 * re, side * im), Complex64::new(0.5 * im, -side * re));
-                    let factors = response.factors(q, shell);
-                    column.add(bin as usize, std::array::from_fn(|k| factors[k] * if R::ODD[k] { odd } else { even }));
+                for (q, shell, c) in self.of(row) {
+                    let waves = response.times(q, shell, 0.5 * c);
+                    column.add(bin as usize, waves.map(|wave| Complex64::new(wave.re, side * wave.im)));
                     bin += sign;
                     if bin == n1 {
                         bin = 0;
@@ -132,13 +129,12 @@ impl Series {
             let [across_re, across_im] = turned(row.across, places.map(|[_, t]| t));
             let mut sums = [[0.0; P]; K];
             for ((q, shell, c), [along_re, along_im]) in self.of(row).zip(along.from(row)) {
-                let factors = response.factors(q, shell);
+                let waves = response.times(q, shell, c);
                 for p in 0..P {
                     let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];
                     let im = along_re[p] * across_im[p] + along_im[p] * across_re[p];
-                    let (even, odd) = (c.re * re - c.im * im, c.re * im + c.im * re);
                     for k in 0..K {
-                        sums[k][p] += factors[k] * if R::ODD[k] { odd } else { even };
+                        sums[k][p] += waves[k].re * re - waves[k].im * im;
                     }
                 }
             }

@@ -1,19 +1,35 @@
-//! What the waves of the pressure cause at one depth.
+//! What the waves of the pressure, and of the traction that goes with it, cause at one depth.
 
 use super::series::Response;
 use super::tensor::State;
-use crate::body::Amplitudes;
+use crate::body::{Amplitudes, Antiplane, Depth, InPlane, TransferFunction};
+use rayon::prelude::*;
+use rustfft::num_complex::Complex64;
 
-/// Of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z those that change their sign with the wavevector.
+/// Of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z those that a pressure makes change their sign with the wavevector, and a shear
+/// traction does not.
 const ODD: [bool; 9] = [false, false, false, false, true, true, true, true, false];
+
+/// Shells from which on amplitudes are worth more than one thread.
+const MANY: usize = 512;
 
 /// Amplitudes at a depth of the shells whose waves reach it, and the state of the mean pressure.
 #[derive(Debug)]
 pub(super) struct Slice {
-    pub amplitudes: Vec<Amplitudes>,
+    pub normal: Vec<Amplitudes>,
+    pub tangential: Option<Tangential>,
     /// Wavelengths of the shells over 2π.
     pub lengths: Vec<f64>,
     pub mean: State,
+}
+
+/// Amplitudes of the shear traction.
+#[derive(Debug)]
+pub(super) struct Tangential {
+    /// μ **e**: the traction on the body over the pressure.
+    traction: [f64; 2],
+    /// Along and across the wavevector.
+    amplitudes: Vec<(Amplitudes, Antiplane)>,
 }
 
 /// Stresses only: xx, yy, zz, xy, xz, yz.
@@ -24,24 +40,98 @@ pub(super) struct Stresses<'a>(pub &'a Slice);
 #[derive(Debug)]
 pub(super) struct Displacements<'a>(pub &'a Slice);
 
-/// Factors of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave of this `length` over 2π.
+impl Slice {
+    /// At a depth, of shells of these `wavenumbers`, under a pressure and the `traction` that goes with a unit of it.
+    pub fn new(
+        transfer: &TransferFunction,
+        depth: Depth,
+        wavenumbers: &[f64],
+        traction: Option<[f64; 2]>,
+        mean: State,
+    ) -> Self {
+        let all = wavenumbers.par_iter().with_min_len(MANY);
+        let tangential = traction.map(|traction| Tangential {
+            traction,
+            amplitudes: all
+                .clone()
+                .map(|&q| (transfer.amplitudes(InPlane::Along, q, depth), transfer.antiplane(q, depth)))
+                .collect(),
+        });
+        Self {
+            normal: all.map(|&q| transfer.amplitudes(InPlane::Normal, q, depth)).collect(),
+            tangential,
+            lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
+            mean,
+        }
+    }
+}
+
+impl Slice {
+    /// How far the amplitudes of a shell at the surface are from a half-space's with this ν, over the pressure.
+    pub fn unlike(&self, shell: usize, poisson: f64) -> f64 {
+        let Some(at) = self.normal.get(shell) else { return 0.0 };
+        let normal = (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs());
+        let Some(Tangential { traction: [x, y], amplitudes }) = &self.tangential else { return normal };
+        let (along, across) = amplitudes[shell];
+        let tangential = (along.sqq + 2.0).abs().max((along.stt + 2.0 * poisson).abs()).max((across.sqt + 1.0).abs());
+        normal + x.hypot(*y) * tangential
+    }
+}
+
+/// Factors of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave along the unit vector **n**.
 #[inline(always)]
-fn components([x, y]: [f64; 2], length: f64, amplitudes: &Amplitudes) -> [f64; 9] {
-    let (nx, ny) = (x * length, y * length);
+fn in_plane([nx, ny]: [f64; 2], amplitudes: &Amplitudes) -> [f64; 9] {
     let (xx, yy, xy) = (nx * nx, ny * ny, nx * ny);
     let Amplitudes { szz, sqz, sqq, stt, uz, uq } = *amplitudes;
     [xx * sqq + yy * stt, yy * sqq + xx * stt, szz, xy * (sqq - stt), nx * sqz, ny * sqz, nx * uq, ny * uq, uz]
 }
 
-impl Response<9> for Slice {
-    const ODD: [bool; 9] = ODD;
+/// The same of a traction across **n**, along **t** = (−n_y, n_x).
+#[inline(always)]
+fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
+    let (tx, ty) = (-ny, nx);
+    let Antiplane { stz, sqt, ut } = *amplitudes;
+    [
+        2.0 * nx * tx * sqt,
+        2.0 * ny * ty * sqt,
+        0.0,
+        (nx * ty + ny * tx) * sqt,
+        tx * stz,
+        ty * stz,
+        tx * ut,
+        ty * ut,
+        0.0,
+    ]
+}
 
+impl Tangential {
+    /// Factors of a wave along **n**, those that are odd under a pressure without −i, the others with.
+    #[inline(always)]
+    pub fn factors(&self, [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
+        let [ex, ey] = self.traction;
+        let (along, across) = &self.amplitudes[shell];
+        let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
+        let (along, across) = (in_plane([nx, ny], along), antiplane([nx, ny], across));
+        std::array::from_fn(|k| by_along * along[k] + by_across * across[k])
+    }
+}
+
+impl Response<9> for Slice {
     fn shells(&self) -> usize {
-        self.amplitudes.len()
+        self.normal.len()
     }
 
-    fn factors(&self, q: [f64; 2], shell: usize) -> [f64; 9] {
-        components(q, self.lengths[shell], &self.amplitudes[shell])
+    #[inline(always)]
+    fn times(&self, [x, y]: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 9] {
+        let length = self.lengths[shell];
+        let n = [x * length, y * length];
+        // −ic.
+        let turned = Complex64::new(c.im, -c.re);
+        let normal = in_plane(n, &self.normal[shell]);
+        let waves = std::array::from_fn(|k| normal[k] * if ODD[k] { turned } else { c });
+        let Some(tangential) = &self.tangential else { return waves };
+        let tangential = tangential.factors(n, shell);
+        std::array::from_fn(|k| waves[k] + tangential[k] * if ODD[k] { c } else { turned })
     }
 
     fn mean(&self) -> [f64; 9] {
@@ -50,14 +140,13 @@ impl Response<9> for Slice {
 }
 
 impl Response<6> for Stresses<'_> {
-    const ODD: [bool; 6] = [ODD[0], ODD[1], ODD[2], ODD[3], ODD[4], ODD[5]];
-
     fn shells(&self) -> usize {
         self.0.shells()
     }
 
-    fn factors(&self, q: [f64; 2], shell: usize) -> [f64; 6] {
-        let [stresses @ .., _, _, _] = self.0.factors(q, shell);
+    #[inline(always)]
+    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 6] {
+        let [stresses @ .., _, _, _] = self.0.times(q, shell, c);
         stresses
     }
 
@@ -68,14 +157,13 @@ impl Response<6> for Stresses<'_> {
 }
 
 impl Response<3> for Displacements<'_> {
-    const ODD: [bool; 3] = [ODD[6], ODD[7], ODD[8]];
-
     fn shells(&self) -> usize {
         self.0.shells()
     }
 
-    fn factors(&self, q: [f64; 2], shell: usize) -> [f64; 3] {
-        let [.., ux, uy, uz] = self.0.factors(q, shell);
+    #[inline(always)]
+    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 3] {
+        let [.., ux, uy, uz] = self.0.times(q, shell, c);
         [ux, uy, uz]
     }
 

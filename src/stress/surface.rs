@@ -9,6 +9,13 @@
 //! order of its width (each factor is multiplied by 1 + q²w²/2), and the smoothed pressure is put back as the sharp one
 //! that [`super::edge`] finds behind it. At the edge itself the pressure is zero, and outside it stays so.
 //!
+//! A traction q = μ p **e** is singular on the other side of the edge: where p = A√d inside, at a distance d outside it adds
+//!
+//! σ_αβ = A√d μ [2 (**e**·**n**)(n_α n_β + ν t_α t_β) + (**e**·**t**)(n_α t_β + t_α n_β)],
+//!
+//! a cusp of tension at the trailing edge, **e**·**n** = −1 (in a plane across the edge, the Hilbert transform of √d). It is
+//! put back in the same way, with A as the pressure tells it.
+//!
 //! Near an edge, the width leaves e^{−EDGE²/2} of the shortest waves of the grid, which carry its error. The steps of an
 //! edge on the grid make longer waves too: the width near edges grows against the spacing, as n^{2/5} from n = 12 samples
 //! along the radius of the smallest spot on. From one to three widths off the edge all this gives way to the series
@@ -20,6 +27,8 @@ use super::series::Response;
 use super::slice::Slice;
 use super::tensor::State;
 use crate::body::Depth;
+use rustfft::num_complex::Complex64;
+use std::sync::Arc;
 
 /// Width of the Gaussian near an edge, times the least wavenumber that the grid cannot hold.
 const EDGE: f64 = 4.5;
@@ -43,6 +52,8 @@ pub(super) struct Skin {
     seen: Edge,
     /// ν of the surface material.
     poisson: f64,
+    /// μ **e**.
+    traction: [f64; 2],
     /// How far the surface material's own response, which carries the singular part, is from the half-space's at the
     /// wavenumber 1/width, over the pressure: a coating must be thicker than the width for it.
     pub unlike: f64,
@@ -59,53 +70,47 @@ pub(super) struct Near {
 /// σ_xx, σ_yy, σ_xy and p on the surface.
 #[derive(Debug)]
 pub(super) struct Flat {
-    /// s_tt, s_qq − s_tt and −s_zz of each shell.
-    amplitudes: Vec<[f64; 3]>,
-    mean: [f64; 4],
+    surface: Arc<Slice>,
+    /// Per shell.
+    factors: Vec<f64>,
 }
 
 impl Flat {
     /// Of the surface, each shell taken times a factor of its wavenumber, which falls to nothing.
-    pub fn new(surface: &Slice, wavenumbers: &[f64], factor: impl Fn(f64) -> f64) -> Self {
-        let factors = wavenumbers.iter().map(|&q| factor(q)).take_while(|&factor| factor > NOTHING);
-        let amplitudes = surface.amplitudes.iter().zip(factors);
-        let State { xx, yy, zz, .. } = surface.mean;
-        Self {
-            amplitudes: amplitudes.map(|(at, f)| [f * at.stt, f * (at.sqq - at.stt), -f * at.szz]).collect(),
-            mean: [xx, yy, 0.0, -zz],
-        }
+    pub fn new(surface: &Arc<Slice>, factor: impl Fn(f64) -> f64) -> Self {
+        let factors = surface.lengths.iter().map(|length| factor(1.0 / length));
+        Self { surface: Arc::clone(surface), factors: factors.take_while(|&factor| factor > NOTHING).collect() }
     }
 }
 
 impl Response<4> for Flat {
-    const ODD: [bool; 4] = [false; 4];
-
     fn shells(&self) -> usize {
-        self.amplitudes.len()
+        self.factors.len()
     }
 
-    fn factors(&self, [x, y]: [f64; 2], shell: usize) -> [f64; 4] {
-        let [across, more, p] = self.amplitudes[shell];
-        let more = more / (x * x + y * y);
-        [across + more * x * x, across + more * y * y, more * x * y, p]
+    #[inline(always)]
+    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 4] {
+        let [xx, yy, zz, xy, ..] = Response::<9>::times(&*self.surface, q, shell, self.factors[shell] * c);
+        [xx, yy, xy, -zz]
     }
 
     fn mean(&self) -> [f64; 4] {
-        self.mean
+        let State { xx, yy, zz, .. } = self.surface.mean;
+        [xx, yy, 0.0, -zz]
     }
 }
 
 impl Response<3> for Near {
-    const ODD: [bool; 3] = [false, true, true];
-
     fn shells(&self) -> usize {
         self.gaussian.len()
     }
 
-    fn factors(&self, [x, y]: [f64; 2], shell: usize) -> [f64; 3] {
+    #[inline(always)]
+    fn times(&self, [x, y]: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 3] {
         // The slope of c e^{iq·x} is iq times it.
-        let gaussian = self.gaussian[shell];
-        [gaussian, -gaussian * x, -gaussian * y]
+        let c = self.gaussian[shell] * c;
+        let slope = Complex64::new(-c.im, c.re);
+        [c, x * slope, y * slope]
     }
 
     fn mean(&self) -> [f64; 3] {
@@ -119,20 +124,21 @@ impl Skin {
         let most = field.grid().least_aliased();
         let growth = (field.regions().least_resolution() / 12.0).max(1.0).powf(0.4);
         let [width, open] = [EDGE * growth, OPEN].map(|c| scale * c / most);
-        let (waves, surface) = (&field.series.waves, field.slice(Depth::SURFACE, REACH));
+        let (waves, surface) = (&field.series.waves, Arc::new(field.slice(Depth::SURFACE, REACH)));
         let wavenumbers = waves.wavenumbers();
         let gaussian = wavenumbers.iter().map(|&q| (-0.5 * q * q * width * width).exp());
         let poisson = field.surface_poisson();
         let longer = waves.shells_up_to(1.0 / width).saturating_sub(1);
-        let unlike = surface.amplitudes.get(longer).map(|at| (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs()));
+        let unlike = surface.unlike(longer, poisson);
         Self {
             near: Near { gaussian: gaussian.take_while(|&left| left > NOTHING).collect(), mean: -surface.mean.zz },
-            edge: Flat::new(&surface, wavenumbers, |q| fourth(q * width)),
-            open: Flat::new(&surface, wavenumbers, |q| fourth(q * open)),
+            edge: Flat::new(&surface, |q| fourth(q * width)),
+            open: Flat::new(&surface, |q| fourth(q * open)),
             width,
             seen: Edge::new(),
             poisson,
-            unlike: unlike.unwrap_or(0.0),
+            traction: field.traction(),
+            unlike,
         }
     }
 
@@ -148,28 +154,50 @@ impl Skin {
         p > 0.0 && self.seen.is_within(BLEND[1], p / (gx.hypot(gy) * self.width))
     }
 
-    /// A stress whose smoothed pressure `four[3]` is replaced by the pressure `p`.
-    fn sharpened(&self, four: [f64; 4], p: f64, [nx, ny]: [f64; 2]) -> [f64; 3] {
-        let twice = 2.0 * self.poisson;
+    /// A stress near an edge at the distance `u`, of which the smoothed pressure `four[3]` is replaced by the pressure `p`, and
+    /// the traction's smoothed cusp by the sharp one; `smoothed` is p̃.
+    fn sharpened(&self, four: [f64; 4], smoothed: f64, (u, p): (f64, f64), [nx, ny]: [f64; 2]) -> [f64; 3] {
+        let (nu, [tx, ty]) = (self.poisson, self.traction);
+        let (along, across) = (tx * nx + ty * ny, ty * nx - tx * ny);
         let change = four[3] - p;
+        let cusp = if self.slides() { smoothed * self.seen.cusp(u) } else { 0.0 };
+        // Of n n, t t and n t + t n, with t = (−n_y, n_x).
+        let normal = change + 2.0 * along * cusp;
+        let lateral = 2.0 * nu * change + 2.0 * nu * along * cusp;
+        let shear = across * cusp;
         [
-            four[0] + change * (nx * nx + twice * ny * ny),
-            four[1] + change * (ny * ny + twice * nx * nx),
-            four[2] + change * (1.0 - twice) * nx * ny,
+            four[0] + normal * nx * nx + lateral * ny * ny - 2.0 * shear * nx * ny,
+            four[1] + normal * ny * ny + lateral * nx * nx + 2.0 * shear * nx * ny,
+            four[2] + (normal - lateral) * nx * ny + shear * (nx * nx - ny * ny),
         ]
+    }
+
+    fn slides(&self) -> bool {
+        self.traction != [0.0; 2]
+    }
+
+    /// A state on the surface.
+    fn surface_state(&self, [xx, yy, xy, p]: [f64; 4]) -> State {
+        let [tx, ty] = self.traction;
+        State { xx, yy, zz: -p, xy, xz: -tx * p, yz: -ty * p, ..State::default() }
     }
 
     /// The state, its displacement left out, from what [`Self::near`], [`Self::edge`] and [`Self::open`] give.
     pub fn state(&self, near: [f64; 3], edge: [f64; 4], open: [f64; 4]) -> State {
         let (sharp, part) = self.sharp(near, edge);
-        toward_open(sharp, open, part)
+        self.toward_open(sharp, open, part)
+    }
+
+    /// Between the state near an edge and that away from it, σ_xx, σ_yy, σ_xy and p of each.
+    pub fn toward_open(&self, near: [f64; 4], open: [f64; 4], part: f64) -> State {
+        self.surface_state(std::array::from_fn(|k| (1.0 - part) * near[k] + part * open[k]))
     }
 
     /// σ_xx, σ_yy, σ_xy and p as they are near an edge, and which part of the state away from edges there is in it.
     pub fn sharp(&self, near: [f64; 3], edge: [f64; 4]) -> ([f64; 4], f64) {
         let (u, normal) = self.edge_seen(near);
         let p = near[0] * self.seen.sharp(u);
-        let [xx, yy, xy] = self.sharpened(edge, p, normal);
+        let [xx, yy, xy] = self.sharpened(edge, near[0], (u, p), normal);
         // From one width to three: 0 to 1, smoothly.
         let t = ((u.abs() - BLEND[0]) / (BLEND[1] - BLEND[0])).clamp(0.0, 1.0);
         ([xx, yy, xy, p], t * t * (3.0 - 2.0 * t))
@@ -178,8 +206,8 @@ impl Skin {
     /// The state at the edge, seen from a place on it.
     pub fn state_on_edge(&self, near: [f64; 3], edge: [f64; 4]) -> State {
         let (_, normal) = self.edge_seen(near);
-        let [xx, yy, xy] = self.sharpened(edge, 0.0, normal);
-        State { xx, yy, xy, ..State::default() }
+        let [xx, yy, xy] = self.sharpened(edge, near[0], (0.0, 0.0), normal);
+        self.surface_state([xx, yy, xy, 0.0])
     }
 
     /// The place moved to the edge beside it, by what is seen there, and how far that was in widths.
@@ -188,12 +216,6 @@ impl Skin {
         let step = self.width * u.clamp(-1.5, 1.5);
         ([x + step * nx, y + step * ny], u)
     }
-}
-
-/// Between the state near an edge and that away from it, σ_xx, σ_yy, σ_xy and p of each.
-pub(super) fn toward_open(near: [f64; 4], open: [f64; 4], part: f64) -> State {
-    let [xx, yy, xy, p] = std::array::from_fn(|k| (1.0 - part) * near[k] + part * open[k]);
-    State { xx, yy, zz: -p, xy, ..State::default() }
 }
 
 /// A Gaussian of which qw is wavenumber times width, made to leave what is smooth as it is to the fourth order.

@@ -85,10 +85,7 @@ impl<'a> Trace<'a> {
         let [[re], [im]] = turned(row.across, [t]);
         let across = Complex64::new(re, im);
         self.series.of(row).zip(along.from(row)).map(move |((q, shell, c), [[re], [im]])| {
-            let even = c * (across * Complex64::new(*re, *im));
-            let odd = Complex64::new(even.im, -even.re);
-            let factors = response.factors(q, shell);
-            std::array::from_fn(|j| factors[j] * if R::ODD[j] { odd } else { even })
+            response.times(q, shell, c * (across * Complex64::new(*re, *im)))
         })
     }
 }

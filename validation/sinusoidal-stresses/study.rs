@@ -32,7 +32,7 @@ fn field(cell: Cell, waves: &[[i32; 2]], half_space: &HalfSpace) -> Result<(Stre
     });
     let [b1, b2] = cell.reciprocal();
     let q = waves.iter().map(|&[m1, m2]| [0, 1].map(|k| f64::from(m1) * b1[k] + f64::from(m2) * b2[k])).collect();
-    Ok((StressField::under(&grid, pressure.view(), half_space, MeanStress::Confined)?, q))
+    Ok((StressField::under(&grid, pressure.view(), half_space, None, MeanStress::Confined)?, q))
 }
 
 fn run() -> Result<Outcome, StudyError> {

@@ -11,14 +11,15 @@
 //! would bring back what was clipped, to be clipped again and again), and where the way leads uphill it is not taken, and
 //! the next direction starts anew. The first step on a grid is free: it has to sort out what interpolation has left.
 //!
-//! **Sliding.** Under coupled friction the operator has a skew part D, T = C⁻¹D, and there is no energy. With D p of the last
-//! gap in double precision standing still there is one: minimising
+//! **Sliding.** Under coupled friction the operator has a skew part D, T = C⁻¹D, and there is no energy. Where its largest |T|,
+//! f, is small the gap is carried with it (the traction *follows*), and the iteration does not mind: ⟨t, Dt⟩ = 0. Else D p of
+//! the last gap in double precision *stands*; then there is an energy again: minimising
 //!
-//! ½⟨p − p_k, C(p − p_k)⟩ + ω⟨g_k, p⟩  over p ≥ 0,  ω = 1/(1 + f²),  f = max |T|,
+//! ½⟨p − p_k, C(p − p_k)⟩ + ω⟨g_k, p⟩  over p ≥ 0,  ω = 1/(1 + f²),
 //!
 //! is the iteration above from p_k and the gap ωg_k on, and these **outer** iterations (forward–backward splitting in the
-//! energy's norm; C + D is monotone with the constants 1 and √(1 + f²)) bring every f nearer by f/√(1 + f²) at least. Each
-//! ends when its own criteria have fallen to a tenth.
+//! energy's norm, in which C⁻¹(C + D) is monotone with the constants 1 and √(1 + f²)) contract as f/√(1 + f²) at least,
+//! whatever f. Each ends when the criteria have fallen to a third.
 //!
 //! **Precision.** The gap is carried by its changes, g ← g + Cd, in single precision and in units of the largest f. The
 //! pressure is double, and when the criteria are met, or single precision
@@ -36,6 +37,7 @@ use crate::load::Load;
 use crate::numeric::rows::{Parts, Totals};
 use crate::spectral::convolution::{rows_of, rows_to};
 use crate::spectral::extension;
+use crate::spectral::operator::Traction;
 use std::sync::Arc;
 
 /// First window of the patience, iterations.
@@ -45,7 +47,7 @@ const TRUSTED: f64 = 1e-5;
 /// Iterations after which the gap is computed afresh whatever it says.
 const RENEWAL: usize = 20;
 /// Part of its first value to which the measure falls in an outer iteration.
-const OUTER: f64 = 0.1;
+const OUTER: f64 = 0.3;
 
 /// How often a step that raises the energy is shortened before it ends at the minimum on its way, and how much.
 const SHORTENED: usize = 2;
@@ -64,14 +66,16 @@ pub(super) enum Beyond {
 /// Iterates from and into `unknowns`; `iterations` are those before.
 pub(super) fn solve(
     problem: &mut GridProblem<'_>,
-    beyond: Beyond,
+    (beyond, traction): (Beyond, Traction),
     mut iterations: usize,
     unknowns: &mut Unknowns,
 ) -> Report {
     let mut patience = Patience::new(PATIENCE);
     let coupling = problem.operator.coupling();
-    let share = 1.0 / (1.0 + coupling * coupling);
-    let enough = if coupling > 0.0 { OUTER * share } else { TRUSTED };
+    let (share, enough) = match traction {
+        Traction::Follows => (1.0, TRUSTED),
+        Traction::Stands => (1.0 / (1.0 + coupling * coupling), OUTER / (1.0 + coupling * coupling)),
+    };
     let mut memory = Memory { norm: 0.0, mean: 0.0, free: true };
     loop {
         unknowns.admit(problem.load);
@@ -87,7 +91,7 @@ pub(super) fn solve(
             return ended(Stop::Stalled);
         }
         problem.outer += usize::from(coupling > 0.0);
-        let mut way = Way::new(problem, unknowns, check, share, beyond);
+        let mut way = Way::new(problem, unknowns, check, share, (beyond, traction));
         for number in 1.. {
             let limit = iterations >= problem.settings.max_iterations;
             let over = number > 1 && (limit || patience.ends(way.check.measure()));
@@ -149,6 +153,7 @@ struct Step {
 struct Way {
     parts: Parts,
     beyond: Beyond,
+    traction: Traction,
     /// The units of the working fields: the largest f, and the pressure that displaces by it at the least wavenumber.
     length: f64,
     pressure: f64,
@@ -160,12 +165,12 @@ struct Way {
 
 impl Way {
     /// From a `share` of the gap of the `check`.
-    fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, share: f64, beyond: Beyond) -> Self {
+    fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, share: f64, (beyond, traction): (Beyond, Traction)) -> Self {
         let length = problem.largest_gap;
         let (gap, residual) = problem.working.start(problem.operator);
         let active = residuals::take(&unknowns.pressure, &unknowns.gap, length / share, gap, residual);
         let (parts, pressure) = (problem.operator.parts(), length / problem.operator.unit());
-        Self { parts, beyond, length, pressure, active, penetration: unknowns.penetration, check }
+        Self { parts, beyond, traction, length, pressure, active, penetration: unknowns.penetration, check }
     }
 
     /// One iteration; false where no step can be found.
@@ -210,7 +215,7 @@ impl Way {
         let t_mean = if load_control && beta > 0.0 { overlaps.direction / self.active.size } else { 0.0 };
         let [mut descent, mut curvature] = [(); 2].map(|()| parts.totals());
         let rows = directions::turned(parts, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
-        operator.displaced_single(room, rows).rows(directions::curved(parts, direction, image, &mut curvature));
+        operator.displaced_single(self.traction, room, rows).rows(directions::curved(parts, direction, image, &mut curvature));
         let ([descent], [curvature]) = (Totals::of(descent).sums, Totals::of(curvature).sums);
         let tau = descent / curvature;
         (tau.is_finite() && curvature > 0.0).then_some(Direction { norm, beta, tau })
@@ -246,7 +251,7 @@ impl Way {
                 steps::rescale(p, scale, unit, step);
             }
             let mut sums = parts.totals();
-            let convolved = operator.displaced_single(room, rows_of(parts, step));
+            let convolved = operator.displaced_single(self.traction, room, rows_of(parts, step));
             convolved.rows(steps::ended(parts, p, [gap, step], image, &mut sums));
             let [curvature, load, work] = Totals::of(sums).sums;
             // ⟨g, p⟩ = 0 under load control: the scale adds nothing to the slope.

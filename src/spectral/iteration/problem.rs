@@ -21,7 +21,7 @@ pub struct GridProblem<'a> {
     pub load: Load,
     /// Tolerance and limits.
     pub settings: Settings,
-    /// Outer iterations so far.
+    /// Outer iterations so far, see [`Report::outer`](super::Report::outer).
     pub outer: usize,
     /// Hears of each iteration.
     pub progress: &'a mut (dyn FnMut(Progress) + Send),

@@ -51,6 +51,9 @@ pub enum Route {
     Direct,
     /// The preconditioned method without its continuation of the residual beyond contact, after it had stalled with it.
     WithoutContinuation,
+    /// Outer iterations, in each of which the traction of coupled friction stood still: it displaces much, or the iteration had
+    /// stalled when the traction followed every step.
+    Outer,
     /// The baseline, as asked for.
     Baseline,
     /// The baseline, after the preconditioned method had stalled.
@@ -72,6 +75,7 @@ impl Route {
     pub fn name(self) -> &'static str {
         match self {
             Self::Direct => "direct",
+            Self::Outer => "outer",
             Self::Baseline => "baseline",
             Self::WithoutContinuation => "without-continuation",
             Self::BaselineAfterStall => "baseline-after-stall",
@@ -89,7 +93,7 @@ pub struct Report {
     pub route: Route,
     /// Iterations of all methods and trials on this grid.
     pub iterations: usize,
-    /// Outer iterations among them: contacts solved under a traction that stood still. 0 unless friction is coupled.
+    /// Under coupled friction, how often the gap was computed afresh under the traction of the pressure; 0 otherwise.
     pub outer: usize,
     /// ε = Σ p|g| / (δ Σp) of the last iterate.
     pub residual: f64,
@@ -99,11 +103,11 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} after {} iterations", self.stop, self.iterations)?;
         if self.outer > 0 {
-            write!(f, " in {} outer ones", self.outer)?;
+            write!(f, " ({} outer)", self.outer)?;
         }
         write!(f, ", ε = {:.1e}", self.residual)?;
         match self.route {
-            Route::Direct | Route::Baseline => Ok(()),
+            Route::Direct | Route::Outer | Route::Baseline => Ok(()),
             Route::WithoutContinuation => write!(f, ", without continuing the residual beyond contact"),
             Route::BaselineAfterStall => write!(f, ", fell back to Polonsky–Keer"),
             Route::LoadSearch { trials } => write!(f, ", by {trials} trials of the mean pressure"),

@@ -8,7 +8,7 @@ pub enum Method {
     /// Preconditioned with C⁻¹ between the active set and its surroundings: iterations do not grow with the grid.
     #[default]
     Preconditioned,
-    /// Polonsky & Keer, Wear 231 (1999) 206.
+    /// Polonsky & Keer, Wear 231 (1999) 206. For a symmetric operator: under coupled friction it stalls.
     PolonskyKeer,
 }
 
