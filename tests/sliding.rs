@@ -50,11 +50,11 @@ fn a_displacement_under_friction_is_the_direct_sum_over_wavevectors() {
         };
         let symbols: Vec<[f64; 2]> = (0..n1 * n2)
             .map(|k| {
-                let aliases = aliases(k / n2, k % n2);
-                let [x, y] = aliases[0];
                 if k == 0 {
                     return [0.0; 2];
                 }
+                let aliases = aliases(k / n2, k % n2);
+                let [x, y] = aliases[0];
                 let response = transfer.response(x.hypot(y));
                 let cosines: f64 = aliases.iter().map(|[x, y]| (fx * x + fy * y) / x.hypot(*y)).sum();
                 [response.normal, -response.coupling * cosines / aliases.len() as f64]
@@ -129,8 +129,10 @@ fn the_sliding_wave_has_its_closed_form() {
         let edge = 1.5 / n as f64;
         assert!((within(-0.6, 0.0) - trailing).abs() < edge && (within(0.0, 0.6) - leading).abs() < edge, "f = {f}");
         let peak = (0..n).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b])).unwrap();
-        // Samples converge as n^{−3/2}: 3e-5 of p* at most.
-        assert!((pressure[peak] - most).abs() < 3e-5, "f = {f}, p̄ = {mean}: {} against {most}", pressure[peak]);
+        // The pressure ends like d^{½+η} behind: of n samples in contact the peak errs as n^{−3/2−η}.
+        let order = 1.5 - f.atan() / PI;
+        let error = 2.0 * ((leading + trailing) * n as f64).powf(-order) * most;
+        assert!((pressure[peak] - most).abs() < error, "f = {f}, p̄ = {mean}: {} against {most}", pressure[peak]);
         let x = peak as f64 / n as f64;
         let x = if x > 0.5 { x - 1.0 } else { x };
         assert!((x - place).abs() < 3.0 / n as f64, "f = {f}, p̄ = {mean}: at {x}, not {place}");
@@ -223,7 +225,11 @@ fn friction_costs_little_and_displacement_control_agrees_with_load_control() {
             let ratio = moving.convolutions / still.convolutions;
             assert!(ratio < 2.5, "{load}: {ratio}, {} after {}", moving.report, still.report);
             let given = Load::Penetration(moving.penetration());
-            let other = Solver::new(slides.clone(), [n, n], Settings::default()).unwrap().solve(given);
+            let mut other = Solver::new(slides.clone(), [n, n], Settings::default()).unwrap();
+            if moving.penetration() > 0.999 * other.full_contact_penetration() {
+                continue;
+            }
+            let other = other.solve(given);
             assert!(other.report.stop.solved(), "{}", other.report);
             assert!(relative_difference(other.pressure(), moving.pressure()) < 1e-4);
         }
