@@ -126,7 +126,7 @@ fn stresses_that_are_no_number_are_neither_agreement_nor_converged() {
     let steps = stressed.solve(&mut ()).unwrap().steps;
     let with = |value: f64| {
         let mut steps = steps.clone();
-        steps[0].stress.as_mut().unwrap().max_tau1.value = value;
+        steps[0].stress.as_mut().unwrap().materials[0].tau1.value = value;
         steps
     };
     assert_eq!(change(&steps, &steps), 0.0);

@@ -13,6 +13,8 @@ mod common;
 
 use common::{Hills, Random, coated, one_level, paraboloid, solve};
 use percoat::validation::exact::hertz::{Stresses, edge_tension, largest_shear};
+use percoat::stress::Peak;
+use percoat::stress::maxima::Extremes;
 use percoat::validation::exact::lattice_sums::TRIANGULAR;
 use percoat::{
     Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Level, Line, Load, Material, MeanStress, Problem, Shape,
@@ -278,11 +280,16 @@ impl Contact {
         let maxima = under(step.finest());
         let crest = maxima.crest?;
         let coarser = under(step.coarser().first()?);
-        let [tau1, tension] = maxima.errors(&coarser);
+        let surface = (crest.peak.value, crest.scale * maxima.surface_error(Some(&coarser)));
+        let maxima = maxima.with_errors(&coarser);
+        let of = |peak: fn(&Extremes) -> Peak| {
+            let peak = maxima.materials.iter().map(peak).reduce(Peak::higher)?;
+            Some((peak.value, peak.error?))
+        };
         Some([
-            Some((crest.peak.value, crest.scale * maxima.surface_error(Some(&coarser)))),
-            Some((maxima.tau1().value, tau1)).filter(|_| !reading.singular()),
-            Some((maxima.tension().value, tension)),
+            Some(surface),
+            of(|material| material.tau1).filter(|_| !reading.singular()),
+            of(|material| material.tension),
         ])
     }
 }

@@ -1,6 +1,6 @@
 //! Coating layers and the half-space they form.
 
-use super::{Depth, Material, MaterialError};
+use super::{Depth, InterfaceStrength, Material, MaterialError, Strength};
 use crate::numeric::number::number;
 use std::fmt;
 
@@ -52,6 +52,8 @@ pub struct Layer {
     thickness: f64,
     interface: Interface,
     residual: f64,
+    strength: Strength,
+    interface_strength: InterfaceStrength,
 }
 
 impl Layer {
@@ -70,7 +72,14 @@ impl Layer {
                 }
             }
         }
-        Ok(Self { material, thickness, interface, residual: 0.0 })
+        Ok(Self {
+            material,
+            thickness,
+            interface,
+            residual: 0.0,
+            strength: Strength::default(),
+            interface_strength: InterfaceStrength::default(),
+        })
     }
 
     /// The same with an equi-biaxial residual stress σ_r, a pressure, positive in tension: deposited with the layer, it adds to
@@ -80,6 +89,24 @@ impl Layer {
     /// [`MaterialError::Residual`] for a stress that is not finite.
     pub fn with_residual_stress(self, residual: f64) -> Result<Self, MaterialError> {
         if residual.is_finite() { Ok(Self { residual, ..self }) } else { Err(MaterialError::Residual(residual)) }
+    }
+
+    /// The same with strengths of its material and its interface.
+    ///
+    /// # Errors
+    /// [`MaterialError::Strength`] for one that is not positive.
+    pub fn with_strengths(self, strength: Strength, interface: InterfaceStrength) -> Result<Self, MaterialError> {
+        Ok(Self { strength: strength.check()?, interface_strength: interface.check()?, ..self })
+    }
+
+    /// Strengths of its material.
+    pub fn strength(&self) -> Strength {
+        self.strength
+    }
+
+    /// Strengths of its lower interface.
+    pub fn interface_strength(&self) -> InterfaceStrength {
+        self.interface_strength
     }
 
     /// Equi-biaxial residual stress σ_r, a pressure, positive in tension.
@@ -108,12 +135,21 @@ impl Layer {
 pub struct HalfSpace {
     layers: Vec<Layer>,
     substrate: Material,
+    substrate_strength: Strength,
 }
 
 impl HalfSpace {
     /// Half-space of `substrate` under `layers`, given from the surface down (none: uncoated).
     pub fn new(layers: Vec<Layer>, substrate: Material) -> Self {
-        Self { layers, substrate }
+        Self { layers, substrate, substrate_strength: Strength::default() }
+    }
+
+    /// The same with strengths of the substrate.
+    ///
+    /// # Errors
+    /// [`MaterialError::Strength`] for one that is not positive.
+    pub fn with_substrate_strength(self, strength: Strength) -> Result<Self, MaterialError> {
+        Ok(Self { substrate_strength: strength.check()?, ..self })
     }
 
     /// Layers from the surface down.
@@ -134,6 +170,16 @@ impl HalfSpace {
     /// All materials: those of the layers from the surface down, then the substrate.
     pub fn materials(&self) -> impl Iterator<Item = Material> {
         self.layers.iter().map(Layer::material).chain([self.substrate])
+    }
+
+    /// Strengths of all materials, in the order of [`Self::materials`].
+    pub fn strengths(&self) -> impl Iterator<Item = Strength> {
+        self.layers.iter().map(Layer::strength).chain([self.substrate_strength])
+    }
+
+    /// Residual stresses of all materials, in the order of [`Self::materials`]: that of the substrate is zero.
+    pub fn residual_stresses(&self) -> impl Iterator<Item = f64> {
+        self.layers.iter().map(Layer::residual_stress).chain([0.0])
     }
 
     /// Depths of the interfaces from the surface down, lengths.

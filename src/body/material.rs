@@ -18,6 +18,9 @@ pub enum MaterialError {
     /// Thickness not positive and finite.
     #[error("the thickness of a layer must be positive and finite, not {0}")]
     Thickness(f64),
+    /// Strength not positive and finite.
+    #[error("a strength must be positive and finite, not {0}")]
+    Strength(f64),
     /// Residual stress not finite.
     #[error("a residual stress must be finite, not {0}")]
     Residual(f64),

@@ -29,6 +29,7 @@ mod material;
 mod mean;
 mod minors;
 mod response;
+mod strength;
 mod transfer;
 
 pub use across::Antiplane;
@@ -39,4 +40,5 @@ pub use interior::{Amplitudes, InPlane, Interior};
 pub use material::{Material, MaterialError};
 pub use mean::MeanStress;
 pub use response::SurfaceResponse;
+pub use strength::{InterfaceStrength, Strength};
 pub use transfer::TransferFunction;

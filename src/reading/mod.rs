@@ -21,5 +21,5 @@ pub use boundary::Boundary;
 pub use contact::Reading;
 pub use errors::{Errors, LevelErrors};
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
-pub use stress::{StressErrors, StressReading, tips};
+pub use stress::{StressReading, tips};
 pub use touch::first_touches;

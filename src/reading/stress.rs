@@ -3,36 +3,21 @@
 use super::Reading;
 use crate::counterbody::Site;
 use crate::spectral::Step;
-use crate::stress::maxima::Extremes;
+use crate::stress::maxima::{Extremes, Maxima, Tractions};
 use crate::stress::{Peak, StressField};
 use std::f64::consts::PI;
 
-/// Largest stresses of a step, see [`crate::stress::maxima`].
+/// Largest stresses of a step, residual stresses among them, see [`crate::stress::maxima`].
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StressReading {
-    /// Largest principal shear stress of all.
-    pub max_tau1: Peak,
-    /// Largest tension of all.
-    pub max_tension: Peak,
     /// Over each material, from the surface down.
     pub materials: Vec<Extremes>,
     /// On each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
+    /// What each interface carries, from the surface down.
+    pub interfaces: Vec<Tractions>,
     /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`].
     pub surface_error: f64,
-    /// Estimated discretisation errors of the largest of all, see [`Maxima::errors`](crate::stress::maxima::Maxima::errors).
-    pub errors: StressErrors,
-}
-
-/// Estimated errors of the largest stresses, pressures; `None` where there is no coarser grid or no number.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct StressErrors {
-    /// Of the largest principal shear stress.
-    pub max_tau1: Option<f64>,
-    /// Of the largest tension.
-    pub max_tension: Option<f64>,
 }
 
 impl StressReading {
@@ -42,29 +27,59 @@ impl StressReading {
         let under = |contact| StressField::new(contact, field.mean_stress()).maxima(radii);
         let coarser = step.coarser().first().map(under);
         let maxima = field.maxima(radii);
-        let coarser = coarser.as_ref();
-        let errors = coarser.map(|coarser| maxima.errors(coarser));
-        // A tip is infinitely stressed, whatever a grid shows of it.
-        let tip = tips(step, reading).next().map(|site| step.grid().cell().point(site.place));
-        let mut stress = Self {
-            max_tau1: maxima.tau1(),
-            max_tension: maxima.tension(),
-            surface_error: maxima.surface_error(coarser),
-            errors: StressErrors {
-                max_tau1: errors.map(|errors| errors[0]).filter(|_| tip.is_none()),
-                max_tension: errors.map(|errors| errors[1]),
-            },
-            materials: maxima.materials,
-            faces: maxima.faces,
+        let surface_error = maxima.surface_error(coarser.as_ref());
+        let maxima = match &coarser {
+            Some(coarser) => maxima.with_errors(coarser),
+            None => maxima,
         };
-        if let Some([x, y]) = tip {
+        let Maxima { materials, faces, interfaces, .. } = maxima;
+        let mut stress = Self { materials, faces, interfaces, surface_error };
+        // A tip is infinitely stressed, whatever a grid shows of it.
+        if let Some(tip) = tips(step, reading).next() {
+            let [x, y] = step.grid().cell().point(tip.place);
             let first = [&mut stress.materials, &mut stress.faces].map(|all| all.first_mut());
-            let first = first.into_iter().flatten().map(|extremes| &mut extremes.tau1);
-            for tau1 in first.chain([&mut stress.max_tau1]) {
-                *tau1 = Peak { value: f64::INFINITY, position: [x, y, 0.0], material: 1, direction: tau1.direction };
+            for Extremes { tau1, mises, .. } in first.into_iter().flatten() {
+                for peak in [tau1, mises] {
+                    *peak = Peak { value: f64::INFINITY, position: [x, y, 0.0], material: 1, error: None, ..*peak };
+                }
             }
         }
         stress
+    }
+
+    /// Largest principal shear stress of all.
+    pub fn tau1(&self) -> Peak {
+        self.largest(|extremes| extremes.tau1)
+    }
+
+    /// Largest tension of all.
+    pub fn tension(&self) -> Peak {
+        self.largest(|extremes| extremes.tension)
+    }
+
+    /// Largest stress of von Mises of all.
+    pub fn mises(&self) -> Peak {
+        self.largest(|extremes| extremes.mises)
+    }
+
+    fn largest(&self, peak: impl Fn(&Extremes) -> Peak) -> Peak {
+        self.materials.iter().map(peak).reduce(Peak::higher).expect("there is always a substrate")
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for StressReading {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut keys = serializer.serialize_struct("stress", 7)?;
+        keys.serialize_field("max_tau1", &self.tau1())?;
+        keys.serialize_field("max_tension", &self.tension())?;
+        keys.serialize_field("max_mises", &self.mises())?;
+        keys.serialize_field("materials", &self.materials)?;
+        keys.serialize_field("faces", &self.faces)?;
+        keys.serialize_field("interfaces", &self.interfaces)?;
+        keys.serialize_field("surface_error", &self.surface_error)?;
+        keys.end()
     }
 }
 

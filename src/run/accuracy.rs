@@ -147,10 +147,10 @@ fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
     largest([peak / fine.max_pressure, penetration, load].into_iter().chain(levels))
 }
 
-/// Of the largest τ₁ and tension, over the larger of both; 0 without stresses.
+/// Of the largest τ₁, tension and von Mises, over the largest of them; 0 without stresses.
 fn stress_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
     let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
-    let pairs = [(&coarse.max_tau1, &fine.max_tau1), (&coarse.max_tension, &fine.max_tension)];
+    let pairs = [(coarse.tau1(), fine.tau1()), (coarse.tension(), fine.tension()), (coarse.mises(), fine.mises())];
     let pairs = pairs.map(|(coarse, fine)| [coarse.value, fine.value]);
     let comparable = || pairs.iter().filter(|values| !values.iter().any(|value| value.is_infinite()));
     let scale = largest(comparable().map(|[_, fine]| fine.abs()));

@@ -9,7 +9,7 @@
 
 use super::field::StressField;
 use super::peak::Peak;
-use super::quantity::Quantity;
+use super::quantity::{OVERALL, Quantity};
 use super::surface::Skin;
 use super::tensor::State;
 use super::transform::Transform;
@@ -31,14 +31,14 @@ const SAFETY: f64 = 1.5;
 /// finer of two grids whose spacings have the ratio 2 errs by less than the change over 2^{1.5} − 1.
 const FALL: f64 = 1.8;
 
-/// The largest tension on the surface.
+/// The largest of a stress on the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crest {
     /// Where and how large.
     pub peak: Peak,
     /// How uncertain its value is by what this grid alone tells, a pressure.
     pub uncertainty: f64,
-    /// What errors are relative to: the tension itself, or the usual one under the largest pressure, 0.13 of it, where
+    /// What errors are relative to: the stress itself, or the usual tension under the largest pressure, 0.13 of it, where
     /// that is more (as on incompressible materials, which have no tension at the edge).
     pub scale: f64,
 }
@@ -66,7 +66,7 @@ struct Edge {
     near: [f64; 3],
     /// That of the less resolved of the spot and the open place beside it.
     resolution: f64,
-    tension: f64,
+    state: State,
 }
 
 /// The samples near edges, row by row: their columns, and what is known there.
@@ -92,36 +92,74 @@ struct Highest {
     smoothed: f64,
 }
 
+/// What is read off the surface once for all crests.
+#[derive(Debug)]
+struct Surface {
+    skin: Skin,
+    /// The same with other widths.
+    others: [Skin; OTHER.len()],
+    edges: Vec<Edge>,
+    /// Place of the largest sample of each quantity.
+    samples: Vec<[f64; 2]>,
+    /// The largest smoothed pressure.
+    pressed: f64,
+}
+
 impl StressField {
+    /// The largest tension on the surface, under a counterbody that slides the largest τ₁ and von Mises too; none where there
+    /// is no edge: contact is complete, or nowhere.
+    pub(super) fn crests(&self) -> Vec<(Quantity, Crest)> {
+        if !self.regions().have_edges() {
+            return Vec::new();
+        }
+        // Without friction only tension has its largest value at the edge.
+        let quantities = if self.slides() { &OVERALL[..] } else { &[Quantity::Tension] };
+        let surface = self.read_surface(quantities);
+        let of = |(&quantity, &place): (&Quantity, &[f64; 2])| {
+            self.crest_of(&surface, quantity, place).map(|crest| (quantity, crest))
+        };
+        quantities.iter().zip(&surface.samples).filter_map(of).collect()
+    }
+
     /// The largest tension on the surface; `None` where there is no edge: contact is complete, or nowhere.
     pub fn crest(&self) -> Option<Crest> {
-        if !self.regions().have_edges() {
-            return None;
-        }
+        self.crests().into_iter().find(|(quantity, _)| *quantity == Quantity::Tension).map(|(_, crest)| crest)
+    }
+
+    fn read_surface(&self, quantities: &[Quantity]) -> Surface {
         let skin = Skin::new(self, 1.0);
         let (transform, mut room) = (Transform::new(self.grid().points()), Vec::new());
         let (edges, band) = self.edges(&skin, &transform, &mut room);
         let (edges, band) = self.along_edges(&skin, &transform, &mut room, edges, band);
-        let (highest, pressed) = self.highest_sample(&skin, &transform, room, &band)?;
-        let mut finalists = vec![(Kind::Open, highest)];
-        finalists.extend(edges.iter().take(FINALISTS).map(|edge| (Kind::Edge, edge.place)));
-        let Highest { kind, place, state, smoothed } = self.highest(&skin, &finalists)?;
-        let value = state.s1();
-        // How far the tension at an edge that few samples see may reach above the largest one; at least so far at it all.
-        let usual = TENSION * pressed;
-        let spread = OTHER.iter().filter_map(|&scale| self.highest(&Skin::new(self, scale), &finalists));
-        let spread: f64 = spread.map(|other| (other.state.s1() - value).abs()).sum();
+        let (samples, pressed) = self.highest_samples(&skin, &transform, room, &band, quantities);
+        Surface { others: OTHER.map(|scale| Skin::new(self, scale)), skin, edges, samples, pressed }
+    }
+
+    fn crest_of(&self, surface: &Surface, quantity: Quantity, sample: [f64; 2]) -> Option<Crest> {
+        let Surface { skin, others, edges, pressed, .. } = surface;
+        let value_of = |edge: &Edge| quantity.of(&edge.state);
+        let mut ordered: Vec<&Edge> = edges.iter().collect();
+        ordered.sort_by(|a, b| value_of(b).total_cmp(&value_of(a)));
+        let mut finalists = vec![(Kind::Open, sample)];
+        finalists.extend(ordered.iter().take(FINALISTS).map(|edge| (Kind::Edge, edge.place)));
+        let Highest { kind, place, state, smoothed } = self.highest(skin, quantity, &finalists)?;
+        let value = quantity.of(&state);
+        // How far the stress at an edge that few samples see may reach above the largest one; at least so far at it all.
+        let usual = if quantity == Quantity::Tension { TENSION * pressed } else { 0.0 };
+        let spread = others.iter().filter_map(|other| self.highest(other, quantity, &finalists));
+        let spread: f64 = spread.map(|other| (quantity.of(&other.state) - value).abs()).sum();
         let unlike = if kind == Kind::Edge { smoothed.abs() * skin.unlike } else { 0.0 };
         let few = |edge: &Edge| {
-            edge.tension + FEW / (edge.resolution * edge.resolution) * usual.max(edge.tension.abs()) - value
+            let own = value_of(edge);
+            own + FEW / (edge.resolution * edge.resolution) * usual.max(own.abs()) - value
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();
-        let peak = Peak { value, position: [place[0], place[1], 0.0], material: 1, direction };
+        let peak = Peak { value, position: [place[0], place[1], 0.0], material: 1, direction, error: None };
         Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })
     }
 
-    /// Edges beside the samples where contact ends, their tension not known yet; and row by row the samples near edges,
+    /// Edges beside the samples where contact ends, their stress not known yet; and row by row the samples near edges,
     /// with p̃ and its slopes.
     fn edges(&self, skin: &Skin, transform: &Transform, room: &mut Vec<f64>) -> (Vec<Edge>, Band<[f64; 3]>) {
         let (grid, regions) = (self.grid(), self.regions());
@@ -140,7 +178,7 @@ impl StressField {
                 let between = Between::new(grid.points(), cell.fractions(place));
                 near = [0, 1, 2].map(|k| between.value(&fields[k * len..(k + 1) * len], n2));
             }
-            (u.abs() < 0.5).then_some(Edge { place, near, resolution, tension: f64::NAN })
+            (u.abs() < 0.5).then_some(Edge { place, near, resolution, state: State::default() })
         });
         let band = |i: usize| {
             let samples = (0..n2).map(|j| (j, near(i * n2 + j)));
@@ -149,7 +187,7 @@ impl StressField {
         (found.collect(), (0..grid.points()[0]).into_par_iter().map(band).collect())
     }
 
-    /// The edges with their tension, the highest first, and the band with σ_xx, σ_yy, σ_xy, p as they are near edges and
+    /// The edges with their stress, and the band with σ_xx, σ_yy, σ_xy, p as they are near edges and
     /// the part that the series itself has.
     fn along_edges(
         &self,
@@ -186,36 +224,39 @@ impl StressField {
             sharp.push(own);
         }
         for (edge, sum) in edges.iter_mut().zip(sums) {
-            edge.tension = skin.state_on_edge(edge.near, sum).s1();
+            edge.state = skin.state_on_edge(edge.near, sum);
         }
-        edges.sort_by(|a, b| b.tension.total_cmp(&a.tension));
         (edges, sharp)
     }
 
-    /// Place of the sample under the largest tension, and the largest smoothed pressure of all.
-    fn highest_sample(
+    /// Place of the largest sample of each quantity, and the largest smoothed pressure of all.
+    fn highest_samples(
         &self,
         skin: &Skin,
         transform: &Transform,
         room: Vec<f64>,
         band: &Band<Sharp>,
-    ) -> Option<([f64; 2], f64)> {
+        quantities: &[Quantity],
+    ) -> (Vec<[f64; 2]>, f64) {
         let rows = self.series.on_plane(transform, room, &skin.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let mut states: Vec<State> = (0..row[0].len()).map(|j| skin.toward_open([0.0; 4], at(j), 1.0)).collect();
             for &(j, (sharp, part)) in &band[i] {
                 states[j] = skin.toward_open(sharp, at(j), part);
             }
-            (Quantity::Tension.largest(&states), largest(row[3].iter().copied()))
+            let best: Vec<(usize, f64)> = quantities.iter().map(|quantity| quantity.largest(&states)).collect();
+            (best, largest(row[3].iter().copied()))
         });
-        let (i, _) = first_largest(rows.iter().map(|&((_, tension), _)| tension))?;
-        let ((j, _), _) = rows[i];
-        let place = self.grid().cell().point(self.grid().fractions(i * self.grid().points()[1] + j));
-        Some((place, largest(rows.into_iter().map(|(_, pressed)| pressed))))
+        let place = |quantity: usize| {
+            let (i, _) = first_largest(rows.iter().map(|(best, _)| best[quantity].1)).unwrap_or_default();
+            let (j, _) = rows[i].0[quantity];
+            self.grid().cell().point(self.grid().fractions(i * self.grid().points()[1] + j))
+        };
+        ((0..quantities.len()).map(place).collect(), largest(rows.iter().map(|&(_, pressed)| pressed)))
     }
 
-    /// The largest tension at places of which some stand at edges, by the exact sums.
-    fn highest(&self, skin: &Skin, places: &[(Kind, [f64; 2])]) -> Option<Highest> {
+    /// The largest of a quantity at places of which some stand at edges, by the exact sums.
+    fn highest(&self, skin: &Skin, quantity: Quantity, places: &[(Kind, [f64; 2])]) -> Option<Highest> {
         let (open, edges): (Vec<_>, Vec<_>) = places.iter().partition(|(kind, _)| *kind == Kind::Open);
         let [open, mut edges] = [open, edges].map(|some| some.iter().map(|(_, place)| *place).collect::<Vec<_>>());
         for _ in 0..2 {
@@ -236,7 +277,7 @@ impl StressField {
             state: skin.state(near, edge, series),
             smoothed: edge[3],
         });
-        in_open.chain(on_edges).max_by(|a, b| a.state.s1().total_cmp(&b.state.s1()))
+        in_open.chain(on_edges).max_by(|a, b| quantity.of(&a.state).total_cmp(&quantity.of(&b.state)))
     }
 }
 

@@ -4,7 +4,7 @@ use super::regions::Regions;
 use super::series::{Response, Series};
 use super::slice::Slice;
 use super::tensor::State;
-use crate::body::{Depth, HalfSpace, Interface, Layer, MeanStress, TransferFunction};
+use crate::body::{Depth, HalfSpace, Interface, MeanStress, TransferFunction};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
 use crate::numeric::number::number;
@@ -95,6 +95,11 @@ impl StressField {
         self.traction.unwrap_or_default()
     }
 
+    /// Whether the surface feels a traction.
+    pub(super) fn slides(&self) -> bool {
+        self.traction.is_some()
+    }
+
     /// Contact spots and what is open between them.
     pub(super) fn regions(&self) -> &Regions {
         &self.regions
@@ -167,15 +172,14 @@ fn mean_states(
     let shear = traction.map(|t| -pressure * t);
     let mut displacement = [0.0; 3];
     let mut states = Vec::new();
-    for (index, (material, lateral)) in half_space.materials().zip(mean.lateral(half_space)).enumerate() {
+    let materials = half_space.materials().zip(mean.lateral(half_space)).zip(half_space.residual_stresses());
+    for (index, ((material, lateral), residual)) in materials.enumerate() {
         let lateral = pressure * lateral;
         let closing = (-pressure - 2.0 * material.poisson() * lateral) / material.young();
         let slope = [shear[0] / material.shear(), shear[1] / material.shear(), closing];
-        let layer = half_space.layers().get(index);
-        let residual = layer.map_or(0.0, Layer::residual_stress);
         let [xx, yy] = [lateral + residual; 2];
         states.push((State { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..State::default() }, slope));
-        if let Some(layer) = layer {
+        if let Some(layer) = half_space.layers().get(index) {
             displacement.iter_mut().zip(slope).for_each(|(u, slope)| *u += slope * layer.thickness());
             if let Interface::Spring { tangential, normal } = layer.interface() {
                 let jumps = [shear[0] / tangential, shear[1] / tangential, -pressure / normal];

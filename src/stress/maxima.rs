@@ -1,8 +1,9 @@
-//! Where coating and substrate are stressed most: the largest principal shear stress τ₁ and the largest tension σ₁ in
-//! each material and on each of its faces.
+//! Where coating and substrate are stressed most: the largest principal shear stress τ₁, the largest tension σ₁ and the
+//! largest stress of von Mises in each material and on each of its faces, and the largest tension and shear that each
+//! interface carries.
 //!
 //! They are searched plane by plane and refined; on the surface itself, where the series converges slowly, the largest
-//! tension is that of the [`Crest`].
+//! tension is that of the [`Crest`], and under a counterbody that slides τ₁ and von Mises too.
 
 use super::crest::Crest;
 use super::peak::Peak;
@@ -18,19 +19,26 @@ pub struct Extremes {
     /// Largest principal stress σ₁; negative where nothing is in tension.
     #[cfg_attr(feature = "serde", serde(rename = "max_tension"))]
     pub tension: Peak,
+    /// Largest stress of von Mises.
+    #[cfg_attr(feature = "serde", serde(rename = "max_mises"))]
+    pub mises: Peak,
 }
 
-impl Extremes {
-    pub(super) fn of(peak: impl Fn(Quantity) -> Peak) -> Self {
-        Self { tau1: peak(Quantity::Tau1), tension: peak(Quantity::Tension) }
-    }
-
-    pub(super) fn get(&self, quantity: Quantity) -> Peak {
-        match quantity {
-            Quantity::Tau1 => self.tau1,
-            Quantity::Tension => self.tension,
-        }
-    }
+/// What an interface carries at most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Tractions {
+    /// The interface, from 1: the lower face of that layer.
+    pub interface: usize,
+    /// Largest σ_zz; negative where nothing opens it.
+    #[cfg_attr(feature = "serde", serde(rename = "max_normal"))]
+    pub normal: Peak,
+    /// Largest shear √(σ_xz² + σ_yz²).
+    #[cfg_attr(feature = "serde", serde(rename = "max_shear"))]
+    pub shear: Peak,
+    /// Largest part that it bears of what it can, where a strength is given; the value is no pressure but a number.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub delamination: Option<Peak>,
 }
 
 /// All maxima of a field.
@@ -40,25 +48,26 @@ pub struct Maxima {
     pub materials: Vec<Extremes>,
     /// Over each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
+    /// What each interface carries, from the surface down.
+    pub interfaces: Vec<Tractions>,
     /// The largest tension on the surface with its uncertainty; `None` where contact has no edge.
     pub crest: Option<Crest>,
+    /// The same of τ₁ and von Mises under a counterbody that slides.
+    pub(super) others: [Option<Crest>; 2],
     /// Samples along the radius of a disc as large as the smallest contact spot.
     pub resolution: f64,
     /// Distance between neighbouring samples, a length.
     pub spacing: f64,
 }
 
+impl Extremes {
+    fn each(&mut self) -> [(Quantity, &mut Peak); 3] {
+        let Self { tau1, tension, mises } = self;
+        [(Quantity::Tau1, tau1), (Quantity::Tension, tension), (Quantity::Mises, mises)]
+    }
+}
+
 impl Maxima {
-    /// The largest τ₁ of all.
-    pub fn tau1(&self) -> Peak {
-        self.largest(Quantity::Tau1)
-    }
-
-    /// The largest tension of all.
-    pub fn tension(&self) -> Peak {
-        self.largest(Quantity::Tension)
-    }
-
     /// Estimated relative error of the largest tension on the surface, also from the next `coarser` grid where there is
     /// one; 0 where contact has no edge.
     pub fn surface_error(&self, coarser: Option<&Self>) -> f64 {
@@ -67,33 +76,47 @@ impl Maxima {
         self.crest.map_or(0.0, |crest| crest.error(tension))
     }
 
-    /// Estimated errors of the largest τ₁ and the largest tension, pressures: twice the change from the next `coarser`
+    /// The same with the estimated error of each: twice the change from the next `coarser`
     /// grid, which at second order is three times the error, and what n samples along the radius of the smallest spot
-    /// leave open: 0.03 n⁻² of τ₁, 0.1 n⁻² of a tension or the usual one, within two samples of the surface 0.2 n⁻¹.
-    /// For a tension on the surface, what its [`Crest`] says of itself. Read off fifty random contacts; that they hold in
-    /// 95 % of fifty others is tested.
-    pub fn errors(&self, coarser: &Self) -> [f64; 2] {
-        let error = |quantity: Quantity, deep: f64, scale: f64| {
-            let (fine, coarse) = (self.largest(quantity), coarser.largest(quantity));
-            let open = if fine.position[2] < NEAR * self.spacing {
-                SHALLOW / self.resolution
-            } else {
-                deep / self.resolution.powi(2)
+    /// leave open: 0.03 n⁻² of τ₁, von Mises and shears, 0.1 n⁻² of a tension or the usual one, within two samples of the
+    /// surface 0.2 n⁻¹.
+    /// For a stress on the surface that is that of its [`Crest`], what that says of itself. Read off fifty random contacts;
+    /// that those of the largest τ₁ and the largest tension hold in 95 % of fifty others is tested.
+    #[must_use]
+    pub fn with_errors(mut self, coarser: &Self) -> Self {
+        let [crest, resolution, near] = [self.crest.map_or(0.0, |crest| crest.scale), self.resolution, NEAR * self.spacing];
+        let crests = [(Quantity::Tension, self.crest), (Quantity::Tau1, self.others[0]), (Quantity::Mises, self.others[1])];
+        let estimate = |quantity: Quantity, fine: &mut Peak, coarse: &Peak| {
+            let own = crests.iter().find(|(of, crest)| *of == quantity && crest.is_some_and(|crest| crest.peak == *fine));
+            if let Some((_, Some(crest))) = own {
+                fine.error = Some(crest.scale * crest.error(Some(coarse.value)));
+                return;
+            }
+            let (deep, least) = match quantity {
+                Quantity::Tension | Quantity::Opening => (DEEP[1], crest),
+                _ => (DEEP[0], 0.0),
             };
-            SAFETY * (fine.value - coarse.value).abs() + open * scale.max(fine.value.abs())
+            let open = if fine.position[2] < near { SHALLOW / resolution } else { deep / resolution.powi(2) };
+            // Beside a strength the usual tension is no measure.
+            let least = if matches!(quantity, Quantity::Delamination(_)) { 0.0 } else { least };
+            fine.error = Some(SAFETY * (fine.value - coarse.value).abs() + open * least.max(fine.value.abs()));
         };
-        let tension = match self.crest {
-            Some(crest) if crest.peak == self.tension() => crest.scale * self.surface_error(Some(coarser)),
-            crest => error(Quantity::Tension, DEEP[1], crest.map_or(0.0, |crest| crest.scale)),
-        };
-        [error(Quantity::Tau1, DEEP[0], 0.0), tension]
-    }
-
-    fn largest(&self, quantity: Quantity) -> Peak {
-        // There is always a substrate.
-        let none =
-            Peak { value: f64::NEG_INFINITY, position: [0.0; 3], material: self.materials.len(), direction: [0.0; 3] };
-        self.materials.iter().map(|extremes| extremes.get(quantity)).fold(none, Peak::higher)
+        for (fine, coarse) in [(&mut self.materials, &coarser.materials), (&mut self.faces, &coarser.faces)] {
+            for (fine, coarse) in fine.iter_mut().zip(coarse) {
+                let mut coarse = *coarse;
+                for ((quantity, fine), (_, coarse)) in fine.each().into_iter().zip(coarse.each()) {
+                    estimate(quantity, fine, coarse);
+                }
+            }
+        }
+        for (fine, coarse) in self.interfaces.iter_mut().zip(&coarser.interfaces) {
+            estimate(Quantity::Opening, &mut fine.normal, &coarse.normal);
+            estimate(Quantity::Shear, &mut fine.shear, &coarse.shear);
+            if let Some((fine, coarse)) = fine.delamination.as_mut().zip(coarse.delamination.as_ref()) {
+                estimate(Quantity::Delamination(Default::default()), fine, coarse);
+            }
+        }
+        self
     }
 }
 
@@ -103,5 +126,5 @@ const SAFETY: f64 = 2.0;
 pub(super) const NEAR: f64 = 2.0;
 /// The error of a stress under spots of n samples per radius is at least this over n of it near the surface, …
 const SHALLOW: f64 = 0.2;
-/// … and this over n² below: of τ₁ and of tensions.
+/// … and this over n² below: of shears and of tensions.
 const DEEP: [f64; 2] = [0.03, 0.1];

@@ -11,11 +11,13 @@ pub struct Peak {
     pub material: usize,
     /// Direction along which σ₁ acts there, a unit vector: a crack opens across it.
     pub direction: [f64; 3],
+    /// Estimated error of the value by the grid; `None` where there is no coarser grid or no number.
+    pub error: Option<f64>,
 }
 
 impl Peak {
     /// The larger of two, this one of equals; what is not a number is larger than any.
-    pub(super) fn higher(self, other: Self) -> Self {
+    pub fn higher(self, other: Self) -> Self {
         if self.value.is_nan() || other.value <= self.value { self } else { other }
     }
 
@@ -30,8 +32,9 @@ impl serde::Serialize for Peak {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
         let [x, y, z] = self.position;
-        let mut keys = serializer.serialize_struct("peak", 7)?;
+        let mut keys = serializer.serialize_struct("peak", 8)?;
         keys.serialize_field("value", &self.finite())?;
+        keys.serialize_field("error", &self.error)?;
         keys.serialize_field("singular", &self.value.is_infinite())?;
         keys.serialize_field("x", &x)?;
         keys.serialize_field("y", &y)?;

@@ -1,36 +1,60 @@
 //! The quantities whose largest values are looked for.
 
 use super::tensor::State;
+use crate::body::InterfaceStrength;
 use crate::numeric::search::first_largest;
 
 /// How much rounding there may be in a bound, relatively.
 const ROUNDING: f64 = 1e-9;
 
 /// A quantity to be maximised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Quantity {
+    /// τ₁.
     Tau1,
+    /// σ₁.
     Tension,
+    /// The stress of von Mises.
+    Mises,
+    /// σ_zz on an interface.
+    Opening,
+    /// √(σ_xz² + σ_yz²) on an interface.
+    Shear,
+    /// What an interface of this strength bears, of what it can.
+    Delamination(InterfaceStrength),
 }
 
-/// Both, in the order of their numbers.
-pub(super) const QUANTITIES: [Quantity; 2] = [Quantity::Tau1, Quantity::Tension];
+/// What is looked for in every material.
+pub(super) const OVERALL: [Quantity; 3] = [Quantity::Tau1, Quantity::Tension, Quantity::Mises];
 
 impl Quantity {
+    /// What is looked for on an interface besides.
+    pub fn of_interface(strength: InterfaceStrength) -> impl Iterator<Item = Self> {
+        let delamination = (!strength.is_empty()).then_some(Self::Delamination(strength));
+        [Self::Opening, Self::Shear].into_iter().chain(delamination)
+    }
+
     /// Its value.
     pub fn of(self, state: &State) -> f64 {
         match self {
             Self::Tau1 => state.tau1(),
             Self::Tension => state.s1(),
+            _ => self.bound(state),
         }
     }
 
-    /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3).
+    /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); of the others the value itself.
     fn bound(self, state: &State) -> f64 {
-        let (mean, j2) = state.invariants();
         match self {
-            Self::Tau1 => j2.sqrt(),
-            Self::Tension => mean + 2.0 * (j2 / 3.0).sqrt(),
+            Self::Tau1 => state.invariants().1.sqrt(),
+            Self::Tension => {
+                let (mean, j2) = state.invariants();
+                mean + 2.0 * (j2 / 3.0).sqrt()
+            }
+            Self::Mises => state.mises(),
+            Self::Opening => state.zz,
+            Self::Shear => state.interface_shear(),
+            Self::Delamination(strength) => strength.utilisation(state.zz, state.interface_shear()),
         }
     }
 
@@ -57,7 +81,8 @@ mod tests {
             State::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
         };
         let states: Vec<State> = (0..200).map(state).chain((0..200).map(state)).collect();
-        for quantity in QUANTITIES {
+        let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
+        for quantity in OVERALL.into_iter().chain(Quantity::of_interface(strength)) {
             let values: Vec<f64> = states.iter().map(|state| quantity.of(state)).collect();
             assert!(states.iter().zip(&values).all(|(state, value)| *value <= quantity.bound(state) * (1.0 + 1e-14)));
             assert_eq!(Some(quantity.largest(&states)), first_largest(values.into_iter()));

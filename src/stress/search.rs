@@ -9,14 +9,15 @@
 //! they are.
 
 use super::field::StressField;
-use super::maxima::{Extremes, Maxima, NEAR};
+use super::crest::Crest;
+use super::maxima::{Extremes, Maxima, NEAR, Tractions};
 use super::peak::Peak;
-use super::quantity::{QUANTITIES, Quantity};
+use super::quantity::{OVERALL, Quantity};
 use super::slice::{Slice, Stresses};
 use super::surface::Flat;
 use super::tensor::State;
 use super::transform::Transform;
-use crate::body::Depth;
+use crate::body::{Depth, Layer};
 use crate::numeric::fourier::fast_points;
 use crate::numeric::search::{first_largest, golden_maximum};
 use std::sync::Arc;
@@ -41,46 +42,94 @@ struct Candidate {
     step: f64,
 }
 
+/// A plane that was searched.
+#[derive(Debug)]
+struct Searched {
+    /// The best sample for each quantity that was looked for.
+    best: Vec<(Quantity, Candidate)>,
+    /// Peaks, where the plane is a face.
+    peaks: Vec<(Quantity, Peak)>,
+}
+
+impl Searched {
+    fn candidate(&self, quantity: Quantity) -> &Candidate {
+        &found(&self.best, quantity).expect("every plane was searched for it").1
+    }
+
+    fn peak(&self, quantity: Quantity) -> Option<Peak> {
+        found(&self.peaks, quantity).map(|&(_, peak)| peak)
+    }
+}
+
+fn found<T>(all: &[(Quantity, T)], quantity: Quantity) -> Option<&(Quantity, T)> {
+    all.iter().find(|(own, _)| *own == quantity)
+}
+
 impl StressField {
-    /// Maxima over all materials and faces. `radii`: the smallest and the largest contact radius (or half the width of
-    /// a contact), lengths.
+    /// Maxima over all materials, faces and interfaces. `radii`: the smallest and the largest contact radius (or half the
+    /// width of a contact), lengths.
     pub fn maxima(&self, radii: [f64; 2]) -> Maxima {
-        let mut faces = Vec::new();
-        let mut materials = Vec::new();
-        let crest = self.crest();
+        let (mut faces, mut materials, mut interfaces) = (Vec::new(), Vec::new(), Vec::new());
+        let crests = self.crests();
         for material in 1..=self.materials() {
+            let strength = self.half_space().layers().get(material - 1).map(Layer::interface_strength);
             let depths = self.search_depths(material, radii);
-            let mut candidates: Vec<[Candidate; 2]> =
-                depths.iter().map(|&z| self.candidates(Depth { z, material }, radii[0])).collect();
-            let crest = crest.filter(|_| material == 1);
-            if let Some(crest) = crest {
-                candidates[0][Quantity::Tension as usize].value = crest.peak.value;
-            }
-            let on_face = |index: usize| {
-                Extremes::of(|quantity| match crest {
-                    Some(crest) if index == 0 && quantity == Quantity::Tension => crest.peak,
-                    _ => self.face_peak(&candidates[index][quantity as usize], quantity),
-                })
+            let plane = |index: usize| {
+                let is_interface = index + 1 == depths.len();
+                let tractions = strength.filter(|_| is_interface).into_iter().flat_map(Quantity::of_interface);
+                let quantities: Vec<Quantity> = OVERALL.into_iter().chain(tractions).collect();
+                let is_face = index == 0 || strength.is_some() && is_interface;
+                let depth = Depth { z: depths[index], material };
+                let crests = if depth == Depth::SURFACE { &crests[..] } else { &[] };
+                self.search_plane(depth, radii[0], &quantities, is_face, crests)
             };
-            let is_finite = self.half_space().faces(material).1.is_finite();
-            let own: Vec<(usize, Extremes)> = [Some(0), is_finite.then_some(depths.len() - 1)]
-                .into_iter()
-                .flatten()
-                .map(|k| (k, on_face(k)))
-                .collect();
-            materials.push(Extremes::of(|quantity| {
-                let value = |index: usize| candidates[index][quantity as usize].value;
-                let best = (0..depths.len()).max_by(|&a, &b| value(a).total_cmp(&value(b))).unwrap_or(0);
-                let inside = match own.iter().find(|&&(index, _)| index == best) {
-                    Some((_, extremes)) => extremes.get(quantity),
-                    None => self.refined(&candidates[best][quantity as usize], quantity, &depths, best),
-                };
-                own.iter().map(|(_, extremes)| extremes.get(quantity)).fold(inside, Peak::higher)
-            }));
-            faces.extend(own.into_iter().map(|(_, extremes)| extremes));
+            let planes: Vec<Searched> = (0..depths.len()).map(plane).collect();
+            let overall = |quantity: Quantity| {
+                let value = |index: usize| planes[index].candidate(quantity).value;
+                let best = (0..planes.len()).max_by(|&a, &b| value(a).total_cmp(&value(b))).unwrap_or(0);
+                let inside = planes[best]
+                    .peak(quantity)
+                    .unwrap_or_else(|| self.refined(planes[best].candidate(quantity), quantity, &depths, best));
+                planes.iter().filter_map(|plane| plane.peak(quantity)).fold(inside, Peak::higher)
+            };
+            materials.push(extremes(overall));
+            let on_face = |plane: &Searched| extremes(|quantity| plane.peak(quantity).expect("a face has its peaks"));
+            faces.extend(planes.iter().filter(|plane| !plane.peaks.is_empty()).map(on_face));
+            if let Some((strength, lower)) = strength.zip(planes.last()) {
+                let peak = |quantity: Quantity| lower.peak(quantity);
+                if let Some((normal, shear)) = peak(Quantity::Opening).zip(peak(Quantity::Shear)) {
+                    let delamination = peak(Quantity::Delamination(strength));
+                    interfaces.push(Tractions { interface: material, normal, shear, delamination });
+                }
+            }
         }
+        let crest = |quantity: Quantity| found(&crests, quantity).map(|&(_, crest)| crest);
         let (resolution, spacing) = (self.regions().least_resolution(), self.grid().spacing());
-        Maxima { materials, faces, crest, resolution, spacing }
+        let others = [Quantity::Tau1, Quantity::Mises].map(crest);
+        Maxima { materials, faces, interfaces, crest: crest(Quantity::Tension), others, resolution, spacing }
+    }
+
+    /// The best samples of a plane, and the peaks of a face; the surface has `crests` of its own.
+    fn search_plane(
+        &self,
+        depth: Depth,
+        radius: f64,
+        quantities: &[Quantity],
+        is_face: bool,
+        crests: &[(Quantity, Crest)],
+    ) -> Searched {
+        let mut best = self.candidates(depth, radius, quantities);
+        for (quantity, candidate) in &mut best {
+            if let Some((_, crest)) = found(crests, *quantity) {
+                candidate.value = crest.peak.value;
+            }
+        }
+        let peak = |(quantity, candidate): &(Quantity, Candidate)| {
+            let crest = found(crests, *quantity).map(|(_, crest)| crest.peak);
+            (*quantity, crest.unwrap_or_else(|| self.face_peak(candidate, *quantity)))
+        };
+        let peaks = if is_face { best.iter().map(peak).collect() } else { Vec::new() };
+        Searched { best, peaks }
     }
 
     /// Depths at which planes are searched, ascending, faces first and last.
@@ -107,8 +156,8 @@ impl StressField {
         depths
     }
 
-    /// The best samples of the plane at a depth, for τ₁ and σ₁.
-    fn candidates(&self, depth: Depth, radius: f64) -> [Candidate; 2] {
+    /// The best samples of the plane at a depth.
+    fn candidates(&self, depth: Depth, radius: f64, quantities: &[Quantity]) -> Vec<(Quantity, Candidate)> {
         let grid = self.grid();
         let lengths = grid.cell().vectors().map(|[x, y]| x.hypot(y));
         let points = [0, 1].map(|k| {
@@ -116,21 +165,22 @@ impl StressField {
             let needed = (PLANE_REACH * length / (std::f64::consts::PI * depth.z)).max(8.0 * length / radius);
             if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
         });
-        let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points));
+        let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points), quantities);
         let [n1, n2] = points.map(|n| n as f64);
-        QUANTITIES.map(|quantity| {
-            let of_rows = || largest_of_rows.iter().map(|row| row[quantity as usize]);
+        let candidate = |(index, &quantity): (usize, &Quantity)| {
+            let of_rows = || largest_of_rows.iter().map(|row| row[index]);
             let (i, value) = first_largest(of_rows().map(|(_, value)| value)).unwrap_or((0, f64::NEG_INFINITY));
             let j = of_rows().nth(i).map_or(0, |(j, _)| j);
             let place = grid.cell().point([i as f64 / n1, j as f64 / n2]);
-            Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) }
-        })
+            (quantity, Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) })
+        };
+        quantities.iter().enumerate().map(candidate).collect()
     }
 
-    /// Index and value of the largest τ₁ and σ₁ of each row of a plane.
-    fn largest_of_rows(&self, depth: Depth, transform: &Transform) -> Vec<[(usize, f64); 2]> {
+    /// Index and value of the largest of each quantity in each row of a plane.
+    fn largest_of_rows(&self, depth: Depth, transform: &Transform, quantities: &[Quantity]) -> Vec<Vec<(usize, f64)>> {
         let slice = self.slice(depth, PLANE_REACH);
-        let largest = |states: Vec<State>| QUANTITIES.map(|quantity| quantity.largest(&states));
+        let largest = |states: Vec<State>| quantities.iter().map(|quantity| quantity.largest(&states)).collect();
         if depth == Depth::SURFACE {
             // σ_zz is −p, and the shear what friction makes of it.
             let [tx, ty] = self.traction();
@@ -191,6 +241,7 @@ impl StressField {
             position: [x, y, candidate.depth.z],
             material: candidate.depth.material,
             direction: state.s1_direction(),
+            error: None,
         }
     }
 
@@ -243,4 +294,8 @@ impl StressField {
             *candidate
         }
     }
+}
+
+fn extremes(peak: impl Fn(Quantity) -> Peak) -> Extremes {
+    Extremes { tau1: peak(Quantity::Tau1), tension: peak(Quantity::Tension), mises: peak(Quantity::Mises) }
 }

@@ -119,6 +119,11 @@ impl State {
         vector.map(|x| sign * x / length)
     }
 
+    /// Shear on a plane of constant depth, √(σ_xz² + σ_yz²).
+    pub fn interface_shear(&self) -> f64 {
+        self.xz.hypot(self.yz)
+    }
+
     /// Von Mises stress √(3J₂).
     pub fn mises(&self) -> f64 {
         let (a, b, c) = (self.xx - self.yy, self.yy - self.zz, self.zz - self.xx);

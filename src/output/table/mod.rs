@@ -178,15 +178,13 @@ pub fn timing(timing: &Timing) -> String {
 
 /// The largest stresses of a step in one line.
 pub fn stress(stress: &StressReading) -> String {
-    let peak = |name: &str, peak: &Peak, error: Option<f64>| {
+    let peak = |name: &str, peak: Peak| {
         // What is no number is not infinite.
-        let value = finite(Some(peak.value).filter(|value| !value.is_infinite()), error);
+        let value = finite(Some(peak.value).filter(|value| !value.is_infinite()), peak.error);
         let [x, y, z] = peak.position.map(number);
         format!("{name} {value} in material {} at ({x}, {y}, {z})", peak.material)
     };
-    let [tau1, tension] = [stress.errors.max_tau1, stress.errors.max_tension];
-    let tau1 = peak("largest τ₁", &stress.max_tau1, tau1);
-    format!("{tau1}; {}", peak("largest tension", &stress.max_tension, tension))
+    format!("{}; {}", peak("largest τ₁", stress.tau1()), peak("largest tension", stress.tension()))
 }
 
 #[cfg(test)]
