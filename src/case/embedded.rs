@@ -7,7 +7,8 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 10] = [
+const CASES: [(&str, &str); 12] = [
+    ("dlc-on-steel", include_str!("../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../cases/fig2.toml")),
     ("fig3a", include_str!("../../cases/fig3a.toml")),
     ("fig3b", include_str!("../../cases/fig3b.toml")),
@@ -16,6 +17,7 @@ const CASES: [(&str, &str); 10] = [
     ("fig6a", include_str!("../../cases/fig6a.toml")),
     ("fig6b", include_str!("../../cases/fig6b.toml")),
     ("fig7", include_str!("../../cases/fig7.toml")),
+    ("polymer-on-steel", include_str!("../../cases/polymer-on-steel.toml")),
     ("ring", include_str!("../../cases/ring.toml")),
     ("tin-on-steel", include_str!("../../cases/tin-on-steel.toml")),
 ];

@@ -101,6 +101,7 @@ pub(super) static CASE: Keys = Keys::new(&[
     key("load", "what is prescribed, one value a load step: a number, a list or a range").holds(&LOAD),
     key("grid", "samples of the cell").holds(&GRID),
     key("solver", "how the contact problem is solved, and how far").holds(&SOLVER),
+    key("friction", "the indenters slide; without the section they do not").holds(&FRICTION),
     key("stress", "stresses that are wanted; without the section none").holds(&STRESS),
     key("localized", "circles of the localized method, for `compare`").holds(&LOCALIZED),
 ]);
@@ -145,6 +146,15 @@ static LAYERS: Keys = Keys::new(&[
     key("young", "Young's modulus, a pressure").instead_of("shear_ratio"),
     key("poisson", "Poisson's ratio, between 0 and 0.5"),
     key("interface", "the lower face: \"bonded\" (when not given), \"frictionless\" or a spring").holds(&SPRING),
+    key("residual_stress", "equi-biaxial, a pressure, positive in tension; 0 when not given"),
+    key("yield_strength", "what the stress of von Mises must not reach, a pressure"),
+    key("tensile_strength", "what the largest principal stress must not reach, a pressure"),
+    key("interface_strength", "what the lower face bears").holds(&INTERFACE_STRENGTH),
+]);
+
+static INTERFACE_STRENGTH: Keys = Keys::new(&[
+    key("normal", "under tension alone, a pressure; never reached when not given"),
+    key("shear", "under shear alone, a pressure; never reached when not given"),
 ]);
 
 static SPRING: Keys = Keys::new(&[
@@ -153,7 +163,12 @@ static SPRING: Keys = Keys::new(&[
 ]);
 
 static SUBSTRATE: Keys = Keys {
-    all: &[key("young", "Young's modulus, a pressure"), key("poisson", "Poisson's ratio, between 0 and 0.5")],
+    all: &[
+        key("young", "Young's modulus, a pressure"),
+        key("poisson", "Poisson's ratio, between 0 and 0.5"),
+        key("yield_strength", "what the stress of von Mises must not reach, a pressure"),
+        key("tensile_strength", "what the largest principal stress must not reach, a pressure"),
+    ],
     misplaced: &[("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")],
 };
 
@@ -187,18 +202,25 @@ static SOLVER: Keys = Keys::new(&[
     key("max_iterations", "for one load step on one grid; 10000 when not given"),
 ]);
 
+static FRICTION: Keys = Keys::new(&[
+    key("coefficient", "μ ≥ 0: the body feels the traction μp"),
+    key("direction", "in which the indenters slide, [x, y] of any length; [1, 0] when not given"),
+    key("coupling", "whether the pressure follows what the traction displaces; true when not given"),
+]);
+
 static STRESS: Keys = Keys::new(&[
     key("planes", "depths of horizontal planes, a list of lengths"),
     key("mean", "the mean lateral stress: \"confined\" (when not given) or \"half-space\""),
-    key("section", "a vertical cut from one level toward another, or along a direction [x, y]").holds(&CUT),
+    key("section", "a vertical cut from one level or place toward another, or along a direction").holds(&CUT),
     key("points", "single points [[x, y, z], …]"),
     key("volume", "the field under the cell, for ParaView").holds(&VOLUME),
 ]);
 
 static CUT: Keys = Keys::new(&[
-    key("from", "where the cut begins, such as \"level 1\""),
-    key("toward", "where it runs to, such as \"level 2\""),
+    key("from", "where the cut has its origin, such as \"level 1\", or a place [x, y]"),
+    key("toward", "where it runs to, such as \"level 2\", or a direction [x, y]; that of sliding when not given"),
     key("length", "its length along the surface"),
+    key("behind", "how far behind the origin it begins; half the length along the sliding, else 0, when not given"),
     key("depth", "how deep it goes"),
 ]);
 

@@ -7,7 +7,7 @@ use super::error::Refusal;
 use super::limits;
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
-use crate::body::{HalfSpace, Interface, Layer, Material, MaterialError};
+use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Strength};
 
 /// Most layers a case can have.
 pub(super) const MOST: usize = 200;
@@ -25,6 +25,37 @@ pub struct LayerSection {
     /// How the lower face holds to what lies below.
     #[serde(serialize_with = "write_interface")]
     pub interface: Interface,
+    /// Equi-biaxial residual stress, a pressure, positive in tension.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub residual_stress: f64,
+    /// Strengths of the material.
+    #[serde(flatten)]
+    pub strength: StrengthKeys,
+    /// Strengths of the lower face.
+    #[serde(skip_serializing_if = "InterfaceStrengthKeys::is_empty")]
+    pub interface_strength: InterfaceStrengthKeys,
+}
+
+/// Strengths of a material.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct StrengthKeys {
+    /// Yield strength, a pressure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yield_strength: Option<f64>,
+    /// Tensile strength, a pressure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tensile_strength: Option<f64>,
+}
+
+/// Strengths of an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct InterfaceStrengthKeys {
+    /// Under tension alone, a pressure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal: Option<f64>,
+    /// Under shear alone, a pressure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear: Option<f64>,
 }
 
 /// How the stiffness of a layer is given.
@@ -44,6 +75,52 @@ pub struct SubstrateSection {
     pub young: f64,
     /// Poisson's ratio.
     pub poisson: f64,
+    /// Strengths of the material.
+    #[serde(flatten)]
+    pub strength: StrengthKeys,
+}
+
+impl StrengthKeys {
+    fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
+        Ok(Self {
+            yield_strength: strength(section, "yield_strength")?,
+            tensile_strength: strength(section, "tensile_strength")?,
+        })
+    }
+
+    fn strength(&self) -> Strength {
+        Strength { yielding: self.yield_strength, tensile: self.tensile_strength }
+    }
+}
+
+impl InterfaceStrengthKeys {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        const WANTED: &str = "{ normal = …, shear = … }";
+        let section = value.table(WANTED)?;
+        section.only()?;
+        let own = Self { normal: strength(&section, "normal")?, shear: strength(&section, "shear")? };
+        if own.is_empty() {
+            return Err(value.refuse(WANTED).help("one of both at least; the one left out is never reached"));
+        }
+        Ok(own)
+    }
+
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    fn strength(&self) -> InterfaceStrength {
+        InterfaceStrength { normal: self.normal, shear: self.shear }
+    }
+}
+
+fn strength(section: &TableAt<'_>, key: &str) -> Result<Option<f64>, Refusal> {
+    section.optional(key).map(|value| limits::size(&value)).transpose()
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+pub(super) fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 impl Modulus {
@@ -66,7 +143,17 @@ impl LayerSection {
         };
         let poisson = poisson(section)?;
         let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |value| interface(&value))?;
-        Ok(Self { thickness, modulus, poisson, interface })
+        let residual_stress = section.optional("residual_stress").map_or(Ok(0.0), |value| limits::place(&value))?;
+        let interface_strength = section.optional("interface_strength").map(|value| InterfaceStrengthKeys::read(&value));
+        Ok(Self {
+            thickness,
+            modulus,
+            poisson,
+            interface,
+            residual_stress,
+            strength: StrengthKeys::read(section)?,
+            interface_strength: interface_strength.transpose()?.unwrap_or_default(),
+        })
     }
 
     fn build(&self, substrate: Material) -> Result<Layer, MaterialError> {
@@ -74,7 +161,9 @@ impl LayerSection {
             Modulus::ShearRatio(ratio) => Material::from_shear(ratio * substrate.shear(), self.poisson),
             Modulus::Young(young) => Material::from_young(young, self.poisson),
         }?;
-        Layer::new(material, self.thickness, self.interface)
+        Layer::new(material, self.thickness, self.interface)?
+            .with_residual_stress(self.residual_stress)?
+            .with_strengths(self.strength.strength(), self.interface_strength.strength())
     }
 }
 
@@ -82,7 +171,7 @@ impl SubstrateSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
         let young = limits::size(&section.required("young")?)?;
-        Ok(Self { young, poisson: poisson(section)? })
+        Ok(Self { young, poisson: poisson(section)?, strength: StrengthKeys::read(section)? })
     }
 }
 
@@ -104,7 +193,9 @@ pub(super) fn build(
         .zip(layer_sections)
         .map(|(layer, section)| layer.build(base).map_err(|error| refuse(section, layer.modulus.key(), error)))
         .collect();
-    Ok(HalfSpace::new(built?, base))
+    HalfSpace::new(built?, base)
+        .with_substrate_strength(substrate.strength.strength())
+        .map_err(|error| refuse(substrate_section, "yield_strength", error))
 }
 
 fn poisson(section: &TableAt<'_>) -> Result<f64, Refusal> {

@@ -52,6 +52,15 @@ pub(super) fn pair(value: &ValueAt<'_>, wanted: &str) -> Result<[f64; 2], Refusa
     }
 }
 
+/// A direction [x, y] along the surface, of any length.
+pub(super) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
+    let direction = pair(value, "a direction [x, y]")?;
+    if direction.iter().all(|x| x.abs() < *CARRIED.start()) {
+        return Err(value.refuse("a direction [x, y] other than [0, 0]"));
+    }
+    Ok(direction)
+}
+
 /// Layers and their interfaces beside the cell and the substrate.
 pub(super) fn layers(half_space: &HalfSpace, sections: &[TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let side = cell.reduced().longer_side();

@@ -2,7 +2,7 @@
 //!
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
 //! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]). One file a section:
-//! lattice, levels, surface, layers (with the substrate), load, grid, solver, stress, localized; `keys` names every key.
+//! lattice, levels, surface, layers (with the substrate), load, grid, solver, friction, stress, localized; `keys` names every key.
 //! `limits` refuses what double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says
 //! what a run takes.
 //!
@@ -16,6 +16,7 @@
 pub mod embedded;
 mod error;
 mod foreseen;
+mod friction;
 mod grid;
 mod keys;
 mod lattice;
@@ -42,8 +43,9 @@ mod tests;
 
 pub use error::CaseError;
 pub use foreseen::foreseen;
+pub use friction::FrictionSection;
 pub use lattice::LatticeSection;
-pub use layers::{LayerSection, Modulus, SubstrateSection};
+pub use layers::{InterfaceStrengthKeys, LayerSection, Modulus, StrengthKeys, SubstrateSection};
 pub use levels::LevelSection;
 pub use limits::CARRIED;
 pub use load::LoadSection;
@@ -51,5 +53,5 @@ pub use localized::LocalizedSection;
 pub use model::Case;
 pub use room::{Room, available_memory};
 pub use source::Source;
-pub use stress::{Cut, StressSection, Toward};
+pub use stress::{Cut, From, StressSection, Toward};
 pub use surface::SurfaceSection;

@@ -8,7 +8,7 @@ use super::place::Place;
 use super::reader::TableAt;
 use super::surface::Heights;
 use super::{
-    LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection,
+    FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection,
     SurfaceSection,
 };
 use super::{grid, keys, lattice, layers, levels, limits, overrides, solver};
@@ -46,6 +46,9 @@ pub struct Case {
     pub grid: Sampling,
     /// Iteration.
     pub solver: Settings,
+    /// Sliding; none: the indenters do not slide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionSection>,
     /// Stresses wanted; none: no stresses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stress: Option<StressSection>,
@@ -172,18 +175,31 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let grid_section = root.section("grid")?;
     let sampling = grid::read(grid_section.as_ref(), file_points)?;
     limits::grid(sampling, file_points, grid_section.as_ref(), &lattice_section, counterbody.cell())?;
+    let solver_section = root.section("solver")?;
+    let settings = solver::read(solver_section.as_ref())?;
+    let mut problem = Problem::new(counterbody, half_space);
+    let mut friction = None;
+    if let Some(section) = root.section("friction")? {
+        let own = FrictionSection::read(&section)?;
+        problem = own.slide(&section, &layer_sections, (problem, settings), solver_section.as_ref())?;
+        friction = Some(own);
+    }
     Ok(Case {
         title,
         lattice,
         grid: sampling,
-        solver: solver::read(root.section("solver")?.as_ref())?,
-        stress: root.section("stress")?.map(|section| StressSection::read(&section, levels.len())).transpose()?,
+        solver: settings,
+        friction,
+        stress: root
+            .section("stress")?
+            .map(|section| StressSection::read(&section, levels.len(), friction.map(|own| own.direction)))
+            .transpose()?,
         localized: LocalizedSection::read(root.section("localized")?.as_ref())?,
         levels,
         surface,
         layers,
         substrate,
         load,
-        problem: Arc::new(Problem::new(counterbody, half_space)),
+        problem: Arc::new(problem),
     })
 }

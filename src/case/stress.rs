@@ -3,11 +3,12 @@
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
+use super::layers::is_zero;
 use super::limits;
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
 use crate::body::MeanStress;
-use crate::counterbody::Counterbody;
+use crate::counterbody::{Counterbody, Indenters};
 use crate::lattice::Lattice;
 use crate::run::places::SECTION;
 use crate::run::{self, StressRequest, Volume};
@@ -31,18 +32,30 @@ pub struct StressSection {
     pub volume: Option<Volume>,
 }
 
-/// A vertical cut from the axis of an indenter toward a neighbour.
+/// A vertical cut from the axis of an indenter toward a neighbour, or from any place along a direction.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Cut {
-    /// Level, from 1, of the indenter at whose axis the cut begins.
-    #[serde(serialize_with = "write_level")]
-    pub from: usize,
+    /// Where s = 0.
+    pub from: From,
     /// Where it runs.
     pub toward: Toward,
     /// Length along the surface.
     pub length: f64,
+    /// How far behind `from` it begins, a length.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub behind: f64,
     /// Depth, a length.
     pub depth: f64,
+}
+
+/// Where a cut has its origin.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum From {
+    /// At the axis of the first indenter of this level, from 1.
+    Level(#[serde(serialize_with = "write_level")] usize),
+    /// At this place [x, y], lengths.
+    Place([f64; 2]),
 }
 
 /// Where a cut runs.
@@ -58,10 +71,8 @@ pub enum Toward {
 impl StressSection {
     /// What a run on `counterbody` is asked for.
     pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
-        let cut = |cut: Cut| {
-            let line = cut.line(counterbody.indenters()?.lattice());
-            Some(run::Cut { line, depth: cut.depth })
-        };
+        let lattice = counterbody.indenters().map(Indenters::lattice);
+        let cut = |cut: Cut| Some(run::Cut { line: cut.line(lattice)?, depth: cut.depth });
         StressRequest {
             mean: self.mean,
             planes: self.planes.clone(),
@@ -71,8 +82,8 @@ impl StressSection {
         }
     }
 
-    /// Read the section of a case with this many levels (none: a surface from a file).
-    pub(super) fn read(section: &TableAt<'_>, levels: usize) -> Result<Self, Refusal> {
+    /// Read the section of a case with this many levels (none: a surface from a file), which may slide in a direction.
+    pub(super) fn read(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
         section.only()?;
         let planes = section.optional("planes").map_or(Ok(Vec::new()), |value| {
             value.items("a list of depths", "for example planes = [0.0, 0.5]", PLANES, limits::size_or_zero)
@@ -83,7 +94,7 @@ impl StressSection {
             }
             None => MeanStress::Confined,
         };
-        let cut = section.optional("section").map(|value| Cut::read(&value, levels)).transpose()?;
+        let cut = section.optional("section").map(|value| Cut::read(&value, levels, sliding)).transpose()?;
         let points = section.optional("points").map_or(Ok(Vec::new()), |value| {
             value.items("a list of points", "for example points = [[0.0, 0.0, 0.1]]", POINTS, point)
         })?;
@@ -119,52 +130,68 @@ fn volume(value: &ValueAt<'_>) -> Result<Volume, Refusal> {
 }
 
 impl Cut {
-    /// The line from the first indenter of a level toward another, or along a direction.
-    fn line(&self, lattice: &Lattice) -> Line {
-        let place = lattice.sites()[self.from - 1][0];
-        let direction = match self.toward {
-            Toward::Level(level) => lattice.toward(place, level),
-            Toward::Direction(direction) => direction,
+    /// Its line; `None` for levels without indenters.
+    fn line(&self, lattice: Option<&Lattice>) -> Option<Line> {
+        let first = |level: usize| Some(lattice?.sites()[level - 1][0]);
+        let origin = match self.from {
+            From::Level(level) => lattice?.cell().point(first(level)?),
+            From::Place(place) => place,
+        };
+        let direction = match (self.from, self.toward) {
+            (From::Level(from), Toward::Level(level)) => lattice?.toward(first(from)?, level),
+            (From::Place(place), Toward::Level(level)) => {
+                let cell = lattice?.cell();
+                let axis = cell.point(first(level)?);
+                cell.reduced().nearest(cell.fractions([axis[0] - place[0], axis[1] - place[1]]))
+            }
+            (_, Toward::Direction(direction)) => direction,
         };
         let [_, points] = SECTION;
-        Line { origin: lattice.cell().point(place), direction, span: [0.0, self.length], points }
+        Some(Line { origin, direction, span: [-self.behind, self.length - self.behind], points })
     }
 
-    fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
-        if levels == 0 {
-            let message = format!("`{}` has no place beside [surface]: a cut runs between levels", value.path);
-            return Err(Refusal::new(value.node.place, message, "no levels in this case").help("remove it"));
-        }
-        let section = value.table("{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }")?;
+    fn read(value: &ValueAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
+        let example = match levels {
+            0 => "{ from = [0.0, 0.0], toward = [1.0, 0.0], length = 1.0, depth = 1.0 }",
+            _ => "{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }",
+        };
+        let section = value.table(example)?;
         section.only()?;
-        Ok(Self {
-            from: level(&section.required("from")?, levels)?,
-            toward: Toward::read(&section.required("toward")?, levels)?,
-            length: limits::size(&section.required("length")?)?,
-            depth: limits::size(&section.required("depth")?)?,
-        })
+        let from = From::read(&section.required("from")?, levels)?;
+        let length = limits::size(&section.required("length")?)?;
+        // Along the sliding both edges count.
+        let (toward, behind) = match (section.optional("toward"), sliding) {
+            (None, Some(direction)) => (Toward::Direction(direction), 0.5 * length),
+            (None, None) => return Err(section.required("toward").expect_err("it is not there")),
+            (Some(toward), _) => (Toward::read(&toward, levels)?, 0.0),
+        };
+        let behind = section.optional("behind").map_or(Ok(behind), |value| limits::size_or_zero(&value))?;
+        Ok(Self { from, toward, length, behind, depth: limits::size(&section.required("depth")?)? })
+    }
+}
+
+impl From {
+    fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
+        if !matches!(value.node.value, Value::List(_)) {
+            return level(value, levels).map(Self::Level);
+        }
+        limits::pair(value, "a place [x, y]").map(Self::Place)
     }
 }
 
 impl Toward {
     fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
-        const WANTED: &str = "a level such as \"level 2\", or a direction [x, y]";
         if !matches!(value.node.value, Value::List(_)) {
             return level(value, levels).map(Self::Level);
         }
-        let items = value.list(WANTED, WANTED)?;
-        let [x, y] = &items[..] else { return Err(value.refuse(WANTED)) };
-        let direction = [limits::place(x)?, limits::place(y)?];
-        if direction.iter().all(|x| x.abs() < *limits::CARRIED.start()) {
-            return Err(value.refuse("a direction [x, y] other than [0, 0]"));
-        }
-        Ok(Self::Direction(direction))
+        limits::direction(value).map(Self::Direction)
     }
 }
 
 /// The number N of "level N".
 fn level(value: &ValueAt<'_>, levels: usize) -> Result<usize, Refusal> {
     let wanted = match levels {
+        0 => "two numbers in brackets: beside [surface] there are no levels".to_owned(),
         1 => "\"level 1\", the only one".to_owned(),
         _ => format!("\"level 1\" to \"level {levels}\""),
     };

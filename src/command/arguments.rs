@@ -6,7 +6,7 @@ use super::options::{Changes, Common, Work};
 use super::pictures::PictureOptions;
 use super::terminal::{self, tell};
 use super::without_effect;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use percoat::case::CARRIED;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -41,7 +41,7 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
-    /// Response of the layered half-space to a harmonic pressure cos(qx), as JSON lines
+    /// Response of the layered half-space to a harmonic pressure or shear traction cos(qx), as JSON lines
     Kernel {
         /// Case file, or the name of an embedded case
         case: Option<PathBuf>,
@@ -51,6 +51,9 @@ pub enum Command {
         /// Depths z ≥ 0 at which stresses and displacements are wanted
         #[arg(long, value_delimiter = ',', value_name = "Z,…", value_parser = depth)]
         depth: Vec<f64>,
+        /// What acts on the surface: a pressure, or a shear traction along or across the wavevector
+        #[arg(long, value_enum, default_value_t, value_name = "TRACTION")]
+        traction: Traction,
         #[command(flatten)]
         changes: Changes,
     },
@@ -83,6 +86,18 @@ pub enum Command {
         #[command(flatten)]
         work: Work,
     },
+}
+
+/// What acts on the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Traction {
+    /// A pressure
+    #[default]
+    Normal,
+    /// A shear traction along the wavevector
+    Along,
+    /// A shear traction across the wavevector
+    Across,
 }
 
 impl Arguments {

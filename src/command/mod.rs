@@ -36,8 +36,8 @@ pub fn run(arguments: &Arguments) -> ExitCode {
     let ending = match &arguments.command {
         Command::Solve { case, pictures, common } => solve::run(case.as_deref(), pictures, common),
         Command::Compare { case, pictures, common } => compare::run(case.as_deref(), pictures, common),
-        Command::Kernel { case, wavenumber, depth, changes } => {
-            kernel::run(case.as_deref(), wavenumber, depth, &changes.set)
+        Command::Kernel { case, wavenumber, depth, traction, changes } => {
+            kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
         }
         Command::Check { case, changes, .. } => check::run(case, &changes.set),
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),

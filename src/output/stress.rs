@@ -72,6 +72,8 @@ impl Stresses {
             let planes = request.plane_depths(&half_space);
             archive.array("planes_z", &[planes.len()], zs(&planes))?;
             archive.array("planes_side", &[planes.len()], materials(&planes))?;
+            let residual: Vec<f64> = half_space.residual_stresses().collect();
+            archive.array("residual", &[residual.len()], residual)?;
             if let Some(cut) = &request.cut {
                 let (line, places, depths) = (cut.line, cut.line.places(), cut.depths(&half_space));
                 archive.array("section_s", &[line.points], line.distances())?;

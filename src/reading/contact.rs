@@ -125,6 +125,8 @@ impl Reading {
                     radius_outer,
                     radius_min: all(|b| b.extremes().0).and_then(|radii| radii.reduce(f64::min)),
                     radius_max: most(|b| b.extremes().1),
+                    centre: (load > 0.0 && !merged)
+                        .then(|| [0, 1].map(|k| own.iter().map(|spot| spot.moment[k]).sum::<f64>() / load)),
                     merged,
                     resolution: (area / PI / grid.sample_area()).sqrt(),
                     uncertainty: Uncertainty {

@@ -33,6 +33,8 @@ pub struct LevelReading {
     pub radius_min: Option<f64>,
     /// Largest distance of the boundary from the axis, a length; see `radius_min`.
     pub radius_max: Option<f64>,
+    /// Centre [x, y] of the pressure from the axis, lengths: Σ p **x**/Σ p. `None` without load and for merged contacts.
+    pub centre: Option<[f64; 2]>,
     /// Whether the contact of an indenter of this level touches that of a neighbour, or by the localized method one of
     /// both reaches under the other's surface.
     pub merged: bool,
@@ -76,7 +78,7 @@ impl LevelReading {
 impl serde::Serialize for LevelReading {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let mut keys = serializer.serialize_struct("level", 16)?;
+        let mut keys = serializer.serialize_struct("level", 17)?;
         keys.serialize_field("level", &self.level)?;
         keys.serialize_field("load", &self.load)?;
         keys.serialize_field("load_share", &self.load_share)?;
@@ -90,6 +92,7 @@ impl serde::Serialize for LevelReading {
         keys.serialize_field("radius_min", &self.radius_min)?;
         keys.serialize_field("radius_max", &self.radius_max)?;
         keys.serialize_field("asymmetry", &self.asymmetry())?;
+        keys.serialize_field("centre", &self.centre)?;
         keys.serialize_field("merged", &self.merged)?;
         keys.serialize_field("resolution", &self.resolution)?;
         keys.serialize_field("errors", &self.errors)?;

@@ -14,6 +14,8 @@ const NOBODY: u32 = u32::MAX;
 #[derive(Debug, Clone, Default)]
 pub struct SpotReading {
     pub load: f64,
+    /// Σ p **x** over its area, **x** from its axis.
+    pub moment: [f64; 2],
     /// Area of its samples; one that several sites own together counts in parts.
     pub counted: f64,
     pub peak: Option<usize>,
@@ -42,6 +44,8 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
         for &site in owners {
             let spot = &mut spots[site as usize];
             spot.load += part * p;
+            let [x, y] = surface.offset(&reduced, site, index);
+            spot.moment = [spot.moment[0] + part * p * x, spot.moment[1] + part * p * y];
             spot.counted += part;
             if spot.peak.is_none_or(|peak| p > pressure[peak]) {
                 spot.peak = Some(index);

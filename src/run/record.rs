@@ -12,6 +12,8 @@ pub struct StepRecord {
     pub report: Report,
     /// What the pressure proves about itself.
     pub certificate: Certificate,
+    /// Whether the counterbody slides.
+    pub slides: bool,
     /// Convolutions on all grids, as equivalents of the finest one.
     pub convolutions: f64,
     /// Grid points along a₁ and a₂.
@@ -27,7 +29,16 @@ impl StepRecord {
     /// Of a step and what is read off it, without stresses and time.
     pub fn new(step: &Step, reading: Reading) -> Self {
         let Step { report, certificate, convolutions, .. } = *step;
-        Self { reading, report, certificate, convolutions, points: step.grid().points(), stress: None, seconds: None }
+        Self {
+            reading,
+            report,
+            certificate,
+            slides: step.problem().friction().is_some(),
+            convolutions,
+            points: step.grid().points(),
+            stress: None,
+            seconds: None,
+        }
     }
 
     /// Whether the solution meets the tolerance. What is not a number compares as small as any, and does not.
@@ -54,13 +65,23 @@ impl StepRecord {
     }
 }
 
+/// How the contact with its traction was solved.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize)]
+struct Sliding {
+    /// See [`Report::outer`].
+    outer_iterations: usize,
+    /// ε of the whole problem, the traction's displacement included.
+    residual: f64,
+}
+
 #[cfg(feature = "serde")]
 impl serde::Serialize for StepRecord {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use crate::spectral::Route;
         use serde::ser::SerializeStruct;
         let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 22)?;
+        let mut keys = serializer.serialize_struct("step", 23)?;
         keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
         keys.serialize_field("penetration", &reading.penetration)?;
         // Eq. (8): δ is measured from the mean plane of the deformed surface.
@@ -82,6 +103,12 @@ impl serde::Serialize for StepRecord {
         keys.serialize_field("contact_spots", &reading.contact_spots)?;
         keys.serialize_field("spot_resolution", &reading.spot_resolution)?;
         keys.serialize_field("levels", &reading.levels)?;
+        if self.slides {
+            let outer_iterations = report.outer;
+            keys.serialize_field("friction", &Sliding { outer_iterations, residual: report.residual })?;
+        } else {
+            keys.skip_field("friction")?;
+        }
         match &self.stress {
             Some(stress) => keys.serialize_field("stress", stress)?,
             None => keys.skip_field("stress")?,

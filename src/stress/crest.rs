@@ -7,14 +7,16 @@
 //!
 //! Fields that are used up row by row are not kept: of the smoothed stresses near edges no more than the band.
 
-use super::field::StressField;
+use super::field::{REACH, StressField};
 use super::peak::Peak;
 use super::quantity::{OVERALL, Quantity};
 use super::surface::Skin;
 use super::tensor::State;
 use super::transform::Transform;
+use crate::body::Depth;
 use crate::numeric::search::{first_largest, largest};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Widths that the largest tension is read with again, over the usual ones: how it changes tells its error.
 const OTHER: [f64; 2] = [0.7, 1.45];
@@ -23,6 +25,8 @@ const FINALISTS: usize = 8;
 /// The error of a tension beside a spot or open place of n samples per radius is at least this over n² of the tension,
 /// and of the usual one.
 const FEW: f64 = 0.3;
+/// The cusp that a traction makes at the trailing edge errs by at least this over n of the stress 2μp that leads to it.
+const CUSP: f64 = 0.2;
 /// Usual tension at an edge over the largest pressure: (1 − 2ν)/3 at Hertz' contact.
 const TENSION: f64 = 0.13;
 /// By how much all that makes an error uncertain is multiplied, so that nineteen of twenty hold.
@@ -127,12 +131,13 @@ impl StressField {
     }
 
     fn read_surface(&self, quantities: &[Quantity]) -> Surface {
-        let skin = Skin::new(self, 1.0);
+        let slice = Arc::new(self.slice(Depth::SURFACE, REACH));
+        let skin = Skin::new(self, &slice, 1.0);
         let (transform, mut room) = (Transform::new(self.grid().points()), Vec::new());
         let (edges, band) = self.edges(&skin, &transform, &mut room);
         let (edges, band) = self.along_edges(&skin, &transform, &mut room, edges, band);
         let (samples, pressed) = self.highest_samples(&skin, &transform, room, &band, quantities);
-        Surface { others: OTHER.map(|scale| Skin::new(self, scale)), skin, edges, samples, pressed }
+        Surface { others: OTHER.map(|scale| Skin::new(self, &slice, scale)), skin, edges, samples, pressed }
     }
 
     fn crest_of(&self, surface: &Surface, quantity: Quantity, sample: [f64; 2]) -> Option<Crest> {
@@ -149,9 +154,11 @@ impl StressField {
         let spread = others.iter().filter_map(|other| self.highest(other, quantity, &finalists));
         let spread: f64 = spread.map(|other| (quantity.of(&other.state) - value).abs()).sum();
         let unlike = if kind == Kind::Edge { smoothed.abs() * skin.unlike } else { 0.0 };
+        let [tx, ty] = self.traction();
+        let cusp = 2.0 * tx.hypot(ty) * pressed;
         let few = |edge: &Edge| {
-            let own = value_of(edge);
-            own + FEW / (edge.resolution * edge.resolution) * usual.max(own.abs()) - value
+            let (own, n) = (value_of(edge), edge.resolution);
+            own + FEW / (n * n) * usual.max(own.abs()) + CUSP / n * cusp - value
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();

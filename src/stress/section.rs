@@ -12,6 +12,7 @@ use crate::numeric::array::field;
 use crate::numeric::search::first_largest;
 use ndarray::Array2;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Into so many parts the distance of two points is divided to find the largest stress between them.
 const BETWEEN: usize = 512;
@@ -105,7 +106,7 @@ impl<'a> Below<'a> {
     fn new(field: &'a StressField, line: Line) -> Self {
         let cell = field.grid().cell();
         let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
-        let skin = field.regions().have_edges().then(|| Skin::new(field, 1.0));
+        let skin = field.regions().have_edges().then(|| Skin::new(field, &Arc::new(field.slice(Depth::SURFACE, REACH)), 1.0));
         Self { field, line, trace, skin }
     }
 

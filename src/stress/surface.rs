@@ -22,11 +22,10 @@
 //! itself, smoothed to the fourth order with e^{−OPEN²/2} of the shortest waves.
 
 use super::edge::Edge;
-use super::field::{REACH, StressField};
+use super::field::StressField;
 use super::series::Response;
 use super::slice::Slice;
 use super::tensor::State;
-use crate::body::Depth;
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
@@ -119,12 +118,12 @@ impl Response<3> for Near {
 }
 
 impl Skin {
-    /// With `scale` times the usual widths.
-    pub fn new(field: &StressField, scale: f64) -> Self {
+    /// Of a field, whose waves `surface` holds, with `scale` times the usual widths.
+    pub fn new(field: &StressField, surface: &Arc<Slice>, scale: f64) -> Self {
         let most = field.grid().least_aliased();
         let growth = (field.regions().least_resolution() / 12.0).max(1.0).powf(0.4);
         let [width, open] = [EDGE * growth, OPEN].map(|c| scale * c / most);
-        let (waves, surface) = (&field.series.waves, Arc::new(field.slice(Depth::SURFACE, REACH)));
+        let waves = &field.series.waves;
         let wavenumbers = waves.wavenumbers();
         let gaussian = wavenumbers.iter().map(|&q| (-0.5 * q * q * width * width).exp());
         let poisson = field.surface_poisson();
@@ -132,8 +131,8 @@ impl Skin {
         let unlike = surface.unlike(longer, poisson);
         Self {
             near: Near { gaussian: gaussian.take_while(|&left| left > NOTHING).collect(), mean: -surface.mean.zz },
-            edge: Flat::new(&surface, |q| fourth(q * width)),
-            open: Flat::new(&surface, |q| fourth(q * open)),
+            edge: Flat::new(surface, |q| fourth(q * width)),
+            open: Flat::new(surface, |q| fourth(q * open)),
             width,
             seen: Edge::new(),
             poisson,

@@ -12,6 +12,9 @@ use crate::run::StepRecord;
 use crate::stress::Peak;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
+/// Relative errors up to this are rounding.
+const NOTHING: f64 = 1e-12;
+
 /// Up to this many steps every level gets a row of its own.
 pub const DETAILED: usize = 6;
 
@@ -149,7 +152,10 @@ pub fn solved(steps: &[StepRecord]) -> String {
 
 /// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.
 pub fn largest_errors(steps: &[StepRecord]) -> Option<String> {
-    let relative = |value: f64, error: Option<f64>| error.filter(|_| value != 0.0).map(|error| error / value.abs());
+    // What is rounding is no error of the grid.
+    let relative = |value: f64, error: Option<f64>| {
+        error.filter(|_| value != 0.0).map(|error| error / value.abs()).filter(|error| *error > NOTHING)
+    };
     let readings = || steps.iter().map(|step| &step.reading);
     let levels = || readings().flat_map(|reading| &reading.levels);
     let named = [
