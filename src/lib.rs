@@ -75,9 +75,7 @@ pub mod stress;
 #[path = "../validation/mod.rs"]
 pub mod validation;
 
-pub use body::{
-    Depth, HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, MeanStress, Strength,
-};
+pub use body::{Depth, HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, MeanStress, Strength};
 pub use counterbody::{Counterbody, CounterbodyError, IndenterError, Indenters, Level, Shape, Surface, Topography};
 pub use friction::{Friction, FrictionError};
 pub use lattice::{Cell, Grid, Lattice, LatticeError, NotOnGrid};

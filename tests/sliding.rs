@@ -7,8 +7,8 @@ use ndarray::{Array2, Axis};
 use percoat::body::TransferFunction;
 use percoat::spectral::operator::{Operator, Workspace};
 use percoat::{
-    Cell, Friction, FrictionError, Grid, HalfSpace, Interface, Lattice, Load, Material, Problem, Route, Settings, Solver,
-    Topography,
+    Cell, Friction, FrictionError, Grid, HalfSpace, Interface, Lattice, Load, Material, Problem, Route, Settings,
+    Solver, Topography,
 };
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -213,7 +213,8 @@ fn an_incompressible_half_space_is_not_coupled() {
 fn friction_costs_little_and_displacement_control_agrees_with_load_control() {
     let n = 192;
     let hills = || Hills::random(&mut Random(5), 40, 9, 0.05).topography(n);
-    let stacks = [bare(), coated(20.0, 0.02, [0.2, 0.3], Interface::Bonded), coated(0.1, 0.05, [0.2, 0.3], Interface::Bonded)];
+    let stacks =
+        [bare(), coated(20.0, 0.02, [0.2, 0.3], Interface::Bonded), coated(0.1, 0.05, [0.2, 0.3], Interface::Bonded)];
     for half_space in stacks {
         let rest = Problem::new(hills(), half_space);
         let slides = rest.clone().sliding(friction(0.5, 65.0)).unwrap();

@@ -6,7 +6,8 @@ mod common;
 use common::{Hills, Random, solve};
 use ndarray::Array2;
 use percoat::{
-    Cell, Depth, Friction, Grid, HalfSpace, Interface, Layer, Line, Load, Material, MeanStress, Problem, State, StressField,
+    Cell, Depth, Friction, Grid, HalfSpace, Interface, Layer, Line, Load, Material, MeanStress, Problem, State,
+    StressField,
 };
 use std::sync::Arc;
 
@@ -33,7 +34,8 @@ fn field(cell: Cell, points: [usize; 2], half_space: &HalfSpace) -> (StressField
     let mut random = Random(99);
     let pressure = Array2::from_shape_fn(points, |_| random.unit());
     let grid = Arc::new(Grid::new(cell, points).unwrap());
-    let field = StressField::under(&grid, pressure.view(), half_space, Some(&friction()), MeanStress::Confined).unwrap();
+    let field =
+        StressField::under(&grid, pressure.view(), half_space, Some(&friction()), MeanStress::Confined).unwrap();
     (field, pressure)
 }
 
@@ -90,8 +92,7 @@ fn stresses_are_in_equilibrium_and_follow_the_displacements() {
             };
             let [dx, dy, dz] = [0, 1, 2].map(slope);
             // xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
-            let balance =
-                [dx[0] + dy[3] + dz[4], dx[3] + dy[1] + dz[5], dx[4] + dy[5] + dz[2]];
+            let balance = [dx[0] + dy[3] + dz[4], dx[3] + dy[1] + dz[5], dx[4] + dy[5] + dz[2]];
             let scale = dx.iter().chain(&dy).chain(&dz).fold(0.0f64, |m, x| m.max(x.abs()));
             assert!(balance.iter().all(|rest| rest.abs() < 1e-6 * scale), "{cell}, {place:?}: {balance:?} of {scale}");
             let state = at(&field, place, number);

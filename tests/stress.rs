@@ -169,7 +169,8 @@ fn a_section_is_the_same_from_both_ends() {
         let r = (i as f64 - 24.0).hypot(j as f64 - 24.0) / 12.0;
         (1.0 - r * r).max(0.0).sqrt()
     });
-    let field = StressField::under(&grid(cell, [48, 48]), disc.view(), &half_space, None, MeanStress::Confined).unwrap();
+    let field =
+        StressField::under(&grid(cell, [48, 48]), disc.view(), &half_space, None, MeanStress::Confined).unwrap();
     let line = Line { origin: [0.5, 0.5], direction: [1.0, 0.3], span: [0.0, 0.6], points: 61 };
     let [there, back] = [line, Line { span: [0.6, 0.0], ..line }].map(|line| field.section(&line, &[Depth::SURFACE]));
     let ([s, stress], [s_back, stress_back]) = (there.highest.unwrap(), back.highest.unwrap());

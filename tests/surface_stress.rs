@@ -12,9 +12,9 @@
 mod common;
 
 use common::{Hills, Random, coated, one_level, paraboloid, solve};
-use percoat::validation::exact::hertz::{Stresses, edge_tension, largest_shear};
 use percoat::stress::Peak;
 use percoat::stress::maxima::Extremes;
+use percoat::validation::exact::hertz::{Stresses, edge_tension, largest_shear};
 use percoat::validation::exact::lattice_sums::TRIANGULAR;
 use percoat::{
     Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Level, Line, Load, Material, MeanStress, Problem, Shape,

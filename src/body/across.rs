@@ -39,12 +39,8 @@ impl State {
     fn raised(self, x: f64) -> Self {
         let x = x.min(EXTINCT);
         let [cosh, sinh] = [0.5 * (1.0 + (-2.0 * x).exp()), -0.5 * (-2.0 * x).exp_m1()];
-        Self {
-            v: cosh * self.v + sinh * self.s,
-            s: cosh * self.s + sinh * self.v,
-            exponent: self.exponent + x,
-        }
-        .normalised()
+        Self { v: cosh * self.v + sinh * self.s, s: cosh * self.s + sinh * self.v, exponent: self.exponent + x }
+            .normalised()
     }
 
     /// The same with a sum of one.

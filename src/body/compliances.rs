@@ -36,12 +36,7 @@ struct Panels {
 impl Panels {
     /// Of a function that is asked for `times` between two wavenumbers, as far as that is less work; errors are relative to
     /// the function, or to one where that is `at_least`.
-    fn new(
-        [least, most]: [f64; 2],
-        times: usize,
-        at_least: f64,
-        function: impl Fn(f64) -> f64 + Sync,
-    ) -> Self {
+    fn new([least, most]: [f64; 2], times: usize, at_least: f64, function: impl Fn(f64) -> f64 + Sync) -> Self {
         let (first, end) = (panel(least), panel(most) + 1);
         let count = (end - first) as usize;
         let series = |index: usize| {

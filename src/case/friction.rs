@@ -44,7 +44,8 @@ impl FrictionSection {
     ) -> Result<Problem, Refusal> {
         let method = solver.and_then(|solver| solver.optional("method"));
         if let Some(method) = method.filter(|_| settings.method == Method::PolonskyKeer && self.is_coupled()) {
-            let message = "`solver.method` = \"polonsky-keer\" needs a symmetric operator, which coupled friction is not";
+            let message =
+                "`solver.method` = \"polonsky-keer\" needs a symmetric operator, which coupled friction is not";
             return Err(Refusal::new(method.node.place, message, "no method for this case")
                 .help("leave the key out, or set friction.coupling = false"));
         }

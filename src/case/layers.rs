@@ -144,7 +144,8 @@ impl LayerSection {
         let poisson = poisson(section)?;
         let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |value| interface(&value))?;
         let residual_stress = section.optional("residual_stress").map_or(Ok(0.0), |value| limits::place(&value))?;
-        let interface_strength = section.optional("interface_strength").map(|value| InterfaceStrengthKeys::read(&value));
+        let interface_strength =
+            section.optional("interface_strength").map(|value| InterfaceStrengthKeys::read(&value));
         Ok(Self {
             thickness,
             modulus,

@@ -8,8 +8,8 @@ use super::place::Place;
 use super::reader::TableAt;
 use super::surface::Heights;
 use super::{
-    FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection, SubstrateSection,
-    SurfaceSection,
+    FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
+    SubstrateSection, SurfaceSection,
 };
 use super::{grid, keys, lattice, layers, levels, limits, overrides, solver};
 use crate::body::HalfSpace;

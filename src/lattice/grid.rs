@@ -135,7 +135,7 @@ impl Grid {
             let length = norm([x, y]);
             if length > 0.0 { [x / length, y / length] } else { [0.0; 2] }
         };
-        let own = (0..2).all(|axis| 2 * component[axis] % self.points()[axis] == 0);
+        let own = (0..2).all(|axis| (2 * component[axis]).is_multiple_of(self.points()[axis]));
         if own {
             return [0.0; 2];
         }

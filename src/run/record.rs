@@ -60,7 +60,8 @@ impl StepRecord {
         let Reading { mean_pressure, penetration, max_pressure, .. } = self.reading;
         let scalars = [mean_pressure, penetration, max_pressure, self.certificate.energy_gap];
         // Stresses are infinite under a tip.
-        let stresses = self.stress.iter().flat_map(|s| [s.tau1().value, s.tension().value, s.mises().value, s.surface_error]);
+        let stresses =
+            self.stress.iter().flat_map(|s| [s.tau1().value, s.tension().value, s.mises().value, s.surface_error]);
         scalars.iter().all(|x| x.is_finite()) && !stresses.into_iter().any(f64::is_nan)
     }
 }

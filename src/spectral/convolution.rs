@@ -211,7 +211,7 @@ impl<T: Real> Convolution<T> {
                     rest = after;
                 }
                 self.columns.forward(lines, scratch);
-                                match action {
+                match action {
                     Action::Times(factor) | Action::TimesTurned(factor, _) => {
                         vectorised!(simd => times(simd, factor, table, lines));
                         if tile == 0 {

@@ -207,8 +207,8 @@ impl Nest {
         let Self { surface, largest_gap, operator, unknowns, .. } = self;
         let (samples, before) = (surface.grid().len(), operator.convolutions());
         let (initial_gap, largest_gap) = (surface.gaps(), *largest_gap);
-        let report =
-            GridProblem { operator, working, initial_gap, largest_gap, load, settings, outer: 0, progress }.solve(unknowns);
+        let report = GridProblem { operator, working, initial_gap, largest_gap, load, settings, outer: 0, progress }
+            .solve(unknowns);
         (report, (operator.convolutions() - before) * samples as f64)
     }
 

@@ -163,12 +163,7 @@ impl fmt::Display for StressField {
 /// displacement in it. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
 ///
 /// Displacements are measured from the mean plane of the deformed surface; those under a lateral mean strain are left out.
-fn mean_states(
-    half_space: &HalfSpace,
-    mean: MeanStress,
-    pressure: f64,
-    traction: [f64; 2],
-) -> Vec<(State, [f64; 3])> {
+fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64, traction: [f64; 2]) -> Vec<(State, [f64; 3])> {
     let shear = traction.map(|t| -pressure * t);
     let mut displacement = [0.0; 3];
     let mut states = Vec::new();
@@ -178,7 +173,10 @@ fn mean_states(
         let closing = (-pressure - 2.0 * material.poisson() * lateral) / material.young();
         let slope = [shear[0] / material.shear(), shear[1] / material.shear(), closing];
         let [xx, yy] = [lateral + residual; 2];
-        states.push((State { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..State::default() }, slope));
+        states.push((
+            State { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..State::default() },
+            slope,
+        ));
         if let Some(layer) = half_space.layers().get(index) {
             displacement.iter_mut().zip(slope).for_each(|(u, slope)| *u += slope * layer.thickness());
             if let Interface::Spring { tangential, normal } = layer.interface() {

@@ -84,10 +84,13 @@ impl Maxima {
     /// that those of the largest τ₁ and the largest tension hold in 95 % of fifty others is tested.
     #[must_use]
     pub fn with_errors(mut self, coarser: &Self) -> Self {
-        let [crest, resolution, near] = [self.crest.map_or(0.0, |crest| crest.scale), self.resolution, NEAR * self.spacing];
-        let crests = [(Quantity::Tension, self.crest), (Quantity::Tau1, self.others[0]), (Quantity::Mises, self.others[1])];
+        let [crest, resolution, near] =
+            [self.crest.map_or(0.0, |crest| crest.scale), self.resolution, NEAR * self.spacing];
+        let crests =
+            [(Quantity::Tension, self.crest), (Quantity::Tau1, self.others[0]), (Quantity::Mises, self.others[1])];
         let estimate = |quantity: Quantity, fine: &mut Peak, coarse: &Peak| {
-            let own = crests.iter().find(|(of, crest)| *of == quantity && crest.is_some_and(|crest| crest.peak == *fine));
+            let own =
+                crests.iter().find(|(of, crest)| *of == quantity && crest.is_some_and(|crest| crest.peak == *fine));
             if let Some((_, Some(crest))) = own {
                 fine.error = Some(crest.scale * crest.error(Some(coarse.value)));
                 return;

@@ -84,7 +84,9 @@ mod tests {
         let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
         for quantity in OVERALL.into_iter().chain(Quantity::of_interface(strength)) {
             let values: Vec<f64> = states.iter().map(|state| quantity.of(state)).collect();
-            assert!(states.iter().zip(&values).all(|(state, value)| *value <= quantity.bound(state) + 1e-14 * value.abs()));
+            assert!(
+                states.iter().zip(&values).all(|(state, value)| *value <= quantity.bound(state) + 1e-14 * value.abs())
+            );
             assert_eq!(Some(quantity.largest(&states)), first_largest(values.into_iter()));
         }
     }

@@ -8,8 +8,8 @@
 //! Within two samples of the surface, where the series converges slowly, the samples of the pressure's own grid are taken as
 //! they are.
 
-use super::field::StressField;
 use super::crest::Crest;
+use super::field::StressField;
 use super::maxima::{Extremes, Maxima, NEAR, Tractions};
 use super::peak::Peak;
 use super::quantity::{OVERALL, Quantity};

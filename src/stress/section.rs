@@ -106,7 +106,8 @@ impl<'a> Below<'a> {
     fn new(field: &'a StressField, line: Line) -> Self {
         let cell = field.grid().cell();
         let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
-        let skin = field.regions().have_edges().then(|| Skin::new(field, &Arc::new(field.slice(Depth::SURFACE, REACH)), 1.0));
+        let skin =
+            field.regions().have_edges().then(|| Skin::new(field, &Arc::new(field.slice(Depth::SURFACE, REACH)), 1.0));
         Self { field, line, trace, skin }
     }
 

@@ -84,9 +84,10 @@ impl<'a> Trace<'a> {
     ) -> impl Iterator<Item = [Complex64; K]> + 'b {
         let [[re], [im]] = turned(row.across, [t]);
         let across = Complex64::new(re, im);
-        self.series.of(row).zip(along.from(row)).map(move |((q, shell, c), [[re], [im]])| {
-            response.times(q, shell, c * (across * Complex64::new(*re, *im)))
-        })
+        self.series
+            .of(row)
+            .zip(along.from(row))
+            .map(move |((q, shell, c), [[re], [im]])| response.times(q, shell, c * (across * Complex64::new(*re, *im))))
     }
 }
 

@@ -1,23 +1,27 @@
-//! The layered half-space against 700 solutions in 120-digit arithmetic (`validation/kernel`).
+//! The layered half-space against solutions in 120-digit arithmetic (`validation/kernel`): 700 under a pressure, 414 under
+//! shear tractions.
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{Depth, HalfSpace, Interface, Interior, Layer, Material, TransferFunction};
+use crate::body::{
+    Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interface, Interior, Layer, Material, TransferFunction,
+};
 use crate::numeric::search::largest;
 use crate::picture::{Axis, Chart, Figure, Style};
 use serde_json::Value;
 
 pub const STUDY: Study = Study {
     name: "kernel",
-    title: "Layered half-space against multiprecision solutions of 700 stacks",
-    files: &["compliance.data.csv", "figure.png", "interior.data.csv"],
+    title: "Layered half-space against multiprecision solutions of 700 stacks under pressure, 414 under shear",
+    files: &["compliance.data.csv", "figure.png", "interior.data.csv", "tangential.data.csv"],
     run,
 };
 
 struct Reference {
     half_space: HalfSpace,
     wavenumber: f64,
-    compliance: f64,
+    /// Displacements of the surface under a unit traction.
+    surface: Value,
     interior: Vec<Value>,
 }
 
@@ -55,7 +59,7 @@ impl Reference {
         Ok(Self {
             half_space: HalfSpace::new(layers?, material(&value["substrate"])?),
             wavenumber: number(&value["wavenumber"])?,
-            compliance: number(&value["compliance"])?,
+            surface: value.clone(),
             interior: value["interior"].as_array().cloned().unwrap_or_default(),
         })
     }
@@ -78,8 +82,57 @@ impl Reference {
             error("sqq", amplitudes.sqq, stress)?,
             error("stt", amplitudes.stt, stress)?,
         ];
-        let displacements =
-            [error("uz", amplitudes.uz, self.compliance)?, error("uq", amplitudes.uq, self.compliance)?];
+        let compliance = self.compliance()?;
+        let displacements = [error("uz", amplitudes.uz, compliance)?, error("uq", amplitudes.uq, compliance)?];
+        Ok([largest(stresses), largest(displacements)])
+    }
+
+    fn compliance(&self) -> Result<f64, StudyError> {
+        number(&self.surface["compliance"])
+    }
+
+    /// Relative errors of the surface displacements under shear tractions: u_q along the wavevector; u_z, whose size may
+    /// vanish, over the larger of both; u_t across it.
+    fn tangential_errors(&self) -> Result<[f64; 3], StudyError> {
+        let response = TransferFunction::new(&self.half_space).response(self.wavenumber);
+        let (along, across) = (&self.surface["along"], &self.surface["across"]);
+        let [uq, uz, ut] = [number(&along["uq"])?, number(&along["uz"])?, number(&across["ut"])?];
+        let error = |found: f64, known: f64, scale: f64| (found - known).abs() / scale;
+        Ok([
+            error(response.along, uq, uq),
+            error(response.coupling, uz, uq.max(uz.abs())),
+            error(response.across, ut, ut),
+        ])
+    }
+
+    /// Largest errors of the amplitudes at one point under shear tractions, as [`Self::interior_errors`] has them.
+    fn tangential_interior_errors(&self, point: &Value) -> Result<[f64; 2], StudyError> {
+        let transfer = TransferFunction::new(&self.half_space);
+        let material = point["side"].as_u64().ok_or("no side")? as usize;
+        let depth = Depth { z: number(&point["z"])?, material };
+        let Amplitudes { szz, sqz, sqq, stt, uz, uq } =
+            Interior::under(InPlane::Along, &transfer, self.wavenumber).at(depth);
+        let Antiplane { stz, sqt, ut } = transfer.antiplane(self.wavenumber, depth);
+        let (along, across) = (&self.surface["along"], &self.surface["across"]);
+        let own = |name: &str| Ok::<f64, StudyError>(number(&point[name])?.abs());
+        let (in_plane, lateral) = (own("sqq")?.max(1.0), own("sqt")?.max(1.0));
+        let largest_along = number(&along["uq"])?.max(number(&along["uz"])?.abs());
+        let error = |name: &str, value: f64, scale: f64| -> Result<f64, StudyError> {
+            Ok((value - number(&point[name])?).abs() / scale)
+        };
+        let stresses = [
+            error("szz", szz, 1.0)?,
+            error("sqz", sqz, 1.0)?,
+            error("sqq", sqq, in_plane)?,
+            error("stt", stt, in_plane)?,
+            error("stz", stz, 1.0)?,
+            error("sqt", sqt, lateral)?,
+        ];
+        let displacements = [
+            error("uz", uz, largest_along)?,
+            error("uq", uq, largest_along)?,
+            error("ut", ut, number(&across["ut"])?)?,
+        ];
         Ok([largest(stresses), largest(displacements)])
     }
 }
@@ -96,8 +149,8 @@ fn run() -> Result<Outcome, StudyError> {
             reference.half_space.layers().len() as f64,
             reference.wavenumber,
             compliance,
-            reference.compliance,
-            (compliance / reference.compliance - 1.0).abs(),
+            reference.compliance()?,
+            (compliance / reference.compliance()? - 1.0).abs(),
         ]);
         for point in &reference.interior {
             let [stress, displacement] = reference.interior_errors(point)?;
@@ -110,6 +163,21 @@ fn run() -> Result<Outcome, StudyError> {
             ]);
         }
     }
+    let lines = include_str!("tangential.jsonl").lines();
+    let references: Vec<Reference> = lines.map(Reference::read).collect::<Result<_, _>>()?;
+    let columns = ["stack", "layers", "along", "coupling", "across", "stress_error", "displacement_error"];
+    let mut tangential = Data::new("tangential", &columns);
+    for (stack, reference) in (1..).zip(&references) {
+        let inside: Vec<[f64; 2]> = reference
+            .interior
+            .iter()
+            .map(|point| reference.tangential_interior_errors(point))
+            .collect::<Result<_, _>>()?;
+        let [stress, displacement] = [0, 1].map(|k| largest(inside.iter().map(|errors| errors[k])).max(0.0));
+        let [along, coupling, across] = reference.tangential_errors()?;
+        let layers = reference.half_space.layers().len() as f64;
+        tangential.rows.push(vec![f64::from(stack), layers, along, coupling, across, stress, displacement]);
+    }
     let check = |name: &str, errors: Vec<f64>, tolerance| {
         Check::worst(name, errors.into_iter().map(|error| (error, 0.0)), Tolerance::Absolute(tolerance))
     };
@@ -117,13 +185,18 @@ fn run() -> Result<Outcome, StudyError> {
         check("compliance, largest relative error", surface.column("error"), 1e-12),
         check("stresses inside, largest error over p̂", interior.column("stress_error"), 1e-10),
         check("displacements inside, largest error over ŵ(0)", interior.column("displacement_error"), 1e-10),
+        check("shear along: u_q, largest relative error", tangential.column("along"), 1e-12),
+        check("shear along: u_z, largest error over u_q or u_z", tangential.column("coupling"), 1e-12),
+        check("shear across: u_t, largest relative error", tangential.column("across"), 1e-12),
+        check("shear: stresses inside, largest error over q̂", tangential.column("stress_error"), 1e-10),
+        check("shear: displacements inside, largest error over û(0)", tangential.column("displacement_error"), 1e-10),
     ];
-    let figures = vec![("figure", figure(&surface, &interior))];
-    Ok(Outcome { checks, figures, data: vec![surface, interior], ..Outcome::default() })
+    let figures = vec![("figure", figure(&surface, &interior, &tangential))];
+    Ok(Outcome { checks, figures, data: vec![surface, interior, tangential], ..Outcome::default() })
 }
 
 /// Errors of compliance and interior, the worst first: a distribution with all its tail.
-fn figure(surface: &Data, interior: &Data) -> Figure {
+fn figure(surface: &Data, interior: &Data, tangential: &Data) -> Figure {
     let sorted = |mut errors: Vec<f64>| -> Vec<[f64; 2]> {
         errors.sort_by(|a, b| b.total_cmp(a));
         let count = errors.len() as f64;
@@ -146,7 +219,13 @@ fn figure(surface: &Data, interior: &Data) -> Figure {
             curve("stresses inside", Style::Line, 2, sorted(interior.column("stress_error"))),
             curve("displacements inside", Style::Line, 3, sorted(interior.column("displacement_error"))),
             bound("their tolerance", 1e-10, 2),
+            curve("shear along", Style::Line, 4, sorted(tangential.column("along"))),
+            curve("coupling", Style::Line, 5, sorted(tangential.column("coupling"))),
+            curve("shear across", Style::Line, 6, sorted(tangential.column("across"))),
         ],
     };
-    draw::figure(vec![chart], "Errors against 120-digit solutions of 700 stacks of 1 to 20 layers.")
+    draw::figure(
+        vec![chart],
+        "Errors against 120-digit solutions of 700 stacks of 1 to 20 layers under pressure, 414 under shear.",
+    )
 }

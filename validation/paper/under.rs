@@ -80,7 +80,8 @@ impl Under {
     pub fn maxima(&self) -> [f64; 3] {
         let maxima = self.field.maxima([self.radius; 2]);
         let shear = maxima.materials[0].tau1;
-        let tension = maxima.materials.iter().fold(f64::NEG_INFINITY, |most, material| most.max(material.tension.value));
+        let tension =
+            maxima.materials.iter().fold(f64::NEG_INFINITY, |most, material| most.max(material.tension.value));
         [shear.value, shear.position[2] / self.thickness, tension]
     }
 

@@ -32,7 +32,8 @@ pub(super) fn iterate(problem: &mut GridProblem<'_>, iterations: usize, unknowns
         ],
         _ => &[((Continued, Stands), Route::Outer), ((Zero, Stands), Route::Outer)],
     };
-    let mut report = Report { stop: Stop::Stalled, route: Route::Direct, iterations, outer: 0, residual: f64::INFINITY };
+    let mut report =
+        Report { stop: Stop::Stalled, route: Route::Direct, iterations, outer: 0, residual: f64::INFINITY };
     for &(way, route) in ways {
         report = Report { route, ..preconditioned::solve(problem, way, report.iterations, unknowns) };
         if report.stop != Stop::Stalled {

@@ -31,14 +31,13 @@ pub(super) fn solve(
     let mut pressure = sums::mean(&unknowns.pressure);
     // Mean pressures and what their penetrations lack, on either side of the root.
     let (mut low, mut high) = ((0.0, -penetration), None);
-    let mut last =
-        Report {
-            stop: Stop::Stalled,
-            route: Route::LoadSearch { trials: 0 },
-            iterations,
-            outer: 0,
-            residual: f64::INFINITY,
-        };
+    let mut last = Report {
+        stop: Stop::Stalled,
+        route: Route::LoadSearch { trials: 0 },
+        iterations,
+        outer: 0,
+        residual: f64::INFINITY,
+    };
     for trials in 1..=TRIALS {
         if !(pressure.is_finite() && pressure > 0.0) {
             break;

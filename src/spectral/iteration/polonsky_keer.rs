@@ -25,7 +25,8 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
     unknowns.admit(load);
     loop {
         let check = Check::new(problem, unknowns);
-        let ended = |stop, iterations| Report { stop, route: Route::Baseline, iterations, outer: 0, residual: check.residual };
+        let ended =
+            |stop, iterations| Report { stop, route: Route::Baseline, iterations, outer: 0, residual: check.residual };
         if let Some(stop) = check.stop(&problem.settings, &mut patience, iterations) {
             return ended(stop, iterations);
         }

@@ -165,7 +165,13 @@ struct Way {
 
 impl Way {
     /// From a `share` of the gap of the `check`.
-    fn new(problem: &mut GridProblem<'_>, unknowns: &Unknowns, check: Check, share: f64, (beyond, traction): (Beyond, Traction)) -> Self {
+    fn new(
+        problem: &mut GridProblem<'_>,
+        unknowns: &Unknowns,
+        check: Check,
+        share: f64,
+        (beyond, traction): (Beyond, Traction),
+    ) -> Self {
         let length = problem.largest_gap;
         let (gap, residual) = problem.working.start(problem.operator);
         let active = residuals::take(&unknowns.pressure, &unknowns.gap, length / share, gap, residual);
@@ -215,7 +221,12 @@ impl Way {
         let t_mean = if load_control && beta > 0.0 { overlaps.direction / self.active.size } else { 0.0 };
         let [mut descent, mut curvature] = [(); 2].map(|()| parts.totals());
         let rows = directions::turned(parts, [residual, image], z_mean + beta * t_mean, beta, direction, &mut descent);
-        operator.displaced_single(self.traction, room, rows).rows(directions::curved(parts, direction, image, &mut curvature));
+        operator.displaced_single(self.traction, room, rows).rows(directions::curved(
+            parts,
+            direction,
+            image,
+            &mut curvature,
+        ));
         let ([descent], [curvature]) = (Totals::of(descent).sums, Totals::of(curvature).sums);
         let tau = descent / curvature;
         (tau.is_finite() && curvature > 0.0).then_some(Direction { norm, beta, tau })
