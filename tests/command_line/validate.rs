@@ -12,7 +12,7 @@ fn one_study_prints_its_table_and_leaves_report_figure_and_data() {
         assert!(answer.out.contains(word), "no {word} in\n{}", answer.out);
     }
     let folder = Folder(desk.path("out/validate/kernel"));
-    let expected = ["REPORT.md", "figure.png", "compliance.data.csv", "interior.data.csv"];
+    let expected = ["REPORT.md", "figure.png", "compliance.data.csv", "interior.data.csv", "tangential.data.csv"];
     assert_eq!(folder.names(), expected.map(str::to_owned).into());
     assert!(folder.text("REPORT.md").contains("| holds |"));
     assert!(folder.bytes("figure.png").starts_with(b"\x89PNG"));
