@@ -53,7 +53,7 @@ fn at(field: &StressField, [x, y, z]: [f64; 3], material: usize) -> State {
 
 /// σ_zz = −p, σ_xz = −μ e_x p, σ_yz = −μ e_y p at every sample.
 #[test]
-fn the_surface_feels_the_pressure_and_the_traction_against_sliding() {
+fn the_surface_feels_the_pressure_and_the_traction_along_the_sliding() {
     for (cell, points) in cells() {
         let (field, pressure) = field(cell, points, &layers(SPRING));
         let plane = field.plane(Depth::SURFACE, points);

@@ -1,4 +1,4 @@
-//! Stress under the mean pressure p̄, the component q = 0 that the periodic problem alone leaves open in the plane.
+//! Lateral stress under the mean pressure p̄, the component q = 0 that the periodic problem alone leaves open in the plane.
 
 use super::{HalfSpace, Interface, Layer, Material};
 

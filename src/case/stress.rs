@@ -137,14 +137,9 @@ impl Cut {
             From::Level(level) => lattice?.cell().point(first(level)?),
             From::Place(place) => place,
         };
-        let direction = match (self.from, self.toward) {
-            (From::Level(from), Toward::Level(level)) => lattice?.toward(first(from)?, level),
-            (From::Place(place), Toward::Level(level)) => {
-                let cell = lattice?.cell();
-                let axis = cell.point(first(level)?);
-                cell.reduced().nearest(cell.fractions([axis[0] - place[0], axis[1] - place[1]]))
-            }
-            (_, Toward::Direction(direction)) => direction,
+        let direction = match self.toward {
+            Toward::Level(level) => lattice?.toward(lattice?.cell().fractions(origin), level),
+            Toward::Direction(direction) => direction,
         };
         let [_, points] = SECTION;
         Some(Line { origin, direction, span: [-self.behind, self.length - self.behind], points })

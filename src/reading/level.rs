@@ -92,7 +92,8 @@ impl serde::Serialize for LevelReading {
         keys.serialize_field("radius_min", &self.radius_min)?;
         keys.serialize_field("radius_max", &self.radius_max)?;
         keys.serialize_field("asymmetry", &self.asymmetry())?;
-        keys.serialize_field("centre", &self.centre)?;
+        // Two columns of a table, whether it is known or not.
+        keys.serialize_field("centre", &self.centre.map_or([None; 2], |centre| centre.map(Some)))?;
         keys.serialize_field("merged", &self.merged)?;
         keys.serialize_field("resolution", &self.resolution)?;
         keys.serialize_field("errors", &self.errors)?;

@@ -84,10 +84,12 @@ impl serde::Serialize for StressReading {
 }
 
 /// Where τ₁ is infinite: at the tips in contact, unless the surface material is incompressible, as σ_z and σ_r are then
-/// infinite alike.
+/// infinite alike; then the traction of a counterbody that slides still is.
 pub fn tips<'a>(step: &'a Step, reading: &'a Reading) -> impl Iterator<Item = &'a Site> {
     let sites = step.surface().sites().iter().filter(|site| reading.levels[site.level - 1].singular);
-    sites.filter(|_| step.problem().half_space().surface_material().poisson() < 0.5)
+    let problem = step.problem();
+    let slides = problem.friction().is_some_and(|friction| friction.coefficient() > 0.0);
+    sites.filter(move |_| slides || problem.half_space().surface_material().poisson() < 0.5)
 }
 
 /// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's

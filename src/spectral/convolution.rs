@@ -11,10 +11,10 @@
 //! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.
 //! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Convolution::multiplier`] puts it into K.
 
+use super::multiplier::{Action, Multiplier, Turns};
 use crate::numeric::fourier::{Columns, LINE, Rows};
-use crate::numeric::lanes::{LANES, Real, vectorised};
+use crate::numeric::lanes::{LANES, Real};
 use crate::numeric::rows::{Parts, next};
-use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::fmt;
@@ -27,42 +27,6 @@ pub struct Convolution<T: Real> {
     columns: Columns<T>,
     /// k₁ at each place of a column between forward and inverse.
     order: Vec<usize>,
-}
-
-/// A positive, even multiplier K(k₁, k₂), k₂ ≤ N₂/2, in the order of the column pass.
-#[derive(Debug, Clone)]
-pub struct Multiplier {
-    /// K/(N₁N₂), eight columns at a time, padded with ones.
-    table: Vec<f64>,
-    /// 1/(N₁N₂).
-    normalisation: f64,
-}
-
-/// An odd multiplier T(k₁, k₂), k₂ ≤ N₂/2, in the order of the column pass.
-#[derive(Debug, Clone)]
-pub struct Turns {
-    /// Eight columns at a time, padded with zeros.
-    table: Vec<f64>,
-}
-
-impl Turns {
-    /// The largest |T|.
-    pub fn largest(&self) -> f64 {
-        self.table.iter().fold(0.0, |largest, turn| turn.abs().max(largest))
-    }
-}
-
-/// What a convolution does with its multiplier K.
-#[derive(Debug, Clone, Copy)]
-pub enum Action<'a> {
-    /// u = F⁻¹[cK · F p] with a factor c, of zero mean: the component (0, 0) is dropped.
-    Times(f64),
-    /// u = F⁻¹[c F p / K].
-    Over(f64),
-    /// u = F⁻¹[cK(1 − iT) · F p], of zero mean.
-    TimesTurned(f64, &'a Turns),
-    /// u = F⁻¹[c F p / K(1 − iT)].
-    OverTurned(f64, &'a Turns),
 }
 
 /// A convolution but for its last pass.
@@ -117,7 +81,7 @@ impl<T: Real> Convolution<T> {
         let [n1, n2] = self.points();
         let normalisation = 1.0 / (n1 as f64 * n2 as f64);
         let table = self.table(1.0, mirrored, |component| normalisation * value(component));
-        Multiplier { table, normalisation }
+        Multiplier::new(table, normalisation)
     }
 
     /// The odd multiplier with the values `value([k₁, k₂])`, 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
@@ -125,7 +89,7 @@ impl<T: Real> Convolution<T> {
     /// The value must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero where that changes nothing: then real fields stay
     /// real.
     pub fn turns(&self, value: impl Fn([usize; 2]) -> f64 + Sync) -> Turns {
-        Turns { table: self.table(0.0, false, value) }
+        Turns::new(self.table(0.0, false, value))
     }
 
     /// Values in the order of the column pass, eight columns at a time, padded.
@@ -165,7 +129,7 @@ impl<T: Real> Convolution<T> {
     where
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
-        assert_eq!(multiplier.table.len(), self.tiles() * self.points()[0] * LANES, "multiplier of a convolution");
+        assert_eq!(multiplier.len(), self.tiles() * self.points()[0] * LANES, "multiplier of a convolution");
         let spectrum = &mut bytemuck::cast_slice_mut(room)[..self.size()];
         self.rows_forward(sources.into_par_iter(), spectrum);
         self.column_pass(action, multiplier, spectrum);
@@ -200,49 +164,23 @@ impl<T: Real> Convolution<T> {
             let scratch = vec![Complex::new(T::zero(), T::zero()); self.columns.scratch(n1)];
             (vec![T::zero(); n1 * LINE], scratch)
         };
-        let (tables, normalisation) = (multiplier.table.par_chunks(n1 * LANES), multiplier.normalisation);
-        gathered.into_par_iter().zip(tables).enumerate().for_each_init(
-            buffers,
-            |(lines, scratch), (tile, (runs, table))| {
-                let mut rest = &mut lines[..];
-                for run in &runs {
-                    let (to, after) = rest.split_at_mut(run.len());
-                    to.copy_from_slice(run);
-                    rest = after;
-                }
-                self.columns.forward(lines, scratch);
-                match action {
-                    Action::Times(factor) | Action::TimesTurned(factor, _) => {
-                        vectorised!(simd => times(simd, factor, table, lines));
-                        if tile == 0 {
-                            (lines[0], lines[LANES]) = (T::zero(), T::zero());
-                        }
-                    }
-                    Action::Over(factor) | Action::OverTurned(factor, _) => {
-                        // The table holds the normalisation already.
-                        let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
-                        vectorised!(simd => over(simd, numerator, common, table, lines));
-                    }
-                }
-                let own = tile * n1 * LANES..(tile + 1) * n1 * LANES;
-                match action {
-                    Action::Times(_) | Action::Over(_) => {}
-                    Action::TimesTurned(_, turns) => {
-                        vectorised!(simd => turn(simd, &turns.table[own], lines));
-                    }
-                    Action::OverTurned(_, turns) => {
-                        vectorised!(simd => turn_back(simd, &turns.table[own], lines));
-                    }
-                }
-                self.columns.inverse(lines, scratch);
-                let mut rest = &lines[..];
-                for run in runs {
-                    let (from, after) = rest.split_at(run.len());
-                    run.copy_from_slice(from);
-                    rest = after;
-                }
-            },
-        );
+        gathered.into_par_iter().enumerate().for_each_init(buffers, |(lines, scratch), (tile, runs)| {
+            let mut rest = &mut lines[..];
+            for run in &runs {
+                let (to, after) = rest.split_at_mut(run.len());
+                to.copy_from_slice(run);
+                rest = after;
+            }
+            self.columns.forward(lines, scratch);
+            action.multiply(multiplier, tile, lines);
+            self.columns.inverse(lines, scratch);
+            let mut rest = &lines[..];
+            for run in runs {
+                let (from, after) = rest.split_at(run.len());
+                run.copy_from_slice(from);
+                rest = after;
+            }
+        });
     }
 }
 
@@ -279,56 +217,6 @@ pub fn rows_of<T: Real>(parts: Parts, field: &[T]) -> impl IndexedParallelIterat
 /// Sinks that copy rows to those of a field.
 pub fn rows_to<T: Real>(parts: Parts, field: &mut [T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
     parts.of_mut(field).map(|mut rows| move |from: &mut [T]| next(&mut rows).copy_from_slice(from))
-}
-
-/// Each component times its factor and a common one.
-#[inline(always)]
-fn times<S: Simd, T: Real>(simd: S, common: f64, table: &[f64], lines: &mut [T]) {
-    for (line, factors) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
-        multiply(simd, T::lanes(f64x8::from_slice(simd, factors) * common), line);
-    }
-}
-
-/// Each component times `numerator` over its factor and a common one.
-#[inline(always)]
-fn over<S: Simd, T: Real>(simd: S, numerator: f64, common: f64, table: &[f64], lines: &mut [T]) {
-    let numerator = T::Lanes::<S>::simd_from(simd, T::rounded(numerator));
-    for (line, factors) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
-        multiply(simd, numerator / T::lanes(f64x8::from_slice(simd, factors) * common), line);
-    }
-}
-
-/// Each component times 1 − iT.
-#[inline(always)]
-fn turn<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T]) {
-    for (line, turns) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
-        let turns = T::lanes(f64x8::from_slice(simd, turns));
-        let (re, im) = line.split_at_mut(LANES);
-        let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
-        (x + y * turns).store_slice(re);
-        (y - x * turns).store_slice(im);
-    }
-}
-
-/// Each component over 1 − iT.
-#[inline(always)]
-fn turn_back<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T]) {
-    let one = T::Lanes::<S>::simd_from(simd, T::rounded(1.0));
-    for (line, turns) in lines.chunks_exact_mut(LINE).zip(table.chunks_exact(LANES)) {
-        let turns = T::lanes(f64x8::from_slice(simd, turns));
-        let (re, im) = line.split_at_mut(LANES);
-        let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
-        let scale = one / (one + turns * turns);
-        ((x - y * turns) * scale).store_slice(re);
-        ((y + x * turns) * scale).store_slice(im);
-    }
-}
-
-#[inline(always)]
-fn multiply<S: Simd, T: Real>(simd: S, factor: T::Lanes<S>, line: &mut [T]) {
-    let (re, im) = line.split_at_mut(LANES);
-    (T::Lanes::<S>::from_slice(simd, re) * factor).store_slice(re);
-    (T::Lanes::<S>::from_slice(simd, im) * factor).store_slice(im);
 }
 
 impl<T: Real> fmt::Debug for Convolved<'_, T> {

@@ -1,6 +1,6 @@
 //! The spectral method: the whole cell on a doubly periodic grid, the half-space exact in Fourier space.
 //!
-//! - `convolution`: transforms there and back in one fused pass;
+//! - `multiplier`: what they multiply with; `convolution`: transforms there and back in one fused pass;
 //! - [`operator`]: pressure → displacement and back, the one that counts and the one that leads there;
 //! - `extension`: the residual continued beyond the contact, for the preconditioner;
 //! - `iteration`: conjugate gradients on one grid, and the certificate of what they return;
@@ -11,6 +11,7 @@ mod contact;
 mod convolution;
 mod extension;
 mod iteration;
+mod multiplier;
 pub mod operator;
 mod prolongation;
 mod solver;

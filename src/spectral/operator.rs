@@ -10,7 +10,8 @@
 //! convolved in double precision; what only leads to them in single precision, in units in which the compliance at the
 //! least wavenumber is one.
 
-use super::convolution::{Action, Convolution, Convolved, Multiplier, Turns, rows_of, rows_to};
+use super::convolution::{Convolution, Convolved, rows_of, rows_to};
+use super::multiplier::{Action, Multiplier, Turns};
 use crate::body::{Compliances, TransferFunction};
 use crate::friction::Friction;
 use crate::lattice::Grid;

@@ -182,20 +182,11 @@ impl StressField {
         let slice = self.slice(depth, PLANE_REACH);
         let largest = |states: Vec<State>| quantities.iter().map(|quantity| quantity.largest(&states)).collect();
         if depth == Depth::SURFACE {
-            // σ_zz is −p, and the shear what friction makes of it.
-            let [tx, ty] = self.traction();
+            let traction = self.traction();
             let columns = self.series.on_plane(transform, Vec::new(), &Flat::new(&Arc::new(slice), |_| 1.0));
-            return columns.map(|_, [xx, yy, xy, p]| {
-                let state = |j: usize| State {
-                    xx: xx[j],
-                    yy: yy[j],
-                    xy: xy[j],
-                    zz: -p[j],
-                    xz: -tx * p[j],
-                    yz: -ty * p[j],
-                    ..State::default()
-                };
-                largest((0..p.len()).map(state).collect())
+            return columns.map(|_, row| {
+                let state = |j: usize| State::on_surface(row.map(|component| component[j]), traction);
+                largest((0..row[0].len()).map(state).collect())
             });
         }
         let columns = self.series.on_plane(transform, Vec::new(), &Stresses(&slice));

@@ -175,12 +175,6 @@ impl Skin {
         self.traction != [0.0; 2]
     }
 
-    /// A state on the surface.
-    fn surface_state(&self, [xx, yy, xy, p]: [f64; 4]) -> State {
-        let [tx, ty] = self.traction;
-        State { xx, yy, zz: -p, xy, xz: -tx * p, yz: -ty * p, ..State::default() }
-    }
-
     /// The state, its displacement left out, from what [`Self::near`], [`Self::edge`] and [`Self::open`] give.
     pub fn state(&self, near: [f64; 3], edge: [f64; 4], open: [f64; 4]) -> State {
         let (sharp, part) = self.sharp(near, edge);
@@ -189,7 +183,8 @@ impl Skin {
 
     /// Between the state near an edge and that away from it, σ_xx, σ_yy, σ_xy and p of each.
     pub fn toward_open(&self, near: [f64; 4], open: [f64; 4], part: f64) -> State {
-        self.surface_state(std::array::from_fn(|k| (1.0 - part) * near[k] + part * open[k]))
+        let four = std::array::from_fn(|k| (1.0 - part) * near[k] + part * open[k]);
+        State::on_surface(four, self.traction)
     }
 
     /// σ_xx, σ_yy, σ_xy and p as they are near an edge, and which part of the state away from edges there is in it.
@@ -206,7 +201,7 @@ impl Skin {
     pub fn state_on_edge(&self, near: [f64; 3], edge: [f64; 4]) -> State {
         let (_, normal) = self.edge_seen(near);
         let [xx, yy, xy] = self.sharpened(edge, near[0], (0.0, 0.0), normal);
-        self.surface_state([xx, yy, xy, 0.0])
+        State::on_surface([xx, yy, xy, 0.0], self.traction)
     }
 
     /// The place moved to the edge beside it, by what is seen there, and how far that was in widths.

@@ -32,6 +32,12 @@ impl State {
         Self { xx, yy, zz, xy, xz, yz, ..Self::default() }
     }
 
+    /// On the surface under the pressure p, from xx, yy, xy, p and the `traction` over the pressure: σ_zz = −p, σ_αz = −q_α; the
+    /// displacement is left out.
+    pub(super) fn on_surface([xx, yy, xy, p]: [f64; 4], [tx, ty]: [f64; 2]) -> Self {
+        Self { xx, yy, zz: -p, xy, xz: -tx * p, yz: -ty * p, ..Self::default() }
+    }
+
     /// xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn components(&self) -> [f64; 9] {
         let [ux, uy, uz] = self.displacement;

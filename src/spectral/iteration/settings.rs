@@ -16,7 +16,7 @@ pub enum Method {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Settings {
-    /// Which method starts; the preconditioned one falls back to the other when it stalls.
+    /// Which method starts; the preconditioned one falls back to the other when it stalls, unless friction is coupled.
     pub method: Method,
     /// Bound on ε, greater than 0; the energy gap of a converged solution is below 20 times it, the deepest penetration
     /// outside contact below 10 times it and δ. What is not greater than 0 is never reached.
