@@ -14,6 +14,7 @@ mod estimate;
 mod level;
 mod peak;
 mod spots;
+mod strength;
 mod stress;
 mod touch;
 
@@ -21,5 +22,6 @@ pub use boundary::Boundary;
 pub use contact::Reading;
 pub use errors::{Errors, LevelErrors};
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
+pub use strength::{Criterion, Utilisation};
 pub use stress::{StressReading, tips};
 pub use touch::first_touches;

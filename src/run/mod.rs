@@ -18,6 +18,7 @@
 //! ```
 
 mod accuracy;
+mod limit;
 mod outcome;
 pub(crate) mod places;
 mod record;
@@ -26,6 +27,7 @@ mod sampling;
 pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
+pub use limit::{At, Limit, LimitTask, Limits};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::StepRecord;
@@ -36,7 +38,8 @@ use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::Load;
 use crate::problem::Problem;
-use crate::reading::StressReading;
+use crate::body::MeanStress;
+use crate::reading::{Criterion, StressReading};
 use crate::spectral::{Settings, Solver, Step};
 use crate::stress::StressField;
 use std::convert::Infallible;
@@ -137,6 +140,12 @@ impl Run {
         Ok(Outcome { steps, last, points, change, end, warnings })
     }
 
+    /// What the mean lateral stress is, where stresses are wanted or there are strengths to hold them against.
+    fn mean_stress(&self) -> Option<MeanStress> {
+        let has_strengths = || !Criterion::all(self.problem.half_space()).is_empty();
+        self.stress.as_ref().map(|request| request.mean).or_else(|| has_strengths().then(MeanStress::default))
+    }
+
     /// All loads on one grid.
     fn on_grid<R: Recorder>(&self, points: [usize; 2], recorder: &mut R) -> Result<Solved, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
@@ -149,12 +158,12 @@ impl Run {
             let began = recorder.clock();
             let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
             let mut record = StepRecord::new(&step, step.reading());
-            let field = self.stress.as_ref().map(|request| {
+            let field = self.mean_stress().map(|mean| {
                 recorder.stresses();
-                StressField::new(step.finest(), request.mean)
+                StressField::new(step.finest(), mean)
             });
             if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
-                record.stress = Some(StressReading::of(&step, &record.reading, field));
+                record.add_stress(StressReading::of(&step, &record.reading, field), self.problem.half_space());
             }
             record.seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
             recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;

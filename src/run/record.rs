@@ -1,6 +1,7 @@
 //! Every scalar of a load step, as `summary.json` has them.
 
-use crate::reading::{Reading, StressReading};
+use crate::body::HalfSpace;
+use crate::reading::{Reading, StressReading, Utilisation};
 use crate::spectral::{Certificate, Report, Step, Stop};
 
 /// What stays of a load step beside its fields.
@@ -20,6 +21,8 @@ pub struct StepRecord {
     pub points: [usize; 2],
     /// Largest stresses, where stresses are asked for and there is contact.
     pub stress: Option<StressReading>,
+    /// What each criterion with a strength takes up, where there is contact.
+    pub strength: Vec<Utilisation>,
     /// Wall time of the solution, the readings and the largest stresses, seconds, by the [clock](super::Recorder::clock)
     /// of the recorder; `None` where it has none.
     pub seconds: Option<f64>,
@@ -37,8 +40,15 @@ impl StepRecord {
             convolutions,
             points: step.grid().points(),
             stress: None,
+            strength: Vec::new(),
             seconds: None,
         }
+    }
+
+    /// Adds its largest stresses, and what they take up of the strengths of a half-space.
+    pub fn add_stress(&mut self, stress: StressReading, half_space: &HalfSpace) {
+        self.strength = Utilisation::all(half_space, &stress);
+        self.stress = Some(stress);
     }
 
     /// Whether the solution meets the tolerance. What is not a number compares as small as any, and does not.
@@ -82,7 +92,7 @@ impl serde::Serialize for StepRecord {
         use crate::spectral::Route;
         use serde::ser::SerializeStruct;
         let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 23)?;
+        let mut keys = serializer.serialize_struct("step", 24)?;
         keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
         keys.serialize_field("penetration", &reading.penetration)?;
         // Eq. (8): δ is measured from the mean plane of the deformed surface.
@@ -113,6 +123,11 @@ impl serde::Serialize for StepRecord {
         match &self.stress {
             Some(stress) => keys.serialize_field("stress", stress)?,
             None => keys.skip_field("stress")?,
+        }
+        if self.strength.is_empty() {
+            keys.skip_field("strength")?;
+        } else {
+            keys.serialize_field("strength", &self.strength)?;
         }
         match self.seconds {
             Some(seconds) => keys.serialize_field("seconds", &seconds)?,

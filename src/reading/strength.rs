@@ -1,0 +1,173 @@
+//! How much of what materials and interfaces bear a load step takes up, and where.
+//!
+//! The **utilisation** of a criterion is 1 where it fails: von Mises over the yield strength, σ₁ over the tensile strength,
+//! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface. It is no safety factor: contact is not linear, and the load at which it
+//! reaches 1 is found by solving (`run::limit`).
+
+use super::StressReading;
+use crate::body::HalfSpace;
+use crate::stress::Peak;
+use std::fmt;
+
+/// What can fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Criterion {
+    /// A material yields: von Mises.
+    Yield {
+        /// The material, from 1.
+        material: usize,
+    },
+    /// A material cracks: largest principal stress.
+    Cracking {
+        /// The material, from 1.
+        material: usize,
+    },
+    /// An interface comes off.
+    Delamination {
+        /// The interface, from 1: the lower face of that layer.
+        interface: usize,
+    },
+}
+
+impl Criterion {
+    /// All that a half-space has strengths for: yield and cracking from the surface down, then the interfaces.
+    pub fn all(half_space: &HalfSpace) -> Vec<Self> {
+        let strengths = || (1..).zip(half_space.strengths());
+        let yields = strengths().filter(|(_, strength)| strength.yielding.is_some());
+        let cracks = strengths().filter(|(_, strength)| strength.tensile.is_some());
+        let interfaces = (1..).zip(half_space.layers()).filter(|(_, layer)| !layer.interface_strength().is_empty());
+        yields
+            .map(|(material, _)| Self::Yield { material })
+            .chain(cracks.map(|(material, _)| Self::Cracking { material }))
+            .chain(interfaces.map(|(interface, _)| Self::Delamination { interface }))
+            .collect()
+    }
+
+    /// Its name in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Yield { .. } => "yield",
+            Self::Cracking { .. } => "cracking",
+            Self::Delamination { .. } => "delamination",
+        }
+    }
+
+    /// Its strength, a pressure; 1 for an interface, whose utilisation is searched itself.
+    fn strength(self, half_space: &HalfSpace) -> Option<f64> {
+        match self {
+            Self::Yield { material } => half_space.strengths().nth(material - 1)?.yielding,
+            Self::Cracking { material } => half_space.strengths().nth(material - 1)?.tensile,
+            Self::Delamination { .. } => Some(1.0),
+        }
+    }
+
+    /// What residual stress alone takes up of it: in a layer under σ_r in both directions, von Mises is |σ_r|.
+    pub fn at_rest(self, half_space: &HalfSpace) -> f64 {
+        let residual = |material: usize| half_space.residual_stresses().nth(material - 1).unwrap_or(0.0);
+        let stress = match self {
+            Self::Yield { material } => residual(material).abs(),
+            Self::Cracking { material } => residual(material).max(0.0),
+            Self::Delamination { .. } => 0.0,
+        };
+        self.strength(half_space).map_or(0.0, |strength| stress / strength)
+    }
+}
+
+impl fmt::Display for Criterion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Yield { material } => write!(f, "yield of material {material}"),
+            Self::Cracking { material } => write!(f, "cracking of material {material}"),
+            Self::Delamination { interface } => write!(f, "delamination of interface {interface}"),
+        }
+    }
+}
+
+/// How much of a criterion is taken up, and where.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Utilisation {
+    /// Which.
+    pub criterion: Criterion,
+    /// 1 where it fails; infinite under a tip.
+    pub value: f64,
+    /// Estimated error of the value by the grid.
+    pub error: Option<f64>,
+    /// x, y, z; lengths.
+    pub position: [f64; 3],
+}
+
+impl Utilisation {
+    /// Of every criterion of a half-space under the largest stresses of a step.
+    pub fn all(half_space: &HalfSpace, stress: &StressReading) -> Vec<Self> {
+        let of = |criterion: Criterion| {
+            let peak: Peak = match criterion {
+                Criterion::Yield { material } => stress.materials.get(material - 1)?.mises,
+                Criterion::Cracking { material } => stress.materials.get(material - 1)?.tension,
+                Criterion::Delamination { interface } => stress.interfaces.get(interface - 1)?.delamination?,
+            };
+            let strength = criterion.strength(half_space)?;
+            let error = peak.error.map(|error| error / strength);
+            // Nothing fails by being pressed.
+            Some(Self { criterion, value: (peak.value / strength).max(0.0), error, position: peak.position })
+        };
+        Criterion::all(half_space).into_iter().filter_map(of).collect()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for Utilisation {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeMap;
+        let mut keys = serializer.serialize_map(None)?;
+        self.criterion.entries(&mut keys)?;
+        keys.serialize_entry("utilisation", &Some(self.value).filter(|value| value.is_finite()))?;
+        keys.serialize_entry("singular", &self.value.is_infinite())?;
+        keys.serialize_entry("error", &self.error)?;
+        let [x, y, z] = self.position;
+        keys.serialize_entry("x", &x)?;
+        keys.serialize_entry("y", &y)?;
+        keys.serialize_entry("z", &z)?;
+        keys.end()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl Criterion {
+    /// Its name, and the material or interface.
+    pub(crate) fn entries<M: serde::ser::SerializeMap>(self, keys: &mut M) -> Result<(), M::Error> {
+        keys.serialize_entry("criterion", self.name())?;
+        match self {
+            Self::Yield { material } | Self::Cracking { material } => keys.serialize_entry("material", &material),
+            Self::Delamination { interface } => keys.serialize_entry("interface", &interface),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{Interface, InterfaceStrength, Layer, Material, Strength};
+
+    #[test]
+    fn residual_stress_takes_up_its_part_of_yield_and_in_tension_of_cracking() {
+        let material = Material::from_young(1.0, 0.3).unwrap();
+        let strength = Strength { yielding: Some(4.0), tensile: Some(2.0) };
+        let bears = InterfaceStrength { normal: Some(1.0), shear: None };
+        let layer = |residual: f64| {
+            let layer = Layer::new(material, 1.0, Interface::Bonded).unwrap().with_residual_stress(residual).unwrap();
+            layer.with_strengths(strength, bears).unwrap()
+        };
+        for (residual, known) in [(-3.0, [0.75, 0.0, 0.0]), (3.0, [0.75, 1.5, 0.0])] {
+            let half_space = HalfSpace::new(vec![layer(residual)], material);
+            let all = Criterion::all(&half_space);
+            let expected = [
+                Criterion::Yield { material: 1 },
+                Criterion::Cracking { material: 1 },
+                Criterion::Delamination { interface: 1 },
+            ];
+            assert_eq!(all, expected);
+            assert_eq!(all.iter().map(|criterion| criterion.at_rest(&half_space)).collect::<Vec<_>>(), known);
+        }
+    }
+}
