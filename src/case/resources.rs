@@ -9,6 +9,7 @@ use crate::body::HalfSpace;
 use crate::localized::Setup;
 use crate::numeric::fourier::fast_points;
 use crate::numeric::number::number;
+use crate::reading::Criterion;
 use crate::run::Sampling;
 use crate::run::places::SECTION;
 use crate::spectral::Memory;
@@ -51,6 +52,11 @@ pub enum Job {
         /// Whether they are drawn.
         pictures: bool,
     },
+    /// `percoat limit`, with its pictures or without.
+    Limit {
+        /// Whether they are drawn.
+        pictures: bool,
+    },
     /// `percoat compare`, with its picture or without.
     Compare {
         /// Whether it is drawn.
@@ -85,6 +91,7 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let (grids, working) = (kept as u64, working as u64);
     let needs = match job {
         Job::Solve { pictures } => of_solving(case, samples, [grids, working, heights], pictures),
+        Job::Limit { pictures } => of_limits(samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
     };
     Needs { memory: needs.memory + needs.memory / 10, ..needs }
@@ -94,6 +101,8 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let steps = case.load.values().len() as u64;
     let (stress, written, volume) =
         case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
+    // Strengths are held against the largest stresses, asked for or not.
+    let stress = if Criterion::all(case.half_space()).is_empty() { stress } else { stress.max(STRESS * samples) };
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
@@ -105,6 +114,14 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let disk_while_running = disk + fields.max(steps * written) + coarser;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
+}
+
+/// A search for limit loads: the solver, and the stresses of one load at a time.
+fn of_limits(samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
+    let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
+    let solving = PROGRAM + grids + heights + working.max(READING * samples).max(STRESS * samples);
+    let disk = COMPARISON + if pictures { 2 * PICTURE } else { 0 };
+    Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
 }
 
 /// The localized method's influence coefficients: of every pair of indenters, inside circles and of the whole lattice,

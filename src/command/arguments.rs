@@ -41,6 +41,15 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
+    /// Find the mean pressure at which something first fails, and what (without CASE: a DLC coating on steel)
+    Limit {
+        /// Case file with strengths, or the name of an embedded case
+        case: Option<PathBuf>,
+        #[command(flatten)]
+        pictures: PictureOptions,
+        #[command(flatten)]
+        common: Common,
+    },
     /// Response of the layered half-space to a harmonic pressure or shear traction cos(qx), as JSON lines
     Kernel {
         /// Case file, or the name of an embedded case
@@ -120,7 +129,9 @@ impl Arguments {
     /// Threads asked for.
     pub fn threads(&self) -> Option<u16> {
         match &self.command {
-            Command::Solve { common, .. } | Command::Compare { common, .. } => common.threads,
+            Command::Solve { common, .. } | Command::Compare { common, .. } | Command::Limit { common, .. } => {
+                common.threads
+            }
             Command::Check { work, .. } => work.threads,
             #[cfg(feature = "validate")]
             Command::Validate { work, .. } => work.threads,

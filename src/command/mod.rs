@@ -9,6 +9,7 @@ mod ending;
 mod input;
 mod interruption;
 mod kernel;
+mod limit;
 mod options;
 mod pictures;
 mod plan;
@@ -36,6 +37,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
     let ending = match &arguments.command {
         Command::Solve { case, pictures, common } => solve::run(case.as_deref(), pictures, common),
         Command::Compare { case, pictures, common } => compare::run(case.as_deref(), pictures, common),
+        Command::Limit { case, pictures, common } => limit::run(case.as_deref(), pictures, common),
         Command::Kernel { case, wavenumber, depth, traction, changes } => {
             kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
         }

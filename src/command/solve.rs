@@ -78,6 +78,9 @@ fn print(title: &str, steps: &[StepRecord], change: Option<f64>) -> Result<(), F
             writeln!(out, "step {number}: {}", table::stress(stress))?;
         }
     }
+    if let Some(strength) = table::utilisations(steps) {
+        writeln!(out, "\n{strength}\n")?;
+    }
     if let Some(errors) = table::largest_errors(steps) {
         writeln!(out, "{errors}")?;
     }

@@ -48,6 +48,7 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
         Writer::Solve => folder.join("unfinished"),
         // Here nothing stands that is worth a look before all of it is there.
         Writer::Compare => own(folder, "compare"),
+        Writer::Limit => own(folder, "limit"),
         Writer::Validate => own(folder, "validate"),
     }
 }

@@ -17,13 +17,15 @@ pub enum Writer {
     Solve,
     /// `percoat compare`.
     Compare,
+    /// `percoat limit`.
+    Limit,
     /// `percoat validate`.
     Validate,
 }
 
 impl Writer {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Solve, Self::Compare, Self::Validate];
+    pub const ALL: [Self; 4] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate];
 }
 
 /// The list of files, by name.

@@ -90,6 +90,7 @@ impl<'a> Publication<'a> {
         let name = match self.writer {
             Writer::Solve => "retired",
             Writer::Compare => "retired-compare",
+            Writer::Limit => "retired-limit",
             Writer::Validate => "retired-validate",
         };
         own(self.folder, name)

@@ -33,6 +33,7 @@ mod snapshot;
 mod text;
 mod tiling;
 mod units;
+mod utilisations;
 mod vector;
 
 pub use axis::{Axis, Scale};
@@ -49,3 +50,4 @@ pub use profiles::profiles;
 pub use section::section;
 pub use snapshot::Snapshot;
 pub use units::Units;
+pub use utilisations::utilisations;

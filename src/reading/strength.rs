@@ -133,9 +133,19 @@ impl serde::Serialize for Utilisation {
 }
 
 #[cfg(feature = "serde")]
+impl serde::Serialize for Criterion {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeMap;
+        let mut keys = serializer.serialize_map(Some(2))?;
+        self.entries(&mut keys)?;
+        keys.end()
+    }
+}
+
+#[cfg(feature = "serde")]
 impl Criterion {
     /// Its name, and the material or interface.
-    pub(crate) fn entries<M: serde::ser::SerializeMap>(self, keys: &mut M) -> Result<(), M::Error> {
+    fn entries<M: serde::ser::SerializeMap>(self, keys: &mut M) -> Result<(), M::Error> {
         keys.serialize_entry("criterion", self.name())?;
         match self {
             Self::Yield { material } | Self::Cracking { material } => keys.serialize_entry("material", &material),

@@ -8,16 +8,24 @@
 //!
 //! Where a utilisation is not monotone, its first crossing between the loads that were solved is taken.
 
-use super::StepRecord;
+use super::places::SECTION;
+use super::{Refinement, Run, Sampling, StepRecord, TooOblong};
 use crate::body::MeanStress;
+use crate::friction::Friction;
 use crate::lattice::LatticeError;
 use crate::load::Load;
+use crate::numeric::number::number;
+use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::{Criterion, StressReading, Utilisation};
+use crate::reading::{Criterion, FEW_SAMPLES, StressReading, Utilisation};
 use crate::spectral::{Settings, Solver, Step};
-use crate::stress::StressField;
+use crate::stress::{Line, Section, StressField};
 use std::cmp::Ordering;
+use std::f64::consts::PI;
 use std::sync::Arc;
+
+/// Relative accuracy of a limit.
+const TOLERANCE: f64 = 1e-3;
 
 /// Doublings and halvings of the first load at most.
 const DOUBLINGS: usize = 40;
@@ -31,14 +39,14 @@ const LEAST_SAMPLES: f64 = 12.0;
 pub struct LimitTask {
     /// The problem, with its strengths.
     pub problem: Arc<Problem>,
-    /// Points of the grid along a₁ and a₂.
-    pub points: [usize; 2],
+    /// The grid, or how accurate the limits shall be.
+    pub sampling: Sampling,
     /// Tolerance and limits of the solver.
     pub settings: Settings,
     /// What the mean lateral stress is.
     pub mean: MeanStress,
-    /// The mean pressure that is solved first, greater than 0.
-    pub start: f64,
+    /// The load that is solved first.
+    pub start: Load,
     /// Relative accuracy of a limit.
     pub tolerance: f64,
 }
@@ -109,15 +117,77 @@ impl Limits {
         reached.min_by(|a, b| a.mean_pressure().total_cmp(&b.mean_pressure()))
     }
 
+    /// Largest relative change of the limits from those of a coarser grid; infinite where one is reached on one grid alone.
+    fn change(&self, coarse: &Self) -> f64 {
+        let pairs = self.limits.iter().zip(&coarse.limits).map(|(fine, coarse)| (fine.mean_pressure(), coarse.mean_pressure()));
+        largest(pairs.map(|(fine, coarse)| if fine == coarse { 0.0 } else { (fine - coarse).abs() / fine.min(coarse) })).max(0.0)
+    }
+
+    /// What a reader should know before trusting the numbers.
+    pub fn warnings(&self) -> Vec<String> {
+        let few = |limit: &Limit| {
+            let pressure = limit.mean_pressure();
+            let near = self.steps.iter().find(|step| step.reading.mean_pressure >= pressure)?;
+            let resolution = near.reading.spot_resolution;
+            (pressure > 0.0 && pressure.is_finite() && resolution < FEW_SAMPLES).then(|| {
+                format!(
+                    "{}: at its limit contact has {resolution:.0} samples along its radius; raise grid.points",
+                    limit.criterion
+                )
+            })
+        };
+        let stopped = self.steps.iter().filter(|step| !step.converged()).map(|step| {
+            format!("the load {} did not converge: {}", number(step.reading.mean_pressure), step.stop_reason())
+        });
+        self.limits.iter().filter_map(few).chain(stopped).collect()
+    }
+
+    /// The stresses under the place that fails first, at its limit: a cut along the sliding (else along x), a contact's
+    /// width to both sides and deep enough for it; `None` where nothing fails under a load.
+    pub fn section(&self, task: &LimitTask) -> Option<Section> {
+        let (step, At::Load { position: [x, y, z], .. }) = (self.last.as_ref()?, self.first()?.at) else { return None };
+        let (half_space, cell) = (task.problem.half_space(), task.problem.cell());
+        let direction = task.problem.friction().map_or([1.0, 0.0], Friction::direction);
+        let spots = step.reading().contact_spots.max(1) as f64;
+        let radius = (step.reading().contact_fraction * cell.area() / PI / spots).sqrt();
+        let reach = (3.0 * radius).min(0.5 * cell.reduced().longer_side());
+        let coating = half_space.interface_depths().last().copied().unwrap_or(0.0);
+        let [rows, points] = SECTION;
+        let line = Line { origin: [x, y], direction, span: [-reach, reach], points };
+        let depths = half_space.rows((2.0 * radius).max(1.5 * z).max(1.25 * coating.min(8.0 * radius)), rows);
+        Some(StressField::new(step.finest(), task.mean).section(&line, &depths))
+    }
+
     /// Whether all loads were solved.
     pub fn converged(&self) -> bool {
         self.steps.iter().all(StepRecord::converged)
     }
 }
 
-/// The search, load by load.
+/// Why there are no limits to look for.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LimitError {
+    /// Nothing has a strength.
+    #[error(
+        "limit needs strengths: give materials a yield_strength or a tensile_strength, or layers an interface_strength"
+    )]
+    NoStrengths,
+    /// There is nothing to begin with.
+    #[error("limit needs a load to begin with that is greater than 0")]
+    NoLoad,
+    /// There is no such grid.
+    #[error(transparent)]
+    Grid(#[from] LatticeError),
+    /// The cell is too oblong to be refined.
+    #[error(transparent)]
+    TooOblong(#[from] TooOblong),
+}
+
+/// The search on one grid, load by load.
 struct Search<'a> {
     task: &'a LimitTask,
+    samples: f64,
     solver: Solver,
     steps: Vec<StepRecord>,
     last: Option<Step>,
@@ -125,14 +195,52 @@ struct Search<'a> {
 }
 
 impl LimitTask {
-    /// Looks for the limit loads of all criteria; `heard` hears of every load that is solved.
+    /// What a run's problem bears, to 10⁻³, beginning with its first load.
     ///
     /// # Errors
-    /// [`LatticeError`] when there is no such grid.
-    pub fn solve(&self, heard: &mut (dyn FnMut(&StepRecord) + Send)) -> Result<Limits, LatticeError> {
-        let solver = Solver::new(Arc::clone(&self.problem), self.points, self.settings)?;
+    /// [`LimitError::NoStrengths`], [`LimitError::NoLoad`].
+    pub fn of(run: &Run) -> Result<Self, LimitError> {
+        if Criterion::all(run.problem.half_space()).is_empty() {
+            return Err(LimitError::NoStrengths);
+        }
+        let start = run.loads.iter().copied().find(|load| load.value() > 0.0).ok_or(LimitError::NoLoad)?;
+        let mean = run.stress.as_ref().map_or(MeanStress::default(), |request| request.mean);
+        let (problem, sampling, settings) = (Arc::clone(&run.problem), run.sampling, run.settings);
+        Ok(Self { problem, sampling, settings, mean, start, tolerance: TOLERANCE })
+    }
+
+    /// Looks for the limit loads of all criteria, on finer and finer grids where an accuracy is asked for; `heard` hears of
+    /// every load that is solved.
+    ///
+    /// # Errors
+    /// [`LimitError`] when there is no such grid.
+    pub fn solve(&self, heard: &mut (dyn FnMut(&StepRecord) + Send)) -> Result<Limits, LimitError> {
+        match self.sampling {
+            Sampling::Points(points) => self.on_grid(points, heard),
+            Sampling::Accuracy(accuracy) => {
+                let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
+                let mut coarse: Option<Limits> = None;
+                loop {
+                    let limits = self.on_grid(refinement.points(), heard)?;
+                    let change = coarse.map(|coarse| limits.change(&coarse));
+                    if refinement.refine(change, |_| true).is_some() {
+                        return Ok(limits);
+                    }
+                    coarse = Some(limits);
+                }
+            }
+        }
+    }
+
+    fn on_grid(
+        &self,
+        points: [usize; 2],
+        heard: &mut (dyn FnMut(&StepRecord) + Send),
+    ) -> Result<Limits, LimitError> {
+        let solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
         let criteria = Criterion::all(self.problem.half_space());
-        let mut search = Search { task: self, solver, steps: Vec::new(), last: None, heard };
+        let samples = points.iter().product::<usize>() as f64;
+        let mut search = Search { task: self, samples, solver, steps: Vec::new(), last: None, heard };
         let at_rest: Vec<f64> =
             criteria.iter().map(|criterion| criterion.at_rest(self.problem.half_space())).collect();
         if criteria.iter().zip(&at_rest).any(|(_, rest)| *rest < 1.0) {
@@ -178,12 +286,16 @@ impl Search<'_> {
             criteria.iter().zip(at_rest).filter(|(_, rest)| **rest < 1.0).map(|(criterion, _)| *criterion).collect();
         let complete = self.solver.full_contact_pressure();
         let complete = if complete > 0.0 { complete } else { f64::INFINITY };
-        let mut lowest = self.task.start.min(complete);
+        let start = match self.task.start {
+            Load::MeanPressure(pressure) => pressure,
+            penetration @ Load::Penetration(_) => self.solver.solve(penetration).reading().mean_pressure,
+        };
+        let mut lowest = start.min(complete);
         let mut highest = lowest;
         self.solve(lowest);
         for _ in 0..DOUBLINGS {
             let record = &self.steps[0];
-            let samples = record.reading.contact_fraction * self.task.points.iter().product::<usize>() as f64;
+            let samples = record.reading.contact_fraction * self.samples;
             let fails = sought.iter().any(|criterion| utilisation(record, *criterion).value >= 1.0);
             if !fails || samples < LEAST_SAMPLES {
                 break;

@@ -27,7 +27,7 @@ mod sampling;
 pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
-pub use limit::{At, Limit, LimitTask, Limits};
+pub use limit::{At, Limit, LimitError, LimitTask, Limits};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::StepRecord;

@@ -1,8 +1,10 @@
 //! The result table a person reads.
 
 mod comparison;
+mod strength;
 
 pub use comparison::{differences, readings, stresses};
+pub use strength::{limits, utilisations};
 
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
