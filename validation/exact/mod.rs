@@ -11,6 +11,7 @@ pub mod lattice_sums;
 pub mod localization;
 pub mod periodic_hertz;
 pub mod sinusoidal;
+pub mod sliding_wave;
 pub mod wavy;
 pub mod westergaard;
 
@@ -21,6 +22,7 @@ pub use hertz::Hertz;
 pub use lattice_sums::Sums;
 pub use localization::Localization;
 pub use periodic_hertz::System;
+pub use sliding_wave::SlidingWave;
 pub use wavy::Wavy;
 
 /// Abscissae, ascending, and weights of the Gauss–Legendre rule of `n` points on [`from`, `to`].
