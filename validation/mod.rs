@@ -46,6 +46,8 @@ mod report;
 mod rings;
 #[path = "sinusoidal-stresses/study.rs"]
 mod sinusoidal_stresses;
+#[path = "sliding-wave/study.rs"]
+mod sliding_wave;
 mod steps;
 #[path = "thin-coatings/study.rs"]
 mod thin_coatings;
@@ -59,12 +61,13 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 24] = [
+pub const STUDIES: [Study; 25] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
     periodic_hertz::STUDY,
     westergaard::STUDY,
+    sliding_wave::STUDY,
     wavy::STUDY,
     isolated::STUDY,
     thin_coatings::STUDY,
