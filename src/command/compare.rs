@@ -35,10 +35,6 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let job = Job::Compare { pictures: pictures.wanted() };
     let mut allowed = Allowed::new(&case, &folder, job)?;
     run.check()?;
-    interruption::watch();
-    let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
-    let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Compare) })?;
-    terminal::tell_aside(claim.set_aside(), common.quiet);
     let localized = &case.localized;
     let task = Task {
         problem: Arc::clone(case.problem()),
@@ -50,6 +46,11 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         mutual_effect: localized.mutual_effect,
         mean: case.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean),
     };
+    task.check().map_err(Failure::refused)?;
+    interruption::watch();
+    let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
+    let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Compare) })?;
+    terminal::tell_aside(claim.set_aside(), common.quiet);
     let (points, end) = match case.grid {
         Sampling::Points(points) => (points, End::Reached),
         Sampling::Accuracy(_) => {

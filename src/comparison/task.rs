@@ -3,6 +3,7 @@
 use super::{Answer, CircleComparison, Comparison, StressPair};
 use crate::body::MeanStress;
 use crate::counterbody::Indenters;
+use crate::friction::Friction;
 use crate::lattice::LatticeError;
 use crate::load::Load;
 use crate::localized::stress::LocalizedField;
@@ -21,6 +22,12 @@ pub enum ComparisonError {
     /// The localized method knows indenters only.
     #[error(transparent)]
     NoIndenters(#[from] NoIndenters),
+    /// The localized method solves frictionless contact.
+    #[error(
+        "the localized method knows the pressure of frictionless contact only, to which uncoupled friction adds its stresses: \
+         compare with friction.coupling = false"
+    )]
+    Coupled,
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] LatticeError),
@@ -48,11 +55,22 @@ pub struct Task {
 }
 
 impl Task {
+    /// Whether both methods know the problem.
+    ///
+    /// # Errors
+    /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::Coupled`] for coupled friction.
+    pub fn check(&self) -> Result<(), ComparisonError> {
+        self.problem.counterbody().indenters().ok_or(NoIndenters)?;
+        let coupled = |friction: &Friction| friction.is_coupled() && friction.coefficient() > 0.0;
+        if self.problem.friction().is_some_and(coupled) { Err(ComparisonError::Coupled) } else { Ok(()) }
+    }
+
     /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` hears what is begun.
     ///
     /// # Errors
-    /// [`ComparisonError`] for a topography, or when a number of points is zero.
+    /// [`ComparisonError`]: see [`Self::check`], or when a number of points is zero.
     pub fn compare(&self, points: [usize; 2], progress: &mut dyn FnMut(&str)) -> Result<Comparison, ComparisonError> {
+        self.check()?;
         let indenters = self.problem.counterbody().indenters().ok_or(NoIndenters)?;
         progress("spectral solution");
         let solve = |points: [usize; 2]| -> Result<Step, LatticeError> {
@@ -131,7 +149,7 @@ impl Task {
             return Vec::new();
         }
         let radius = spot.contact_radius();
-        let field = LocalizedField::new(localized, self.mean);
+        let field = LocalizedField::new(localized, self.problem.friction(), self.mean);
         let whole = StressField::new(spectral.finest(), self.mean);
         let faces = half_space.interface_depths();
         let mut depths: Vec<f64> = [0.25, 0.5, 1.0, 2.0].map(|part| part * radius).to_vec();

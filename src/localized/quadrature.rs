@@ -2,7 +2,7 @@
 //!
 //! An interval is given its Gauss–Kronrod estimate (7, 15 points) and halved where both rules differ. An integral
 //!
-//! ∫₀^∞ f(q) J(qr) dq,  J = J₀ or J₁,
+//! ∫₀^∞ f(q) J(qr) dq,  J = J₀, J₁ or J₂,
 //!
 //! of a function that has died out at a known q is cut geometrically up to the first zero of J and at its zeros from
 //! there on. Where there are many of them the partial sums alternate about the integral, and Wynn's ε-algorithm finds
@@ -88,6 +88,8 @@ pub enum Bessel {
     Zero,
     /// J₁.
     One,
+    /// J₂.
+    Two,
 }
 
 impl Bessel {
@@ -96,6 +98,7 @@ impl Bessel {
         match self {
             Self::Zero => libm::j0(x),
             Self::One => libm::j1(x),
+            Self::Two => libm::jn(2, x),
         }
     }
 
@@ -104,6 +107,7 @@ impl Bessel {
         let beta = match self {
             Self::Zero => k as f64 - 0.25,
             Self::One => k as f64 + 0.25,
+            Self::Two => k as f64 + 0.75,
         };
         beta * PI
     }

@@ -5,13 +5,24 @@
 //! σ_zz = (1/2π) ∫ s_zz J₀ q dq,  σ_rz = (1/2π) ∫ s_qz J₁ q dq,
 //! σ_rr = (1/2π) ∫ [s_qq (J₀ − J₁/x) + s_tt J₁/x] q dq,  σ_tt = (1/2π) ∫ [s_qq J₁/x + s_tt (J₀ − J₁/x)] q dq.
 //!
+//! A unit shear force along **e** causes at the angle φ from **e**, with the amplitudes under a traction along the
+//! wavevector and those across it ([`crate::body::Antiplane`]),
+//!
+//! σ_zz = cos φ/2π ∫ s_zz J₁ q dq,  σ_rr = cos φ/2π ∫ [s_qq (J₁ − J₂/x) + (s_tt + 2s_qt) J₂/x] q dq,
+//! σ_tt = cos φ/2π ∫ [s_qq J₂/x + s_tt (J₁ − J₂/x) − 2s_qt J₂/x] q dq,
+//! σ_rt = −sin φ/2π ∫ [(s_qq − s_tt) J₂/x + s_qt (J₁ − 2J₂/x)] q dq,
+//! σ_rz = cos φ/2π ∫ [s_qz (J₀ − J₁/x) + s_tz J₁/x] q dq,  σ_tz = −sin φ/2π ∫ [s_qz J₁/x + s_tz (J₀ − J₁/x)] q dq.
+//!
+//! Under uncoupled friction every force has its shear force: stresses superpose.
+//!
 //! Elements of the spot itself act as forces at the 2 × 2 points of Gauss' rule, which errs by 1e-4 of an element's
 //! stress from a depth of two elements on; those of its neighbours as forces at their centres. The pressure outside the
 //! circle is p̄ everywhere, whose lateral stress is named by [`MeanStress`], minus p̄ on the disc: the same integrals with R J₁(qR) in the place of q/2π.
 
 use super::quadrature::{Bessel, hankel};
 use super::solution::Solution;
-use crate::body::{Amplitudes, Depth, Interior, MeanStress, TransferFunction};
+use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interior, MeanStress, TransferFunction};
+use crate::friction::Friction;
 use crate::numeric::chebyshev::{self, Chebyshev};
 use crate::stress::State;
 use rayon::prelude::*;
@@ -26,20 +37,16 @@ const QUADRATURE: f64 = 1e-9;
 /// Terms of one Chebyshev series of a radial function.
 const TERMS: usize = 20;
 
-/// Stresses in cylindrical components around the axis of a load.
-#[derive(Debug, Clone, Copy, Default)]
-struct Cylindrical {
-    rr: f64,
-    tt: f64,
-    zz: f64,
-    rz: f64,
-}
+/// Of a normal load, around its axis: σ_rr, σ_tt, σ_zz, σ_rz.
+type Pressed = [f64; 4];
+/// Of a shear load along **e**: σ_zz, σ_rr, σ_tt, σ_rz over cos φ, and σ_rt, σ_tz over −sin φ.
+type Sheared = [f64; 6];
 
 /// The half-space's stresses at one depth under a unit force, up to a distance.
 #[derive(Debug, Clone)]
-struct ForceStress {
-    /// Upper ends of the intervals of r, and the series of the four components over each.
-    intervals: Vec<(f64, [Chebyshev<TERMS>; 4])>,
+struct ForceStress<const K: usize> {
+    /// Upper ends of the intervals of r, and the series of the components over each.
+    intervals: Vec<(f64, [Chebyshev<TERMS>; K])>,
 }
 
 /// The stress field of a localized solution around one spot.
@@ -48,13 +55,22 @@ pub struct LocalizedField<'a> {
     solution: &'a Solution,
     transfer: TransferFunction,
     mean: Vec<f64>,
+    residual: Vec<f64>,
+    /// μ **e** of a counterbody that slides.
+    traction: Option<[f64; 2]>,
 }
 
 impl<'a> LocalizedField<'a> {
-    /// Field of a solution.
-    pub fn new(solution: &'a Solution, mean: MeanStress) -> Self {
+    /// Field of a solution, under the traction that uncoupled `friction` adds to its pressure.
+    pub fn new(solution: &'a Solution, friction: Option<&Friction>, mean: MeanStress) -> Self {
         let half_space = solution.system().half_space();
-        Self { solution, transfer: TransferFunction::new(half_space), mean: mean.lateral(half_space) }
+        Self {
+            solution,
+            transfer: TransferFunction::new(half_space),
+            mean: mean.lateral(half_space),
+            residual: half_space.residual_stresses().collect(),
+            traction: friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]),
+        }
     }
 
     /// Whether `z` is deep enough for the elements to act as points.
@@ -73,12 +89,20 @@ impl<'a> LocalizedField<'a> {
         let forces = self.forces(centre);
         let distance = |p: &[f64; 2], f: &([f64; 2], f64)| (p[0] - f.0[0]).hypot(p[1] - f.0[1]);
         let reach = points.iter().flat_map(|p| forces.iter().map(move |f| distance(p, f))).fold(0.0, f64::max);
-        let kernel = ForceStress::new(|r| self.under_force(depth, r), depth.z, reach);
+        let pressed = ForceStress::new(|r| self.under_force(depth, r), depth.z, reach);
+        let sheared = self.traction.map(|traction| {
+            (traction, ForceStress::new(|r| self.under_shear_force(depth, r), depth.z, reach))
+        });
         let mean_pressure = self.solution.mean_pressure;
+        let residual = self.residual[depth.material - 1];
         let states = points.par_iter().map(|&[x, y]| {
-            let mut state = State::default();
+            let mut state = State { xx: residual, yy: residual, ..State::default() };
             for &([u, v], force) in &forces {
-                add(&mut state, kernel.at((x - u).hypot(y - v)), [x - u, y - v], force);
+                let (distance, away) = ((x - u).hypot(y - v), [x - u, y - v]);
+                add(&mut state, pressed.at(distance), away, force);
+                if let Some((traction, sheared)) = &sheared {
+                    add_sheared(&mut state, sheared.at(distance), away, traction.map(|t| t * force));
+                }
             }
             if spot.radius.is_finite() {
                 let lateral = self.mean[depth.material - 1];
@@ -86,6 +110,11 @@ impl<'a> LocalizedField<'a> {
                 state.zz -= mean_pressure;
                 let disc = self.under_disc(depth, spot.radius, x.hypot(y));
                 add(&mut state, disc, [x, y], -mean_pressure);
+                if let Some([tx, ty]) = self.traction {
+                    (state.xz, state.yz) = (state.xz - mean_pressure * tx, state.yz - mean_pressure * ty);
+                    let disc = self.under_sheared_disc(depth, spot.radius, x.hypot(y));
+                    add_sheared(&mut state, disc, [x, y], [-mean_pressure * tx, -mean_pressure * ty]);
+                }
             }
             state
         });
@@ -119,7 +148,7 @@ impl<'a> LocalizedField<'a> {
     }
 
     /// Stresses at the distance r from the axis of a unit force.
-    fn under_force(&self, depth: Depth, r: f64) -> Cylindrical {
+    fn under_force(&self, depth: Depth, r: f64) -> Pressed {
         let amplitudes = self.amplitudes(depth);
         let end = EXTINCT / depth.z;
         let part = |bessel, f: &dyn Fn(&Amplitudes) -> f64| {
@@ -134,36 +163,101 @@ impl<'a> LocalizedField<'a> {
             }
         };
         let difference = ratio(&|a| a.stt - a.sqq);
-        Cylindrical {
-            rr: part(Bessel::Zero, &|a| a.sqq) + difference,
-            tt: part(Bessel::Zero, &|a| a.stt) - difference,
-            zz: part(Bessel::Zero, &|a| a.szz),
-            rz: if r > 0.0 { part(Bessel::One, &|a| a.sqz) } else { 0.0 },
+        [
+            part(Bessel::Zero, &|a| a.sqq) + difference,
+            part(Bessel::Zero, &|a| a.stt) - difference,
+            part(Bessel::Zero, &|a| a.szz),
+            if r > 0.0 { part(Bessel::One, &|a| a.sqz) } else { 0.0 },
+        ]
+    }
+
+    /// Amplitudes at a depth under shear tractions, as a function of the wavenumber.
+    fn shear_amplitudes(&self, depth: Depth) -> impl Fn(f64) -> (Amplitudes, Antiplane) + use<'_> {
+        move |q| (Interior::under(InPlane::Along, &self.transfer, q).at(depth), self.transfer.antiplane(q, depth))
+    }
+
+    /// Stresses at the distance r from the axis of a unit shear force.
+    fn under_shear_force(&self, depth: Depth, r: f64) -> Sheared {
+        let amplitudes = self.shear_amplitudes(depth);
+        let end = EXTINCT / depth.z;
+        let integral = |bessel: Bessel, f: &dyn Fn(&Amplitudes, &Antiplane, f64) -> f64| {
+            let integrand = |q: f64| {
+                let (along, across) = amplitudes(q);
+                f(&along, &across, q) / (2.0 * PI)
+            };
+            hankel(bessel, r, end, QUADRATURE, integrand).value
+        };
+        if r == 0.0 {
+            // J₀ = 1, J₁/x = ½, and J₁, J₂/x vanish.
+            let both = integral(Bessel::Zero, &|a, t, q| 0.5 * (a.sqz + t.stz) * q);
+            return [0.0, 0.0, 0.0, both, 0.0, both];
         }
+        // J₂/x and J₁/x, of which x = qr.
+        let second = integral(Bessel::Two, &|a, t, _| (a.stt - a.sqq + 2.0 * t.sqt) / r);
+        let twist = integral(Bessel::Two, &|a, t, _| (a.sqq - a.stt - 2.0 * t.sqt) / r);
+        let first = integral(Bessel::One, &|a, t, _| (t.stz - a.sqz) / r);
+        [
+            integral(Bessel::One, &|a, _, q| a.szz * q),
+            integral(Bessel::One, &|a, _, q| a.sqq * q) + second,
+            integral(Bessel::One, &|a, _, q| a.stt * q) - second,
+            integral(Bessel::Zero, &|a, _, q| a.sqz * q) + first,
+            integral(Bessel::One, &|_, t, q| t.sqt * q) + twist,
+            integral(Bessel::Zero, &|_, t, q| t.stz * q) - first,
+        ]
     }
 
     /// Stresses at the distance s from the axis of a disc of the given radius under unit pressure.
-    fn under_disc(&self, depth: Depth, radius: f64, s: f64) -> Cylindrical {
+    fn under_disc(&self, depth: Depth, radius: f64, s: f64) -> Pressed {
         let amplitudes = self.amplitudes(depth);
         let end = EXTINCT / depth.z;
         let part = |f: &dyn Fn(&Amplitudes, f64) -> f64| {
             hankel(Bessel::One, radius, end, QUADRATURE, |q| radius * f(&amplitudes(q), q * s)).value
         };
-        let ratio = |x: f64| if x > 1e-4 { Bessel::One.at(x) / x } else { 0.5 - x * x / 16.0 };
-        Cylindrical {
-            rr: part(&|a, x| a.sqq * (Bessel::Zero.at(x) - ratio(x)) + a.stt * ratio(x)),
-            tt: part(&|a, x| a.sqq * ratio(x) + a.stt * (Bessel::Zero.at(x) - ratio(x))),
-            zz: part(&|a, x| a.szz * Bessel::Zero.at(x)),
-            rz: part(&|a, x| a.sqz * Bessel::One.at(x)),
-        }
+        [
+            part(&|a, x| a.sqq * (Bessel::Zero.at(x) - first_ratio(x)) + a.stt * first_ratio(x)),
+            part(&|a, x| a.sqq * first_ratio(x) + a.stt * (Bessel::Zero.at(x) - first_ratio(x))),
+            part(&|a, x| a.szz * Bessel::Zero.at(x)),
+            part(&|a, x| a.sqz * Bessel::One.at(x)),
+        ]
+    }
+
+    /// Stresses at the distance s from the axis of a disc of the given radius under a unit shear traction.
+    fn under_sheared_disc(&self, depth: Depth, radius: f64, s: f64) -> Sheared {
+        let amplitudes = self.shear_amplitudes(depth);
+        let end = EXTINCT / depth.z;
+        let part = |f: &dyn Fn(&Amplitudes, &Antiplane, f64) -> f64| {
+            let integrand = |q: f64| {
+                let (along, across) = amplitudes(q);
+                radius * f(&along, &across, q * s)
+            };
+            hankel(Bessel::One, radius, end, QUADRATURE, integrand).value
+        };
+        let [zero, one] = [Bessel::Zero, Bessel::One].map(|bessel| move |x: f64| bessel.at(x));
+        [
+            part(&|a, _, x| a.szz * one(x)),
+            part(&|a, t, x| a.sqq * (one(x) - second_ratio(x)) + (a.stt + 2.0 * t.sqt) * second_ratio(x)),
+            part(&|a, t, x| a.sqq * second_ratio(x) + a.stt * (one(x) - second_ratio(x)) - 2.0 * t.sqt * second_ratio(x)),
+            part(&|a, t, x| a.sqz * (zero(x) - first_ratio(x)) + t.stz * first_ratio(x)),
+            part(&|a, t, x| (a.sqq - a.stt) * second_ratio(x) + t.sqt * (one(x) - 2.0 * second_ratio(x))),
+            part(&|a, t, x| a.sqz * first_ratio(x) + t.stz * (zero(x) - first_ratio(x))),
+        ]
     }
 }
 
+/// J₁(x)/x.
+fn first_ratio(x: f64) -> f64 {
+    if x > 1e-4 { Bessel::One.at(x) / x } else { 0.5 - x * x / 16.0 }
+}
+
+/// J₂(x)/x.
+fn second_ratio(x: f64) -> f64 {
+    if x > 1e-4 { Bessel::Two.at(x) / x } else { 0.125 * x }
+}
+
 /// Adds `factor` times stresses in cylindrical components around an axis that lies at −`[x, y]`.
-fn add(state: &mut State, stress: Cylindrical, [x, y]: [f64; 2], factor: f64) {
+fn add(state: &mut State, [rr, tt, zz, rz]: Pressed, [x, y]: [f64; 2], factor: f64) {
     let r = x.hypot(y);
     let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
-    let Cylindrical { rr, tt, zz, rz } = stress;
     state.xx += factor * (rr * c * c + tt * s * s);
     state.yy += factor * (rr * s * s + tt * c * c);
     state.xy += factor * (rr - tt) * c * s;
@@ -172,28 +266,42 @@ fn add(state: &mut State, stress: Cylindrical, [x, y]: [f64; 2], factor: f64) {
     state.yz += factor * rz * s;
 }
 
-impl ForceStress {
+/// Adds stresses under a unit shear force, around an axis that lies at −`[x, y]`, times the `force` [Q_x, Q_y].
+fn add_sheared(state: &mut State, [zz, rr, tt, rz, rt, tz]: Sheared, [x, y]: [f64; 2], force: [f64; 2]) {
+    let r = x.hypot(y);
+    let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
+    // Q cos φ and Q sin φ.
+    let (along, across) = (force[0] * c + force[1] * s, force[0] * s - force[1] * c);
+    let [zz, rr, tt, rz] = [zz, rr, tt, rz].map(|stress| stress * along);
+    let [rt, tz] = [rt, tz].map(|stress| -stress * across);
+    state.xx += rr * c * c + tt * s * s - 2.0 * rt * s * c;
+    state.yy += rr * s * s + tt * c * c + 2.0 * rt * s * c;
+    state.xy += (rr - tt) * s * c + rt * (c * c - s * s);
+    state.zz += zz;
+    state.xz += rz * c - tz * s;
+    state.yz += rz * s + tz * c;
+}
+
+impl<const K: usize> ForceStress<K> {
     /// Series on [0, z/2], [z/2, 0.8 z] and so on by 1.6 up to `reach`, of the function `exact` of the distance.
-    fn new(exact: impl Fn(f64) -> Cylindrical + Sync, z: f64, reach: f64) -> Self {
+    fn new(exact: impl Fn(f64) -> [f64; K] + Sync, z: f64, reach: f64) -> Self {
         let mut bounds = vec![0.0, 0.5 * z];
         while bounds[bounds.len() - 1] < reach {
             bounds.push(1.6 * bounds[bounds.len() - 1]);
         }
         let fit = |ends: &[f64]| {
             let values = Chebyshev::nodes().map(|x| exact(chebyshev::place([ends[0], ends[1]], x)));
-            let series =
-                |component: fn(&Cylindrical) -> f64| Chebyshev::<TERMS>::through(&values.each_ref().map(component));
-            (ends[1], [series(|c| c.rr), series(|c| c.tt), series(|c| c.zz), series(|c| c.rz)])
+            let series = |k: usize| Chebyshev::<TERMS>::through(&values.each_ref().map(|components| components[k]));
+            (ends[1], std::array::from_fn(series))
         };
         Self { intervals: bounds.par_windows(2).map(fit).collect() }
     }
 
-    fn at(&self, r: f64) -> Cylindrical {
+    fn at(&self, r: f64) -> [f64; K] {
         let index = self.intervals.partition_point(|(end, _)| *end < r).min(self.intervals.len() - 1);
         let start = if index == 0 { 0.0 } else { self.intervals[index - 1].0 };
         let (end, series) = &self.intervals[index];
         let x = chebyshev::inside([start, *end], r);
-        let [rr, tt, zz, rz] = series.each_ref().map(|series| series.at(x));
-        Cylindrical { rr, tt, zz, rz }
+        series.each_ref().map(|series| series.at(x))
     }
 }

@@ -13,7 +13,7 @@ fn stresses_under_an_indenter_alone_are_hertzian() {
     let localized = Localized::new(&Problem::new(indenters, homogeneous()), 1).unwrap();
     let load = 4.0 / 3.0 / localized.system().cell().area();
     let solution = localized.solve(Load::MeanPressure(load), &alone(48));
-    let field = LocalizedField::new(&solution, MeanStress::Confined);
+    let field = LocalizedField::new(&solution, None, MeanStress::Confined);
     let p0 = 2.0 / std::f64::consts::PI;
     for zeta in [0.1f64, 0.3, 0.5, 1.0, 3.0] {
         let state = field.points(0, Depth { z: zeta, material: 1 }, &[[0.0, 0.0]]).unwrap()[0];
@@ -40,7 +40,7 @@ fn stresses_agree_with_the_spectral_field() {
         let solution = Localized::new(&problem, 439).unwrap().solve(load, &setup(439, 32));
         let (spectral, reading) = solve(&problem, [384, 384], load);
         for mean in [MeanStress::Confined, MeanStress::HalfSpace] {
-            let field = LocalizedField::new(&solution, mean);
+            let field = LocalizedField::new(&solution, None, mean);
             let whole = StressField::new(spectral.finest(), mean);
             let depths = [
                 Depth { z: 0.08, material: 1 },
