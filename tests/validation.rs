@@ -47,6 +47,7 @@ studies! {
     hertz = "hertz",
     periodic_hertz = "periodic-hertz",
     westergaard = "westergaard",
+    sliding_wave = "sliding-wave",
     wavy = "wavy",
     isolated = "isolated",
     thin_coatings = "thin-coatings",
