@@ -12,43 +12,77 @@ use percoat::case::plausibility;
 use percoat::case::resources::Job;
 use percoat::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, write_text};
 use percoat::picture::{self, Snapshot};
-use percoat::run::{LimitTask, StepRecord};
+use percoat::run::{Recorder, StepRecord};
+use percoat::{Solver, Step, StressField};
+use std::convert::Infallible;
 use std::io::Write;
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// The case without one: it has strengths.
 const DEFAULT: &str = "dlc-on-steel";
 
-pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Ending, Failure> {
-    let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &common.set)?;
-    let started = Instant::now();
-    let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
-    let task = LimitTask::of(&case.run()).map_err(Failure::refused)?;
-    Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() })?;
-    interruption::watch();
-    let names = ["limit.json", "limit.csv"].map(str::to_owned).into_iter().chain(pictures.files(&["limit", "limit-section"]));
-    let claim = RunFolder::claim(&folder, Plan { names: names.collect(), ..Plan::new(Writer::Limit) })?;
-    terminal::tell_aside(claim.set_aside(), common.quiet);
-    let progress = common.bar(ProgressBar::new_spinner());
-    let limits = task.solve(&mut |step: &StepRecord| {
-        let worst = step.strength.iter().map(|utilisation| utilisation.value).fold(0.0, f64::max);
-        let words =
-            format!("mean pressure {}: largest utilisation {}", number(step.reading.mean_pressure), number(worst));
-        if common.verbose {
+/// Shows how far the search is.
+struct Searching<'a> {
+    allowed: Allowed<'a>,
+    common: &'a Common,
+    progress: ProgressBar,
+}
+
+impl Recorder for Searching<'_> {
+    type Error = Infallible;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        self.allowed.fits(points)
+    }
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), Infallible> {
+        if self.common.verbose {
+            tell!("{}\n{solver}", solver.problem());
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, _step: &Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Infallible> {
+        let worst = record.strength.iter().max_by(|a, b| a.value.total_cmp(&b.value));
+        let words = worst.map_or("no contact".to_owned(), |worst| format!("{} {}", worst.criterion, number(worst.value)));
+        let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
+        if self.common.verbose {
             tell!("{words}");
         }
-        progress.set_message(words);
-        progress.tick();
-    });
-    progress.finish_and_clear();
-    let limits = limits.map_err(Failure::refused)?;
-    let warnings = [limits.warnings(), plausibility::of_case(&case)].concat();
+        self.progress.set_message(words);
+        Ok(())
+    }
+
+    fn refined(&mut self, points: [usize; 2], change: f64) {
+        if self.common.verbose {
+            tell!("{points:?} points: change {change:.2e}");
+        }
+    }
+}
+
+pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Ending, Failure> {
+    let started = Instant::now();
+    let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &common.set)?;
+    let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let run = case.run();
+    let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() })?;
+    run.check_limits()?;
+    interruption::watch();
+    let names = ["limit.json", "limit.csv"].map(str::to_owned).into_iter();
+    let names = names.chain(pictures.files(&["limit", "limit-section"])).collect();
+    let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Limit) })?;
+    terminal::tell_aside(claim.set_aside(), common.quiet);
+    let progress = common.bar(ProgressBar::new_spinner());
+    progress.enable_steady_tick(Duration::from_millis(200));
+    let mut searching = Searching { allowed, common, progress };
+    let limits = run.limits(&mut searching)?;
+    searching.progress.finish_and_clear();
+    let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
     write_text(&claim.staging().join("limit.json"), &limit_json(&limits, &case, &warnings))?;
     write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;
-    let draw = || picture::utilisations(&case.title, case.problem(), &limits);
-    pictures.write(&claim.staging(), "limit", draw)?;
-    if let Some((step, section)) = limits.last.clone().zip(limits.section(&task)) {
+    pictures.write(&claim.staging(), "limit", || picture::utilisations(&case.title, case.problem(), &limits))?;
+    if let (true, Some(step), Some(section)) = (pictures.wanted(), limits.last.clone(), limits.section(&run)) {
         let reading = step.reading();
         let snapshot = Snapshot::new(&case.title, step, reading);
         pictures.write(&claim.staging(), "limit-section", || Some(picture::section(&snapshot, &section)))?;
@@ -60,6 +94,9 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
             writeln!(out, "{}\n", case.title)?;
         }
         writeln!(out, "{}\n", table::limits(&limits))?;
+        if let Some(change) = limits.change {
+            writeln!(out, "change from the next coarser grid: {change:.1e}")?;
+        }
         let (loads, seconds) = (limits.steps.len(), started.elapsed().as_secs_f64());
         writeln!(out, "{loads} loads solved; {seconds:.2} s; written to {}", folder.display())?;
         warnings.iter().for_each(|warning| tell!("warning: {warning}"));

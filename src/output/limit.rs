@@ -12,28 +12,41 @@ pub fn limit_json(limits: &Limits, case: &Case, warnings: &[String]) -> String {
         "case": case,
         "warnings": warnings,
         "first": limits.first().map(limit),
+        "complete_contact": Some(limits.complete).filter(|pressure| pressure.is_finite()),
+        "change": limits.change,
         "limits": limits.limits.iter().map(limit).collect::<Value>(),
         "steps": limits.steps,
     });
     format!("{file:#}\n")
 }
 
+/// Every limit has the same keys: what is not known of it is null.
 fn limit(limit: &Limit) -> Value {
     let mut entries = Map::new();
     let criterion = json!(limit.criterion);
     entries.extend(criterion.as_object().cloned().unwrap_or_default());
-    let at = match limit.at {
-        At::Rest => json!({ "mean_pressure": 0.0, "reached": "by residual stress alone" }),
-        At::Load { mean_pressure, error, position: [x, y, z] } => {
-            json!({ "mean_pressure": mean_pressure, "error": error, "x": x, "y": y, "z": z, "reached": "under load" })
-        }
-        At::Below { mean_pressure } => {
-            json!({ "mean_pressure": null, "below": mean_pressure, "reached": "by a contact of a few samples" })
+    let (reached, error) = match limit.at {
+        At::Rest => ("by residual stress alone", Some(0.0)),
+        At::Tip { .. } => ("under a tip however small the load", Some(0.0)),
+        At::Load { error, .. } => ("under load", error),
+        At::Below { .. } => ("by a contact of a few samples", None),
+        At::Never { .. } => ("never", None),
+    };
+    let is_number = !matches!(limit.at, At::Below { .. } | At::Never { .. });
+    let [x, y, z] = limit.position().map_or([None; 3], |position| position.map(Some));
+    let at = json!({
+        "mean_pressure": is_number.then(|| limit.mean_pressure()), "error": error, "x": x, "y": y, "z": z, "reached": reached,
+    });
+    entries.extend(at.as_object().cloned().unwrap_or_default());
+    match limit.at {
+        At::Below { mean_pressure, .. } => {
+            entries.insert("below".to_owned(), json!(mean_pressure));
         }
         At::Never { up_to, utilisation } => {
-            json!({ "mean_pressure": null, "up_to": up_to, "utilisation": utilisation, "reached": "never" })
+            entries.insert("up_to".to_owned(), json!(up_to));
+            entries.insert("utilisation".to_owned(), json!(utilisation));
         }
-    };
-    entries.extend(at.as_object().cloned().unwrap_or_default());
+        At::Rest | At::Tip { .. } | At::Load { .. } => (),
+    }
     Value::Object(entries)
 }

@@ -4,11 +4,11 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
-use super::snapshot::{caption, equals};
+use super::snapshot::caption;
 use super::units::Units;
 use crate::problem::Problem;
 use crate::reading::Criterion;
-use crate::run::{At, Limits};
+use crate::run::{Limits, StepRecord};
 
 /// The picture; `None` where less than two loads were solved.
 pub fn utilisations(title: &str, problem: &Problem, limits: &Limits) -> Option<Canvas> {
@@ -19,7 +19,7 @@ pub fn utilisations(title: &str, problem: &Problem, limits: &Limits) -> Option<C
     }
     let units = Units::of(problem);
     let value = |criterion: Criterion| {
-        move |step: &crate::run::StepRecord| {
+        move |step: &StepRecord| {
             let own = step.strength.iter().find(|own| own.criterion == criterion).map(|own| own.value);
             [step.reading.mean_pressure, own.filter(|value| value.is_finite() && *value > 0.0).unwrap_or(f64::NAN)]
         }
@@ -41,22 +41,7 @@ pub fn utilisations(title: &str, problem: &Problem, limits: &Limits) -> Option<C
     });
     let x = Axis::log(units.pressure("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
     let chart = Chart { title: String::new(), x, y: Axis::log("utilisation"), curves };
-    let first = match limits.first() {
-        Some(limit) => match limit.at {
-            At::Load { mean_pressure, .. } => {
-                format!("first: {} at {}", limit.criterion, equals(&units.pressure_symbol("p̄"), &[rounded(mean_pressure)]))
-            }
-            At::Below { .. } => format!("first: {}, under a contact of a few samples", limit.criterion),
-            _ => format!("first: {}, without load", limit.criterion),
-        },
-        None => "nothing fails".to_owned(),
-    };
     let [n1, n2] = limits.steps[0].points;
-    let more = [first, format!("{n1}\u{a0}×\u{a0}{n2} samples")];
+    let more = [limits.to_string(), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
     Some(plots(&caption(title, problem, &more), &[chart]))
-}
-
-/// Four digits.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
 }

@@ -2,7 +2,7 @@
 //!
 //! The **utilisation** of a criterion is 1 where it fails: von Mises over the yield strength, σ₁ over the tensile strength,
 //! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface. It is no safety factor: contact is not linear, and the load at which it
-//! reaches 1 is found by solving (`run::limit`).
+//! reaches 1 is found by solving ([`crate::Run::limits`]).
 
 use super::StressReading;
 use crate::body::HalfSpace;
@@ -108,8 +108,10 @@ impl Utilisation {
             };
             let strength = criterion.strength(half_space)?;
             let error = peak.error.map(|error| error / strength);
-            // Nothing fails by being pressed.
-            Some(Self { criterion, value: (peak.value / strength).max(0.0), error, position: peak.position })
+            let taken = peak.value / strength;
+            // Nothing fails by being pressed; what is not a number stays so.
+            let value = if taken < 0.0 { 0.0 } else { taken };
+            Some(Self { criterion, value, error, position: peak.position })
         };
         Criterion::all(half_space).into_iter().filter_map(of).collect()
     }

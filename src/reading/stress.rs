@@ -2,6 +2,7 @@
 
 use super::Reading;
 use crate::counterbody::Site;
+use crate::friction::Friction;
 use crate::spectral::Step;
 use crate::stress::maxima::{Extremes, Maxima, Tractions};
 use crate::stress::{Peak, StressField};
@@ -38,8 +39,11 @@ impl StressReading {
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
             let first = [&mut stress.materials, &mut stress.faces].map(|all| all.first_mut());
-            for Extremes { tau1, mises, .. } in first.into_iter().flatten() {
-                for peak in [tau1, mises] {
+            // Near it σ_z = −p, σ_x = −(½ + ν)p and τ = μp: there is tension from μ² > ½ + ν on.
+            let (nu, mu) = (step.problem().half_space().surface_material().poisson(), friction(step));
+            let is_torn = mu * mu > 0.5 + nu;
+            for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
+                for peak in [Some(tau1), Some(mises), Some(tension).filter(|_| is_torn)].into_iter().flatten() {
                     *peak = Peak { value: f64::INFINITY, position: [x, y, 0.0], material: 1, error: None, ..*peak };
                 }
             }
@@ -87,9 +91,13 @@ impl serde::Serialize for StressReading {
 /// infinite alike; then the traction of a counterbody that slides still is.
 pub fn tips<'a>(step: &'a Step, reading: &'a Reading) -> impl Iterator<Item = &'a Site> {
     let sites = step.surface().sites().iter().filter(|site| reading.levels[site.level - 1].singular);
-    let problem = step.problem();
-    let slides = problem.friction().is_some_and(|friction| friction.coefficient() > 0.0);
-    sites.filter(move |_| slides || problem.half_space().surface_material().poisson() < 0.5)
+    let slides = friction(step) > 0.0;
+    sites.filter(move |_| slides || step.problem().half_space().surface_material().poisson() < 0.5)
+}
+
+/// μ, 0 without friction.
+fn friction(step: &Step) -> f64 {
+    step.problem().friction().map_or(0.0, Friction::coefficient)
 }
 
 /// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's

@@ -27,18 +27,18 @@ mod sampling;
 pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
-pub use limit::{At, Limit, LimitError, LimitTask, Limits};
+pub use limit::{At, Limit, Limits};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::StepRecord;
 pub use recorder::Recorder;
 pub use sampling::Sampling;
 
+use crate::body::MeanStress;
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::Load;
 use crate::problem::Problem;
-use crate::body::MeanStress;
 use crate::reading::{Criterion, StressReading};
 use crate::spectral::{Settings, Solver, Step};
 use crate::stress::StressField;

@@ -55,8 +55,13 @@ pub struct BeyondFullContact {
 #[non_exhaustive]
 pub enum RunError<E: Error + 'static> {
     /// There is nothing to solve.
-    #[error("a run needs a load at least")]
+    #[error("a run needs a load at least, limits one above 0 to begin with")]
     NoLoads,
+    /// Limits are looked for, and nothing has a strength.
+    #[error(
+        "limits need strengths: give materials a yield_strength or a tensile_strength, or layers an interface_strength"
+    )]
+    NoStrengths,
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] LatticeError),

@@ -72,6 +72,10 @@ impl StepRecord {
         // Stresses are infinite under a tip.
         let stresses =
             self.stress.iter().flat_map(|s| [s.tau1().value, s.tension().value, s.mises().value, s.surface_error]);
+        let taken = self.strength.iter().map(|utilisation| utilisation.value);
+        let interfaces = self.stress.iter().flat_map(|stress| &stress.interfaces);
+        let interfaces = interfaces.flat_map(|carried| [carried.normal.value, carried.shear.value]);
+        let stresses = stresses.chain(taken).chain(interfaces);
         scalars.iter().all(|x| x.is_finite()) && !stresses.into_iter().any(f64::is_nan)
     }
 }

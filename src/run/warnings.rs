@@ -4,8 +4,8 @@
 //! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, numbers are those
 //! of a linear body that is not there.
 
-use super::StepRecord;
 use super::accuracy::End;
+use super::{At, Limit, Limits, StepRecord};
 use crate::counterbody::Shape;
 use crate::numeric::number::number;
 use crate::numeric::search::largest;
@@ -22,26 +22,53 @@ const WORTH_SAYING: f64 = 0.02;
 
 /// What is doubtful about the steps of a run; `end` and `change`: how a refinement ended, and its last change.
 pub(super) fn warnings(problem: &Problem, steps: &[StepRecord], end: Option<End>, change: Option<f64>) -> Vec<String> {
-    let all = [
-        unresolved(steps),
-        not_converged(steps),
-        few_samples(steps),
-        small_spots(steps),
+    let steps: Vec<Numbered> = (1..).zip(steps).collect();
+    said(problem, &steps, &steps, end, change)
+}
+
+/// What is doubtful about limit loads, their steps numbered by ascending load: of those that are no limits it matters only
+/// that they were solved.
+pub(super) fn of_limits(problem: &Problem, limits: &Limits) -> Vec<String> {
+    let steps: Vec<Numbered> = (1..).zip(&limits.steps).collect();
+    let is_limit = |(_, step): &Numbered| {
+        let from = |limit: &Limit| (step.reading.mean_pressure - limit.mean_pressure()).abs();
+        let nearest = |limit: &Limit| steps.iter().all(|(_, other)| from(limit) <= (other.reading.mean_pressure - limit.mean_pressure()).abs());
+        limits.limits.iter().any(|limit| matches!(limit.at, At::Load { .. } | At::Below { .. }) && nearest(limit))
+    };
+    let judged: Vec<Numbered> = steps.iter().copied().filter(is_limit).collect();
+    said(problem, &steps, &judged, limits.end, limits.change)
+}
+
+/// A step with its number in the outputs.
+type Numbered<'a> = (usize, &'a StepRecord);
+
+fn said(
+    problem: &Problem,
+    all: &[Numbered],
+    judged: &[Numbered],
+    end: Option<End>,
+    change: Option<f64>,
+) -> Vec<String> {
+    let said = [
+        unresolved(all),
+        not_converged(all),
+        few_samples(judged),
+        small_spots(judged),
         end.and_then(|end| not_accurate(end, change)),
-        rough_surface(steps),
-        steep_flank(problem, steps),
-        high_pressure(problem, steps),
+        rough_surface(judged),
+        steep_flank(problem, judged),
+        high_pressure(problem, judged),
     ];
-    all.into_iter().flatten().collect()
+    said.into_iter().flatten().collect()
 }
 
 /// Numbers of the steps of which something is true, as a list; `None` without any.
-fn list(steps: &[StepRecord], of: impl Fn(&StepRecord) -> bool) -> Option<String> {
-    let numbers = (1..).zip(steps).filter(|(_, step)| of(step)).map(|(number, _): (usize, _)| number.to_string());
+fn list(steps: &[Numbered], of: impl Fn(&StepRecord) -> bool) -> Option<String> {
+    let numbers = steps.iter().filter(|(_, step)| of(step)).map(|(number, _)| number.to_string());
     Some(numbers.collect::<Vec<_>>().join(", ")).filter(|list| !list.is_empty())
 }
 
-fn unresolved(steps: &[StepRecord]) -> Option<String> {
+fn unresolved(steps: &[Numbered]) -> Option<String> {
     let list = list(steps, StepRecord::is_unresolved)?;
     Some(format!(
         "the penetration of step {list} reaches hardly a sample: contact is no wider than the grid's spacing, and its load \
@@ -49,12 +76,12 @@ fn unresolved(steps: &[StepRecord]) -> Option<String> {
     ))
 }
 
-fn not_converged(steps: &[StepRecord]) -> Option<String> {
+fn not_converged(steps: &[Numbered]) -> Option<String> {
     let list = list(steps, |step| !step.converged() && !step.is_unresolved())?;
     Some(format!("not converged: step {list}; judge it by its certificate"))
 }
 
-fn few_samples(steps: &[StepRecord]) -> Option<String> {
+fn few_samples(steps: &[Numbered]) -> Option<String> {
     let coarse =
         |step: &StepRecord| step.reading.levels.iter().any(|level| level.load > 0.0 && level.resolution < FEW_SAMPLES);
     let list = list(steps, coarse)?;
@@ -65,7 +92,7 @@ fn few_samples(steps: &[StepRecord]) -> Option<String> {
 }
 
 /// Few samples in the spots of a topography. Complete contact has no edge that samples would have to show.
-fn small_spots(steps: &[StepRecord]) -> Option<String> {
+fn small_spots(steps: &[Numbered]) -> Option<String> {
     let rough = |step: &StepRecord| {
         let reading = &step.reading;
         reading.levels.is_empty()
@@ -88,8 +115,8 @@ fn not_accurate(end: End, change: Option<f64>) -> Option<String> {
     (end != End::Reached).then(|| format!("grid.accuracy is not reached: {reached}, and {end}"))
 }
 
-fn rough_surface(steps: &[StepRecord]) -> Option<String> {
-    let worst = largest(steps.iter().filter_map(|step| Some(step.stress.as_ref()?.surface_error)));
+fn rough_surface(steps: &[Numbered]) -> Option<String> {
+    let worst = largest(steps.iter().filter_map(|(_, step)| Some(step.stress.as_ref()?.surface_error)));
     // What is no number is not below.
     if worst <= WORTH_SAYING {
         return None;
@@ -102,9 +129,9 @@ fn rough_surface(steps: &[StepRecord]) -> Option<String> {
 }
 
 /// The steepest flank in contact, beside cones, whose flank is their own.
-fn steep_flank(problem: &Problem, steps: &[StepRecord]) -> Option<String> {
+fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let levels = problem.counterbody().levels();
-    let flanks = (1..).zip(steps).flat_map(|(number, step)| {
+    let flanks = steps.iter().flat_map(|&(number, step)| {
         let touching = step.reading.levels.iter().filter(|level| level.load > 0.0);
         // Merged contacts have no radius, but an area.
         touching.map(move |level| (number, level.level, (level.contact_area / PI).sqrt()))
@@ -117,11 +144,11 @@ fn steep_flank(problem: &Problem, steps: &[StepRecord]) -> Option<String> {
     Some(flank(&format!("step {step}"), level, levels[level - 1].shape(), radius))
 }
 
-fn high_pressure(problem: &Problem, steps: &[StepRecord]) -> Option<String> {
+fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let modulus = problem.half_space().surface_material().contact_modulus();
     // A pressure that is infinite under a tip is beyond any measure.
-    let peaks = (1..).zip(steps).filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
-    let high = peaks.filter(|(_, pressure): &(usize, f64)| *pressure > HIGH * modulus);
+    let peaks = steps.iter().filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
+    let high = peaks.filter(|(_, pressure)| *pressure > HIGH * modulus);
     let (step, pressure) = high.max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some(format!(
         "step {step}: the largest pressure {} is {} of E* at the surface: strains are not small any more; are load and moduli \

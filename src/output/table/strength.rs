@@ -37,8 +37,11 @@ pub fn limits(limits: &Limits) -> String {
     let row = |limit: &&Limit| {
         let (pressure, place) = match limit.at {
             At::Rest => ("0".to_owned(), "by residual stress alone".to_owned()),
+            At::Tip { position } => ("0".to_owned(), format!("{}, a tip", place(position))),
             At::Load { mean_pressure, error, position } => (with_error(mean_pressure, error), place(position)),
-            At::Below { mean_pressure } => (format!("< {}", number(mean_pressure)), "a contact of a few samples".to_owned()),
+            At::Below { mean_pressure, position } => {
+                (format!("< {}", number(mean_pressure)), format!("{}, a contact of a few samples", place(position)))
+            }
             At::Never { up_to, utilisation } => {
                 ("never".to_owned(), format!("utilisation {} at {}", number(utilisation), number(up_to)))
             }
@@ -46,12 +49,7 @@ pub fn limits(limits: &Limits) -> String {
         vec![limit.criterion.to_string(), pressure, place]
     };
     let rows: Vec<Vec<String>> = ordered.iter().map(row).collect();
-    let first = match limits.first() {
-        Some(Limit { criterion, at: At::Rest }) => format!("{criterion} is reached without load, by residual stress alone"),
-        Some(limit) => format!("first: {} at the mean pressure {}", limit.criterion, number(limit.mean_pressure())),
-        None => "nothing fails up to complete contact".to_owned(),
-    };
-    format!("{first}\n\n{}", render(&["criterion", "mean pressure", "place (x, y, z)"], &rows, 1))
+    format!("{limits}\n\n{}", render(&["criterion", "mean pressure", "place (x, y, z)"], &rows, 1))
 }
 
 fn value(value: f64, error: Option<f64>) -> String {
@@ -61,6 +59,6 @@ fn value(value: f64, error: Option<f64>) -> String {
 fn place([x, y, z]: [f64; 3]) -> String {
     // Beside a cell a part of 1e-9 of it is zero.
     let size = x.abs().max(y.abs()).max(z.abs());
-    let plain = |v: f64| if v.abs() < 1e-9 * size { "0".to_owned() } else { format!("{:.4}", v) };
+    let plain = |v: f64| if v.abs() < 1e-9 * size { "0".to_owned() } else { number(v) };
     format!("({}, {}, {})", plain(x), plain(y), plain(z))
 }

@@ -1,0 +1,73 @@
+//! Limit loads: the mean pressure at which each criterion of strength is reached.
+//!
+//! Contact is not linear: a limit is found by solving. From a first load the mean pressure is halved until nothing fails and
+//! doubled until everything has failed or contact is complete; then the root of ln u(ln p̄) = 0 of each criterion, u its
+//! utilisation, is enclosed between two loads and found by secants with bisection as their safeguard, to 10⁻³ of the load.
+//! Every load that is solved counts for all criteria, and starts from the one before. Beyond complete contact stresses grow
+//! in proportion, with what shape there is gone: no limit is looked for there.
+//!
+//! Where a utilisation is not monotone, its first crossing between the loads that were solved is taken.
+
+mod limits;
+mod search;
+
+pub use limits::{At, Limit, Limits};
+
+use super::{Recorder, Refinement, Run, RunError, Sampling, warnings};
+use crate::reading::Criterion;
+use search::Search;
+use std::convert::Infallible;
+use std::error::Error;
+
+impl Run {
+    /// Whether limit loads can be looked for: as [`check`](Self::check), and there are strengths and a load above 0.
+    ///
+    /// # Errors
+    /// [`RunError::NoStrengths`], [`RunError::NoLoads`], and those of [`check`](Self::check).
+    pub fn check_limits(&self) -> Result<(), RunError<Infallible>> {
+        self.checked_for_limits()
+    }
+
+    fn checked_for_limits<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
+        if Criterion::all(self.problem.half_space()).is_empty() {
+            return Err(RunError::NoStrengths);
+        }
+        if !self.loads.iter().any(|load| load.value() > 0.0) {
+            return Err(RunError::NoLoads);
+        }
+        self.checked()
+    }
+
+    /// Looks for the limit loads of all criteria, from the run's first load above 0 on, on finer and finer grids where an
+    /// accuracy is asked for; what the run asks of stresses plays no part but for the mean lateral stress.
+    ///
+    /// # Errors
+    /// [`RunError`], see [`check_limits`](Self::check_limits).
+    pub fn limits<R: Recorder>(&self, recorder: &mut R) -> Result<Limits, RunError<R::Error>> {
+        self.checked_for_limits()?;
+        let mut limits = match self.sampling {
+            Sampling::Points(points) => Search::on_grid(self, points, recorder)?,
+            Sampling::Accuracy(accuracy) => {
+                let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
+                let mut coarse: Option<Limits> = None;
+                loop {
+                    let points = refinement.points();
+                    let mut limits = Search::on_grid(self, points, recorder)?;
+                    limits.change = coarse.take().map(|coarse| limits.change_from(&coarse));
+                    if let Some(change) = limits.change {
+                        recorder.refined(points, change);
+                    }
+                    limits.end = refinement.refine(limits.change, |points| recorder.fits(points));
+                    if limits.end.is_some() {
+                        break limits;
+                    }
+                    // Its fields go before the next grid takes as much and more.
+                    limits.last = None;
+                    coarse = Some(limits);
+                }
+            }
+        };
+        limits.warnings = warnings::of_limits(&self.problem, &limits);
+        Ok(limits)
+    }
+}

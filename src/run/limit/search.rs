@@ -1,0 +1,259 @@
+//! The search on one grid, load by load.
+
+use super::{At, Limit, Limits};
+use crate::body::MeanStress;
+use crate::load::Load;
+use crate::reading::{Criterion, StressReading, Utilisation};
+use crate::run::{Recorder, Run, RunError, StepRecord};
+use crate::spectral::{Solver, Step};
+use crate::stress::StressField;
+use std::sync::Arc;
+
+/// Relative accuracy of a limit.
+const TOLERANCE: f64 = 1e-3;
+/// So much of it may be left between a load that was solved and the root that the secant foretells from there.
+const NEAR: f64 = 0.3;
+/// Doublings and halvings of the first load at most.
+const DOUBLINGS: usize = 40;
+/// Loads to enclose one root at most; bisection alone takes ten from a factor of two on.
+const TRIALS: usize = 40;
+/// Samples that a contact needs to be worth halving its load further.
+const LEAST_SAMPLES: f64 = 12.0;
+/// Part of the pressure of complete contact to begin with where the run's first load is none.
+const START: f64 = 1e-3;
+
+/// A search that goes on.
+pub(super) struct Search<'a, R: Recorder> {
+    run: &'a Run,
+    mean: MeanStress,
+    solver: Solver,
+    complete: f64,
+    /// By ascending mean pressure.
+    steps: Vec<StepRecord>,
+    /// The last one that was solved.
+    last: Option<Step>,
+    recorder: &'a mut R,
+}
+
+/// Two loads between which a utilisation becomes one.
+#[derive(Debug, Clone, Copy)]
+struct Enclosure {
+    /// Mean pressures.
+    loads: [f64; 2],
+    /// Utilisations, the first below one and the second not.
+    values: [f64; 2],
+}
+
+impl<'a, R: Recorder> Search<'a, R> {
+    /// The limits of a run on a grid of `points`.
+    pub fn on_grid(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Limits, RunError<R::Error>> {
+        let mut solver = Solver::new(Arc::clone(&run.problem), points, run.settings)?;
+        recorder.begin(&solver).map_err(RunError::Recorder)?;
+        // A flat surface is in complete contact under any load, and more of it changes what fails all the same.
+        let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
+        let complete = complete.unwrap_or(f64::INFINITY);
+        let mean = run.stress.as_ref().map(|request| request.mean).unwrap_or_default();
+        let mut search = Self { run, mean, solver, complete, steps: Vec::new(), last: None, recorder };
+        let half_space = run.problem.half_space();
+        let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
+            Criterion::all(half_space).into_iter().partition(|criterion| criterion.at_rest(half_space) >= 1.0);
+        if !sought.is_empty() {
+            search.enclose(&sought)?;
+        }
+        let mut limits = Vec::new();
+        for criterion in Criterion::all(half_space) {
+            let at = if at_rest.contains(&criterion) { At::Rest } else { search.find(criterion)? };
+            limits.push(Limit { criterion, at });
+        }
+        // Its fields are what is shown; how it was solved counts as that of any other load.
+        let loads = limits.iter().map(Limit::mean_pressure).filter(|pressure| *pressure > 0.0 && pressure.is_finite());
+        search.last = None;
+        if let Some(first) = loads.min_by(f64::total_cmp) {
+            search.solve(first)?;
+        }
+        let Search { steps, last, .. } = search;
+        Ok(Limits { limits, steps, last, complete, change: None, end: None, warnings: Vec::new() })
+    }
+
+    /// Solves a load and keeps what it says.
+    fn solve(&mut self, mean_pressure: f64) -> Result<(), RunError<R::Error>> {
+        // Its memory goes before the next one takes as much.
+        self.last = None;
+        let (load, recorder) = (Load::MeanPressure(mean_pressure), &mut *self.recorder);
+        recorder.load(load);
+        let began = recorder.clock();
+        let step = self.solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
+        let mut record = StepRecord::new(&step, step.reading());
+        recorder.stresses();
+        let field = StressField::new(step.finest(), self.mean);
+        if record.reading.max_pressure > 0.0 {
+            record.add_stress(StressReading::of(&step, &record.reading, &field), self.run.problem.half_space());
+        }
+        record.seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
+        recorder.step(&step, &record, Some(&field)).map_err(RunError::Recorder)?;
+        let place = self.steps.partition_point(|other| other.reading.mean_pressure < record.reading.mean_pressure);
+        match self.steps.get_mut(place) {
+            Some(same) if same.reading.mean_pressure == record.reading.mean_pressure => *same = record,
+            _ => self.steps.insert(place, record),
+        }
+        self.last = Some(step);
+        Ok(())
+    }
+
+    /// The first load: the run's, or a little where it prescribes a penetration that hardly touches.
+    fn start(&mut self) -> f64 {
+        let pressure = match self.run.loads.iter().find(|load| load.value() > 0.0) {
+            Some(&Load::MeanPressure(pressure)) => pressure,
+            Some(&penetration) => self.solver.solve(penetration).reading().mean_pressure,
+            None => 0.0,
+        };
+        let pressure = if pressure > 0.0 && pressure.is_finite() { pressure } else { START * self.complete };
+        pressure.min(self.complete)
+    }
+
+    /// Solves loads until each criterion has one load below and one above, or none is left.
+    fn enclose(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
+        let mut lowest = self.start();
+        let mut highest = lowest;
+        self.solve(lowest)?;
+        for _ in 0..DOUBLINGS {
+            let record = &self.steps[0];
+            let samples = record.reading.contact_fraction * record.points.iter().product::<usize>() as f64;
+            // Under a tip it fails however small the load.
+            let fails = |&criterion: &Criterion| {
+                let value = utilisation(record, criterion).value;
+                value >= 1.0 && value.is_finite()
+            };
+            if samples < LEAST_SAMPLES || !sought.iter().any(fails) {
+                break;
+            }
+            lowest *= 0.5;
+            self.solve(lowest)?;
+        }
+        for _ in 0..DOUBLINGS {
+            let holds = |&criterion: &Criterion| {
+                let below_one = |record: &StepRecord| utilisation(record, criterion).value < 1.0;
+                self.steps.iter().all(below_one)
+            };
+            if highest >= self.complete || !sought.iter().any(holds) {
+                break;
+            }
+            highest = (2.0 * highest).min(self.complete);
+            self.solve(highest)?;
+        }
+        Ok(())
+    }
+
+    /// Where a criterion is reached.
+    fn find(&mut self, criterion: Criterion) -> Result<At, RunError<R::Error>> {
+        for trial in 0.. {
+            let taken: Vec<Utilisation> = self.steps.iter().map(|record| utilisation(record, criterion)).collect();
+            let load = |index: usize| self.steps[index].reading.mean_pressure;
+            let last = taken.len() - 1;
+            let Some(above) = taken.iter().position(|taken| taken.value >= 1.0) else {
+                return Ok(At::Never { up_to: load(last), utilisation: taken[last].value });
+            };
+            let Some(below) = above.checked_sub(1) else {
+                let Utilisation { value, position, .. } = taken[above];
+                let mean_pressure = load(above);
+                return Ok(if value.is_infinite() {
+                    At::Tip { position }
+                } else {
+                    At::Below { mean_pressure, position }
+                });
+            };
+            let enclosure =
+                Enclosure { loads: [below, above].map(load), values: [below, above].map(|index| taken[index].value) };
+            // Every third load halves what is enclosed.
+            match enclosure.next(trial % 3 == 2) {
+                Some(next) if trial < TRIALS => self.solve(next)?,
+                _ => {
+                    let nearest = taken[if enclosure.first_is_nearer() { below } else { above }];
+                    let (mean_pressure, slope) = (enclosure.root(), enclosure.slope());
+                    let error = slope.zip(nearest.error).map(|(slope, error)| mean_pressure * error / (nearest.value * slope));
+                    // The place of one that jumps is where it has failed.
+                    let position = if slope.is_some() { nearest.position } else { taken[above].position };
+                    return Ok(At::Load { mean_pressure, error, position });
+                }
+            }
+        }
+        unreachable!("trials end")
+    }
+}
+
+impl Enclosure {
+    /// d ln u / d ln p̄; `None` where a utilisation is zero or infinite: it jumps.
+    fn slope(&self) -> Option<f64> {
+        let ([low, high], [under, over]) = (self.loads, self.values);
+        (under > 0.0 && over.is_finite()).then(|| (over / under).ln() / (high / low).ln())
+    }
+
+    /// Where the secant of ln u over ln p̄ is zero; the upper end where there is none.
+    fn root(&self) -> f64 {
+        let [low, high] = self.loads;
+        self.slope().map_or(high, |slope| (low * (-self.values[0].ln() / slope).exp()).clamp(low, high))
+    }
+
+    fn first_is_nearer(&self) -> bool {
+        let [under, over] = self.values.map(|value| value.ln().abs());
+        under < over
+    }
+
+    /// The load to solve next, or none where the root is known well enough.
+    fn next(&self, halve: bool) -> Option<f64> {
+        let ([low, high], root) = (self.loads, self.root());
+        let near = if self.first_is_nearer() { low } else { high };
+        let known = self.slope().is_some() && (root / near - 1.0).abs() <= NEAR * TOLERANCE;
+        if known || high / low - 1.0 <= TOLERANCE {
+            return None;
+        }
+        let inside = low < root && root < high && !halve;
+        Some(if inside { root } else { (low * high).sqrt() })
+    }
+}
+
+/// What a step takes up of a criterion; nothing without contact.
+fn utilisation(record: &StepRecord, criterion: Criterion) -> Utilisation {
+    let found = record.strength.iter().find(|utilisation| utilisation.criterion == criterion);
+    found.copied().unwrap_or(Utilisation { criterion, value: 0.0, error: None, position: [0.0; 3] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Root of a utilisation between 1 and 2, and how many loads it took.
+    fn solved(utilisation: impl Fn(f64) -> f64) -> (f64, usize) {
+        let mut enclosure = Enclosure { loads: [1.0, 2.0], values: [1.0, 2.0].map(&utilisation) };
+        for trial in 0..TRIALS {
+            let Some(next) = enclosure.next(trial % 3 == 2) else { return (enclosure.root(), trial) };
+            let value = utilisation(next);
+            let end = usize::from(value >= 1.0);
+            (enclosure.loads[end], enclosure.values[end]) = (next, value);
+        }
+        panic!("no root after {TRIALS} loads: {enclosure:?}");
+    }
+
+    /// A power is one secant; bisection takes ten loads, and where two of three are wasted on secants, thirty.
+    #[test]
+    fn roots_are_found_of_powers_of_curves_and_of_utilisations_that_jump() {
+        let near = |(root, trials): (f64, usize), known: f64, most: usize| {
+            assert!((root / known - 1.0).abs() <= TOLERANCE, "{root} for {known}");
+            assert!(trials <= most, "{trials} loads");
+        };
+        near(solved(|p| (p / 1.3).cbrt()), 1.3, 1);
+        near(solved(|p| (p / 1.3).cbrt() + 0.05 * (p - 1.3)), 1.3, 3);
+        near(solved(|p| if p < 1.4 { 0.0 } else { f64::INFINITY }), 1.4, 10);
+        near(solved(|p| if p < 1.4 { 0.5 } else { 30.0 * p }), 1.4, 30);
+        near(solved(|p| (p - 1.2).max(0.0) / 0.3), 1.5, 10);
+        near(solved(|p| 10f64.powf(20.0 * (p - 1.9))), 1.9, 8);
+    }
+
+    #[test]
+    fn no_error_is_stated_where_there_is_no_slope() {
+        let jump = Enclosure { loads: [1.0, 1.0005], values: [0.0, 2.0] };
+        assert_eq!((jump.slope(), jump.next(false), jump.root()), (None, None, 1.0005));
+        let infinite = Enclosure { loads: [1.0, 2.0], values: [0.5, f64::INFINITY] };
+        assert_eq!((infinite.slope(), infinite.next(false)), (None, Some(2f64.sqrt())));
+    }
+}
