@@ -84,7 +84,11 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     pictures.write(&claim.staging(), "limit", || picture::utilisations(&case.title, case.problem(), &limits))?;
     if let (true, Some(step), Some(section)) = (pictures.wanted(), limits.last.clone(), limits.section(&run)) {
         let reading = step.reading();
-        let snapshot = Snapshot::new(&case.title, step, reading);
+        // The record of that load, whose pressure is the same to rounding.
+        let from = |record: &&StepRecord| (record.reading.mean_pressure - reading.mean_pressure).abs();
+        let record = limits.steps.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
+        let strength = record.map(|record| record.strength.clone()).unwrap_or_default();
+        let snapshot = Snapshot::new(&case.title, step, reading).with_strength(strength);
         pictures.write(&claim.staging(), "limit-section", || Some(picture::section(&snapshot, &section)))?;
     }
     interruption::publish(claim, &folder, common.quiet)?;

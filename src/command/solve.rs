@@ -39,7 +39,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let warnings = [outcome.warnings, plausibility::of_case(&case)].concat();
     let steps = &outcome.steps;
     if let (Some(last), Some(record), true) = (outcome.last, steps.last(), pictures.wanted()) {
-        let snapshot = Snapshot::new(&case.title, last, record.reading.clone());
+        let snapshot = Snapshot::new(&case.title, last, record.reading.clone()).with_strength(record.strength.clone());
         let spinner = spinner("drawing pictures", common);
         pictures.draw(&claim.staging(), &snapshot, section.as_ref(), steps)?;
         spinner.finish_and_clear();

@@ -6,7 +6,7 @@ use super::chart::{Chart, Plot};
 use super::colour::Colour;
 use super::curve::{Curve, Style};
 use super::map::{Fill, Map, Over};
-use super::pressure::{aspect, axes, numbers, unit_cell};
+use super::pressure::{aspect, axes, numbers, sliding_arrow, sliding_words, unit_cell};
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::{around, images, window};
@@ -49,6 +49,7 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
             }
         }
         over.extend(numbers(snapshot, window, |_| Colour::BLACK));
+        over.extend(sliding_arrow(snapshot));
         let fill = Fill::Colours(&colour);
         let spots = Map { title: "(a) contact spots".into(), x, y, aspect: aspect(window), fill, over };
         let radii = radii(snapshot, without_mutual_effect);
@@ -58,6 +59,7 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
         if without_mutual_effect.is_some() {
             what += " Dashed circles and lines: without the mutual effect of the indenters.";
         }
+        what += sliding_words(snapshot);
         let caption = snapshot.caption(&what);
         match radii {
             Some(chart) => sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: aspect(window).min(1.0) }]),

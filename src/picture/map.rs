@@ -1,23 +1,14 @@
 //! A field over a rectangle in colours, with a colour bar and what is drawn over it.
 
-use super::axis::{Axis, Scale, ticks};
+use super::axis::Axis;
+use super::bar::{Bar, GAP};
 use super::canvas::{Anchor, Canvas, PIXELS, Stroke};
-use super::colour::{Colour, ColourMap};
+use super::colour::Colour;
 use super::curve::clipped;
-use super::frame::{Frame, all, factor, tick, widest};
-use super::sheet::{HAIR, LABELS, Margins, NUMBERS, Panel};
+use super::frame::{Frame, factor};
+use super::sheet::{HAIR, Margins, NUMBERS, Panel};
 use rayon::prelude::*;
-
-/// What colours stand for.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bar {
-    /// Quantity and unit.
-    pub label: String,
-    /// The map.
-    pub colours: ColourMap,
-    /// Least and largest value shown. A diverging map is white at zero and as dark at −x as at x.
-    pub span: [f64; 2],
-}
+use std::f64::consts::TAU;
 
 /// What is drawn over a field, in its coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +30,15 @@ pub enum Over {
         at: [f64; 2],
         /// Its colour; its edge has the opposite lightness.
         colour: Colour,
+    },
+    /// A ring, where something fails.
+    Ring {
+        at: [f64; 2],
+    },
+    /// An arrow in the lower left corner.
+    Arrow {
+        /// A unit vector of the plot, whose axes are to scale.
+        direction: [f64; 2],
     },
 }
 
@@ -66,52 +66,12 @@ pub struct Map<'a> {
     pub over: Vec<Over>,
 }
 
-/// Width of a colour bar and its distance from the plot, points.
-const BAR: f64 = 7.0;
-const GAP: f64 = 6.0;
-/// Height of a bar on top of a plot.
+/// Height of a bar on top of a plot, points.
 const ROOF: f64 = 2.6;
-
-impl Bar {
-    /// The colour of a value.
-    fn colour(&self, table: &[Colour], value: f64) -> Colour {
-        let [low, high] = self.span;
-        let part = match self.colours {
-            ColourMap::Sequential => (value - low) / (high - low),
-            ColourMap::Diverging => 0.5 + 0.5 * value / low.abs().max(high.abs()),
-        };
-        table[(part * 255.0).round().clamp(0.0, 255.0) as usize]
-    }
-
-    /// Width with its numbers and its quantity.
-    fn width(&self) -> f64 {
-        GAP + BAR + 4.0 + widest(&ticks(self.span, Scale::Linear, 6)) + 1.6 * LABELS
-    }
-
-    fn draw(&self, canvas: &mut Canvas, [x, top]: [f64; 2], height: f64) {
-        let rows = (height * PIXELS).round() as usize;
-        let columns = (BAR * PIXELS).round() as usize;
-        let table = self.colours.table();
-        let [low, high] = self.span;
-        let colour = |row: usize| self.colour(&table, high + (low - high) * (row as f64 + 0.5) / rows as f64);
-        let pixels = (0..rows).flat_map(|row| colour(row).0.repeat(columns)).collect();
-        canvas.image([x, top], [BAR, height], [columns, rows], pixels);
-        canvas.outline(&[[x, top], [x + BAR, top], [x + BAR, top + height], [x, top + height]], HAIR, Colour::BLACK);
-        let ticks = ticks(self.span, Scale::Linear, 6);
-        for (value, number) in all(&ticks) {
-            let y = top + height * (high - value) / (high - low);
-            tick(canvas, [x + BAR, y], [2.2, 0.0], number.is_some());
-            if let Some(number) = number {
-                canvas.label(number, [x + BAR + 4.0, y], Anchor::Left, NUMBERS, Colour::BLACK);
-            }
-        }
-        if let Some(factor) = factor(&ticks) {
-            canvas.text(&factor, [x, top - 3.0], Anchor::Left, NUMBERS, Colour::BLACK);
-        }
-        let right = x + BAR + 4.0 + widest(&ticks) + 1.35 * LABELS;
-        canvas.upward(&self.label, [right, top + 0.5 * height], LABELS, Colour::BLACK);
-    }
-}
+/// Length of an arrow, and of its head; its distance from the border. Points.
+const ARROW: f64 = 20.0;
+const HEAD: f64 = 6.0;
+const INSET: f64 = 16.0;
 
 impl Map<'_> {
     fn ranges(&self) -> [[f64; 2]; 2] {
@@ -183,12 +143,12 @@ impl Panel for Map<'_> {
     }
 
     fn margins(&self, width: f64) -> Margins {
-        let (right, factor) = match &self.fill {
-            Fill::Values(bar, _) => (bar.width(), factor(&ticks(bar.span, Scale::Linear, 6)).is_some()),
+        let (right, has_factor) = match &self.fill {
+            Fill::Values(bar, _) => (bar.width(), factor(&bar.ticks()).is_some()),
             Fill::Colours(_) => (GAP, false),
         };
         let own = Frame::margins([&self.x, &self.y], self.ranges(), [width, right], self.aspect, true);
-        Margins { top: own.top.max(if factor { 1.5 * NUMBERS } else { 0.0 }), ..own }
+        Margins { top: own.top.max(if has_factor { 1.5 * NUMBERS } else { 0.0 }), ..own }
     }
 
     fn height(&self, width: f64, margins: Margins) -> f64 {
@@ -226,6 +186,14 @@ impl Panel for Map<'_> {
                         cross(canvas, place, *colour);
                     }
                 }
+                Over::Ring { at: place } => {
+                    if let Some(place) = at(*place) {
+                        ring(canvas, place);
+                    }
+                }
+                Over::Arrow { direction } => {
+                    arrow(canvas, [bounds[0][0] + INSET, bounds[1][1] - INSET], *direction);
+                }
             }
         }
         frame.draw(canvas, [ox, oy]);
@@ -242,4 +210,24 @@ fn cross(canvas: &mut Canvas, [x, y]: [f64; 2], colour: Colour) {
         canvas.line(&[[x - arm, y], [x + arm, y]], width, colour);
         canvas.line(&[[x, y - arm], [x, y + arm]], width, colour);
     }
+}
+
+/// A ring, white with a black edge on both sides.
+fn ring(canvas: &mut Canvas, [x, y]: [f64; 2]) {
+    let circle: Vec<[f64; 2]> = (0..=48)
+        .map(|k| (TAU * f64::from(k) / 48.0).sin_cos())
+        .map(|(sin, cos)| [x + 4.6 * cos, y + 4.6 * sin])
+        .collect();
+    for (width, colour) in [(2.6, Colour::BLACK), (1.2, Colour::WHITE)] {
+        canvas.line(&circle, width, colour);
+    }
+}
+
+/// An arrow around a place, on a white ground; `direction` with y upwards.
+fn arrow(canvas: &mut Canvas, [x, y]: [f64; 2], [dx, dy]: [f64; 2]) {
+    let at = |along: f64, across: f64| [x + along * dx + across * dy, y - along * dy + across * dx];
+    let (tail, neck, tip) = (-0.5 * ARROW, 0.5 * ARROW - HEAD, 0.5 * ARROW);
+    canvas.disc([x, y], 0.5 * ARROW + 2.5, Colour::WHITE);
+    canvas.line(&[at(tail, 0.0), at(neck, 0.0)], 1.4, Colour::BLACK);
+    canvas.area(&[at(neck, -0.42 * HEAD), at(tip, 0.0), at(neck, 0.42 * HEAD)], Colour::BLACK);
 }

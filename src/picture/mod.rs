@@ -6,10 +6,11 @@
 //! - Any curves: [`Chart`], and [`Figure`] for several side by side.
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
 //! - Its stresses under a line ([`Section`](crate::stress::Section)): [`section`](section()), [`lines`](lines()).
-//! - The steps of a run: [`load_curves`](load_curves()).
+//! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - Localized against spectral: [`comparison`](comparison()).
 
 mod axis;
+mod bar;
 mod canvas;
 mod chart;
 mod colour;

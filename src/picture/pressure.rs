@@ -1,9 +1,10 @@
 //! The contact pressure over the surface, true to scale, several cells side by side (Fig. 2a).
 
 use super::axis::Axis;
+use super::bar::Bar;
 use super::canvas::{Canvas, Dash, Stroke};
-use super::colour::{Colour, ColourMap};
-use super::map::{Bar, Fill, Map, Over};
+use super::colour::Colour;
+use super::map::{Fill, Map, Over};
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::{Window, images, window};
@@ -13,23 +14,31 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let window = window(snapshot.step.grid().cell());
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
-    let bar = Bar {
-        label: snapshot.units.pressure("contact pressure", "p"),
-        colours: ColourMap::Sequential,
-        span: [0.0, if most > 0.0 { most } else { 1.0 }],
-    };
+    let most = if most > 0.0 { most } else { 1.0 };
+    let bar = Bar::sequential(snapshot.units.pressure("contact pressure", "p"), most);
     let [x, y] = axes(snapshot, window);
     let mut over = unit_cell(snapshot);
     over.extend(numbers(snapshot, window, |place| {
         let dark = snapshot.pressure_at(place).is_some_and(|p| p < 0.6 * most);
         if dark { Colour::WHITE } else { Colour::BLACK }
     }));
+    over.extend(sliding_arrow(snapshot));
     let map = Map { title: String::new(), x, y, aspect: aspect(window), fill: Fill::Values(bar, &value), over };
     let what = match snapshot.levels() {
         0 => "White: no contact; dashed: the unit cell.",
         _ => "Numbers are levels; white: no contact; dashed: the unit cell.",
     };
-    sheet(&snapshot.caption(what), &[&map])
+    sheet(&snapshot.caption(&(what.to_owned() + sliding_words(snapshot))), &[&map])
+}
+
+/// An arrow along the sliding, where there is friction.
+pub fn sliding_arrow(snapshot: &Snapshot) -> Option<Over> {
+    snapshot.step.problem().friction().map(|friction| Over::Arrow { direction: friction.direction() })
+}
+
+/// What a caption says about it.
+pub fn sliding_words(snapshot: &Snapshot) -> &'static str {
+    snapshot.step.problem().friction().map_or("", |_| " Arrow: the indenters slide.")
 }
 
 /// Height over width of a window.

@@ -2,6 +2,7 @@
 
 use super::contour::zero_lines;
 use crate::body::Depth;
+use crate::reading::Criterion;
 use crate::stress::{Section, State};
 use ndarray::Array2;
 
@@ -12,6 +13,31 @@ pub enum Quantity {
     Along,
     /// The principal shear stress τ₁.
     Tau1,
+    /// The stress of von Mises.
+    Mises,
+    /// What shears a horizontal plane, √(σ_xz² + σ_yz²).
+    Shear,
+}
+
+impl Quantity {
+    /// What is shown beside the stress along a cut: what brings about failure by a criterion.
+    pub fn of(criterion: Criterion) -> Self {
+        match criterion {
+            Criterion::Yield { .. } => Self::Mises,
+            Criterion::Delamination { .. } => Self::Shear,
+            Criterion::Cracking { .. } => Self::Tau1,
+        }
+    }
+
+    /// Its name and symbol.
+    pub fn named(self) -> [&'static str; 2] {
+        match self {
+            Self::Along => ["stress along the section", "σₛ"],
+            Self::Tau1 => ["principal shear stress", "τ₁"],
+            Self::Mises => ["stress of von Mises", "σᵥ"],
+            Self::Shear => ["shear of horizontal planes", "τ"],
+        }
+    }
 }
 
 /// Where a stress is largest in a section.
@@ -31,6 +57,8 @@ impl Section {
         match quantity {
             Quantity::Along => state.along(self.line.direction),
             Quantity::Tau1 => state.tau1(),
+            Quantity::Mises => state.mises(),
+            Quantity::Shear => state.xz.hypot(state.yz),
         }
     }
 

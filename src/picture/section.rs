@@ -1,25 +1,31 @@
 //! Stresses in a vertical cut, with the interfaces and the places where they are largest (Fig. 6).
 
 use super::axis::Axis;
+use super::bar::Bar;
 use super::canvas::{Canvas, Dash, Stroke};
-use super::colour::{Colour, ColourMap};
-use super::map::{Bar, Fill, Map, Over};
+use super::colour::Colour;
+use super::map::{Fill, Map, Over};
 use super::rows::{Largest, Quantity};
 use super::sheet::sheet;
 use super::snapshot::{Snapshot, equals};
-use super::tiling::images;
-use crate::reading::tips;
-use crate::stress::Section;
+use super::tiling::{Window, images};
+use crate::reading::{Criterion, Utilisation, tips};
+use crate::stress::{Line, Section};
 use ndarray::Array2;
 
 /// Height over width of a cut that is not shown to scale, least and largest.
 const ASPECT: [f64; 2] = [0.4, 1.1];
 
+/// A utilisation from here on is a failure: a limit load is known to 10⁻³.
+const FAILS: f64 = 0.998;
+
 /// The picture.
 pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
-    let quantities = [Quantity::Along, Quantity::Tau1];
+    // Beside tension and compression stands what brings failure about, or the paper's τ₁.
+    let second = snapshot.governing().map_or(Quantity::Tau1, |governing| Quantity::of(governing.criterion));
+    let quantities = [Quantity::Along, second];
     let values = quantities.map(|quantity| section.values(quantity));
-    let [along, tau1] = [0, 1].map(|k| {
+    let [along, other] = [0, 1].map(|k| {
         let values = &values[k];
         move |[s, z]: [f64; 2]| section.at(values, s, z)
     });
@@ -30,33 +36,33 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let line = |points: Vec<[f64; 2]>, width: f64, dash: Dash, colour: Colour| {
         Over::Line(Stroke { points, width, dash, colour })
     };
-    let singular = passes_tip(snapshot, section);
-    let [largest_along, largest_tau1] = quantities.map(|quantity| section.largest(quantity));
-    let largest_tau1 = largest_tau1.filter(|_| !singular);
-    let panel = |title: &str, fill, ink: Colour, largest: Option<Largest>, below: Vec<Over>| {
+    let singular = second != Quantity::Shear && passes_tip(snapshot, section);
+    let [largest_along, largest_other] = quantities.map(|quantity| section.largest(quantity));
+    let largest_other = largest_other.filter(|_| !singular);
+    let failures = failures(snapshot, section);
+    let panel = |title: String, fill, ink: Colour, largest: Option<Largest>, below: Vec<Over>| {
         let interfaces = section.interfaces().into_iter().map(|z| vec![[first, z], [last, z]]);
         let interfaces = interfaces.map(|points| line(points, 0.9, Dash::Dashed, ink));
         let mark = largest.map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour: ink });
+        let rings = failures.iter().map(|&(_, at)| Over::Ring { at });
+        let over = below.into_iter().chain(interfaces).chain(contacts(snapshot, section)).chain(mark).chain(rings);
         Map {
-            title: title.to_owned(),
+            title,
             x: Axis::linear(snapshot.units.length("distance", "s")).from_to(first, last),
             y: Axis::linear(snapshot.units.length("depth", "z")).from_to(depth, 0.0),
             aspect,
             fill,
-            over: below.into_iter().chain(interfaces).chain(contacts(snapshot, section)).chain(mark).collect(),
+            over: over.collect(),
         }
     };
-    let bar = |symbol: &str, colours: ColourMap, span: [f64; 2]| Bar {
-        label: snapshot.units.pressure("", symbol),
-        colours,
-        span,
-    };
     let zero = section.zero_lines(&values[0]).into_iter().map(|points| line(points, 0.5, Dash::Solid, Colour::GREY));
-    let fill = Fill::Values(bar("σₛ", ColourMap::Diverging, span(&values[0])), &along);
-    let along = panel("(a) stress along the section σₛ", fill, Colour::BLACK, largest_along, zero.collect());
-    let most = span(&values[1])[1].max(f64::MIN_POSITIVE);
-    let fill = Fill::Values(bar("τ₁", ColourMap::Sequential, [0.0, most]), &tau1);
-    let tau1 = panel("(b) principal shear stress τ₁", fill, Colour::WHITE, largest_tau1, Vec::new());
+    let bar = Bar::signed(snapshot.units.pressure("", "σₛ"), span(&values[0], section.highest));
+    let apart = if bar.apart { "; tension and compression have scales of their own" } else { "" };
+    let along = panel(titled('a', Quantity::Along), Fill::Values(bar, &along), Colour::BLACK, largest_along, zero.collect());
+    let most = span(&values[1], None)[1].max(f64::MIN_POSITIVE);
+    let [_, symbol] = second.named();
+    let fill = Fill::Values(Bar::sequential(snapshot.units.pressure("", symbol), most), &other);
+    let other = panel(titled('b', second), fill, Colour::WHITE, largest_other, Vec::new());
 
     let [dx, dy] = section.line.direction;
     let to_scale = if aspect == scale { "" } else { " Depth is stretched." };
@@ -67,16 +73,49 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
             format!("{} at {place}", equals(&symbol, &[rounded(value)]))
         })
     };
-    let infinite = singular.then(|| "τ₁ is infinite at the tip".to_owned());
-    let largest = [words(largest_along, "σₛ"), words(largest_tau1, "τ₁"), infinite];
+    let infinite = singular.then(|| format!("{symbol} is infinite at the tip"));
+    let largest = [words(largest_along, "σₛ"), words(largest_other, symbol), infinite];
+    let residual = snapshot.step.problem().half_space().residual_stresses().any(|stress| stress != 0.0);
+    let residual = if residual { " Residual stress is in it." } else { "" };
+    let failed: Vec<String> = failures.iter().map(|(criterion, _)| criterion.to_string()).collect();
+    let rings = if failed.is_empty() { String::new() } else { format!(" Rings: {}.", failed.join(", ")) };
     let caption = snapshot.caption(&format!(
-        "Section along {:.0}° from the x axis; dashed: interface; bars on top: contacts; thin line in (a): {}.{to_scale} \
-         Crosses: the largest values here, {}.",
-        dy.atan2(dx).to_degrees(),
+        "Section along {:.0}° from the x axis; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
+         Crosses: the largest values here, {}.{rings}",
+        dy.atan2(dx).to_degrees() + 0.0,
         equals("σₛ", &[0.0]),
         largest.into_iter().flatten().collect::<Vec<String>>().join("; ")
     ));
-    sheet(&caption, &[&along, &tau1])
+    sheet(&caption, &[&along, &other])
+}
+
+fn titled(letter: char, quantity: Quantity) -> String {
+    let [name, symbol] = quantity.named();
+    format!("({letter}) {name} {symbol}")
+}
+
+/// What fails in the plane of the cut, and where: s, z.
+fn failures(snapshot: &Snapshot, section: &Section) -> Vec<(Criterion, [f64; 2])> {
+    let (cell, near) = (snapshot.step.grid().cell(), snapshot.step.grid().spacing());
+    let Line { origin, span: [first, last], .. } = section.line;
+    let [dx, dy] = section.line.unit();
+    let deepest = section.depths.last().map_or(0.0, |depth| depth.z);
+    let window = window_of(section, near);
+    let on_cut = |utilisation: &Utilisation| {
+        let [x, y, z] = utilisation.position;
+        let images = images(cell, cell.fractions([x, y]), window).into_iter();
+        let away = images.map(|[x, y]| [x - origin[0], y - origin[1]]);
+        let mut places = away.filter(|[x, y]| (x * dy - y * dx).abs() <= near).map(|[x, y]| x * dx + y * dy);
+        let s = places.find(|s| (first..=last).contains(s)).filter(|_| z <= deepest)?;
+        Some((utilisation.criterion, [s, z]))
+    };
+    snapshot.strength.iter().filter(|utilisation| utilisation.value >= FAILS).filter_map(on_cut).collect()
+}
+
+/// A window around the line of a cut, so much wider.
+fn window_of(section: &Section, wider: f64) -> Window {
+    let ends = section.line.ends();
+    [0, 1].map(|k| [ends[0][k].min(ends[1][k]) - wider, ends[0][k].max(ends[1][k]) + wider])
 }
 
 /// Whether the cut reaches the surface at a tip in contact, where τ₁ is infinite whatever the samples show.
@@ -86,7 +125,7 @@ fn passes_tip(snapshot: &Snapshot, section: &Section) -> bool {
     }
     let (cell, ends) = (snapshot.step.grid().cell(), section.line.ends());
     let near = 1e-6 * snapshot.step.grid().spacing();
-    let window = [0, 1].map(|k| [ends[0][k].min(ends[1][k]) - near, ends[0][k].max(ends[1][k]) + near]);
+    let window = window_of(section, near);
     let (along, length) = ([0, 1].map(|k| ends[1][k] - ends[0][k]), section.line.span[1] - section.line.span[0]);
     let aside = |[x, y]: [f64; 2]| ((x - ends[0][0]) * along[1] - (y - ends[0][1]) * along[0]).abs() / length;
     let mut images = tips(&snapshot.step, &snapshot.reading).flat_map(|site| images(cell, site.place, window));
@@ -94,8 +133,9 @@ fn passes_tip(snapshot: &Snapshot, section: &Section) -> bool {
 }
 
 /// Least and largest value, with zero.
-fn span(values: &Array2<f64>) -> [f64; 2] {
-    values.iter().fold([0.0, 0.0], |[low, high], &x| [x.min(low), x.max(high)])
+fn span(values: &Array2<f64>, highest: Option<[f64; 2]>) -> [f64; 2] {
+    let highest = highest.map(|[_, value]| value);
+    values.iter().copied().chain(highest).fold([0.0, 0.0], |[low, high], x| [x.min(low), x.max(high)])
 }
 
 /// Three digits, as a picture can show.

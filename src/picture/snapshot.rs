@@ -4,8 +4,9 @@ use super::axis::{power, signed};
 use super::units::{Units, lowered, substrate_index};
 use crate::body::{HalfSpace, Interface};
 use crate::counterbody::{Counterbody, Level, Shape};
+use crate::friction::Friction;
 use crate::problem::Problem;
-use crate::reading::Reading;
+use crate::reading::{Reading, Utilisation};
 use crate::spectral::Step;
 
 /// One load step.
@@ -17,6 +18,8 @@ pub struct Snapshot {
     pub step: Step,
     /// What is read off it.
     pub reading: Reading,
+    /// What it takes up of the strengths, where there are any.
+    pub strength: Vec<Utilisation>,
     /// What lengths and pressures are measured in.
     pub units: Units,
 }
@@ -25,7 +28,18 @@ impl Snapshot {
     /// A step and what is read off it.
     pub fn new(title: &str, step: Step, reading: Reading) -> Self {
         let units = Units::of(step.problem());
-        Self { title: title.to_owned(), step, reading, units }
+        Self { title: title.to_owned(), step, reading, strength: Vec::new(), units }
+    }
+
+    /// With what it takes up of the strengths.
+    #[must_use]
+    pub fn with_strength(self, strength: Vec<Utilisation>) -> Self {
+        Self { strength, ..self }
+    }
+
+    /// The criterion that governs: its utilisation is largest.
+    pub fn governing(&self) -> Option<&Utilisation> {
+        self.strength.iter().max_by(|a, b| a.value.total_cmp(&b.value))
     }
 
     /// Pressure sample by sample, a₂ fastest.
@@ -58,6 +72,7 @@ pub fn caption(title: &str, problem: &Problem, more: &[String]) -> String {
     let parts = [materials(problem.half_space(), &units)]
         .into_iter()
         .chain(geometry(problem.counterbody(), &units))
+        .chain(problem.friction().map(sliding))
         .chain(more.iter().cloned());
     format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))
 }
@@ -81,6 +96,9 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
             equals(&format!("ν{index}"), &[layer.material().poisson()]),
         ]
         .join(", ");
+        if layer.residual_stress() != 0.0 {
+            part += &format!(", {}", equals(&units.pressure_symbol(&format!("σᵣ{own}")), &[layer.residual_stress()]));
+        }
         match layer.interface() {
             Interface::Bonded => {}
             Interface::Frictionless => part += ", frictionless below",
@@ -95,6 +113,14 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
     }
     parts.push(last);
     parts.join(if single { ", " } else { "; " })
+}
+
+fn sliding(friction: &Friction) -> String {
+    let [x, y] = friction.direction();
+    // No minus before a zero.
+    let angle = y.atan2(x).to_degrees().round() + 0.0;
+    let uncoupled = if friction.is_coupled() { "" } else { ", uncoupled" };
+    format!("sliding at {angle:.0}° from the x axis, {}{uncoupled}", equals("μ", &[friction.coefficient()]))
 }
 
 fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {

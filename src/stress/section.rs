@@ -51,7 +51,8 @@ impl Line {
         (self.span[1] - self.span[0]) / (self.points.max(2) - 1) as f64
     }
 
-    fn unit(&self) -> [f64; 2] {
+    /// The direction as a vector of length 1.
+    pub fn unit(&self) -> [f64; 2] {
         let length = self.direction[0].hypot(self.direction[1]);
         self.direction.map(|x| x / length)
     }

@@ -1,0 +1,136 @@
+//! A colour bar: what the colours of a field stand for.
+
+use super::axis::{Scale, Ticks, ticks};
+use super::canvas::{Anchor, Canvas, PIXELS};
+use super::colour::{Colour, ColourMap};
+use super::frame::{all, factor, tick, widest};
+use super::sheet::{HAIR, LABELS, NUMBERS};
+use super::snapshot::short;
+
+/// What colours stand for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bar {
+    /// Quantity and unit.
+    pub label: String,
+    /// The map.
+    pub colours: ColourMap,
+    /// Least and largest value shown. A diverging map is white at zero and as dark at −x as at x, unless the signs are
+    /// apart.
+    pub span: [f64; 2],
+    /// Whether both signs have scales of their own, half of the bar each: see [`Bar::signed`].
+    pub apart: bool,
+}
+
+/// Width of a colour bar and its distance from the plot, points.
+const BAR: f64 = 7.0;
+pub(super) const GAP: f64 = 6.0;
+/// Between these ratios the lesser of two signs would be pale beside the other, and is more than nothing.
+const PALE: [f64; 2] = [0.01, 0.4];
+
+impl Bar {
+    /// Of values from zero on.
+    pub fn sequential(label: String, most: f64) -> Self {
+        Self { label, colours: ColourMap::Sequential, span: [0.0, most], apart: false }
+    }
+
+    /// Of tension and compression, each with a scale of its own where one would be pale beside the other.
+    pub fn signed(label: String, [low, high]: [f64; 2]) -> Self {
+        let ratio = (high / -low).min(-low / high);
+        Self { label, colours: ColourMap::Diverging, span: [low, high], apart: (PALE[0]..PALE[1]).contains(&ratio) }
+    }
+
+    /// Where a value stands on the bar, from 0 at the bottom to 1.
+    fn place(&self, value: f64) -> f64 {
+        let [low, high] = self.span;
+        match (self.apart, value < 0.0) {
+            (false, _) => (value - low) / (high - low),
+            (true, true) => 0.5 - 0.5 * value / low,
+            (true, false) => 0.5 + 0.5 * value / high,
+        }
+    }
+
+    /// What stands at a place.
+    fn value(&self, place: f64) -> f64 {
+        let [low, high] = self.span;
+        match (self.apart, place < 0.5) {
+            (false, _) => low + (high - low) * place,
+            (true, true) => low * (1.0 - 2.0 * place),
+            (true, false) => high * (2.0 * place - 1.0),
+        }
+    }
+
+    /// The colour of a value.
+    pub(super) fn colour(&self, table: &[Colour], value: f64) -> Colour {
+        let [low, high] = self.span;
+        let part = match self.colours {
+            ColourMap::Diverging if !self.apart => 0.5 + 0.5 * value / low.abs().max(high.abs()),
+            _ => self.place(value),
+        };
+        table[(part * 255.0).round().clamp(0.0, 255.0) as usize]
+    }
+
+    pub(super) fn ticks(&self) -> Ticks {
+        if !self.apart {
+            return ticks(self.span, Scale::Linear, 6);
+        }
+        let [low, high] = self.span;
+        let halves = [[low, 0.0], [0.0, high]].map(|half| ticks(half, Scale::Linear, 4));
+        let mut numbered: Vec<(f64, String)> = halves.iter().flat_map(|half| half.numbered.clone()).collect();
+        numbered.dedup_by_key(|(value, _)| *value == 0.0);
+        let exponent = halves[0].exponent.max(halves[1].exponent);
+        for (value, number) in &mut numbered {
+            *number = short(*value / 10f64.powi(exponent));
+        }
+        Ticks { numbered, plain: halves.into_iter().flat_map(|half| half.plain).collect(), exponent }
+    }
+
+    /// Width with its numbers and its quantity.
+    pub(super) fn width(&self) -> f64 {
+        GAP + BAR + 4.0 + widest(&self.ticks()) + 1.6 * LABELS
+    }
+
+    pub(super) fn draw(&self, canvas: &mut Canvas, [x, top]: [f64; 2], height: f64) {
+        let rows = (height * PIXELS).round() as usize;
+        let columns = (BAR * PIXELS).round() as usize;
+        let table = self.colours.table();
+        let colour = |row: usize| self.colour(&table, self.value(1.0 - (row as f64 + 0.5) / rows as f64));
+        let pixels = (0..rows).flat_map(|row| colour(row).0.repeat(columns)).collect();
+        canvas.image([x, top], [BAR, height], [columns, rows], pixels);
+        canvas.outline(&[[x, top], [x + BAR, top], [x + BAR, top + height], [x, top + height]], HAIR, Colour::BLACK);
+        let ticks = self.ticks();
+        for (value, number) in all(&ticks) {
+            let y = top + height * (1.0 - self.place(value));
+            tick(canvas, [x + BAR, y], [2.2, 0.0], number.is_some());
+            if let Some(number) = number {
+                canvas.label(number, [x + BAR + 4.0, y], Anchor::Left, NUMBERS, Colour::BLACK);
+            }
+        }
+        if let Some(factor) = factor(&ticks) {
+            canvas.text(&factor, [x, top - 3.0], Anchor::Left, NUMBERS, Colour::BLACK);
+        }
+        let right = x + BAR + 4.0 + widest(&ticks) + 1.35 * LABELS;
+        canvas.upward(&self.label, [right, top + 0.5 * height], LABELS, Colour::BLACK);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_stand_apart_where_one_would_be_pale_and_places_lead_back_to_values() {
+        let bar = |span: [f64; 2]| Bar::signed(String::new(), span);
+        for (span, apart) in [([-1.0, 0.9], false), ([-1.0, 0.1], true), ([-0.1, 3.0], true), ([-1.0, 1e-4], false), ([-1.0, 0.0], false)] {
+            let bar = bar(span);
+            assert_eq!(bar.apart, apart, "{span:?}");
+            for place in [0.0, 0.2, 0.5, 0.9, 1.0] {
+                assert!((bar.place(bar.value(place)) - place).abs() < 1e-12, "{span:?} {place}");
+            }
+            let zeros = bar.ticks().numbered.iter().filter(|(value, _)| *value == 0.0).count();
+            assert_eq!(zeros, 1, "{span:?}");
+        }
+        let table = ColourMap::Diverging.table();
+        let apart = bar([-10.0, 1.0]);
+        assert_eq!([apart.colour(&table, 1.0), apart.colour(&table, -10.0)], [table[255], table[0]]);
+    }
+}
