@@ -45,7 +45,8 @@ impl Recorder for Searching<'_> {
 
     fn step(&mut self, _step: &Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Infallible> {
         let worst = record.strength.iter().max_by(|a, b| a.value.total_cmp(&b.value));
-        let words = worst.map_or("no contact".to_owned(), |worst| format!("{} {}", worst.criterion, number(worst.value)));
+        let words =
+            worst.map_or("no contact".to_owned(), |worst| format!("{} {}", worst.criterion, number(worst.value)));
         let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
         if self.common.verbose {
             tell!("{words}");

@@ -90,9 +90,9 @@ impl<'a> LocalizedField<'a> {
         let distance = |p: &[f64; 2], f: &([f64; 2], f64)| (p[0] - f.0[0]).hypot(p[1] - f.0[1]);
         let reach = points.iter().flat_map(|p| forces.iter().map(move |f| distance(p, f))).fold(0.0, f64::max);
         let pressed = ForceStress::new(|r| self.under_force(depth, r), depth.z, reach);
-        let sheared = self.traction.map(|traction| {
-            (traction, ForceStress::new(|r| self.under_shear_force(depth, r), depth.z, reach))
-        });
+        let sheared = self
+            .traction
+            .map(|traction| (traction, ForceStress::new(|r| self.under_shear_force(depth, r), depth.z, reach)));
         let mean_pressure = self.solution.mean_pressure;
         let residual = self.residual[depth.material - 1];
         let states = points.par_iter().map(|&[x, y]| {
@@ -236,7 +236,9 @@ impl<'a> LocalizedField<'a> {
         [
             part(&|a, _, x| a.szz * one(x)),
             part(&|a, t, x| a.sqq * (one(x) - second_ratio(x)) + (a.stt + 2.0 * t.sqt) * second_ratio(x)),
-            part(&|a, t, x| a.sqq * second_ratio(x) + a.stt * (one(x) - second_ratio(x)) - 2.0 * t.sqt * second_ratio(x)),
+            part(&|a, t, x| {
+                a.sqq * second_ratio(x) + a.stt * (one(x) - second_ratio(x)) - 2.0 * t.sqt * second_ratio(x)
+            }),
             part(&|a, t, x| a.sqz * (zero(x) - first_ratio(x)) + t.stz * first_ratio(x)),
             part(&|a, t, x| (a.sqq - a.stt) * second_ratio(x) + t.sqt * (one(x) - 2.0 * second_ratio(x))),
             part(&|a, t, x| a.sqz * first_ratio(x) + t.stz * (zero(x) - first_ratio(x))),

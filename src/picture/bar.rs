@@ -120,7 +120,13 @@ mod tests {
     #[test]
     fn signs_stand_apart_where_one_would_be_pale_and_places_lead_back_to_values() {
         let bar = |span: [f64; 2]| Bar::signed(String::new(), span);
-        for (span, apart) in [([-1.0, 0.9], false), ([-1.0, 0.1], true), ([-0.1, 3.0], true), ([-1.0, 1e-4], false), ([-1.0, 0.0], false)] {
+        for (span, apart) in [
+            ([-1.0, 0.9], false),
+            ([-1.0, 0.1], true),
+            ([-0.1, 3.0], true),
+            ([-1.0, 1e-4], false),
+            ([-1.0, 0.0], false),
+        ] {
             let bar = bar(span);
             assert_eq!(bar.apart, apart, "{span:?}");
             for place in [0.0, 0.2, 0.5, 0.9, 1.0] {

@@ -6,11 +6,12 @@ use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
 use super::snapshot::caption;
 use super::units::Units;
+use super::utilisations::utilisation_curves;
 use crate::problem::Problem;
-use crate::reading::{LevelReading, Reading};
+use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
 use crate::stress::Peak;
-use crate::stress::maxima::Extremes;
+use crate::stress::maxima::{Extremes, Tractions};
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
 pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Option<Canvas> {
@@ -25,6 +26,8 @@ pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Opti
         charts.push(run.shares());
     }
     charts.extend(run.stresses());
+    charts.extend(run.interfaces());
+    charts.extend(run.utilisations());
     for (letter, chart) in ('a'..).zip(&mut charts) {
         chart.title = format!("({letter}) {}", chart.title);
     }
@@ -126,10 +129,38 @@ impl Run<'_> {
         };
         let tau1 = self.units.pressure("largest principal shear stress", "τ₁");
         let tension = self.units.pressure("largest tension", "σ₁");
+        let mises = self.units.pressure("largest stress of von Mises", "σᵥ");
         vec![
             self.chart("principal shear stress", self.axis(tau1), curves(|extremes| extremes.tau1)),
             self.chart("tension", Axis::linear(tension), curves(|extremes| extremes.tension)),
+            self.chart("von Mises", self.axis(mises), curves(|extremes| extremes.mises)),
         ]
+    }
+
+    /// What opens and what shears each interface most.
+    fn interfaces(&self) -> Option<Chart> {
+        let interfaces = self.steps.iter().filter_map(|step| Some(step.stress.as_ref()?.interfaces.len())).max()?;
+        let curve = |index: usize, what: &str, value: fn(&Tractions) -> Peak, dashed: bool| {
+            let name = if interfaces == 1 { what.to_owned() } else { format!("{what}, interface {}", index + 1) };
+            let of = |step: &StepRecord| Some(value(step.stress.as_ref()?.interfaces.get(index)?).value);
+            let curve = self.curve(&name, index + 1, |step| of(step).unwrap_or(f64::NAN));
+            if dashed { Curve { style: Style::Dashed, ..curve } } else { curve }
+        };
+        let curves = (0..interfaces).flat_map(|index| {
+            [
+                curve(index, "tension", |carried| carried.normal, true),
+                curve(index, "shear", |carried| carried.shear, false),
+            ]
+        });
+        let y = Axis::linear(self.units.pressure("largest traction", "σ_z, τ"));
+        (interfaces > 0).then(|| self.chart("interfaces", y, curves.collect()))
+    }
+
+    /// What is taken up of the strengths.
+    fn utilisations(&self) -> Option<Chart> {
+        let criteria: Vec<Criterion> =
+            self.steps.iter().find(|step| !step.strength.is_empty())?.strength.iter().map(|u| u.criterion).collect();
+        Some(self.chart("utilisation", Axis::log("utilisation"), utilisation_curves(self.steps, criteria)))
     }
 }
 

@@ -58,7 +58,8 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let zero = section.zero_lines(&values[0]).into_iter().map(|points| line(points, 0.5, Dash::Solid, Colour::GREY));
     let bar = Bar::signed(snapshot.units.pressure("", "σₛ"), span(&values[0], section.highest));
     let apart = if bar.apart { "; tension and compression have scales of their own" } else { "" };
-    let along = panel(titled('a', Quantity::Along), Fill::Values(bar, &along), Colour::BLACK, largest_along, zero.collect());
+    let along =
+        panel(titled('a', Quantity::Along), Fill::Values(bar, &along), Colour::BLACK, largest_along, zero.collect());
     let most = span(&values[1], None)[1].max(f64::MIN_POSITIVE);
     let [_, symbol] = second.named();
     let fill = Fill::Values(Bar::sequential(snapshot.units.pressure("", symbol), most), &other);

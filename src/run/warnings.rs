@@ -32,7 +32,9 @@ pub(super) fn of_limits(problem: &Problem, limits: &Limits) -> Vec<String> {
     let steps: Vec<Numbered> = (1..).zip(&limits.steps).collect();
     let is_limit = |(_, step): &Numbered| {
         let from = |limit: &Limit| (step.reading.mean_pressure - limit.mean_pressure()).abs();
-        let nearest = |limit: &Limit| steps.iter().all(|(_, other)| from(limit) <= (other.reading.mean_pressure - limit.mean_pressure()).abs());
+        let nearest = |limit: &Limit| {
+            steps.iter().all(|(_, other)| from(limit) <= (other.reading.mean_pressure - limit.mean_pressure()).abs())
+        };
         limits.limits.iter().any(|limit| matches!(limit.at, At::Load { .. } | At::Below { .. }) && nearest(limit))
     };
     let judged: Vec<Numbered> = steps.iter().copied().filter(is_limit).collect();

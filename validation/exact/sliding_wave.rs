@@ -51,9 +51,8 @@ impl SlidingWave {
         let eta = self.exponent();
         let sigma = leading * (0.5 - eta) - trailing * (0.5 + eta);
         let [along, behind, before] = [2.0 * sigma, 2.0 * trailing, -2.0 * leading].map(f64::sin_cos);
-        let sum = |part: fn((f64, f64)) -> f64| {
-            0.5 * (part(along) - (0.5 + eta) * part(behind) - (0.5 - eta) * part(before))
-        };
+        let sum =
+            |part: fn((f64, f64)) -> f64| 0.5 * (part(along) - (0.5 + eta) * part(behind) - (0.5 - eta) * part(before));
         [sum(|(_, cosine)| cosine) - self.fraction, sum(|(sine, _)| sine) - self.coupling * self.fraction]
     }
 

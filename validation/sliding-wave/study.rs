@@ -52,8 +52,8 @@ fn solve(coupling: f64, fraction: f64, points: usize) -> Result<Found, StudyErro
     let unit = PI * material.contact_modulus() * AMPLITUDE;
     let cell = Cell::new([1.0, 0.0], [0.0, 0.1])?;
     let surface = topography(cell, [points, 4], |s, _| AMPLITUDE * (TAU * s).cos())?;
-    let problem = Problem::new(surface, HalfSpace::new(vec![], material))
-        .sliding(Friction::new(coupling / BETA, [1.0, 0.0])?)?;
+    let problem =
+        Problem::new(surface, HalfSpace::new(vec![], material)).sliding(Friction::new(coupling / BETA, [1.0, 0.0])?)?;
     let mut steps = Steps { solver: Solver::new(problem, [points, 4], Settings::default())? };
     let step = steps.step(Load::MeanPressure(fraction * unit))?;
     let half = (points / 2) as i64;
@@ -68,16 +68,29 @@ fn solve(coupling: f64, fraction: f64, points: usize) -> Result<Found, StudyErro
     let reach = [count(|x| x < 0.0), count(|x| x > 0.0)];
     let field = StressField::new(step.finest(), MeanStress::Confined);
     let mean = fraction * POISSON / (1.0 - POISSON);
-    let tension = field.crest().map_or([0.0; 2], |crest| {
-        [crest.peak.value / unit + mean, crest.error(None) * crest.scale / unit]
-    });
+    let tension = field
+        .crest()
+        .map_or([0.0; 2], |crest| [crest.peak.value / unit + mean, crest.error(None) * crest.scale / unit]);
     Ok(Found { profile, peak, reach, tension, outer: step.report.outer })
 }
 
 fn run() -> Result<Outcome, StudyError> {
     let columns = [
-        "coupling", "fraction", "peak", "peak_exact", "peak_bound", "place", "place_exact", "behind", "behind_exact",
-        "before", "before_exact", "tension", "tension_exact", "tension_stated", "outer",
+        "coupling",
+        "fraction",
+        "peak",
+        "peak_exact",
+        "peak_bound",
+        "place",
+        "place_exact",
+        "behind",
+        "behind_exact",
+        "before",
+        "before_exact",
+        "tension",
+        "tension_exact",
+        "tension_stated",
+        "outer",
     ];
     let mut loads = Data::new("loads", &columns);
     let mut curves = Vec::new();
@@ -92,9 +105,21 @@ fn run() -> Result<Outcome, StudyError> {
             let samples = (exact.trailing + exact.leading) / PI * POINTS as f64;
             let bound = 2.0 * samples.powf(-1.5 - exact.exponent());
             loads.rows.push(vec![
-                coupling, fraction, found.peak[0], peak, bound, found.peak[1], place / PI,
-                found.reach[0], exact.trailing / PI, found.reach[1], exact.leading / PI,
-                found.tension[0], exact.trailing_tension(coupling / BETA), found.tension[1], found.outer as f64,
+                coupling,
+                fraction,
+                found.peak[0],
+                peak,
+                bound,
+                found.peak[1],
+                place / PI,
+                found.reach[0],
+                exact.trailing / PI,
+                found.reach[1],
+                exact.leading / PI,
+                found.tension[0],
+                exact.trailing_tension(coupling / BETA),
+                found.tension[1],
+                found.outer as f64,
             ]);
             if fraction == 0.5 {
                 let reach = (exact.trailing / PI, exact.leading / PI);
@@ -112,12 +137,8 @@ fn run() -> Result<Outcome, StudyError> {
         let found = solve(coupling, fraction, points)?;
         // Over the whole contact but for its edges, in the mean.
         let away = |x: f64| -0.9 * exact.trailing < PI * x && PI * x < 0.9 * exact.leading;
-        let errors: Vec<f64> = found
-            .profile
-            .iter()
-            .filter(|[x, _]| away(*x))
-            .map(|&[x, p]| (p - exact.pressure(PI * x)).abs())
-            .collect();
+        let errors: Vec<f64> =
+            found.profile.iter().filter(|[x, _]| away(*x)).map(|&[x, p]| (p - exact.pressure(PI * x)).abs()).collect();
         grids.rows.push(vec![points as f64, errors.iter().sum::<f64>() / errors.len() as f64]);
     }
     let errors = grids.column("error");
@@ -129,15 +150,33 @@ fn run() -> Result<Outcome, StudyError> {
     };
     let pairs = |found: &str, exact: &str| column(found).into_iter().zip(column(exact)).collect::<Vec<_>>();
     let stated = column("tension").into_iter().zip(column("tension_exact")).zip(column("tension_stated"));
-    let stated: Vec<(f64, f64)> = stated.map(|((found, exact), stated)| ((found - exact).abs() / stated, 0.0)).collect();
+    let stated: Vec<(f64, f64)> =
+        stated.map(|((found, exact), stated)| ((found - exact).abs() / stated, 0.0)).collect();
     let checks = vec![
-        Check::worst("largest pressure, error over 2 n^(−3/2−η)", over("peak", "peak_exact", "peak_bound"), Tolerance::Absolute(1.0)),
+        Check::worst(
+            "largest pressure, error over 2 n^(−3/2−η)",
+            over("peak", "peak_exact", "peak_bound"),
+            Tolerance::Absolute(1.0),
+        ),
         // The peak is flat: two samples.
         Check::worst("its place over λ", pairs("place", "place_exact"), Tolerance::Absolute(8.0 / POINTS as f64)),
-        Check::worst("contact behind the crest over λ", pairs("behind", "behind_exact"), Tolerance::Absolute(1.5 / POINTS as f64)),
-        Check::worst("contact before the crest over λ", pairs("before", "before_exact"), Tolerance::Absolute(1.5 / POINTS as f64)),
+        Check::worst(
+            "contact behind the crest over λ",
+            pairs("behind", "behind_exact"),
+            Tolerance::Absolute(1.5 / POINTS as f64),
+        ),
+        Check::worst(
+            "contact before the crest over λ",
+            pairs("before", "before_exact"),
+            Tolerance::Absolute(1.5 / POINTS as f64),
+        ),
         Check::worst("tension at the trailing edge, error over the stated one", stated, Tolerance::Absolute(1.0)),
-        Check::new("order of convergence of the pressure, f = 0.3", order, 1.5 + exact.exponent(), Tolerance::Order(0.25)),
+        Check::new(
+            "order of convergence of the pressure, f = 0.3",
+            order,
+            1.5 + exact.exponent(),
+            Tolerance::Order(0.25),
+        ),
     ];
     let chart = Chart {
         title: String::new(),

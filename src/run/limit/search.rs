@@ -170,7 +170,8 @@ impl<'a, R: Recorder> Search<'a, R> {
                 _ => {
                     let nearest = taken[if enclosure.first_is_nearer() { below } else { above }];
                     let (mean_pressure, slope) = (enclosure.root(), enclosure.slope());
-                    let error = slope.zip(nearest.error).map(|(slope, error)| mean_pressure * error / (nearest.value * slope));
+                    let error =
+                        slope.zip(nearest.error).map(|(slope, error)| mean_pressure * error / (nearest.value * slope));
                     // The place of one that jumps is where it has failed.
                     let position = if slope.is_some() { nearest.position } else { taken[above].position };
                     return Ok(At::Load { mean_pressure, error, position });
