@@ -74,7 +74,7 @@ impl Bar {
             return ticks(self.span, Scale::Linear, 6);
         }
         let [low, high] = self.span;
-        let halves = [[low, 0.0], [0.0, high]].map(|half| ticks(half, Scale::Linear, 4));
+        let halves = [[low, 0.0], [0.0, high]].map(|half| ticks(half, Scale::Linear, 5));
         let mut numbered: Vec<(f64, String)> = halves.iter().flat_map(|half| half.numbered.clone()).collect();
         numbered.dedup_by_key(|(value, _)| *value == 0.0);
         let exponent = halves[0].exponent.max(halves[1].exponent);

@@ -6,7 +6,7 @@ use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
 use super::snapshot::caption;
 use super::units::Units;
-use super::utilisations::utilisation_curves;
+use super::utilisations::{utilisation_axis, utilisation_curves};
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
@@ -152,7 +152,7 @@ impl Run<'_> {
                 curve(index, "shear", |carried| carried.shear, false),
             ]
         });
-        let y = Axis::linear(self.units.pressure("largest traction", "σ_z, τ"));
+        let y = Axis::linear(self.units.pressure("largest tension and shear", "σ, τ"));
         (interfaces > 0).then(|| self.chart("interfaces", y, curves.collect()))
     }
 
@@ -160,7 +160,7 @@ impl Run<'_> {
     fn utilisations(&self) -> Option<Chart> {
         let criteria: Vec<Criterion> =
             self.steps.iter().find(|step| !step.strength.is_empty())?.strength.iter().map(|u| u.criterion).collect();
-        Some(self.chart("utilisation", Axis::log("utilisation"), utilisation_curves(self.steps, criteria)))
+        Some(self.chart("utilisation", utilisation_axis(self.steps), utilisation_curves(self.steps, criteria)))
     }
 }
 

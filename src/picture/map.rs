@@ -8,7 +8,6 @@ use super::curve::clipped;
 use super::frame::{Frame, factor};
 use super::sheet::{HAIR, Margins, NUMBERS, Panel};
 use rayon::prelude::*;
-use std::f64::consts::TAU;
 
 /// What is drawn over a field, in its coordinates.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,9 +30,10 @@ pub enum Over {
         /// Its colour; its edge has the opposite lightness.
         colour: Colour,
     },
-    /// A ring, where something fails.
+    /// A number in a ring, where something fails.
     Ring {
         at: [f64; 2],
+        number: usize,
     },
     /// An arrow in the lower left corner.
     Arrow {
@@ -186,9 +186,9 @@ impl Panel for Map<'_> {
                         cross(canvas, place, *colour);
                     }
                 }
-                Over::Ring { at: place } => {
+                Over::Ring { at: place, number } => {
                     if let Some(place) = at(*place) {
-                        ring(canvas, place);
+                        ring(canvas, place, *number);
                     }
                 }
                 Over::Arrow { direction } => {
@@ -212,15 +212,11 @@ fn cross(canvas: &mut Canvas, [x, y]: [f64; 2], colour: Colour) {
     }
 }
 
-/// A ring, white with a black edge on both sides.
-fn ring(canvas: &mut Canvas, [x, y]: [f64; 2]) {
-    let circle: Vec<[f64; 2]> = (0..=48)
-        .map(|k| (TAU * f64::from(k) / 48.0).sin_cos())
-        .map(|(sin, cos)| [x + 4.6 * cos, y + 4.6 * sin])
-        .collect();
-    for (width, colour) in [(2.6, Colour::BLACK), (1.2, Colour::WHITE)] {
-        canvas.line(&circle, width, colour);
-    }
+/// A number on a white disc with a black edge.
+fn ring(canvas: &mut Canvas, place: [f64; 2], number: usize) {
+    canvas.disc(place, 4.6, Colour::BLACK);
+    canvas.disc(place, 4.0, Colour::WHITE);
+    canvas.label(&number.to_string(), place, Anchor::Centre, NUMBERS, Colour::BLACK);
 }
 
 /// An arrow around a place, on a white ground; `direction` with y upwards.

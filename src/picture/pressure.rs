@@ -38,7 +38,7 @@ pub fn sliding_arrow(snapshot: &Snapshot) -> Option<Over> {
 
 /// What a caption says about it.
 pub fn sliding_words(snapshot: &Snapshot) -> &'static str {
-    snapshot.step.problem().friction().map_or("", |_| " Arrow: the indenters slide.")
+    snapshot.step.problem().friction().map_or("", |_| " Arrow: direction of sliding.")
 }
 
 /// Height over width of a window.

@@ -44,7 +44,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
         let interfaces = section.interfaces().into_iter().map(|z| vec![[first, z], [last, z]]);
         let interfaces = interfaces.map(|points| line(points, 0.9, Dash::Dashed, ink));
         let mark = largest.map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour: ink });
-        let rings = failures.iter().map(|&(_, at)| Over::Ring { at });
+        let rings = (1..).zip(&failures).map(|(number, &(_, at))| Over::Ring { at, number });
         let over = below.into_iter().chain(interfaces).chain(contacts(snapshot, section)).chain(mark).chain(rings);
         Map {
             title,
@@ -78,8 +78,9 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let largest = [words(largest_along, "σₛ"), words(largest_other, symbol), infinite];
     let residual = snapshot.step.problem().half_space().residual_stresses().any(|stress| stress != 0.0);
     let residual = if residual { " Residual stress is in it." } else { "" };
-    let failed: Vec<String> = failures.iter().map(|(criterion, _)| criterion.to_string()).collect();
-    let rings = if failed.is_empty() { String::new() } else { format!(" Rings: {}.", failed.join(", ")) };
+    let failed: Vec<String> =
+        (1..).zip(&failures).map(|(number, (criterion, _)): (usize, _)| format!("{number}: {criterion}")).collect();
+    let rings = if failed.is_empty() { String::new() } else { format!(" Beyond its strength: {}.", failed.join("; ")) };
     let caption = snapshot.caption(&format!(
         "Section along {:.0}° from the x axis; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
          Crosses: the largest values here, {}.{rings}",

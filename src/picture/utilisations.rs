@@ -20,10 +20,18 @@ pub fn utilisations(title: &str, problem: &Problem, limits: &Limits) -> Option<C
     let units = Units::of(problem);
     let curves = utilisation_curves(&limits.steps, limits.limits.iter().map(|limit| limit.criterion));
     let x = Axis::log(units.pressure("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
-    let chart = Chart { title: String::new(), x, y: Axis::log("utilisation"), curves };
+    let chart = Chart { title: String::new(), x, y: utilisation_axis(&limits.steps), curves };
     let [n1, n2] = limits.steps[0].points;
     let more = [limits.to_string(), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
     Some(plots(&caption(title, problem, &more), &[chart]))
+}
+
+/// From a hundredth on at least: what takes up less is as good as nothing.
+pub(super) fn utilisation_axis(steps: &[StepRecord]) -> Axis {
+    let values = steps.iter().flat_map(|step| &step.strength).map(|own| own.value);
+    let values = values.filter(|value| value.is_finite() && *value > 0.0);
+    let (least, most) = values.fold((1.0f64, 1.0f64), |(least, most), value| (least.min(value), most.max(value)));
+    Axis::log("utilisation").from_to(least.max(0.01) / 1.2, most * 1.2)
 }
 
 /// A curve for each criterion, and where it fails. What is zero or infinite has no place on a logarithmic axis.
