@@ -4,7 +4,7 @@ use crate::common::{PAPER, coated, one_level, paraboloid, solve};
 use crate::{alone, homogeneous, setup, two_layers};
 use percoat::localized::Localized;
 use percoat::localized::stress::LocalizedField;
-use percoat::{Depth, HalfSpace, Interface, Lattice, Load, MeanStress, Problem, StressField};
+use percoat::{Depth, Friction, HalfSpace, Interface, Lattice, Load, Material, MeanStress, Problem, StressField};
 
 /// On the axis, ζ = z/a, ν = 0: σ_z = −p₀/(1+ζ²), σ_r = −(1+ν)(1 − ζ atan(1/ζ))p₀ + ½p₀/(1+ζ²).
 #[test]
@@ -26,6 +26,53 @@ fn stresses_under_an_indenter_alone_are_hertzian() {
     assert!(field.points(0, Depth { z: 0.05, material: 1 }, &[[0.0, 0.0]]).is_none());
 }
 
+/// Closed form of `validation/sliding-sphere`: both loads apart, normal plus μ times tangential, turned to the direction.
+#[test]
+fn stresses_under_an_indenter_alone_that_slides_are_those_of_a_sliding_sphere() {
+    const COEFFICIENT: f64 = 0.7;
+    let rows: Vec<Vec<&str>> = include_str!("../../validation/sliding-sphere/reference.csv")
+        .lines()
+        .filter(|line| !line.starts_with(['#', 'n']))
+        .map(|line| line.split(',').collect())
+        .collect();
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    let p0 = 2.0 / std::f64::consts::PI;
+    let (sin, cos) = 0.6f64.sin_cos();
+    let turned = |[x, y]: [f64; 2]| [x * cos - y * sin, x * sin + y * cos];
+    let friction = Friction::new(COEFFICIENT, [cos, sin]).unwrap().uncoupled();
+    let mut compared = 0;
+    for nu in [0.0, 0.3, 0.5] {
+        let indenters = one_level(Lattice::hexagonal(10.0, 1).unwrap(), paraboloid(1.0, 0.0));
+        let body = HalfSpace::new(vec![], Material::from_young(1.0 - nu * nu, nu).unwrap());
+        let localized = Localized::new(&Problem::new(indenters, body), 1).unwrap();
+        let load = 4.0 / 3.0 / localized.system().cell().area();
+        let solution = localized.solve(Load::MeanPressure(load), &alone(48));
+        let field = LocalizedField::new(&solution, Some(&friction), MeanStress::Confined);
+        for pair in rows.chunks_exact(2).filter(|pair| number(pair[0][0]) == nu) {
+            let [normal, tangential] = [0, 1].map(|k| -> Vec<f64> { pair[k][5..].iter().map(|x| number(x)).collect() });
+            assert_eq!((pair[0][4], pair[1][4]), ("normal", "tangential"));
+            let [x, y, z] = [1, 2, 3].map(|k| number(pair[0][k]));
+            let Some(states) = field.points(0, Depth { z, material: 1 }, &[turned([x, y])]) else { continue };
+            let sum = |k: usize| p0 * (normal[k] + COEFFICIENT * tangential[k]);
+            let [xx, yy, zz, xy, xz, yz] = [0, 1, 2, 3, 4, 5].map(sum);
+            let known = [
+                xx * cos * cos + yy * sin * sin - 2.0 * xy * sin * cos,
+                xx * sin * sin + yy * cos * cos + 2.0 * xy * sin * cos,
+                zz,
+                (xx - yy) * sin * cos + xy * (cos * cos - sin * sin),
+                turned([xz, yz])[0],
+                turned([xz, yz])[1],
+            ];
+            for (found, known) in states[0].components().iter().zip(known) {
+                // As against the spectral field: under the edge of 48 elements, forces in the place of elements.
+                assert!((found - known).abs() < 2e-3 * p0, "ν = {nu}, ({x}, {y}, {z}): {found} {known}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 3 * 20 * 6, "{compared} components");
+}
+
 /// Every component on the axis and along a radial line, above and below the interfaces, for both mean stresses.
 #[test]
 fn stresses_agree_with_the_spectral_field() {
@@ -39,9 +86,18 @@ fn stresses_agree_with_the_spectral_field() {
         let problem = Problem::new(PAPER[0].indenters(), half_space.clone());
         let solution = Localized::new(&problem, 439).unwrap().solve(load, &setup(439, 32));
         let (spectral, reading) = solve(&problem, [384, 384], load);
-        for mean in [MeanStress::Confined, MeanStress::HalfSpace] {
-            let field = LocalizedField::new(&solution, None, mean);
-            let whole = StressField::new(spectral.finest(), mean);
+        // What slides on a layer that slides itself has nothing to hold it.
+        let friction = Friction::new(0.6, [0.8, -0.6]).unwrap().uncoupled();
+        let sliding = problem.clone().sliding(friction.clone()).ok();
+        let slid = sliding.map(|problem| solve(&problem, [384, 384], load).0);
+        assert_eq!(
+            slid.is_none(),
+            half_space.layers().iter().any(|layer| layer.interface() == Interface::Frictionless)
+        );
+        let all = [(MeanStress::Confined, None), (MeanStress::HalfSpace, None), (MeanStress::HalfSpace, slid.as_ref())];
+        for (mean, slid) in all {
+            let field = LocalizedField::new(&solution, slid.map(|_| &friction), mean);
+            let whole = StressField::new(slid.unwrap_or(&spectral).finest(), mean);
             let depths = [
                 Depth { z: 0.08, material: 1 },
                 Depth { z: interface, material: 1 },
