@@ -16,6 +16,8 @@ mod folder;
 mod inspection;
 #[path = "command_line/interruption.rs"]
 mod interruption;
+#[path = "command_line/limit.rs"]
+mod limit;
 #[path = "command_line/numpy.rs"]
 mod numpy;
 #[path = "command_line/pictures.rs"]

@@ -1,0 +1,90 @@
+//! `percoat limit`: what it prints and writes.
+
+use crate::program::{Desk, number};
+use serde_json::Value;
+use std::fs;
+
+fn limit(desk: &Desk, arguments: &[&str]) -> (Value, String) {
+    let answer = desk.percoat(&[&["limit", "-o", "out"], arguments].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    (serde_json::from_str(&fs::read_to_string(desk.path("out/limit.json")).unwrap()).unwrap(), answer.out)
+}
+
+#[test]
+fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
+    let desk = Desk::new();
+    let (limits, out) = limit(&desk, &["--set", "grid.points=96"]);
+    let names = ["limit-section.png", "limit.csv", "limit.json", "limit.png"];
+    let files = fs::read_dir(desk.path("out")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
+    files.sort();
+    assert_eq!(files, names);
+    // Chromium below the coating, right under the sphere.
+    let first = &limits["first"];
+    assert_eq!((first["criterion"].as_str(), first["material"].as_u64()), (Some("yield"), Some(2)));
+    assert!(number(first, "/mean_pressure") > 0.0 && first["reached"] == "under load");
+    assert!((2.0..=2.5).contains(&number(first, "/z")) && number(first, "/x").abs() < 1.0);
+    let all = limits["limits"].as_array().unwrap();
+    assert_eq!(all.len(), 6);
+    for own in all {
+        for key in ["criterion", "mean_pressure", "error", "x", "y", "z", "reached"] {
+            assert!(own.get(key).is_some(), "{key} is missing in {own}");
+        }
+        assert!(own["mean_pressure"].is_null() || number(own, "/mean_pressure") >= number(first, "/mean_pressure"));
+    }
+    let steps = limits["steps"].as_array().unwrap().len();
+    assert_eq!(fs::read_to_string(desk.path("out/limit.csv")).unwrap().lines().count(), steps + 1);
+    for words in ["first: yield of material 2 at the mean pressure", "delamination of interface 1", "loads solved"] {
+        assert!(out.contains(words), "\"{words}\" does not stand in\n{out}");
+    }
+    assert!(out.lines().all(|line| line.chars().count() <= 80), "wider than a terminal:\n{out}");
+}
+
+/// The utilisation of a step is its largest stress over the strength, and the table of `solve` says first what governs.
+#[test]
+fn a_solved_case_with_strengths_says_what_governs() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["solve", "dlc-on-steel", "-o", "out", "--no-pictures", "--set", "grid.points=96"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(answer.out.contains("\nyield of material 2 fails\n"), "{}", answer.out);
+    let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&text).unwrap();
+    let step = summary["steps"].as_array().unwrap().last().unwrap();
+    let taken = |index: usize| number(step, &format!("/strength/{index}/utilisation"));
+    let stress = |path: &str| number(step, &format!("/stress/{path}/value"));
+    let known = [
+        stress("materials/0/max_mises") / 12.0,
+        stress("materials/1/max_mises") / 1.5,
+        stress("materials/2/max_mises") / 2.0,
+        stress("materials/0/max_tension") / 1.5,
+    ];
+    for (index, known) in known.into_iter().enumerate() {
+        assert!((taken(index) / known - 1.0).abs() < 1e-12, "{index}: {} {known}", taken(index));
+    }
+    // Nothing opens these interfaces: shear alone over its strength, where it is largest.
+    for (index, shear) in [(4, 1.0), (5, 0.9)] {
+        let bears = stress(&format!("interfaces/{}/max_shear", index - 4)) / shear;
+        assert!((taken(index) / bears - 1.0).abs() < 1e-6, "{index}: {} {bears}", taken(index));
+    }
+}
+
+#[test]
+fn what_has_no_strength_is_refused_and_nothing_written() {
+    let desk = Desk::new();
+    let answer = desk.percoat(&["limit", "fig2"]);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    assert!(answer.err.contains("yield_strength") && desk.names().is_empty(), "{}", answer.err);
+    let answer = desk.percoat(&["limit", "--set", "load.mean_pressure=0", "--set", "grid.points=64"]);
+    assert_eq!(answer.code, 2, "{}", answer.err);
+    assert!(answer.err.contains("above 0") && desk.names().is_empty(), "{}", answer.err);
+}
+
+#[test]
+fn a_limit_that_is_not_converged_is_written_and_marked() {
+    let desk = Desk::new();
+    let arguments =
+        ["limit", "-o", "out", "--no-pictures", "--set", "grid.points=64", "--set", "solver.max_iterations=1"];
+    let answer = desk.percoat(&arguments);
+    assert_eq!(answer.code, 3, "{}", answer.err);
+    assert!(answer.err.contains("not converged") && desk.path("out/limit.json").is_file(), "{}", answer.err);
+}

@@ -1,0 +1,194 @@
+//! Limit loads: what is found is where a criterion becomes one, from any load on, in any unit.
+
+mod common;
+
+use common::one_level;
+use percoat::body::{InterfaceStrength, Strength};
+use percoat::reading::Criterion;
+use percoat::run::{At, End, Limits, Recorder, RunError, StepRecord};
+use percoat::{
+    Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, Material, Problem, Run, Sampling, Shape, Solver, Step,
+    StressField,
+};
+use std::convert::Infallible;
+
+const NO_BOND: InterfaceStrength = InterfaceStrength { normal: None, shear: None };
+
+/// A hard coating under residual compression that slides, and everything of it with a strength; lengths and pressures in
+/// any unit.
+fn coated([length, pressure]: [f64; 2]) -> Problem {
+    let material = |young: f64, nu: f64| Material::from_young(young * pressure, nu).unwrap();
+    let strength = |yielding: f64, tensile: Option<f64>| Strength {
+        yielding: Some(yielding * pressure),
+        tensile: tensile.map(|tensile| tensile * pressure),
+    };
+    let bond = InterfaceStrength { normal: Some(0.5 * pressure), shear: Some(1.0 * pressure) };
+    let coating = Layer::new(material(200.0, 0.25), 2.0 * length, Interface::Bonded).unwrap();
+    let coating = coating.with_residual_stress(-2.0 * pressure).unwrap();
+    let coating = coating.with_strengths(strength(8.0, Some(1.5)), bond).unwrap();
+    let half_space = HalfSpace::new(vec![coating], material(210.0, 0.3));
+    let half_space = half_space.with_substrate_strength(strength(2.0, None)).unwrap();
+    let level = Level::new(Shape::Sphere { radius: 50.0 * length }, 0.0).unwrap();
+    let indenters = one_level(Lattice::square(20.0 * length, 1).unwrap(), level);
+    Problem::new(indenters, half_space).sliding(Friction::new(0.2, [1.0, 0.5]).unwrap()).unwrap()
+}
+
+/// One shape on a body that yields at a stress, in contact modulus 1.
+fn bare(shape: Shape, yielding: f64) -> Problem {
+    let half_space = HalfSpace::new(vec![], Material::from_young(0.91, 0.3).unwrap());
+    let strength = Strength { yielding: Some(yielding), tensile: None };
+    let half_space = half_space.with_substrate_strength(strength).unwrap();
+    Problem::new(one_level(Lattice::hexagonal(1.0, 1).unwrap(), Level::new(shape, 0.0).unwrap()), half_space)
+}
+
+fn limits(problem: Problem, start: Load, points: usize) -> Limits {
+    Run::new(problem, vec![start], Sampling::Points([points; 2])).limits(&mut ()).unwrap()
+}
+
+fn loads(limits: &Limits) -> Vec<f64> {
+    limits.limits.iter().map(percoat::run::Limit::mean_pressure).collect()
+}
+
+/// Solved afresh at its limit, a criterion is one: u grows as p̄ to some power below two.
+#[test]
+fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
+    let problem = coated([1.0; 2]);
+    let found = limits(problem.clone(), Load::MeanPressure(0.05), 96);
+    assert!(found.converged() && found.steps.is_sorted_by_key(|step| step.reading.mean_pressure));
+    let expected = [
+        Criterion::Yield { material: 1 },
+        Criterion::Yield { material: 2 },
+        Criterion::Cracking { material: 1 },
+        Criterion::Delamination { interface: 1 },
+    ];
+    assert_eq!(found.limits.iter().map(|limit| limit.criterion).collect::<Vec<_>>(), expected);
+    for limit in &found.limits {
+        let At::Load { mean_pressure, position, error } = limit.at else { panic!("{limit:?}") };
+        let run = Run::new(problem.clone(), vec![Load::MeanPressure(mean_pressure)], Sampling::Points([96; 2]));
+        let step = run.solve(&mut ()).unwrap().steps.remove(0);
+        let own = step.strength.iter().find(|own| own.criterion == limit.criterion).unwrap();
+        assert!((own.value - 1.0).abs() < 2e-3, "{limit:?}: {own:?}");
+        let apart = (0..3).map(|k| (own.position[k] - position[k]).abs()).fold(0.0, f64::max);
+        assert!(apart < 20.0 / 96.0, "{limit:?}: {own:?}");
+        assert!(error.is_some_and(|error| error > 0.0), "{limit:?}");
+    }
+    let first = found.first().unwrap();
+    assert_eq!(first.mean_pressure(), loads(&found).into_iter().fold(f64::INFINITY, f64::min));
+    let shown = found.last.as_ref().unwrap().reading().mean_pressure;
+    assert!((shown / first.mean_pressure() - 1.0).abs() < 1e-12);
+    let section = found.section(&Run::new(problem, vec![Load::MeanPressure(0.1)], Sampling::Points([96; 2]))).unwrap();
+    assert_eq!(section.line.origin, [first.position().unwrap()[0], first.position().unwrap()[1]]);
+}
+
+#[test]
+fn limits_do_not_depend_on_the_first_load_and_scale_with_the_units() {
+    let known = loads(&limits(coated([1.0; 2]), Load::MeanPressure(0.05), 64));
+    for start in [Load::MeanPressure(1e-3), Load::MeanPressure(3.0), Load::MeanPressure(1e9), Load::Penetration(0.03)] {
+        for (found, known) in loads(&limits(coated([1.0; 2]), start, 64)).into_iter().zip(&known) {
+            // Each is known to 10⁻³; of a stress at an edge of contact that moves from sample to sample, as far as it jumps.
+            assert!((found / known - 1.0).abs() < 5e-3, "{start:?}: {found} {known}");
+        }
+    }
+    let [length, pressure] = [1e-6, 1e9];
+    let scaled = loads(&limits(coated([length, pressure]), Load::MeanPressure(0.05 * pressure), 64));
+    for (found, known) in scaled.into_iter().zip(&known) {
+        assert!((found / (known * pressure) - 1.0).abs() < 1e-6, "{found} {known}");
+    }
+}
+
+#[test]
+fn what_is_never_reached_or_at_once_is_said() {
+    let paraboloid = Shape::Paraboloid { radius: 1.0 };
+    let at = |problem: Problem| {
+        let found = limits(problem, Load::MeanPressure(0.01), 48);
+        assert!(found.converged(), "{:?}", found.warnings);
+        (found.limits[0].at, found.to_string(), found)
+    };
+    let (never, words, found) = at(bare(paraboloid, 100.0));
+    let At::Never { up_to, utilisation } = never else { panic!("{never:?}") };
+    assert!((up_to / found.complete - 1.0).abs() < 1e-12 && 0.0 < utilisation && utilisation < 1.0);
+    assert!(found.steps.last().unwrap().reading.contact_fraction > 0.99);
+    assert!(words.contains("nothing fails") && words.contains("contact is complete"), "{words}");
+    assert!(found.first().is_none() && found.last.is_none());
+
+    let (below, words, found) = at(bare(paraboloid, 1e-5));
+    let At::Below { mean_pressure, .. } = below else { panic!("{below:?}") };
+    assert!(mean_pressure < 0.01 && found.steps[0].reading.contact_fraction * 48.0 * 48.0 < 12.0, "{below:?}");
+    assert!(words.contains("less than"), "{words}");
+
+    let (tip, words, found) = at(bare(Shape::Cone { slope: 0.1 }, 0.2));
+    assert_eq!(tip, At::Tip { position: [0.0; 3] });
+    assert!(words.contains("under a tip") && found.steps.len() < 20, "{words}");
+
+    // A layer of the substrate's own kind, whose residual stress is as large as its yield strength.
+    let material = Material::from_young(0.91, 0.3).unwrap();
+    let layer = |residual: f64| {
+        let layer = Layer::new(material, 0.1, Interface::Bonded).unwrap().with_residual_stress(residual).unwrap();
+        layer.with_strengths(Strength { yielding: Some(0.1), tensile: Some(0.1) }, NO_BOND).unwrap()
+    };
+    let indenters = || one_level(Lattice::hexagonal(1.0, 1).unwrap(), Level::new(paraboloid, 0.0).unwrap());
+    let rest = |residual| at(Problem::new(indenters(), HalfSpace::new(vec![layer(residual)], material))).2;
+    let pressed = rest(-0.1);
+    assert_eq!(pressed.limits[0].at, At::Rest);
+    assert!(pressed.limits[1].mean_pressure() > 0.0 && pressed.to_string().contains("residual stress alone"));
+    let pulled = rest(0.1);
+    assert_eq!(pulled.limits.iter().map(|limit| limit.at).collect::<Vec<_>>(), [At::Rest; 2]);
+    assert!(pulled.steps.is_empty(), "nothing is left to be solved");
+}
+
+/// Keeps what it hears; it has room for so many points.
+#[derive(Default)]
+struct Heard {
+    grids: Vec<usize>,
+    steps: usize,
+    room: usize,
+}
+
+impl Recorder for Heard {
+    type Error = Infallible;
+
+    fn fits(&self, [n, _]: [usize; 2]) -> bool {
+        n <= self.room
+    }
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), Infallible> {
+        self.grids.push(solver.grid().points()[0]);
+        Ok(())
+    }
+
+    fn step(&mut self, _: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Infallible> {
+        assert!(field.is_some() && !record.strength.is_empty());
+        self.steps += 1;
+        Ok(())
+    }
+}
+
+#[test]
+fn an_accuracy_refines_until_limits_change_by_less_or_there_is_no_room() {
+    let run = |accuracy: f64| {
+        let problem = bare(Shape::Paraboloid { radius: 1.0 }, 0.1);
+        Run::new(problem, vec![Load::MeanPressure(0.01)], Sampling::Accuracy(accuracy))
+    };
+    let mut roomy = Heard { room: 1000, ..Heard::default() };
+    let found = run(0.02).limits(&mut roomy).unwrap();
+    assert_eq!((found.end, found.converged()), (Some(End::Reached), true));
+    assert!(found.change.is_some_and(|change| 0.0 < change && change < 0.02), "{:?}", found.change);
+    assert!(roomy.grids.len() > 1 && roomy.steps > found.steps.len());
+    let mut narrow = Heard { room: 100, ..Heard::default() };
+    let found = run(1e-6).limits(&mut narrow).unwrap();
+    assert_eq!((found.end, found.converged(), narrow.grids), (Some(End::Room), false, vec![96]));
+    assert!(found.warnings.iter().any(|warning| warning.contains("grid.accuracy is not reached")));
+}
+
+#[test]
+fn a_search_without_strengths_or_loads_is_refused() {
+    let paraboloid = Shape::Paraboloid { radius: 1.0 };
+    let run = |problem: Problem, load: Load| Run::new(problem, vec![load], Sampling::Points([48; 2]));
+    let plain = common::PAPER[0].problem();
+    assert!(matches!(run(plain, Load::MeanPressure(0.01)).check_limits(), Err(RunError::NoStrengths)));
+    let problem = || bare(paraboloid, 0.1);
+    assert!(matches!(run(problem(), Load::MeanPressure(0.0)).check_limits(), Err(RunError::NoLoads)));
+    assert!(matches!(run(problem(), Load::Penetration(-0.1)).limits(&mut ()), Err(RunError::NoLoads)));
+    let deep = run(problem(), Load::Penetration(9.0)).limits(&mut ());
+    assert!(matches!(deep, Err(RunError::BeyondFullContact(_))));
+}
