@@ -139,6 +139,45 @@ fn the_sliding_wave_has_its_closed_form() {
     }
 }
 
+/// ½⟨d, Cd⟩ with d = p − p* is at most the gap Σ p (g − min g), and in complete contact ½⟨g, C⁻¹g⟩: of rough surfaces in
+/// partial and in complete contact, against steps a thousand times sharper, for loose tolerances.
+#[test]
+fn the_certificate_bounds_the_elastic_energy_of_the_error() {
+    let half_space = || coated(2.0, 0.2, [0.0, 0.3], Interface::Bonded);
+    let transfer = TransferFunction::new(&half_space());
+    let problem = |coefficient: f64| {
+        let surface = Hills::random(&mut Random(5), 8, 3, 0.01).topography(48);
+        Problem::new(surface, half_space()).sliding(friction(coefficient, 25.0)).unwrap()
+    };
+    let complete = Solver::new(problem(1.5), [48, 48], Settings::default()).unwrap().full_contact_pressure();
+    let mut judged = [0; 2];
+    for coefficient in [0.5, 1.5, 5.0] {
+        for mean in [0.1, 0.5, 0.97, 1.5].map(|part| part * complete) {
+            let solved = |tolerance: f64| {
+                let settings = Settings { tolerance, ..Settings::default() };
+                Solver::new(problem(coefficient), [48, 48], settings).unwrap().solve(Load::MeanPressure(mean))
+            };
+            let sharp = solved(1e-12);
+            assert!(sharp.report.stop.solved(), "{}", sharp.report);
+            let mut operator = Operator::new(sharp.grid(), &transfer);
+            let mut elastic = |field: Array2<f64>| {
+                let mut displacement: Vec<f64> = field.iter().copied().collect();
+                operator.displacement(&mut displacement, &mut Workspace::default());
+                field.iter().zip(&displacement).map(|(p, w)| 0.5 * p * w).sum::<f64>()
+            };
+            for tolerance in [1e-2, 1e-3, 1e-4] {
+                let loose = solved(tolerance);
+                let (error, own) =
+                    (elastic(&loose.pressure() - &sharp.pressure()), elastic(loose.pressure().to_owned()));
+                let bound = loose.certificate.energy_gap * own;
+                assert!(error <= bound * (1.0 + 1e-9) + 1e-13 * own, "{coefficient} {mean}: {error:e} {bound:e}");
+                judged[usize::from(mean > complete)] += usize::from(error > 1e-12 * own);
+            }
+        }
+    }
+    assert!(judged.iter().all(|&count| count > 3), "{judged:?}: there is little to bound");
+}
+
 #[test]
 fn contact_of_the_sliding_wave_is_complete_from_its_load_on() {
     for f in [0.0, 0.1, 0.3, 1.2] {

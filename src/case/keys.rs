@@ -196,8 +196,8 @@ static SOLVER: Keys = Keys::new(&[
     key("method", "\"preconditioned\" (when not given) or \"polonsky-keer\""),
     key(
         "tolerance",
-        "energy within 20 times it of its minimum, penetration outside contact below 10 times it and δ, residual ε \
-         below it; 10⁻⁸ when not given",
+        "energy of the error below 20 times it and the elastic energy, penetration outside contact below 10 times it \
+         and δ, residual ε below it; 10⁻⁸ when not given",
     ),
     key("max_iterations", "for one load step on one grid; 10000 when not given"),
 ]);

@@ -123,6 +123,12 @@ impl Operator {
         in_place(&self.double, action, &self.compliance, field, workspace);
     }
 
+    /// w → p of a counterbody that does not slide: C⁻¹ of the symmetric part alone.
+    pub fn frictionless_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        self.convolutions += 1.0;
+        in_place(&self.double, Action::Over(1.0), &self.compliance, field, workspace);
+    }
+
     /// The memory of a convolution in double precision in two: that of one in single precision, and a field in single
     /// precision that lasts until the next one in double precision.
     pub(super) fn shared<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {

@@ -146,8 +146,8 @@ pub fn solved(steps: &[StepRecord]) -> String {
     let gap = largest(steps.iter().map(|step| step.certificate.energy_gap));
     let done = steps.iter().filter(|step| step.converged()).count();
     format!(
-        "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy within {gap:.0e} \
-         of its minimum",
+        "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy of the \
+         error below {gap:.0e} of the elastic",
         steps.len()
     )
 }

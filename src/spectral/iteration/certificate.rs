@@ -10,6 +10,10 @@
 //!
 //! In complete contact a uniform pressure is free, and the rounding of g under it would rule the gap. Without p ≥ 0 the
 //! minimum is at Cp + f = δ, so that the excess is at most ½⟨g, C⁻¹g⟩ there: the smaller of the two bounds is taken.
+//!
+//! **Under coupled friction** there is no energy: C is the symmetric part of what p meets, A = C + B, ⟨p, Bp⟩ = 0. Both
+//! bounds hold for the elastic energy of the error, ½⟨d, Cd⟩ with d = p − p*, which without friction is at most E(p) − E*:
+//! ⟨d, Cd⟩ = ⟨d, Ad⟩ ≤ ⟨d, g⟩, as p* solves the problem, and ⟨d, g⟩ is at most the gap, and at most ⟨d, Cd⟩^½ ⟨g, C⁻¹g⟩^½.
 
 use std::fmt;
 
@@ -17,7 +21,8 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Certificate {
-    /// Σ p (g − min g) over ½⟨p, Cp⟩ (min(0, min g) under displacement control): bound on the relative excess of energy.
+    /// Σ p (g − min g) over ½⟨p, Cp⟩ (min(0, min g) under displacement control): bound on the elastic energy of the error
+    /// over that of p, and without coupled friction on the relative excess of energy.
     pub energy_gap: f64,
     /// Deepest penetration outside contact over δ, ≥ 0.
     pub penetration: f64,
@@ -30,7 +35,7 @@ impl fmt::Display for Certificate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "energy within {:.1e} of its minimum, penetration {:.1e}, load {:.1e}",
+            "energy of the error below {:.1e} of the elastic, penetration {:.1e}, load {:.1e}",
             self.energy_gap, self.penetration, self.load
         )
     }

@@ -1,8 +1,9 @@
-//! Frictionless normal contact on one grid: p ≥ 0, g = w + f − δ ≥ 0, p g = 0, with w = C p.
+//! Normal contact on one grid: p ≥ 0, g = w + f − δ ≥ 0, p g = 0, with w = C p.
 //!
-//! It is the minimum of ½⟨p, Cp⟩ + ⟨p, f⟩ over p ≥ 0 with a given mean (load control), or of ½⟨p, Cp⟩ + ⟨p, f − δ⟩ over
+//! Without friction, or without its coupling, it is the minimum of ½⟨p, Cp⟩ + ⟨p, f⟩ over p ≥ 0 with a given mean (load control), or of ½⟨p, Cp⟩ + ⟨p, f − δ⟩ over
 //! p ≥ 0 with a given δ (displacement control). Two conjugate-gradient methods are offered,
-//! `preconditioned` and `polonsky_keer`; what they return is judged by the [`Certificate`] of the pressure alone.
+//! `preconditioned` and `polonsky_keer`; what they return is judged by the [`Certificate`] of the pressure alone. Under coupled friction w = A p with C the
+//! symmetric part of A: the traction follows the steps of the first method, or an outer iteration around it (`solve`).
 //!
 //! **Stopping.** On what is certified, with one tolerance:
 //!
