@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::limits;
+use super::magnitude;
 use super::reader::TableAt;
 use crate::friction::{Friction, FrictionError};
 use crate::problem::Problem;
@@ -24,7 +24,7 @@ impl FrictionSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
         let coefficient = section.required("coefficient")?;
-        let direction = section.optional("direction").map_or(Ok([1.0, 0.0]), |value| limits::direction(&value))?;
+        let direction = section.optional("direction").map_or(Ok([1.0, 0.0]), |value| magnitude::direction(&value))?;
         let coupling = section.optional("coupling").map_or(Ok(true), |value| value.boolean())?;
         Ok(Self { coefficient: coefficient.number(0.0..=MOST)?, direction, coupling })
     }

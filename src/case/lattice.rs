@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::levels::LevelSection;
-use super::limits;
+use super::magnitude;
 use super::reader::TableAt;
 use crate::lattice::{Cell, Lattice, LatticeError};
 
@@ -42,8 +42,8 @@ impl LatticeSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         let kind = section.required("kind")?.choice(&[("hexagonal", 0), ("square", 1), ("oblique", 2)])?;
         section.only()?;
-        let period = || limits::size(&section.required("period")?);
-        let vector = |key| limits::pair(&section.required(key)?, "a vector [x, y]");
+        let period = || magnitude::size(&section.required("period")?);
+        let vector = |key| magnitude::pair(&section.required(key)?, "a vector [x, y]");
         match kind {
             0 => Ok(Self::Hexagonal { period: period()? }),
             1 => Ok(Self::Square { period: period()? }),

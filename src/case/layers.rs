@@ -4,7 +4,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
-use super::limits;
+use super::magnitude;
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
 use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Strength};
@@ -115,7 +115,7 @@ impl InterfaceStrengthKeys {
 }
 
 fn strength(section: &TableAt<'_>, key: &str) -> Result<Option<f64>, Refusal> {
-    section.optional(key).map(|value| limits::size(&value)).transpose()
+    section.optional(key).map(|value| magnitude::size(&value)).transpose()
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
@@ -135,15 +135,15 @@ impl Modulus {
 impl LayerSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
-        let thickness = limits::size(&section.required("thickness")?)?;
+        let thickness = magnitude::size(&section.required("thickness")?)?;
         let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure)";
         let modulus = match section.one_of(["shear_ratio", "young"], what)? {
-            (0, ratio) => Modulus::ShearRatio(limits::size(&ratio)?),
-            (_, young) => Modulus::Young(limits::size(&young)?),
+            (0, ratio) => Modulus::ShearRatio(magnitude::size(&ratio)?),
+            (_, young) => Modulus::Young(magnitude::size(&young)?),
         };
         let poisson = poisson(section)?;
         let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |value| interface(&value))?;
-        let residual_stress = section.optional("residual_stress").map_or(Ok(0.0), |value| limits::place(&value))?;
+        let residual_stress = section.optional("residual_stress").map_or(Ok(0.0), |value| magnitude::place(&value))?;
         let interface_strength =
             section.optional("interface_strength").map(|value| InterfaceStrengthKeys::read(&value));
         Ok(Self {
@@ -171,7 +171,7 @@ impl LayerSection {
 impl SubstrateSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
-        let young = limits::size(&section.required("young")?)?;
+        let young = magnitude::size(&section.required("young")?)?;
         Ok(Self { young, poisson: poisson(section)?, strength: StrengthKeys::read(section)? })
     }
 }
@@ -230,7 +230,7 @@ const NO_PRESSURE: &str =
 
 /// A stiffness; `without` says what to do instead of 0.
 fn rigidity(value: &ValueAt<'_>, without: &str) -> Result<f64, Refusal> {
-    limits::size(value).map_err(|refusal| match value.node.value {
+    magnitude::size(value).map_err(|refusal| match value.node.value {
         Value::Integer(0) | Value::Float(0.0) => refusal.help(without),
         Value::Float(stiffness) if stiffness.is_infinite() => {
             refusal.help("leave the key out: an absent stiffness is rigid")

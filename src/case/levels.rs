@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::limits;
+use super::magnitude;
 use super::reader::TableAt;
 use crate::counterbody::{Level, Shape};
 
@@ -38,14 +38,14 @@ impl LevelSection {
         let kind = section.required("shape")?;
         let kind = kind.choice(&[("paraboloid", 0), ("sphere", 1), ("cone", 2), ("power", 3)])?;
         section.only()?;
-        let size = |key| limits::size(&section.required(key)?);
+        let size = |key| magnitude::size(&section.required(key)?);
         let shape = match kind {
             0 => Shape::Paraboloid { radius: size("radius")? },
             1 => Shape::Sphere { radius: size("radius")? },
             2 => Shape::Cone { slope: size("slope")? },
             _ => Shape::Power { coefficient: size("coefficient")?, exponent: size("exponent")? },
         };
-        let height = section.optional("height").map_or(Ok(0.0), |height| limits::place(&height))?;
+        let height = section.optional("height").map_or(Ok(0.0), |height| magnitude::place(&height))?;
         Ok(Self { shape, height, sites: sites(section)? })
     }
 
@@ -64,5 +64,5 @@ fn sites(section: &TableAt<'_>) -> Result<Option<Vec<[f64; 2]>>, Refusal> {
     if items.is_empty() {
         return Err(sites.refuse(WANTED).help(HELP));
     }
-    items.iter().map(|site| limits::pair(site, "a site [s1, s2]")).collect::<Result<_, _>>().map(Some)
+    items.iter().map(|site| magnitude::pair(site, "a site [s1, s2]")).collect::<Result<_, _>>().map(Some)
 }

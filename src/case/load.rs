@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::limits;
+use super::magnitude;
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
 use crate::load::Load;
@@ -61,9 +61,9 @@ impl LoadSection {
 fn steps(value: &ValueAt<'_>) -> Result<Vec<f64>, Refusal> {
     const WANTED: &str = "a number, a list of numbers or { from = …, to = …, steps = … }";
     match &value.node.value {
-        Value::Integer(_) | Value::Float(_) => Ok(vec![limits::size_or_zero(value)?]),
+        Value::Integer(_) | Value::Float(_) => Ok(vec![magnitude::size_or_zero(value)?]),
         Value::List(items) if (1..=MOST).contains(&items.len()) => {
-            value.list(WANTED, WANTED)?.iter().map(limits::size_or_zero).collect()
+            value.list(WANTED, WANTED)?.iter().map(magnitude::size_or_zero).collect()
         }
         Value::List(items) if items.len() > MOST => Err(value.refuse(format!("a list of at most {MOST} numbers"))),
         Value::List(_) => Err(value.refuse("a list of at least one number")),
@@ -87,9 +87,9 @@ fn range(section: &TableAt<'_>) -> Result<Vec<f64>, Refusal> {
     let value = |key| {
         let value = section.required(key)?;
         match spacing {
-            Spacing::Linear => limits::size_or_zero(&value),
+            Spacing::Linear => magnitude::size_or_zero(&value),
             Spacing::Log => {
-                limits::size(&value).map_err(|refusal| refusal.or_help("spacing = \"log\" never reaches 0"))
+                magnitude::size(&value).map_err(|refusal| refusal.or_help("spacing = \"log\" never reaches 0"))
             }
         }
     };

@@ -3,7 +3,7 @@
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
 //! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]). One file a section:
 //! lattice, levels, surface, layers (with the substrate), load, grid, solver, friction, stress, localized; `keys` names every key.
-//! `limits` refuses what double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says
+//! `magnitude` refuses what double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says
 //! what a run takes.
 //!
 //! ```
@@ -22,9 +22,9 @@ mod keys;
 mod lattice;
 mod layers;
 mod levels;
-mod limits;
 mod load;
 mod localized;
+mod magnitude;
 mod model;
 mod node;
 mod npy;
@@ -47,11 +47,11 @@ pub use friction::FrictionSection;
 pub use lattice::LatticeSection;
 pub use layers::{InterfaceStrengthKeys, LayerSection, Modulus, StrengthKeys, SubstrateSection};
 pub use levels::LevelSection;
-pub use limits::CARRIED;
 pub use load::LoadSection;
 pub use localized::LocalizedSection;
+pub use magnitude::CARRIED;
 pub use model::Case;
 pub use room::{Room, available_memory};
 pub use source::Source;
-pub use stress::{Cut, From, StressSection, Toward};
+pub use stress::{Cut, Origin, StressSection, Toward};
 pub use surface::SurfaceSection;

@@ -11,7 +11,7 @@ use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection,
 };
-use super::{grid, keys, lattice, layers, levels, limits, overrides, solver};
+use super::{grid, keys, lattice, layers, levels, magnitude, overrides, solver};
 use crate::body::HalfSpace;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
 use crate::numeric::array::field;
@@ -155,7 +155,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
             let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
             let lattice = lattice::build(&lattice, &lattice_section, &levels, &level_sections)?;
             let built: Vec<Level> = built.collect::<Result<_, _>>()?;
-            limits::profiles(&built, &level_sections, lattice.cell())?;
+            magnitude::profiles(&built, &level_sections, lattice.cell())?;
             (None, Indenters::new(lattice, built).map(Counterbody::from))
         }
     };
@@ -168,13 +168,13 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let substrate = SubstrateSection::read(&substrate_section)?;
     let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
 
-    limits::layers(&half_space, &layer_sections, counterbody.cell())?;
+    magnitude::layers(&half_space, &layer_sections, counterbody.cell())?;
 
     let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
     let file_points = counterbody.topography().map(Topography::points);
     let grid_section = root.section("grid")?;
     let sampling = grid::read(grid_section.as_ref(), file_points)?;
-    limits::grid(sampling, file_points, grid_section.as_ref(), &lattice_section, counterbody.cell())?;
+    magnitude::grid(sampling, file_points, grid_section.as_ref(), &lattice_section, counterbody.cell())?;
     let solver_section = root.section("solver")?;
     let settings = solver::read(solver_section.as_ref())?;
     let mut problem = Problem::new(counterbody, half_space);

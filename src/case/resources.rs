@@ -6,6 +6,7 @@
 
 use super::{Case, Room, StressSection};
 use crate::body::HalfSpace;
+use crate::friction::Friction;
 use crate::localized::Setup;
 use crate::numeric::fourier::fast_points;
 use crate::numeric::number::number;
@@ -23,6 +24,10 @@ const READING: u64 = 45;
 /// takes more.
 const STRESS: u64 = 101;
 const PLANE: u64 = 18;
+/// The same: what the allocator holds of the stresses of steps before; and coefficients where no two waves share theirs,
+/// of the pressure and of the traction each.
+const AGAIN: u64 = 72;
+const SHELLS: u64 = 50;
 /// Per sample: a stress field that is asked at single points only.
 const FIELD: u64 = 18;
 /// Fields that the localized method keeps of each spot.
@@ -86,12 +91,14 @@ impl Needs {
 pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = case.surface.as_ref().map_or(0, |_| 8 * samples);
-    let Memory { kept, working } = Memory::of(points, case.solver.method);
+    let is_coupled = |friction: &Friction| friction.is_coupled() && friction.coefficient() > 0.0;
+    let coupled = case.problem().friction().is_some_and(is_coupled);
+    let Memory { kept, working } = Memory::of(points, case.solver.method, coupled);
     // A fall-back to the baseline takes more, and less than reading.
     let (grids, working) = (kept as u64, working as u64);
     let needs = match job {
         Job::Solve { pictures } => of_solving(case, samples, [grids, working, heights], pictures),
-        Job::Limit { pictures } => of_limits(samples, [grids, working, heights], pictures),
+        Job::Limit { pictures } => of_limits(case, samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
     };
     Needs { memory: needs.memory + needs.memory / 10, ..needs }
@@ -103,6 +110,8 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
         case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
     // Strengths are held against the largest stresses, asked for or not.
     let stress = if Criterion::all(case.half_space()).is_empty() { stress } else { stress.max(STRESS * samples) };
+    let again = if stress > 0 && steps > 1 { AGAIN * samples } else { 0 };
+    let stress = if stress > 0 { stress + again + of_shells(case, samples) } else { 0 };
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
@@ -117,9 +126,10 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
 }
 
 /// A search for limit loads: the solver, and the stresses of one load at a time.
-fn of_limits(samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
+fn of_limits(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
     let drawing = if pictures { PROGRAM + KEPT * samples + heights + CUTS + CURVES } else { 0 };
-    let solving = PROGRAM + grids + heights + working.max(READING * samples).max(STRESS * samples);
+    let stress = (STRESS + AGAIN) * samples + of_shells(case, samples) + STATE * (SECTION[0] * SECTION[1]) as u64;
+    let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     let disk = COMPARISON + if pictures { 2 * PICTURE } else { 0 };
     Needs { memory: solving.max(drawing), disk, disk_while_running: disk }
 }
@@ -150,6 +160,18 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
     let plane = if planes > 0 { PLANE } else { 0 };
     let memory = ((STRESS + plane) * samples + STATE * section).max(STATE * volume + 64 * samples);
     (memory, 8 * COMPONENTS * stored, 8 * VTK_NUMBERS * volume)
+}
+
+/// What the coefficients of a stress field take where few waves have the same wavenumber: on cells without the symmetry of
+/// a square or a hexagon.
+fn of_shells(case: &Case, samples: u64) -> u64 {
+    let [a1, a2] = case.problem().cell().vectors();
+    let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);
+    let is = |x: f64, y: f64| (x - y).abs() <= 1e-9 * own;
+    if is(own, other) && (is(product, 0.0) || is(2.0 * product.abs(), own)) {
+        return 0;
+    }
+    SHELLS * samples * if case.problem().friction().is_some() { 2 } else { 1 }
 }
 
 fn of_pictures(case: &Case) -> u64 {
@@ -261,6 +283,35 @@ mod tests {
                 needs(&case(overrides), [points; 2], Job::Solve { pictures }).memory as f64 / MEBIBYTE as f64;
             println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
             assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
+        }
+        const SLIDING: &str = "friction={coefficient=0.4,direction=[1.0,0.3]}";
+        const OBLIQUE: [&str; 3] = [
+            "lattice={kind=\"oblique\",a1=[1.0,0.0],a2=[0.31,0.83]}",
+            "levels=[{shape=\"paraboloid\",radius=0.8,height=0.0,sites=[[0.0,0.0]]}]",
+            "stress={}",
+        ];
+        let [lattice, levels, stress] = OBLIQUE;
+        let loads = "load.mean_pressure=[0.02,0.04,0.06]";
+        let more: [(usize, &[&str], f64); 8] = [
+            (512, &[SLIDING], 33.3),
+            (1024, &[SLIDING], 103.7),
+            (512, &[SLIDING, stress], 50.7),
+            (1024, &[SLIDING, stress], 175.4),
+            (512, &[stress, loads], 60.4),
+            (1024, &[stress, loads], 212.2),
+            (512, &[lattice, levels, stress], 62.0),
+            (512, &[lattice, levels, stress, SLIDING], 74.2),
+        ];
+        for (points, overrides, peak) in more {
+            let estimate = needs(&case(overrides), [points; 2], SOLVE).memory as f64 / MEBIBYTE as f64;
+            println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
+            assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
+        }
+        let coating = Case::read(&embedded::source("dlc-on-steel").unwrap(), &[]).unwrap();
+        for (points, pictures, peak) in [(256, false, 31.1), (512, false, 69.7), (256, true, 37.7), (512, true, 65.8)] {
+            let estimate = needs(&coating, [points; 2], Job::Limit { pictures }).memory as f64 / MEBIBYTE as f64;
+            println!("limit {points}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
+            assert!((peak..=1.25 * peak).contains(&estimate), "limit {points}: {peak}, not {estimate:.1} MiB");
         }
         let compared: [(usize, &[&str], bool, f64); 6] = [
             (64, &["localized.elements=12"], true, 23.2),

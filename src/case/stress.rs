@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
 use super::layers::is_zero;
-use super::limits;
+use super::magnitude;
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
 use crate::body::MeanStress;
@@ -36,7 +36,7 @@ pub struct StressSection {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Cut {
     /// Where s = 0.
-    pub from: From,
+    pub from: Origin,
     /// Where it runs.
     pub toward: Toward,
     /// Length along the surface.
@@ -51,7 +51,7 @@ pub struct Cut {
 /// Where a cut has its origin.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum From {
+pub enum Origin {
     /// At the axis of the first indenter of this level, from 1.
     Level(#[serde(serialize_with = "write_level")] usize),
     /// At this place [x, y], lengths.
@@ -86,7 +86,7 @@ impl StressSection {
     pub(super) fn read(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
         section.only()?;
         let planes = section.optional("planes").map_or(Ok(Vec::new()), |value| {
-            value.items("a list of depths", "for example planes = [0.0, 0.5]", PLANES, limits::size_or_zero)
+            value.items("a list of depths", "for example planes = [0.0, 0.5]", PLANES, magnitude::size_or_zero)
         })?;
         let mean = match section.optional("mean") {
             Some(value) => {
@@ -112,7 +112,7 @@ fn point(value: &ValueAt<'_>) -> Result<[f64; 3], Refusal> {
     const WANTED: &str = "three numbers [x, y, z], z not less than 0";
     let items = value.list(WANTED, WANTED)?;
     let [x, y, z] = &items[..] else { return Err(value.refuse(WANTED)) };
-    Ok([limits::place(x)?, limits::place(y)?, limits::size_or_zero(z)?])
+    Ok([magnitude::place(x)?, magnitude::place(y)?, magnitude::size_or_zero(z)?])
 }
 
 fn volume(value: &ValueAt<'_>) -> Result<Volume, Refusal> {
@@ -123,7 +123,7 @@ fn volume(value: &ValueAt<'_>) -> Result<Volume, Refusal> {
         None => Ok(default),
     };
     Ok(Volume {
-        depth: limits::size(&section.required("depth")?)?,
+        depth: magnitude::size(&section.required("depth")?)?,
         rows: count("rows", 40)?,
         points: count("points", 96)?,
     })
@@ -134,8 +134,8 @@ impl Cut {
     fn line(&self, lattice: Option<&Lattice>) -> Option<Line> {
         let first = |level: usize| Some(lattice?.sites()[level - 1][0]);
         let origin = match self.from {
-            From::Level(level) => lattice?.cell().point(first(level)?),
-            From::Place(place) => place,
+            Origin::Level(level) => lattice?.cell().point(first(level)?),
+            Origin::Place(place) => place,
         };
         let direction = match self.toward {
             Toward::Level(level) => lattice?.toward(lattice?.cell().fractions(origin), level),
@@ -152,25 +152,25 @@ impl Cut {
         };
         let section = value.table(example)?;
         section.only()?;
-        let from = From::read(&section.required("from")?, levels)?;
-        let length = limits::size(&section.required("length")?)?;
+        let from = Origin::read(&section.required("from")?, levels)?;
+        let length = magnitude::size(&section.required("length")?)?;
         // Along the sliding both edges count.
         let (toward, behind) = match (section.optional("toward"), sliding) {
             (None, Some(direction)) => (Toward::Direction(direction), 0.5 * length),
             (None, None) => return Err(section.required("toward").expect_err("it is not there")),
             (Some(toward), _) => (Toward::read(&toward, levels)?, 0.0),
         };
-        let behind = section.optional("behind").map_or(Ok(behind), |value| limits::size_or_zero(&value))?;
-        Ok(Self { from, toward, length, behind, depth: limits::size(&section.required("depth")?)? })
+        let behind = section.optional("behind").map_or(Ok(behind), |value| magnitude::size_or_zero(&value))?;
+        Ok(Self { from, toward, length, behind, depth: magnitude::size(&section.required("depth")?)? })
     }
 }
 
-impl From {
+impl Origin {
     fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
         if !matches!(value.node.value, Value::List(_)) {
             return level(value, levels).map(Self::Level);
         }
-        limits::pair(value, "a place [x, y]").map(Self::Place)
+        magnitude::pair(value, "a place [x, y]").map(Self::Place)
     }
 }
 
@@ -179,7 +179,7 @@ impl Toward {
         if !matches!(value.node.value, Value::List(_)) {
             return level(value, levels).map(Self::Level);
         }
-        limits::direction(value).map(Self::Direction)
+        magnitude::direction(value).map(Self::Direction)
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::limits::CARRIED;
+use super::magnitude::CARRIED;
 use super::npy::Head;
 use super::reader::{TableAt, ValueAt};
 use super::room::available_memory;

@@ -11,7 +11,7 @@ use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
 use crate::stress::Peak;
-use crate::stress::maxima::{Extremes, Tractions};
+use crate::stress::maxima::{Carried, Extremes};
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
 pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Option<Canvas> {
@@ -140,7 +140,7 @@ impl Run<'_> {
     /// What opens and what shears each interface most.
     fn interfaces(&self) -> Option<Chart> {
         let interfaces = self.steps.iter().filter_map(|step| Some(step.stress.as_ref()?.interfaces.len())).max()?;
-        let curve = |index: usize, what: &str, value: fn(&Tractions) -> Peak, dashed: bool| {
+        let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, dashed: bool| {
             let name = if interfaces == 1 { what.to_owned() } else { format!("{what}, interface {}", index + 1) };
             let of = |step: &StepRecord| Some(value(step.stress.as_ref()?.interfaces.get(index)?).value);
             let curve = self.curve(&name, index + 1, |step| of(step).unwrap_or(f64::NAN));

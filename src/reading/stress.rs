@@ -4,7 +4,7 @@ use super::Reading;
 use crate::counterbody::Site;
 use crate::friction::Friction;
 use crate::spectral::Step;
-use crate::stress::maxima::{Extremes, Maxima, Tractions};
+use crate::stress::maxima::{Carried, Extremes, Maxima};
 use crate::stress::{Peak, StressField};
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ pub struct StressReading {
     /// On each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
     /// What each interface carries, from the surface down.
-    pub interfaces: Vec<Tractions>,
+    pub interfaces: Vec<Carried>,
     /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`].
     pub surface_error: f64,
 }

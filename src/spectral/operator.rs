@@ -35,7 +35,7 @@ impl Workspace {
 
 /// The traction of coupled friction while the pressure changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Traction {
+pub enum Coupling {
     /// It follows.
     Follows,
     /// It stands still.
@@ -149,7 +149,7 @@ impl Operator {
     /// Changes of p → changes of w/C(least q) by rows, in single precision.
     pub(super) fn displaced_single<'a, S>(
         &'a mut self,
-        traction: Traction,
+        traction: Coupling,
         room: &'a mut [f64],
         pressure: S,
     ) -> Convolved<'a, f32>
@@ -159,8 +159,8 @@ impl Operator {
         self.convolutions += 0.5;
         let factor = 1.0 / self.unit;
         let action = match traction {
-            Traction::Follows => times(factor, &self.coupling),
-            Traction::Stands => Action::Times(factor),
+            Coupling::Follows => times(factor, &self.coupling),
+            Coupling::Stands => Action::Times(factor),
         };
         self.single.convolve(action, &self.compliance, room, pressure)
     }

@@ -250,8 +250,9 @@ impl Memory {
     /// Per sample of each grid: pressure, gap, initial gap and its owner, the multiplier (half the components). Per row
     /// and column of each grid: what its transforms need. In turn, per sample of the finest grid: three fields of single
     /// precision and a spectrum in double precision; for the baseline two fields in double precision and the spectrum.
-    pub fn of(points: [usize; 2], method: Method) -> Self {
-        let (grid, rows) = (3 * 8 + 4 + 4, 512);
+    /// Coupled friction adds a second multiplier.
+    pub fn of(points: [usize; 2], method: Method, coupled: bool) -> Self {
+        let (grid, rows) = (3 * 8 + 4 + 4 + 4 * usize::from(coupled), 512);
         let working = match method {
             Method::Preconditioned => 3 * 4 + 8,
             Method::PolonskyKeer => 3 * 8,

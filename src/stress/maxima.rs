@@ -27,7 +27,7 @@ pub struct Extremes {
 /// What an interface carries at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Tractions {
+pub struct Carried {
     /// The interface, from 1: the lower face of that layer.
     pub interface: usize,
     /// Largest σ_zz; negative where nothing opens it.
@@ -49,7 +49,7 @@ pub struct Maxima {
     /// Over each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
     /// What each interface carries, from the surface down.
-    pub interfaces: Vec<Tractions>,
+    pub interfaces: Vec<Carried>,
     /// The largest tension on the surface with its uncertainty; `None` where contact has no edge.
     pub crest: Option<Crest>,
     /// The same of τ₁ and von Mises under a counterbody that slides.

@@ -10,7 +10,7 @@
 
 use super::crest::Crest;
 use super::field::StressField;
-use super::maxima::{Extremes, Maxima, NEAR, Tractions};
+use super::maxima::{Carried, Extremes, Maxima, NEAR};
 use super::peak::Peak;
 use super::quantity::{OVERALL, Quantity};
 use super::slice::{Slice, Stresses};
@@ -99,7 +99,7 @@ impl StressField {
                 let peak = |quantity: Quantity| lower.peak(quantity);
                 if let Some((normal, shear)) = peak(Quantity::Opening).zip(peak(Quantity::Shear)) {
                     let delamination = peak(Quantity::Delamination(strength));
-                    interfaces.push(Tractions { interface: material, normal, shear, delamination });
+                    interfaces.push(Carried { interface: material, normal, shear, delamination });
                 }
             }
         }

@@ -10,12 +10,12 @@ use super::report::{Report, Route, Stop};
 use super::settings::Method;
 use super::unknowns::Unknowns;
 use super::{polonsky_keer, preconditioned};
-use crate::spectral::operator::Traction::{self, Follows, Stands};
+use crate::spectral::operator::Coupling::{self, Follows, Stands};
 
 /// Largest part of the operator that coupling may be for the traction to follow every step.
 const FOLLOWED: f64 = 0.4;
 
-type Way = ((Beyond, Traction), Route);
+type Way = ((Beyond, Coupling), Route);
 
 /// Iterates from and into `unknowns`; `iterations` are those before.
 pub(super) fn iterate(problem: &mut GridProblem<'_>, iterations: usize, unknowns: &mut Unknowns) -> Report {

@@ -37,7 +37,7 @@ use crate::load::Load;
 use crate::numeric::rows::{Parts, Totals};
 use crate::spectral::convolution::{rows_of, rows_to};
 use crate::spectral::extension;
-use crate::spectral::operator::Traction;
+use crate::spectral::operator::Coupling;
 use std::sync::Arc;
 
 /// First window of the patience, iterations.
@@ -66,15 +66,15 @@ pub(super) enum Beyond {
 /// Iterates from and into `unknowns`; `iterations` are those before.
 pub(super) fn solve(
     problem: &mut GridProblem<'_>,
-    (beyond, traction): (Beyond, Traction),
+    (beyond, traction): (Beyond, Coupling),
     mut iterations: usize,
     unknowns: &mut Unknowns,
 ) -> Report {
     let mut patience = Patience::new(PATIENCE);
     let coupling = problem.operator.coupling();
     let (share, enough) = match traction {
-        Traction::Follows => (1.0, TRUSTED),
-        Traction::Stands => (1.0 / (1.0 + coupling * coupling), OUTER / (1.0 + coupling * coupling)),
+        Coupling::Follows => (1.0, TRUSTED),
+        Coupling::Stands => (1.0 / (1.0 + coupling * coupling), OUTER / (1.0 + coupling * coupling)),
     };
     let mut memory = Memory { norm: 0.0, mean: 0.0, free: true };
     loop {
@@ -153,7 +153,7 @@ struct Step {
 struct Way {
     parts: Parts,
     beyond: Beyond,
-    traction: Traction,
+    traction: Coupling,
     /// The units of the working fields: the largest f, and the pressure that displaces by it at the least wavenumber.
     length: f64,
     pressure: f64,
@@ -170,7 +170,7 @@ impl Way {
         unknowns: &Unknowns,
         check: Check,
         share: f64,
-        (beyond, traction): (Beyond, Traction),
+        (beyond, traction): (Beyond, Coupling),
     ) -> Self {
         let length = problem.largest_gap;
         let (gap, residual) = problem.working.start(problem.operator);
