@@ -8,6 +8,13 @@
 //! with the amplitudes of [`crate::body::Interior`]; the mean pressure adds the state of [`crate::MeanStress`]. At the
 //! depth z only waves with qz up to 41 count: shorter ones are lost in rounding.
 //!
+//! A counterbody that slides adds the stresses of its traction μp**e**, wave by wave: of the part μ**e**·**n** along **n** by
+//! the amplitudes of [`Interior::under`](crate::body::Interior::under), of the part across by those of
+//! [`Antiplane`](crate::body::Antiplane); its mean adds the shear σ_αz = −μe_α p̄ at every depth. The residual stress of a
+//! layer adds to its σ_xx and σ_yy. Coupled friction bends the pressure's square root at the edge of contact into the powers
+//! ½ ± η, |η| ≤ atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): what is read at edges takes them for square roots, and states the error
+//! that the grids show.
+//!
 //! - **planes**: inverse transforms of the components asked for, the waves that reach the depth filled in column by column,
 //!   as arrays or handed on row by row ([`StressField::plane`], [`StressField::stresses_by_rows`]);
 //! - **sections** and **lines**: the waves summed by their wavenumbers along the line ([`StressField::section`]);

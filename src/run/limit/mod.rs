@@ -38,7 +38,30 @@ impl Run {
         self.checked()
     }
 
-    /// Looks for the limit loads of all criteria, from the run's first load above 0 on, on finer and finer grids where an
+    /// Looks for the limit loads of all criteria.
+    ///
+    /// ```
+    /// use percoat::*;
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// // Spheres that slide on steel with a hard coating, in GPa and µm.
+    /// let spheres = Indenters::new(Lattice::square(20.0, 1)?, vec![Level::new(Shape::Sphere { radius: 50.0 }, 0.0)?])?;
+    /// let bears = Strength { yielding: None, tensile: Some(1.5) };
+    /// let bond = InterfaceStrength { normal: Some(0.5), shear: Some(1.0) };
+    /// let coating = Layer::new(Material::from_young(300.0, 0.25)?, 2.0, Interface::Bonded)?.with_strengths(bears, bond)?;
+    /// let yields = Strength { yielding: Some(2.0), tensile: None };
+    /// let body = HalfSpace::new(vec![coating], Material::from_young(210.0, 0.3)?).with_substrate_strength(yields)?;
+    /// let problem = Problem::new(spheres, body).sliding(Friction::new(0.2, [1.0, 0.0])?)?;
+    /// let run = Run::new(problem, vec![Load::MeanPressure(0.05)], Sampling::Points([64, 64]));
+    /// let limits = run.limits(&mut ())?;
+    /// println!("{limits}"); // first: cracking of material 1 at the mean pressure …
+    /// let first = limits.first().expect("something fails");
+    /// assert!(limits.converged() && limits.limits.len() == 3 && first.mean_pressure() > 0.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// The search begins with the run's first load above 0, on finer and finer grids where an
     /// accuracy is asked for; what the run asks of stresses plays no part but for the mean lateral stress.
     ///
     /// # Errors
