@@ -53,6 +53,8 @@ studies! {
     thin_coatings = "thin-coatings",
     rings = "rings",
     hertz_stresses = "hertz-stresses",
+    sliding_sphere = "sliding-sphere",
+    limit = "limit",
     sinusoidal_stresses = "sinusoidal-stresses",
     convergence = "convergence",
     discretisation = "discretisation",

@@ -32,6 +32,8 @@ mod iterations;
 mod kernel;
 #[path = "lattice-sums/study.rs"]
 mod lattice_sums;
+#[path = "limit/study.rs"]
+mod limit;
 #[path = "localized/study.rs"]
 mod localized;
 mod outcome;
@@ -46,6 +48,8 @@ mod report;
 mod rings;
 #[path = "sinusoidal-stresses/study.rs"]
 mod sinusoidal_stresses;
+#[path = "sliding-sphere/study.rs"]
+mod sliding_sphere;
 #[path = "sliding-wave/study.rs"]
 mod sliding_wave;
 mod steps;
@@ -61,7 +65,7 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 25] = [
+pub const STUDIES: [Study; 27] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
@@ -73,6 +77,8 @@ pub const STUDIES: [Study; 25] = [
     thin_coatings::STUDY,
     rings::STUDY,
     hertz_stresses::STUDY,
+    sliding_sphere::STUDY,
+    limit::STUDY,
     sinusoidal_stresses::STUDY,
     convergence::STUDY,
     discretisation::STUDY,

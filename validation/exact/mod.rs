@@ -11,6 +11,7 @@ pub mod lattice_sums;
 pub mod localization;
 pub mod periodic_hertz;
 pub mod sinusoidal;
+pub mod sliding_sphere;
 pub mod sliding_wave;
 pub mod wavy;
 pub mod westergaard;
