@@ -48,6 +48,7 @@ studies! {
     periodic_hertz = "periodic-hertz",
     westergaard = "westergaard",
     sliding_wave = "sliding-wave",
+    sliding_coated = "sliding-coated",
     wavy = "wavy",
     isolated = "isolated",
     thin_coatings = "thin-coatings",

@@ -48,6 +48,8 @@ mod report;
 mod rings;
 #[path = "sinusoidal-stresses/study.rs"]
 mod sinusoidal_stresses;
+#[path = "sliding-coated/study.rs"]
+mod sliding_coated;
 #[path = "sliding-sphere/study.rs"]
 mod sliding_sphere;
 #[path = "sliding-wave/study.rs"]
@@ -65,13 +67,14 @@ pub use outcome::{Data, Outcome, Study, StudyError};
 pub use report::{Report, differences};
 
 /// Every study, in the order in which they are run and reported.
-pub const STUDIES: [Study; 27] = [
+pub const STUDIES: [Study; 28] = [
     kernel::STUDY,
     lattice_sums::STUDY,
     hertz::STUDY,
     periodic_hertz::STUDY,
     westergaard::STUDY,
     sliding_wave::STUDY,
+    sliding_coated::STUDY,
     wavy::STUDY,
     isolated::STUDY,
     thin_coatings::STUDY,

@@ -17,9 +17,10 @@ pub const STUDY: Study = Study {
     run,
 };
 
-struct Reference {
-    half_space: HalfSpace,
-    wavenumber: f64,
+/// One stack of a table.
+pub(super) struct Reference {
+    pub half_space: HalfSpace,
+    pub wavenumber: f64,
     /// Displacements of the surface under a unit traction.
     surface: Value,
     interior: Vec<Value>,
@@ -46,7 +47,7 @@ fn interface(value: &Value) -> Result<Interface, StudyError> {
 
 impl Reference {
     /// One line of `reference.jsonl`.
-    fn read(line: &str) -> Result<Self, StudyError> {
+    pub fn read(line: &str) -> Result<Self, StudyError> {
         let value: Value = serde_json::from_str(line)?;
         let layers: Result<Vec<Layer>, StudyError> = value["layers"]
             .as_array()
@@ -87,6 +88,12 @@ impl Reference {
         Ok([largest(stresses), largest(displacements)])
     }
 
+    /// u_q and u_z of the surface under a unit shear traction along the wavevector.
+    pub fn along(&self) -> Result<[f64; 2], StudyError> {
+        let along = &self.surface["along"];
+        Ok([number(&along["uq"])?, number(&along["uz"])?])
+    }
+
     fn compliance(&self) -> Result<f64, StudyError> {
         number(&self.surface["compliance"])
     }
@@ -95,8 +102,7 @@ impl Reference {
     /// vanish, over the larger of both; u_t across it.
     fn tangential_errors(&self) -> Result<[f64; 3], StudyError> {
         let response = TransferFunction::new(&self.half_space).response(self.wavenumber);
-        let (along, across) = (&self.surface["along"], &self.surface["across"]);
-        let [uq, uz, ut] = [number(&along["uq"])?, number(&along["uz"])?, number(&across["ut"])?];
+        let ([uq, uz], ut) = (self.along()?, number(&self.surface["across"]["ut"])?);
         let error = |found: f64, known: f64, scale: f64| (found - known).abs() / scale;
         Ok([
             error(response.along, uq, uq),
@@ -113,10 +119,10 @@ impl Reference {
         let Amplitudes { szz, sqz, sqq, stt, uz, uq } =
             Interior::under(InPlane::Along, &transfer, self.wavenumber).at(depth);
         let Antiplane { stz, sqt, ut } = transfer.antiplane(self.wavenumber, depth);
-        let (along, across) = (&self.surface["along"], &self.surface["across"]);
+        let across = &self.surface["across"];
         let own = |name: &str| Ok::<f64, StudyError>(number(&point[name])?.abs());
         let (in_plane, lateral) = (own("sqq")?.max(1.0), own("sqt")?.max(1.0));
-        let largest_along = number(&along["uq"])?.max(number(&along["uz"])?.abs());
+        let largest_along = largest(self.along()?.map(f64::abs));
         let error = |name: &str, value: f64, scale: f64| -> Result<f64, StudyError> {
             Ok((value - number(&point[name])?).abs() / scale)
         };
