@@ -168,8 +168,8 @@ fn figure(inside: &Data, surface: &Data, complete: &Data, cylinder: &Data) -> Fi
         };
         let (within, edge) = (points(|row| row[2]), points(|row| (row[3] - row[4]).abs()));
         if colour == 1 {
-            sampled.push(slope("d²", -2.0, 0, &within));
-            sampled.push(slope("√d", -0.5, 0, &edge));
+            sampled.push(slope("d², √d", -2.0, 0, &within));
+            sampled.push(slope("", -0.5, 0, &edge));
         }
         sampled.push(curve(format!("E₁ = {ratio} E₂, inside"), Style::Markers, colour, within));
         sampled.push(curve(format!("E₁ = {ratio} E₂, σ_x at the edge"), Style::Markers, colour + 2, edge));
