@@ -29,6 +29,10 @@ const SEARCH_REACH: f64 = 25.0;
 /// The same on planes, whose largest samples the search starts from.
 const PLANE_REACH: f64 = 10.0;
 
+/// How often the steps become smaller, and how many steps there are at most.
+const TOPS: usize = 4;
+const MOVES: usize = 24;
+
 /// Relative accuracy of a depth.
 const DEPTH_TOLERANCE: f64 = 2e-3;
 
@@ -241,11 +245,13 @@ impl StressField {
         self.at(places, &Stresses(slice)).into_iter().map(State::from_stresses).collect()
     }
 
-    /// Moves a candidate to the top of the paraboloid through 3 × 3 points around it, with smaller and smaller steps.
+    /// Moves a candidate to the top of the paraboloid through 3 × 3 points around it, with smaller and smaller steps, once it
+    /// has climbed to where none of them is higher: along a ridge that may be far.
     fn horizontally(&self, candidate: &Candidate, quantity: Quantity) -> Candidate {
         let mut best = *candidate;
         let slice = self.slice(best.depth, SEARCH_REACH);
-        for _ in 0..4 {
+        let mut tops = 0;
+        for _ in 0..MOVES {
             let [x, y] = best.place;
             let step = best.step;
             let around: Vec<[f64; 2]> =
@@ -266,6 +272,10 @@ impl StressField {
                     (best.value, best.place) = (value, moved);
                 }
                 best.step *= 0.3;
+                tops += 1;
+                if tops == TOPS {
+                    break;
+                }
             }
         }
         best
