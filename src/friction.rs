@@ -5,7 +5,9 @@
 //! ([`SurfaceResponse`](crate::body::SurfaceResponse)): **coupled**, the pressure follows that displacement; uncoupled, it is
 //! that of frictionless contact, as in the school of the paper, and stresses superpose.
 
+use crate::body::Material;
 use crate::numeric::number::number;
+use std::f64::consts::PI;
 use std::fmt;
 
 /// Why there is no such friction.
@@ -72,6 +74,13 @@ impl Friction {
     /// Whether the pressure follows the displacement that the traction causes.
     pub fn is_coupled(&self) -> bool {
         self.coupled
+    }
+
+    /// η = atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): the pressure ends like d^{½+η} before a contact with the `surface` and like
+    /// d^{½−η} behind it; 0 without coupling.
+    pub fn edge_exponent(&self, surface: Material) -> f64 {
+        let beta = (1.0 - 2.0 * surface.poisson()) / (2.0 * (1.0 - surface.poisson()));
+        if self.coupled { (self.coefficient * beta).atan() / PI } else { 0.0 }
     }
 
     /// μ **e**: the traction on the body over the pressure.

@@ -27,6 +27,9 @@ const FINALISTS: usize = 8;
 const FEW: f64 = 0.3;
 /// The cusp that a traction makes at the trailing edge errs by at least this over n of the stress 2μp that leads to it.
 const CUSP: f64 = 0.2;
+/// Where coupling ends the pressure like d^{½−η}, what is read at its edge takes that for a square root: the cusp errs by
+/// about this times η n^{η−½} of the stress that leads to it (`validation/sliding-wave`).
+const POWER: f64 = 3.0;
 /// Usual tension at an edge over the largest pressure: (1 − 2ν)/3 at Hertz' contact.
 const TENSION: f64 = 0.13;
 /// By how much all that makes an error uncertain is multiplied, so that nineteen of twenty hold.
@@ -158,9 +161,11 @@ impl StressField {
         let unlike = if kind == Kind::Edge { smoothed.abs() * skin.unlike } else { 0.0 };
         let [tx, ty] = self.traction();
         let cusp = 2.0 * tx.hypot(ty) * pressed;
+        let eta = self.edge_exponent();
         let few = |edge: &Edge| {
             let (own, n) = (value_of(edge), edge.resolution);
-            own + FEW / (n * n) * usual.max(own.abs()) + CUSP / n * cusp - value
+            let turned = POWER * eta * n.powf(eta - 0.5);
+            own + FEW / (n * n) * usual.max(own.abs()) + (CUSP / n + turned) * cusp - value
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();

@@ -29,6 +29,8 @@ pub struct StressField {
     regions: Regions,
     /// μ **e** of a counterbody that slides.
     traction: Option<[f64; 2]>,
+    /// η of the pressure's edges, whose exponents are ½ ± η.
+    edge_exponent: f64,
 }
 
 impl StressField {
@@ -71,6 +73,7 @@ impl StressField {
             mean_stress: mean,
             regions: Regions::new(grid, pressure),
             traction,
+            edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(half_space.surface_material())),
             series,
         }
     }
@@ -93,6 +96,11 @@ impl StressField {
     /// μ **e** of a counterbody that slides: the traction on the surface over the pressure.
     pub fn traction(&self) -> [f64; 2] {
         self.traction.unwrap_or_default()
+    }
+
+    /// η of the pressure's edges, see [`Friction::edge_exponent`].
+    pub(super) fn edge_exponent(&self) -> f64 {
+        self.edge_exponent
     }
 
     /// Whether the surface feels a traction.
