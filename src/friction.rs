@@ -76,11 +76,16 @@ impl Friction {
         self.coupled
     }
 
-    /// η = atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): the pressure ends like d^{½+η} before a contact with the `surface` and like
-    /// d^{½−η} behind it; 0 without coupling.
+    /// Whether the pressure is another one than without friction.
+    pub fn couples(&self) -> bool {
+        self.coupled && self.coefficient > 0.0
+    }
+
+    /// η = −atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): the pressure ends like d^{½+η} behind a contact with the `surface` and like
+    /// d^{½−η} before it; 0 without coupling.
     pub fn edge_exponent(&self, surface: Material) -> f64 {
         let beta = (1.0 - 2.0 * surface.poisson()) / (2.0 * (1.0 - surface.poisson()));
-        if self.coupled { (self.coefficient * beta).atan() / PI } else { 0.0 }
+        if self.coupled { -(self.coefficient * beta).atan() / PI } else { 0.0 }
     }
 
     /// μ **e**: the traction on the body over the pressure.

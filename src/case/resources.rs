@@ -91,8 +91,7 @@ impl Needs {
 pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
     let heights = case.surface.as_ref().map_or(0, |_| 8 * samples);
-    let is_coupled = |friction: &Friction| friction.is_coupled() && friction.coefficient() > 0.0;
-    let coupled = case.problem().friction().is_some_and(is_coupled);
+    let coupled = case.problem().friction().is_some_and(Friction::couples);
     let Memory { kept, working } = Memory::of(points, case.solver.method, coupled);
     // A fall-back to the baseline takes more, and less than reading.
     let (grids, working) = (kept as u64, working as u64);

@@ -12,7 +12,7 @@ use percoat::case::plausibility;
 use percoat::case::resources::Job;
 use percoat::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, write_text};
 use percoat::picture::{self, Snapshot};
-use percoat::run::{Recorder, StepRecord};
+use percoat::run::{Recorder, Shown, StepRecord};
 use percoat::{Solver, Step, StressField};
 use std::convert::Infallible;
 use std::io::Write;
@@ -83,13 +83,11 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     write_text(&claim.staging().join("limit.json"), &limit_json(&limits, &case, &warnings))?;
     write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;
     pictures.write(&claim.staging(), "limit", || picture::utilisations(&case.title, case.problem(), &limits))?;
-    if let (true, Some(step), Some(section)) = (pictures.wanted(), limits.last.clone(), limits.section(&run)) {
-        let reading = step.reading();
-        // The record of that load, whose pressure is the same to rounding.
-        let from = |record: &&StepRecord| (record.reading.mean_pressure - reading.mean_pressure).abs();
-        let record = limits.steps.iter().min_by(|a, b| from(a).total_cmp(&from(b)));
-        let strength = record.map(|record| record.strength.clone()).unwrap_or_default();
-        let snapshot = Snapshot::new(&case.title, step, reading).with_strength(strength);
+    if let (true, Some(section), Some(Shown { limit, record, step })) =
+        (pictures.wanted(), limits.section(&run), limits.shown.clone())
+    {
+        let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);
+        let snapshot = snapshot.at_limit_of(limit.criterion);
         pictures.write(&claim.staging(), "limit-section", || Some(picture::section(&snapshot, &section)))?;
     }
     interruption::publish(claim, &folder, common.quiet)?;

@@ -27,7 +27,7 @@ pub enum ComparisonError {
         "the localized method knows the pressure of frictionless contact only, to which uncoupled friction adds its stresses: \
          compare with friction.coupling = false"
     )]
-    Coupled,
+    CoupledFriction,
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] LatticeError),
@@ -58,11 +58,11 @@ impl Task {
     /// Whether both methods know the problem.
     ///
     /// # Errors
-    /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::Coupled`] for coupled friction.
+    /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::CoupledFriction`] for coupled friction.
     pub fn check(&self) -> Result<(), ComparisonError> {
         self.problem.counterbody().indenters().ok_or(NoIndenters)?;
-        let coupled = |friction: &Friction| friction.is_coupled() && friction.coefficient() > 0.0;
-        if self.problem.friction().is_some_and(coupled) { Err(ComparisonError::Coupled) } else { Ok(()) }
+        let couples = self.problem.friction().is_some_and(Friction::couples);
+        if couples { Err(ComparisonError::CoupledFriction) } else { Ok(()) }
     }
 
     /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` hears what is begun.

@@ -30,7 +30,7 @@ fn limit(limit: &Limit) -> Value {
         At::Tip { .. } => ("under a tip however small the load", Some(0.0)),
         At::Load { error, .. } => ("under load", error),
         At::Below { .. } => ("by a contact of a few samples", None),
-        At::Never { .. } => ("never", None),
+        At::Never { .. } => ("not up to complete contact", None),
     };
     let is_number = !matches!(limit.at, At::Below { .. } | At::Never { .. });
     let [x, y, z] = limit.position().map_or([None; 3], |position| position.map(Some));
@@ -39,8 +39,9 @@ fn limit(limit: &Limit) -> Value {
     });
     entries.extend(at.as_object().cloned().unwrap_or_default());
     match limit.at {
-        At::Below { mean_pressure, .. } => {
+        At::Below { mean_pressure, utilisation, .. } => {
             entries.insert("below".to_owned(), json!(mean_pressure));
+            entries.insert("utilisation".to_owned(), json!(utilisation));
         }
         At::Never { up_to, utilisation } => {
             entries.insert("up_to".to_owned(), json!(up_to));

@@ -15,6 +15,8 @@ pub enum Quantity {
     Tau1,
     /// The stress of von Mises.
     Mises,
+    /// The largest principal stress σ₁.
+    Tension,
     /// What shears a horizontal plane, √(σ_xz² + σ_yz²).
     Shear,
 }
@@ -25,7 +27,7 @@ impl Quantity {
         match criterion {
             Criterion::Yield { .. } => Self::Mises,
             Criterion::Delamination { .. } => Self::Shear,
-            Criterion::Cracking { .. } => Self::Tau1,
+            Criterion::Cracking { .. } => Self::Tension,
         }
     }
 
@@ -35,6 +37,7 @@ impl Quantity {
             Self::Along => ["stress along the section", "σₛ"],
             Self::Tau1 => ["principal shear stress", "τ₁"],
             Self::Mises => ["stress of von Mises", "σᵥ"],
+            Self::Tension => ["largest principal stress", "σ₁"],
             Self::Shear => ["shear of horizontal planes", "τ"],
         }
     }
@@ -58,6 +61,7 @@ impl Section {
             Quantity::Along => state.along(self.line.direction),
             Quantity::Tau1 => state.tau1(),
             Quantity::Mises => state.mises(),
+            Quantity::Tension => state.principal()[0],
             Quantity::Shear => state.xz.hypot(state.yz),
         }
     }

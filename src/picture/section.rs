@@ -9,6 +9,7 @@ use super::rows::{Largest, Quantity};
 use super::sheet::sheet;
 use super::snapshot::{Snapshot, equals};
 use super::tiling::{Window, images};
+use crate::friction::Friction;
 use crate::reading::{Criterion, Utilisation, tips};
 use crate::stress::{Line, Section};
 use ndarray::Array2;
@@ -22,7 +23,7 @@ const FAILS: f64 = 0.998;
 /// The picture.
 pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     // Beside tension and compression stands what brings failure about, or the paper's τ₁.
-    let second = snapshot.governing().map_or(Quantity::Tau1, |governing| Quantity::of(governing.criterion));
+    let second = snapshot.governing().map_or(Quantity::Tau1, Quantity::of);
     let quantities = [Quantity::Along, second];
     let values = quantities.map(|quantity| section.values(quantity));
     let [along, other] = [0, 1].map(|k| {
@@ -36,7 +37,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let line = |points: Vec<[f64; 2]>, width: f64, dash: Dash, colour: Colour| {
         Over::Line(Stroke { points, width, dash, colour })
     };
-    let singular = second != Quantity::Shear && passes_tip(snapshot, section);
+    let singular = matches!(second, Quantity::Tau1 | Quantity::Mises) && passes_tip(snapshot, section);
     let [largest_along, largest_other] = quantities.map(|quantity| section.largest(quantity));
     let largest_other = largest_other.filter(|_| !singular);
     let failures = failures(snapshot, section);
@@ -60,10 +61,14 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let apart = if bar.apart { "; tension and compression have scales of their own" } else { "" };
     let along =
         panel(titled('a', Quantity::Along), Fill::Values(bar, &along), Colour::BLACK, largest_along, zero.collect());
-    let most = span(&values[1], None)[1].max(f64::MIN_POSITIVE);
     let [_, symbol] = second.named();
-    let fill = Fill::Values(Bar::sequential(snapshot.units.pressure("", symbol), most), &other);
-    let other = panel(titled('b', second), fill, Colour::WHITE, largest_other, Vec::new());
+    let (label, [least, most]) = (snapshot.units.pressure("", symbol), span(&values[1], None));
+    let (bar, ink) = if second == Quantity::Tension {
+        (Bar::signed(label, [least, most]), Colour::BLACK)
+    } else {
+        (Bar::sequential(label, most.max(f64::MIN_POSITIVE)), Colour::WHITE)
+    };
+    let other = panel(titled('b', second), Fill::Values(bar, &other), ink, largest_other, Vec::new());
 
     let [dx, dy] = section.line.direction;
     let to_scale = if aspect == scale { "" } else { " Depth is stretched." };
@@ -80,9 +85,16 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let residual = if residual { " Residual stress is in it." } else { "" };
     let failed: Vec<String> =
         (1..).zip(&failures).map(|(number, (criterion, _)): (usize, _)| format!("{number}: {criterion}")).collect();
-    let rings = if failed.is_empty() { String::new() } else { format!(" Beyond its strength: {}.", failed.join("; ")) };
+    let rings =
+        if failed.is_empty() { String::new() } else { format!(" At or beyond its strength, {}.", failed.join("; ")) };
+    let ahead = snapshot.step.problem().friction().map(Friction::direction).map(|[x, y]| x * dx + y * dy);
+    let sliding = match ahead {
+        Some(part) if part > 0.999 * dx.hypot(dy) => ", along which the indenters slide",
+        Some(part) if part < -0.999 * dx.hypot(dy) => ", against which the indenters slide",
+        _ => "",
+    };
     let caption = snapshot.caption(&format!(
-        "Section along {:.0}° from the x axis; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
+        "Section along {:.0}° from the x axis{sliding}; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
          Crosses: the largest values here, {}.{rings}",
         dy.atan2(dx).to_degrees() + 0.0,
         equals("σₛ", &[0.0]),
@@ -111,7 +123,8 @@ fn failures(snapshot: &Snapshot, section: &Section) -> Vec<(Criterion, [f64; 2])
         let s = places.find(|s| (first..=last).contains(s)).filter(|_| z <= deepest)?;
         Some((utilisation.criterion, [s, z]))
     };
-    snapshot.strength.iter().filter(|utilisation| utilisation.value >= FAILS).filter_map(on_cut).collect()
+    let fails = |own: &&Utilisation| own.value >= FAILS || snapshot.failing == Some(own.criterion);
+    snapshot.strength.iter().filter(fails).filter_map(on_cut).collect()
 }
 
 /// A window around the line of a cut, so much wider.

@@ -6,7 +6,7 @@ use crate::body::{HalfSpace, Interface};
 use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;
 use crate::problem::Problem;
-use crate::reading::{Reading, Utilisation};
+use crate::reading::{Criterion, Reading, Utilisation};
 use crate::spectral::Step;
 
 /// One load step.
@@ -20,6 +20,8 @@ pub struct Snapshot {
     pub reading: Reading,
     /// What it takes up of the strengths, where there are any.
     pub strength: Vec<Utilisation>,
+    /// What fails at this load, where that was looked for.
+    pub failing: Option<Criterion>,
     /// What lengths and pressures are measured in.
     pub units: Units,
 }
@@ -28,7 +30,7 @@ impl Snapshot {
     /// A step and what is read off it.
     pub fn new(title: &str, step: Step, reading: Reading) -> Self {
         let units = Units::of(step.problem());
-        Self { title: title.to_owned(), step, reading, strength: Vec::new(), units }
+        Self { title: title.to_owned(), step, reading, strength: Vec::new(), failing: None, units }
     }
 
     /// With what it takes up of the strengths.
@@ -37,9 +39,16 @@ impl Snapshot {
         Self { strength, ..self }
     }
 
-    /// The criterion that governs: its utilisation is largest.
-    pub fn governing(&self) -> Option<&Utilisation> {
-        self.strength.iter().max_by(|a, b| a.value.total_cmp(&b.value))
+    /// At the limit load of a criterion.
+    #[must_use]
+    pub fn at_limit_of(self, criterion: Criterion) -> Self {
+        Self { failing: Some(criterion), ..self }
+    }
+
+    /// The criterion that fails here or else governs: its utilisation is largest.
+    pub fn governing(&self) -> Option<Criterion> {
+        let largest = self.strength.iter().max_by(|a, b| a.value.total_cmp(&b.value));
+        self.failing.or(largest.map(|own| own.criterion))
     }
 
     /// Pressure sample by sample, a₂ fastest.

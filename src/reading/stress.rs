@@ -35,6 +35,7 @@ impl StressReading {
         };
         let Maxima { materials, faces, interfaces, .. } = maxima;
         let mut stress = Self { materials, faces, interfaces, surface_error };
+        stress.peaks().for_each(|peak| peak.position = beside_site(step, peak.position));
         // A tip is infinitely stressed, whatever a grid shows of it.
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
@@ -64,6 +65,17 @@ impl StressReading {
     /// Largest stress of von Mises of all.
     pub fn mises(&self) -> Peak {
         self.largest(|extremes| extremes.mises)
+    }
+
+    /// Every place of a largest stress.
+    fn peaks(&mut self) -> impl Iterator<Item = &mut Peak> {
+        let extremes = self.materials.iter_mut().chain(&mut self.faces);
+        let extremes = extremes.flat_map(|Extremes { tau1, tension, mises }| [tau1, tension, mises]);
+        let interfaces = self.interfaces.iter_mut().flat_map(|carried| {
+            let Carried { normal, shear, delamination, .. } = carried;
+            [Some(normal), Some(shear), delamination.as_mut()].into_iter().flatten()
+        });
+        extremes.chain(interfaces)
     }
 
     fn largest(&self, peak: impl Fn(&Extremes) -> Peak) -> Peak {
@@ -98,6 +110,20 @@ pub fn tips<'a>(step: &'a Step, reading: &'a Reading) -> impl Iterator<Item = &'
 /// μ, 0 without friction.
 fn friction(step: &Step) -> f64 {
     step.problem().friction().map_or(0.0, Friction::coefficient)
+}
+
+/// The same place of another cell, as near to an indenter of the first cell as there is one: behind an indenter x is less
+/// than where it stands, not a period more.
+fn beside_site(step: &Step, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let cell = step.grid().cell();
+    let ([s, t], reduced) = (cell.fractions([x, y]), cell.reduced());
+    let near = step.surface().sites().iter().map(|site| {
+        let [u, v] = reduced.nearest([s - site.place[0], t - site.place[1]]);
+        (cell.point(site.place), [u, v], u.hypot(v))
+    });
+    // Of indenters that are as near, to rounding, the first one.
+    let nearest = near.reduce(|best, next| if next.2 < best.2 * (1.0 - 1e-9) { next } else { best });
+    nearest.map_or([x, y, z], |(site, [u, v], _)| [site[0] + u, site[1] + v, z])
 }
 
 /// Smallest and largest contact radius of a step; where contacts have no radius, that of a disc of the whole contact's

@@ -27,7 +27,7 @@ mod sampling;
 pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
-pub use limit::{At, Limit, Limits};
+pub use limit::{At, Limit, Limits, Shown};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::StepRecord;
@@ -154,22 +154,33 @@ impl Run {
         for &load in &self.loads {
             // Its memory goes before the next one takes as much.
             drop(last.take());
-            recorder.load(load);
-            let began = recorder.clock();
-            let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
-            let mut record = StepRecord::new(&step, step.reading());
-            let field = self.mean_stress().map(|mean| {
-                recorder.stresses();
-                StressField::new(step.finest(), mean)
-            });
-            if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
-                record.add_stress(StressReading::of(&step, &record.reading, field), self.problem.half_space());
-            }
-            record.seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
-            recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;
+            let (record, step) = self.solve_load(&mut solver, load, recorder)?;
             records.push(record);
             last = Some(step);
         }
         Ok((records, last))
+    }
+
+    /// One load, with its stresses where they are wanted.
+    fn solve_load<R: Recorder>(
+        &self,
+        solver: &mut Solver,
+        load: Load,
+        recorder: &mut R,
+    ) -> Result<(StepRecord, Step), RunError<R::Error>> {
+        recorder.load(load);
+        let began = recorder.clock();
+        let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
+        let mut record = StepRecord::new(&step, step.reading());
+        let field = self.mean_stress().map(|mean| {
+            recorder.stresses();
+            StressField::new(step.finest(), mean)
+        });
+        if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
+            record.add_stress(StressReading::of(&step, &record.reading, field), self.problem.half_space());
+        }
+        record.seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
+        recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;
+        Ok((record, step))
     }
 }

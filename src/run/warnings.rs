@@ -35,7 +35,11 @@ pub(super) fn of_limits(problem: &Problem, limits: &Limits) -> Vec<String> {
         let nearest = |limit: &Limit| {
             steps.iter().all(|(_, other)| from(limit) <= (other.reading.mean_pressure - limit.mean_pressure()).abs())
         };
-        limits.limits.iter().any(|limit| matches!(limit.at, At::Load { .. } | At::Below { .. }) && nearest(limit))
+        limits.limits.iter().any(|limit| match limit.at {
+            At::Load { .. } | At::Below { .. } => nearest(limit),
+            At::Never { up_to, .. } => step.reading.mean_pressure == up_to,
+            At::Rest | At::Tip { .. } => false,
+        })
     };
     let judged: Vec<Numbered> = steps.iter().copied().filter(is_limit).collect();
     said(problem, &steps, &judged, limits.end, limits.change)

@@ -65,7 +65,7 @@ impl Operator {
     /// The same under a counterbody that slides with `friction`.
     pub fn sliding(grid: &Grid, transfer: &TransferFunction, friction: &Friction) -> Self {
         let [x, y] = friction.traction();
-        if !friction.is_coupled() || friction.coefficient() == 0.0 {
+        if !friction.couples() {
             return Self::new(grid, transfer);
         }
         let compliances = Compliances::coupled(transfer, range(grid), grid.len() / 2);

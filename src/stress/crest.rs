@@ -27,8 +27,8 @@ const FINALISTS: usize = 8;
 const FEW: f64 = 0.3;
 /// The cusp that a traction makes at the trailing edge errs by at least this over n of the stress 2μp that leads to it.
 const CUSP: f64 = 0.2;
-/// Where coupling ends the pressure like d^{½−η}, what is read at its edge takes that for a square root: the cusp errs by
-/// about this times η n^{η−½} of the stress that leads to it (`validation/sliding-wave`).
+/// Where coupling ends the pressure like d^{½+η}, what is read at its edge takes that for a square root: the cusp errs by
+/// about this times |η| n^{|η|−½} of the stress that leads to it (`validation/sliding-wave`).
 const POWER: f64 = 3.0;
 /// Usual tension at an edge over the largest pressure: (1 − 2ν)/3 at Hertz' contact.
 const TENSION: f64 = 0.13;
@@ -161,7 +161,7 @@ impl StressField {
         let unlike = if kind == Kind::Edge { smoothed.abs() * skin.unlike } else { 0.0 };
         let [tx, ty] = self.traction();
         let cusp = 2.0 * tx.hypot(ty) * pressed;
-        let eta = self.edge_exponent();
+        let eta = self.edge_exponent().abs();
         let few = |edge: &Edge| {
             let (own, n) = (value_of(edge), edge.resolution);
             let turned = POWER * eta * n.powf(eta - 0.5);

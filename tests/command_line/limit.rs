@@ -46,7 +46,7 @@ fn a_solved_case_with_strengths_says_what_governs() {
     let desk = Desk::new();
     let answer = desk.percoat(&["solve", "dlc-on-steel", "-o", "out", "--no-pictures", "--set", "grid.points=96"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
-    assert!(answer.out.contains("\nyield of material 2 fails\n"), "{}", answer.out);
+    assert!(answer.out.contains("\nyield of material 2 fails at p̄ = 0.050397\n"), "{}", answer.out);
     let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&text).unwrap();
     let step = summary["steps"].as_array().unwrap().last().unwrap();

@@ -104,8 +104,8 @@ fn run() -> Result<Outcome, StudyError> {
             }
             let (found, exact) = (solve(coupling, fraction, POINTS)?, SlidingWave::new(coupling, fraction));
             let [peak, place] = exact.peak();
-            // An edge that is a sample and a half off takes as much load with it as lies there, p d/(1 + ½ + η), which the
-            // rest carries instead: twice that part.
+            // An edge that is a sample and a half off takes as much load with it as lies there, p d/(1 + ½ + η); both may be,
+            // and before the contact, where the pressure ends more gently, there lies less.
             let aside = EDGE / POINTS as f64;
             let behind = exact.pressure(PI * aside - exact.trailing);
             let bound = 2.0 * behind * aside / ((1.5 + exact.exponent()) * fraction);

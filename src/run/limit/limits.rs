@@ -8,6 +8,7 @@ use crate::run::places::SECTION;
 use crate::run::{End, Run, StepRecord};
 use crate::spectral::Step;
 use crate::stress::{Line, Section, StressField};
+use std::cmp::Ordering;
 use std::f64::consts::PI;
 use std::fmt;
 
@@ -22,7 +23,7 @@ const DEEPEST: f64 = 8.0;
 pub enum At {
     /// Residual stress alone reaches it, everywhere in its material.
     Rest,
-    /// Under a tip, whose stress is infinite however small the load.
+    /// Under a tip of the highest level, whose stress is infinite however small the load.
     Tip {
         /// x, y, z of the tip; lengths.
         position: [f64; 3],
@@ -40,6 +41,8 @@ pub enum At {
     Below {
         /// p̄.
         mean_pressure: f64,
+        /// How much it takes up there.
+        utilisation: f64,
         /// x, y, z of the place that fails under it; lengths.
         position: [f64; 3],
     },
@@ -68,8 +71,9 @@ pub struct Limits {
     pub limits: Vec<Limit>,
     /// Every load that was solved on the last grid, by ascending mean pressure.
     pub steps: Vec<StepRecord>,
-    /// The step at the first limit load that is above 0, with its fields; `None` where there is none.
-    pub last: Option<Step>,
+    /// The first limit that is reached above the load 0, and the step there, with its record and its fields; `None` where
+    /// there is none.
+    pub shown: Option<Shown>,
     /// Mean pressure at which contact becomes complete on the last grid.
     pub complete: f64,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was asked for.
@@ -78,6 +82,17 @@ pub struct Limits {
     pub end: Option<End>,
     /// What a reader should know before trusting the numbers.
     pub warnings: Vec<String>,
+}
+
+/// The first limit above the load 0, and what was solved there.
+#[derive(Debug, Clone)]
+pub struct Shown {
+    /// What fails, and where.
+    pub limit: Limit,
+    /// Every scalar of the step.
+    pub record: StepRecord,
+    /// The step.
+    pub step: Step,
 }
 
 impl Limit {
@@ -98,30 +113,44 @@ impl Limit {
         }
     }
 
-    /// Relative change from the same criterion's limit on a coarser grid; `None` where neither is found at a load.
-    fn change_from(&self, coarse: &Self) -> Option<f64> {
-        let found = |limit: &Self| matches!(limit.at, At::Load { .. });
-        let (fine, rough) = (self.mean_pressure(), coarse.mean_pressure());
-        match (found(self), found(coarse)) {
-            (true, true) => Some((fine / rough - 1.0).abs()),
+    /// Relative change from the same criterion's limit on a coarser grid: of the load, or of the utilisation where it is not
+    /// reached.
+    fn change_from(&self, coarse: &Self) -> f64 {
+        let relative = |fine: f64, coarse: f64| if fine == coarse { 0.0 } else { (fine - coarse).abs() / fine.abs() };
+        match (self.at, coarse.at) {
+            (At::Rest, At::Rest) | (At::Tip { .. }, At::Tip { .. }) => 0.0,
+            (At::Load { mean_pressure: fine, .. }, At::Load { mean_pressure: coarse, .. })
+            | (At::Never { utilisation: fine, .. }, At::Never { utilisation: coarse, .. }) => relative(fine, coarse),
             // A bound that falls with the spacing, or a root that appears, is no number yet.
-            (true, false) | (false, true) => Some(f64::INFINITY),
-            (false, false) => None,
+            _ => f64::INFINITY,
         }
+    }
+
+    /// What comes first: the least load; of bounds the one that is exceeded most.
+    fn order(&self, other: &Self) -> Ordering {
+        let excess = |limit: &Self| if let At::Below { utilisation, .. } = limit.at { -utilisation } else { 0.0 };
+        let loads = self.mean_pressure().total_cmp(&other.mean_pressure());
+        loads.then(excess(self).total_cmp(&excess(other)))
     }
 }
 
 impl Limits {
     /// The limit that is reached first; `None` where nothing fails.
     pub fn first(&self) -> Option<&Limit> {
-        let reached = self.limits.iter().filter(|limit| limit.mean_pressure().is_finite());
-        reached.min_by(|a, b| a.mean_pressure().total_cmp(&b.mean_pressure()))
+        self.ordered().into_iter().next().filter(|limit| limit.mean_pressure().is_finite())
     }
 
-    /// Largest relative change of the limits from those of a coarser grid; 0 where none is found at a load.
+    /// All of them, what comes first first, and what is never reached last.
+    pub fn ordered(&self) -> Vec<&Limit> {
+        let mut ordered: Vec<&Limit> = self.limits.iter().collect();
+        ordered.sort_by(|a, b| a.order(b));
+        ordered
+    }
+
+    /// Largest relative change of the limits from those of a coarser grid.
     pub(super) fn change_from(&self, coarse: &Self) -> f64 {
         let pairs = self.limits.iter().zip(&coarse.limits);
-        largest(pairs.filter_map(|(fine, coarse)| fine.change_from(coarse))).max(0.0)
+        largest(pairs.map(|(fine, coarse)| fine.change_from(coarse)))
     }
 
     /// Whether all loads were solved, and the accuracy, if one was asked for, is reached.
@@ -129,11 +158,11 @@ impl Limits {
         self.end.is_none_or(|end| end == End::Reached) && self.steps.iter().all(StepRecord::converged)
     }
 
-    /// The stresses under the place that fails first, at its limit: a cut along the sliding (else along x), a contact's
-    /// width to both sides and deep enough for it; `None` where nothing fails under a load.
+    /// The stresses under the place that fails first under a load, at its limit: a cut along the sliding (else along x), a
+    /// contact's width to both sides and deep enough for it; `None` where nothing does.
     pub fn section(&self, run: &Run) -> Option<Section> {
-        let step = self.last.as_ref()?;
-        let [x, y, z] = self.limits.iter().filter(|limit| limit.mean_pressure() > 0.0).min_by(earlier)?.position()?;
+        let Shown { limit, step, .. } = self.shown.as_ref()?;
+        let [x, y, z] = limit.position()?;
         let (half_space, cell) = (run.problem.half_space(), run.problem.cell());
         let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);
         let reading = step.reading();
@@ -143,7 +172,7 @@ impl Limits {
         let [rows, points] = SECTION;
         let line = Line { origin: [x, y], direction, span: [-reach, reach], points };
         let depth = (DEPTH * radius).max(1.5 * z).max(1.25 * coating.min(DEEPEST * radius));
-        let mean = run.stress.as_ref().map(|request| request.mean).unwrap_or_default();
+        let mean = run.mean_stress().unwrap_or_default();
         Some(StressField::new(step.finest(), mean).section(&line, &half_space.rows(depth, rows)))
     }
 }
@@ -166,9 +195,4 @@ impl fmt::Display for Limits {
             }
         }
     }
-}
-
-/// Which limit comes first.
-fn earlier(a: &&Limit, b: &&Limit) -> std::cmp::Ordering {
-    a.mean_pressure().total_cmp(&b.mean_pressure())
 }

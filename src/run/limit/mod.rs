@@ -3,15 +3,16 @@
 //! Contact is not linear: a limit is found by solving. From a first load the mean pressure is halved until nothing fails and
 //! doubled until everything has failed or contact is complete; then the root of ln u(ln p̄) = 0 of each criterion, u its
 //! utilisation, is enclosed between two loads and found by secants with bisection as their safeguard, to 10⁻³ of the load.
-//! Every load that is solved counts for all criteria, and starts from the one before. Beyond complete contact stresses grow
-//! in proportion, with what shape there is gone: no limit is looked for there.
+//! Every load that is solved counts for all criteria, and starts from the one before. Beyond complete contact the shape adds
+//! nothing, and stresses grow by those of a uniform pressure: no limit is looked for there. Shapes with ridges between them
+//! come into complete contact under an infinite pressure only; on a grid under a finite one, where the search ends.
 //!
 //! Where a utilisation is not monotone, its first crossing between the loads that were solved is taken.
 
 mod limits;
 mod search;
 
-pub use limits::{At, Limit, Limits};
+pub use limits::{At, Limit, Limits, Shown};
 
 use super::{Recorder, Refinement, Run, RunError, Sampling, warnings};
 use crate::reading::Criterion;
@@ -85,7 +86,7 @@ impl Run {
                         break limits;
                     }
                     // Its fields go before the next grid takes as much and more.
-                    limits.last = None;
+                    limits.shown = None;
                     coarse = Some(limits);
                 }
             }

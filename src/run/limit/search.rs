@@ -1,12 +1,10 @@
 //! The search on one grid, load by load.
 
-use super::{At, Limit, Limits};
-use crate::body::MeanStress;
+use super::{At, Limit, Limits, Shown};
 use crate::load::Load;
-use crate::reading::{Criterion, StressReading, Utilisation};
+use crate::reading::{Criterion, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
 use crate::spectral::{Solver, Step};
-use crate::stress::StressField;
 use std::sync::Arc;
 
 /// Relative accuracy of a limit.
@@ -17,15 +15,21 @@ const NEAR: f64 = 0.3;
 const DOUBLINGS: usize = 40;
 /// Loads to enclose one root at most; bisection alone takes ten from a factor of two on.
 const TRIALS: usize = 40;
-/// Samples that a contact needs to be worth halving its load further.
-const LEAST_SAMPLES: f64 = 12.0;
+/// Samples that the radius of a contact needs to be worth halving its load further.
+const LEAST_SAMPLES: f64 = 2.0;
+/// The slope that turns the error of a utilisation into one of its limit is that between loads so far apart: within a
+/// thousandth a stress at an edge of contact may jump from sample to sample.
+const APART: f64 = 1.2;
+/// Rounds over all criteria: loads that were solved for one may be an earlier crossing of another.
+const ROUNDS: usize = 4;
+/// Loads that differ by less are one.
+const SAME: f64 = 1e-12;
 /// Part of the pressure of complete contact to begin with where the run's first load is none.
 const START: f64 = 1e-3;
 
 /// A search that goes on.
 pub(super) struct Search<'a, R: Recorder> {
     run: &'a Run,
-    mean: MeanStress,
     solver: Solver,
     complete: f64,
     /// By ascending mean pressure.
@@ -52,8 +56,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         // A flat surface is in complete contact under any load, and more of it changes what fails all the same.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let complete = complete.unwrap_or(f64::INFINITY);
-        let mean = run.stress.as_ref().map(|request| request.mean).unwrap_or_default();
-        let mut search = Self { run, mean, solver, complete, steps: Vec::new(), last: None, recorder };
+        let mut search = Self { run, solver, complete, steps: Vec::new(), last: None, recorder };
         let half_space = run.problem.half_space();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(half_space).into_iter().partition(|criterion| criterion.at_rest(half_space) >= 1.0);
@@ -61,46 +64,50 @@ impl<'a, R: Recorder> Search<'a, R> {
             search.enclose(&sought)?;
         }
         let mut limits = Vec::new();
-        for criterion in Criterion::all(half_space) {
-            let at = if at_rest.contains(&criterion) { At::Rest } else { search.find(criterion)? };
-            limits.push(Limit { criterion, at });
+        for _ in 0..ROUNDS {
+            let known = search.steps.len();
+            limits.clear();
+            for criterion in Criterion::all(half_space) {
+                let at = if at_rest.contains(&criterion) { At::Rest } else { search.find(criterion)? };
+                limits.push(Limit { criterion, at });
+            }
+            if search.steps.len() == known {
+                break;
+            }
         }
-        // Its fields are what is shown; how it was solved counts as that of any other load.
-        let loads = limits.iter().map(Limit::mean_pressure).filter(|pressure| *pressure > 0.0 && pressure.is_finite());
-        search.last = None;
-        if let Some(first) = loads.min_by(f64::total_cmp) {
-            search.solve(first)?;
-        }
-        let Search { steps, last, .. } = search;
-        Ok(Limits { limits, steps, last, complete, change: None, end: None, warnings: Vec::new() })
+        let limits =
+            Limits { limits, steps: Vec::new(), shown: None, complete, change: None, end: None, warnings: Vec::new() };
+        let is_load = |limit: &&&Limit| limit.mean_pressure() > 0.0 && limit.mean_pressure().is_finite();
+        let first = limits.ordered().iter().find(is_load).map(|limit| **limit);
+        let shown = match first {
+            Some(limit) => {
+                let record = search.solve(limit.mean_pressure())?.clone();
+                search.last.take().map(|step| Shown { limit, record, step })
+            }
+            None => None,
+        };
+        Ok(Limits { shown, steps: search.steps, ..limits })
     }
 
     /// Solves a load and keeps what it says.
-    fn solve(&mut self, mean_pressure: f64) -> Result<(), RunError<R::Error>> {
+    fn solve(&mut self, mean_pressure: f64) -> Result<&StepRecord, RunError<R::Error>> {
         // Its memory goes before the next one takes as much.
         self.last = None;
-        let (load, recorder) = (Load::MeanPressure(mean_pressure), &mut *self.recorder);
-        recorder.load(load);
-        let began = recorder.clock();
-        let step = self.solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
-        let mut record = StepRecord::new(&step, step.reading());
-        recorder.stresses();
-        let field = StressField::new(step.finest(), self.mean);
-        if record.reading.max_pressure > 0.0 {
-            record.add_stress(StressReading::of(&step, &record.reading, &field), self.run.problem.half_space());
-        }
-        record.seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
-        recorder.step(&step, &record, Some(&field)).map_err(RunError::Recorder)?;
-        let place = self.steps.partition_point(|other| other.reading.mean_pressure < record.reading.mean_pressure);
+        let load = Load::MeanPressure(mean_pressure);
+        let (record, step) = self.run.solve_load(&mut self.solver, load, self.recorder)?;
+        self.last = Some(step);
+        // What is read off a step has the load to rounding.
+        let before = |other: &StepRecord| other.reading.mean_pressure < mean_pressure * (1.0 - SAME);
+        let place = self.steps.partition_point(before);
         match self.steps.get_mut(place) {
-            Some(same) if same.reading.mean_pressure == record.reading.mean_pressure => *same = record,
+            Some(same) if same.reading.mean_pressure <= mean_pressure * (1.0 + SAME) => *same = record,
             _ => self.steps.insert(place, record),
         }
-        self.last = Some(step);
-        Ok(())
+        Ok(&self.steps[place])
     }
 
-    /// The first load: the run's, or a little where it prescribes a penetration that hardly touches.
+    /// The first load: the run's, or a little where it prescribes a penetration that hardly touches. That penetration is only
+    /// where the search begins, and no load of it.
     fn start(&mut self) -> f64 {
         let pressure = match self.run.loads.iter().find(|load| load.value() > 0.0) {
             Some(&Load::MeanPressure(pressure)) => pressure,
@@ -116,15 +123,15 @@ impl<'a, R: Recorder> Search<'a, R> {
         let mut lowest = self.start();
         let mut highest = lowest;
         self.solve(lowest)?;
+        let is_tip = self.first_is_tip();
         for _ in 0..DOUBLINGS {
             let record = &self.steps[0];
-            let samples = record.reading.contact_fraction * record.points.iter().product::<usize>() as f64;
-            // Under a tip it fails however small the load.
+            // Under a tip of the highest level it fails however small the load.
             let fails = |&criterion: &Criterion| {
-                let value = utilisation(record, criterion).value;
-                value >= 1.0 && value.is_finite()
+                let value = self.utilisation(record, criterion).value;
+                value >= 1.0 && !(value.is_infinite() && is_tip)
             };
-            if samples < LEAST_SAMPLES || !sought.iter().any(fails) {
+            if record.reading.spot_resolution < LEAST_SAMPLES || !sought.iter().any(fails) {
                 break;
             }
             lowest *= 0.5;
@@ -132,7 +139,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         }
         for _ in 0..DOUBLINGS {
             let holds = |&criterion: &Criterion| {
-                let below_one = |record: &StepRecord| utilisation(record, criterion).value < 1.0;
+                let below_one = |record: &StepRecord| self.utilisation(record, criterion).value < 1.0;
                 self.steps.iter().all(below_one)
             };
             if highest >= self.complete || !sought.iter().any(holds) {
@@ -144,10 +151,24 @@ impl<'a, R: Recorder> Search<'a, R> {
         Ok(())
     }
 
+    /// Whether the highest level, which touches under any load, has tips whose pressure is infinite.
+    fn first_is_tip(&self) -> bool {
+        let indenters = self.run.problem.counterbody().indenters();
+        let levels = indenters.into_iter().flat_map(|all| all.levels().iter().zip(all.drops()));
+        levels.into_iter().any(|(level, drop)| drop == 0.0 && level.shape().singular_peak())
+    }
+
+    /// What a step takes up of a criterion; without contact what residual stress does.
+    fn utilisation(&self, record: &StepRecord, criterion: Criterion) -> Utilisation {
+        let found = record.strength.iter().find(|utilisation| utilisation.criterion == criterion);
+        let value = criterion.at_rest(self.run.problem.half_space());
+        found.copied().unwrap_or(Utilisation { criterion, value, error: None, position: [0.0; 3] })
+    }
+
     /// Where a criterion is reached.
     fn find(&mut self, criterion: Criterion) -> Result<At, RunError<R::Error>> {
         for trial in 0.. {
-            let taken: Vec<Utilisation> = self.steps.iter().map(|record| utilisation(record, criterion)).collect();
+            let taken: Vec<Utilisation> = self.steps.iter().map(|record| self.utilisation(record, criterion)).collect();
             let load = |index: usize| self.steps[index].reading.mean_pressure;
             let last = taken.len() - 1;
             let Some(above) = taken.iter().position(|taken| taken.value >= 1.0) else {
@@ -155,25 +176,28 @@ impl<'a, R: Recorder> Search<'a, R> {
             };
             let Some(below) = above.checked_sub(1) else {
                 let Utilisation { value, position, .. } = taken[above];
-                let mean_pressure = load(above);
-                return Ok(if value.is_infinite() {
-                    At::Tip { position }
-                } else {
-                    At::Below { mean_pressure, position }
-                });
+                let is_tip = value.is_infinite() && self.first_is_tip();
+                let below = At::Below { mean_pressure: load(above), utilisation: value, position };
+                return Ok(if is_tip { At::Tip { position } } else { below });
             };
             let enclosure =
                 Enclosure { loads: [below, above].map(load), values: [below, above].map(|index| taken[index].value) };
             // Every third load halves what is enclosed.
             match enclosure.next(trial % 3 == 2) {
-                Some(next) if trial < TRIALS => self.solve(next)?,
+                Some(next) if trial < TRIALS => {
+                    self.solve(next)?;
+                }
                 _ => {
                     let nearest = taken[if enclosure.first_is_nearer() { below } else { above }];
-                    let (mean_pressure, slope) = (enclosure.root(), enclosure.slope());
-                    let error =
-                        slope.zip(nearest.error).map(|(slope, error)| mean_pressure * error / (nearest.value * slope));
+                    let mean_pressure = enclosure.root();
+                    let values: Vec<[f64; 2]> = (0..taken.len()).map(|k| [load(k), taken[k].value]).collect();
+                    // Of what jumps nothing tells how far the grid moves it.
+                    let slope = enclosure.slope().and_then(|_| slope_around(&values, mean_pressure));
+                    let by_grid = slope.zip(nearest.error).map(|(slope, error)| error / (nearest.value * slope));
+                    // What the search leaves open is an error too.
+                    let error = by_grid.map(|by_grid| mean_pressure * by_grid.hypot(enclosure.open()));
                     // The place of one that jumps is where it has failed.
-                    let position = if slope.is_some() { nearest.position } else { taken[above].position };
+                    let position = if enclosure.slope().is_some() { nearest.position } else { taken[above].position };
                     return Ok(At::Load { mean_pressure, error, position });
                 }
             }
@@ -200,6 +224,12 @@ impl Enclosure {
         under < over
     }
 
+    /// How far the root may be from what was solved, relatively: by the secant, or by the loads that enclose it.
+    fn open(&self) -> f64 {
+        let [low, high] = self.loads;
+        if self.slope().is_some() { (high / low - 1.0).min(NEAR * TOLERANCE) } else { high / low - 1.0 }
+    }
+
     /// The load to solve next, or none where the root is known well enough.
     fn next(&self, halve: bool) -> Option<f64> {
         let ([low, high], root) = (self.loads, self.root());
@@ -213,10 +243,15 @@ impl Enclosure {
     }
 }
 
-/// What a step takes up of a criterion; nothing without contact.
-fn utilisation(record: &StepRecord, criterion: Criterion) -> Utilisation {
-    let found = record.strength.iter().find(|utilisation| utilisation.criterion == criterion);
-    found.copied().unwrap_or(Utilisation { criterion, value: 0.0, error: None, position: [0.0; 3] })
+/// d ln u / d ln p̄ around a load, between the nearest two of `values` (loads and utilisations) that are far enough apart;
+/// `None` where it does not grow.
+fn slope_around(values: &[[f64; 2]], load: f64) -> Option<f64> {
+    let usable = |[_, u]: &&[f64; 2]| *u > 0.0 && u.is_finite();
+    let (reach, usable) = (APART.sqrt(), values.iter().filter(usable).collect::<Vec<_>>());
+    let below = usable.iter().rev().find(|[p, _]| *p * reach <= load).or(usable.first())?;
+    let above = usable.iter().find(|[p, _]| *p >= load * reach).or(usable.last())?;
+    let slope = (above[1] / below[1]).ln() / (above[0] / below[0]).ln();
+    (slope > 0.0 && slope.is_finite()).then_some(slope)
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@
 //! minimum is at Cp + f = δ, so that the excess is at most ½⟨g, C⁻¹g⟩ there: the smaller of the two bounds is taken.
 //!
 //! **Under coupled friction** there is no energy: C is the symmetric part of what p meets, A = C + B, ⟨p, Bp⟩ = 0. Both
-//! bounds hold for the elastic energy of the error, ½⟨d, Cd⟩ with d = p − p*, which without friction is at most E(p) − E*:
+//! bounds hold (under displacement control while p* has at most the load of p) for the elastic energy of the error, ½⟨d, Cd⟩ with d = p − p*, which without friction is at most E(p) − E*:
 //! ⟨d, Cd⟩ = ⟨d, Ad⟩ ≤ ⟨d, g⟩, as p* solves the problem, and ⟨d, g⟩ is at most the gap, and at most ⟨d, Cd⟩^½ ⟨g, C⁻¹g⟩^½.
 
 use std::fmt;
