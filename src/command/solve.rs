@@ -73,10 +73,8 @@ fn print(title: &str, steps: &[StepRecord], change: Option<f64>) -> Result<(), F
         writeln!(out, "{title}")?;
     }
     writeln!(out, "\n{}\n\n{}", table::steps(steps), table::solved(steps))?;
-    for (number, stress) in (1..).zip(steps).filter_map(|(n, step): (usize, _)| Some((n, step.stress.as_ref()?))) {
-        if steps.len() <= table::DETAILED {
-            writeln!(out, "step {number}: {}", table::stress(stress))?;
-        }
+    if let Some(largest) = table::largest_stresses(steps) {
+        writeln!(out, "\n{largest}\n")?;
     }
     if let Some(strength) = table::utilisations(steps) {
         writeln!(out, "\n{strength}\n")?;

@@ -88,7 +88,7 @@ fn stresses_agree_with_the_spectral_field() {
         let (spectral, reading) = solve(&problem, [384, 384], load);
         // What slides on a layer that slides itself has nothing to hold it.
         let friction = Friction::new(0.6, [0.8, -0.6]).unwrap().uncoupled();
-        let sliding = problem.clone().sliding(friction.clone()).ok();
+        let sliding = problem.clone().sliding(friction).ok();
         let slid = sliding.map(|problem| solve(&problem, [384, 384], load).0);
         assert_eq!(
             slid.is_none(),

@@ -1,17 +1,18 @@
 //! The result table a person reads.
 
+mod by_step;
 mod comparison;
+mod largest;
 mod strength;
 
 pub use comparison::{differences, readings, stresses};
+pub use largest::largest_stresses;
 pub use strength::{limits, utilisations};
 
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
 use crate::numeric::search::largest;
-use crate::reading::StressReading;
 use crate::run::StepRecord;
-use crate::stress::Peak;
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Relative errors up to this are rounding.
@@ -182,17 +183,6 @@ pub fn timing(timing: &Timing) -> String {
     let Timing { setup, solve, stress, output } = timing;
     let stress = if *stress > 0.0 { format!(", stresses {stress:.2}") } else { String::new() };
     format!("setup {setup:.2}, solution {solve:.2}{stress}, output {output:.2}")
-}
-
-/// The largest stresses of a step in one line.
-pub fn stress(stress: &StressReading) -> String {
-    let peak = |name: &str, peak: Peak| {
-        // What is no number is not infinite.
-        let value = finite(Some(peak.value).filter(|value| !value.is_infinite()), peak.error);
-        let [x, y, z] = peak.position.map(number);
-        format!("{name} {value} in material {} at ({x}, {y}, {z})", peak.material)
-    };
-    format!("{}; {}", peak("largest τ₁", stress.tau1()), peak("largest tension", stress.tension()))
 }
 
 #[cfg(test)]

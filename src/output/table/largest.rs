@@ -1,0 +1,33 @@
+//! The largest stresses of the load steps, by material and interface.
+
+use super::by_step::{Row, by_step};
+use crate::reading::StressReading;
+use crate::run::StepRecord;
+use crate::stress::Peak;
+
+/// One row a quantity; `None` where no step has stresses.
+pub fn largest_stresses(steps: &[StepRecord]) -> Option<String> {
+    let any = steps.iter().find_map(|step| step.stress.as_ref())?;
+    let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
+        let of = |step: &StepRecord| peak(step.stress.as_ref()?).map(|peak| (peak.value, peak.error, peak.position));
+        Row { name, found: steps.iter().map(of).collect() }
+    };
+    let material = |index: usize| {
+        let own = format!("material {}", index + 1);
+        [
+            row(format!("τ₁ in {own}"), &|stress| Some(stress.materials.get(index)?.tau1)),
+            row(format!("tension in {own}"), &|stress| Some(stress.materials.get(index)?.tension)),
+            row(format!("von Mises in {own}"), &|stress| Some(stress.materials.get(index)?.mises)),
+        ]
+    };
+    let interface = |index: usize| {
+        let own = format!("interface {}", index + 1);
+        [
+            row(format!("tension on {own}"), &|stress| Some(stress.interfaces.get(index)?.normal)),
+            row(format!("shear on {own}"), &|stress| Some(stress.interfaces.get(index)?.shear)),
+        ]
+    };
+    let materials = (0..any.materials.len()).flat_map(material);
+    let rows: Vec<Row> = materials.chain((0..any.interfaces.len()).flat_map(interface)).collect();
+    by_step("largest stress", steps, &rows)
+}
