@@ -4,8 +4,8 @@
 //! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, numbers are those
 //! of a linear body that is not there.
 
+use super::StepRecord;
 use super::accuracy::End;
-use super::{At, Limit, Limits, StepRecord};
 use crate::counterbody::Shape;
 use crate::numeric::number::number;
 use crate::numeric::search::largest;
@@ -23,32 +23,15 @@ const WORTH_SAYING: f64 = 0.02;
 /// What is doubtful about the steps of a run; `end` and `change`: how a refinement ended, and its last change.
 pub(super) fn warnings(problem: &Problem, steps: &[StepRecord], end: Option<End>, change: Option<f64>) -> Vec<String> {
     let steps: Vec<Numbered> = (1..).zip(steps).collect();
-    said(problem, &steps, &steps, end, change)
-}
-
-/// What is doubtful about limit loads, their steps numbered by ascending load: of those that are no limits it matters only
-/// that they were solved.
-pub(super) fn of_limits(problem: &Problem, limits: &Limits) -> Vec<String> {
-    let steps: Vec<Numbered> = (1..).zip(&limits.steps).collect();
-    let is_limit = |(_, step): &Numbered| {
-        let from = |limit: &Limit| (step.reading.mean_pressure - limit.mean_pressure()).abs();
-        let nearest = |limit: &Limit| {
-            steps.iter().all(|(_, other)| from(limit) <= (other.reading.mean_pressure - limit.mean_pressure()).abs())
-        };
-        limits.limits.iter().any(|limit| match limit.at {
-            At::Load { .. } | At::Below { .. } => nearest(limit),
-            At::Never { up_to, .. } => step.reading.mean_pressure == up_to,
-            At::Rest | At::Tip { .. } => false,
-        })
-    };
-    let judged: Vec<Numbered> = steps.iter().copied().filter(is_limit).collect();
-    said(problem, &steps, &judged, limits.end, limits.change)
+    of_judged(problem, &steps, &steps, end, change)
 }
 
 /// A step with its number in the outputs.
-type Numbered<'a> = (usize, &'a StepRecord);
+pub(super) type Numbered<'a> = (usize, &'a StepRecord);
 
-fn said(
+/// The same of steps that are no answers themselves but for the `judged`: of the others it matters only that they were
+/// solved.
+pub(super) fn of_judged(
     problem: &Problem,
     all: &[Numbered],
     judged: &[Numbered],

@@ -22,7 +22,8 @@ fn under_a_tip_nothing_is_a_number_that_is_infinite() {
     let desk = Desk::new();
     let answer = desk.percoat(&[&["solve", "-o", "cone", "--set", "grid.points=72"], &CONE[..]].concat());
     assert_eq!(answer.code, 0, "{}", answer.err);
-    assert!(answer.out.contains("largest τ₁ singular in material 1 at (0.0000, 0.0000, 0.0000)"), "{}", answer.out);
+    let tau1 = answer.out.lines().find(|line| line.contains("τ₁ in material 1")).unwrap();
+    assert!(tau1.contains("singular") && tau1.ends_with("(0, 0, 0)"), "{tau1}");
     let row = answer.out.lines().find(|line| line.contains("singular")).unwrap();
     assert!(row.contains("0.02000"), "{row}");
     let step = &Folder(desk.path("cone")).steps()[0];

@@ -3,8 +3,10 @@
 use crate::friction::Friction;
 use crate::numeric::number::number;
 use crate::numeric::search::largest;
+use crate::problem::Problem;
 use crate::reading::Criterion;
 use crate::run::places::SECTION;
+use crate::run::warnings::{self, Numbered};
 use crate::run::{End, Run, StepRecord};
 use crate::spectral::Step;
 use crate::stress::{Line, Section, StressField};
@@ -151,6 +153,22 @@ impl Limits {
     pub(super) fn change_from(&self, coarse: &Self) -> f64 {
         let pairs = self.limits.iter().zip(&coarse.limits);
         largest(pairs.map(|(fine, coarse)| fine.change_from(coarse)))
+    }
+
+    /// What is doubtful about them, steps numbered by ascending load.
+    pub(super) fn doubts(&self, problem: &Problem) -> Vec<String> {
+        let all: Vec<Numbered> = (1..).zip(&self.steps).collect();
+        let is_limit = |(_, step): &Numbered| {
+            let from = |limit: &Limit, step: &StepRecord| (step.reading.mean_pressure - limit.mean_pressure()).abs();
+            let nearest = |limit: &Limit| self.steps.iter().all(|other| from(limit, step) <= from(limit, other));
+            self.limits.iter().any(|limit| match limit.at {
+                At::Load { .. } | At::Below { .. } => nearest(limit),
+                At::Never { up_to, .. } => step.reading.mean_pressure == up_to,
+                At::Rest | At::Tip { .. } => false,
+            })
+        };
+        let judged: Vec<Numbered> = all.iter().copied().filter(is_limit).collect();
+        warnings::of_judged(problem, &all, &judged, self.end, self.change)
     }
 
     /// Whether all loads were solved, and the accuracy, if one was asked for, is reached.

@@ -14,7 +14,7 @@ mod search;
 
 pub use limits::{At, Limit, Limits, Shown};
 
-use super::{Recorder, Refinement, Run, RunError, Sampling, warnings};
+use super::{Recorder, Refinement, Run, RunError, Sampling};
 use crate::reading::Criterion;
 use search::Search;
 use std::convert::Infallible;
@@ -91,7 +91,7 @@ impl Run {
                 }
             }
         };
-        limits.warnings = warnings::of_limits(&self.problem, &limits);
+        limits.warnings = limits.doubts(&self.problem);
         Ok(limits)
     }
 }
