@@ -112,8 +112,8 @@ fn what_is_never_reached_or_at_once_is_said() {
         (found.limits[0].at, found.to_string(), found)
     };
     let (never, words, found) = at(bare(paraboloid, 100.0));
-    let At::Never { up_to, utilisation } = never else { panic!("{never:?}") };
-    assert!((up_to / found.complete - 1.0).abs() < 1e-12 && 0.0 < utilisation && utilisation < 1.0);
+    let At::Never { up_to, utilisation, at: load } = never else { panic!("{never:?}") };
+    assert!((up_to / found.complete - 1.0).abs() < 1e-12 && 0.0 < utilisation && utilisation < 1.0 && load <= up_to);
     assert!(found.steps.last().unwrap().reading.contact_fraction > 0.99);
     assert!(words.contains("nothing fails") && words.contains("contact is complete"), "{words}");
     assert!(found.first().is_none() && found.shown.is_none());
@@ -157,6 +157,62 @@ fn what_is_never_reached_or_at_once_is_said() {
     assert!(pulled.steps.is_empty(), "nothing is left to be solved");
 }
 
+/// What opens an interface falls towards complete contact: from there on too the load at which it opens is found.
+#[test]
+fn what_fails_at_lesser_loads_only_is_found_from_larger_ones() {
+    let material = |young: f64, nu: f64| Material::from_young(young, nu).unwrap();
+    let bond = InterfaceStrength { normal: Some(1e-3), shear: None };
+    let stiff = Layer::new(material(400.0, 0.25), 1.0, Interface::Bonded).unwrap();
+    let stiff = stiff.with_strengths(Strength::default(), bond).unwrap();
+    let level = Level::new(Shape::Sphere { radius: 50.0 }, 0.0).unwrap();
+    let indenters = one_level(Lattice::square(20.0, 1).unwrap(), level);
+    let problem = Problem::new(indenters, HalfSpace::new(vec![stiff], material(10.0, 0.3)));
+    let from = |start: f64| {
+        let found = limits(problem.clone(), Load::MeanPressure(start), 48);
+        let At::Load { mean_pressure, position, .. } = found.limits[0].at else { panic!("from {start}: {found}") };
+        assert_eq!(found.shown.as_ref().unwrap().limit.position(), Some(position));
+        (mean_pressure, found.complete)
+    };
+    let (known, complete) = from(0.05);
+    assert!(known < 1e-3 * complete);
+    for start in [5.0, 80.0, complete, 10.0 * complete] {
+        assert!((from(start).0 / known - 1.0).abs() < 2e-3, "from {start}: {:?}, not {known}", from(start));
+    }
+}
+
+/// A tension that rises with the load and falls again is known at its top, wherever the loads of the search lie.
+#[test]
+fn a_largest_utilisation_is_found_between_the_loads() {
+    let sliding = |tensile: f64| {
+        let material = |young: f64, nu: f64| Material::from_young(young, nu).unwrap();
+        let strength = Strength { yielding: None, tensile: Some(tensile) };
+        let soft = Layer::new(material(2.0, 0.45), 20.0, Interface::Bonded).unwrap();
+        let soft = soft.with_strengths(strength, NO_BOND).unwrap();
+        let level = Level::new(Shape::Paraboloid { radius: 200.0 }, 0.0).unwrap();
+        let indenters = one_level(Lattice::hexagonal(100.0, 1).unwrap(), level);
+        let body = HalfSpace::new(vec![soft], material(210.0, 0.3));
+        Problem::new(indenters, body).sliding(Friction::new(0.3, [1.0, 0.0]).unwrap()).unwrap()
+    };
+    let starts = [0.5, 0.6, 0.75, 0.9].map(|start| start * 1e-3);
+    let [mut least, mut most, mut error] = [f64::INFINITY, 0.0f64, 0.0f64];
+    for start in starts {
+        let found = limits(sliding(0.2), Load::MeanPressure(start), 48);
+        let At::Never { up_to, utilisation, at } = found.limits[0].at else { panic!("{found}") };
+        assert!(at < 0.5 * up_to && utilisation < 1.0);
+        let top = found.steps.iter().map(|step| step.strength[0]).max_by(|a, b| a.value.total_cmp(&b.value)).unwrap();
+        assert_eq!(utilisation, top.value);
+        error = error.max(top.error.unwrap());
+        [least, most] = [least.min(utilisation), most.max(utilisation)];
+    }
+    // At the edge of contact it jumps from sample to sample.
+    assert!(least > 0.8 && most - least < error && error < 0.2, "{least} {most} {error}");
+    // What bears a little less fails, from each of these loads.
+    for start in starts {
+        let found = limits(sliding(0.2 * 0.985 * least), Load::MeanPressure(start), 48);
+        assert!(matches!(found.limits[0].at, At::Load { .. }), "from {start}: {found}");
+    }
+}
+
 /// Keeps what it hears; it has room for so many points.
 #[derive(Default)]
 struct Heard {
@@ -195,6 +251,16 @@ fn an_accuracy_refines_until_limits_change_by_less_or_there_is_no_room() {
     assert_eq!((found.end, found.converged()), (Some(End::Reached), true));
     assert!(found.change.is_some_and(|change| 0.0 < change && change < 0.02), "{:?}", found.change);
     assert!(roomy.grids.len() > 1 && roomy.steps > found.steps.len());
+    // What is never reached has no load that could change.
+    let tough = Strength { yielding: Some(0.1), tensile: Some(100.0) };
+    let body =
+        bare(Shape::Paraboloid { radius: 1.0 }, 0.1).half_space().clone().with_substrate_strength(tough).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    let problem = Problem::new(one_level(Lattice::hexagonal(1.0, 1).unwrap(), level), body);
+    let both = Run::new(problem, vec![Load::MeanPressure(0.01)], Sampling::Accuracy(0.02)).limits(&mut ()).unwrap();
+    assert!(matches!(both.limits[1].at, At::Never { .. }), "{both}");
+    assert!(both.end == Some(End::Reached) && both.change.is_some_and(|change| change < 0.02), "{:?}", both.change);
+    assert!((loads(&both)[0] / loads(&found)[0] - 1.0).abs() < 2e-3, "{both} {found}");
     let mut narrow = Heard { room: 100, ..Heard::default() };
     let found = run(1e-6).limits(&mut narrow).unwrap();
     assert_eq!((found.end, found.converged(), narrow.grids), (Some(End::Room), false, vec![96]));

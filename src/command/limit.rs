@@ -81,7 +81,9 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     searching.progress.finish_and_clear();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
     write_text(&claim.staging().join("limit.json"), &limit_json(&limits, &case, &warnings))?;
-    write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;
+    if !limits.steps.is_empty() {
+        write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;
+    }
     pictures.write(&claim.staging(), "limit", || picture::utilisations(&case.title, case.problem(), &limits))?;
     if let (true, Some(section), Some(Shown { limit, record, step })) =
         (pictures.wanted(), limits.section(&run), limits.shown.clone())

@@ -10,8 +10,8 @@ use super::plan::may_write;
 use super::shown::Shown;
 use super::terminal::{self, tell};
 use indicatif::ProgressBar;
-use percoat::case::plausibility;
 use percoat::case::resources::Job;
+use percoat::case::{Case, plausibility};
 use percoat::output::summary::{curve, summary};
 use percoat::output::{Clock, Recording, RunFolder, table, write_text};
 use percoat::picture::Snapshot;
@@ -50,7 +50,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     write_text(&claim.staging().join("curve.csv"), &curve(steps))?;
     interruption::publish(claim, &folder, common.quiet)?;
     if !common.quiet {
-        print(&case.title, steps, outcome.change)?;
+        print(&case, steps, outcome.change)?;
         let (seconds, parts) = (clock.seconds(), table::timing(&timing));
         writeln!(terminal::out(), "{seconds:.2} s ({parts}); written to {}", folder.display())?;
         for warning in &warnings {
@@ -67,16 +67,16 @@ fn spinner(what: &str, common: &Common) -> ProgressBar {
     spinner
 }
 
-fn print(title: &str, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {
+fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {
     let mut out = terminal::out();
-    if !title.is_empty() {
-        writeln!(out, "{title}")?;
+    if !case.title.is_empty() {
+        writeln!(out, "{}", case.title)?;
     }
     writeln!(out, "\n{}\n\n{}", table::steps(steps), table::solved(steps))?;
     if let Some(largest) = table::largest_stresses(steps) {
         writeln!(out, "\n{largest}\n")?;
     }
-    if let Some(strength) = table::utilisations(steps) {
+    if let Some(strength) = table::utilisations(steps, case.problem().half_space()) {
         writeln!(out, "\n{strength}\n")?;
     }
     if let Some(errors) = table::largest_errors(steps) {

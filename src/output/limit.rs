@@ -11,17 +11,17 @@ pub fn limit_json(limits: &Limits, case: &Case, warnings: &[String]) -> String {
         "title": case.title,
         "case": case,
         "warnings": warnings,
-        "first": limits.first().map(limit),
+        "first": limits.first().map(|own| limit(limits, own)),
         "complete_contact": Some(limits.complete).filter(|pressure| pressure.is_finite()),
         "change": limits.change,
-        "limits": limits.limits.iter().map(limit).collect::<Value>(),
+        "limits": limits.limits.iter().map(|own| limit(limits, own)).collect::<Value>(),
         "steps": limits.steps,
     });
     format!("{file:#}\n")
 }
 
 /// Every limit has the same keys: what is not known of it is null.
-fn limit(limit: &Limit) -> Value {
+fn limit(limits: &Limits, limit: &Limit) -> Value {
     let mut entries = Map::new();
     let criterion = json!(limit.criterion);
     entries.extend(criterion.as_object().cloned().unwrap_or_default());
@@ -30,7 +30,8 @@ fn limit(limit: &Limit) -> Value {
         At::Tip { .. } => ("under a tip however small the load", Some(0.0)),
         At::Load { error, .. } => ("under load", error),
         At::Below { .. } => ("by a contact of a few samples", None),
-        At::Never { .. } => ("not up to complete contact", None),
+        At::Never { up_to, .. } if limits.is_complete(up_to) => ("not up to complete contact", None),
+        At::Never { .. } => ("not up to the largest load", None),
     };
     let is_number = !matches!(limit.at, At::Below { .. } | At::Never { .. });
     let [x, y, z] = limit.position().map_or([None; 3], |position| position.map(Some));
@@ -43,9 +44,10 @@ fn limit(limit: &Limit) -> Value {
             entries.insert("below".to_owned(), json!(mean_pressure));
             entries.insert("utilisation".to_owned(), json!(utilisation));
         }
-        At::Never { up_to, utilisation } => {
+        At::Never { up_to, utilisation, at } => {
             entries.insert("up_to".to_owned(), json!(up_to));
             entries.insert("utilisation".to_owned(), json!(utilisation));
+            entries.insert("utilisation_at".to_owned(), json!(at));
         }
         At::Rest | At::Tip { .. } | At::Load { .. } => (),
     }

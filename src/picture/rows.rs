@@ -1,7 +1,7 @@
 //! A section row by row: values of a stress, interfaces, the largest.
 
 use super::contour::zero_lines;
-use crate::body::Depth;
+use crate::body::{Depth, HalfSpace, InterfaceStrength};
 use crate::reading::Criterion;
 use crate::stress::{Section, State};
 use ndarray::Array2;
@@ -19,18 +19,11 @@ pub enum Quantity {
     Tension,
     /// What shears a horizontal plane, √(σ_xz² + σ_yz²).
     Shear,
+    /// What opens a horizontal plane, σ_zz.
+    Opening,
 }
 
 impl Quantity {
-    /// What is shown beside the stress along a cut: what brings about failure by a criterion.
-    pub fn of(criterion: Criterion) -> Self {
-        match criterion {
-            Criterion::Yield { .. } => Self::Mises,
-            Criterion::Delamination { .. } => Self::Shear,
-            Criterion::Cracking { .. } => Self::Tension,
-        }
-    }
-
     /// Its name and symbol.
     pub fn named(self) -> [&'static str; 2] {
         match self {
@@ -39,6 +32,7 @@ impl Quantity {
             Self::Mises => ["stress of von Mises", "σᵥ"],
             Self::Tension => ["largest principal stress", "σ₁"],
             Self::Shear => ["shear of horizontal planes", "τ"],
+            Self::Opening => ["normal stress of horizontal planes", "σₙ"],
         }
     }
 }
@@ -55,6 +49,24 @@ pub struct Largest {
 }
 
 impl Section {
+    /// What brings about failure by a criterion: of an interface, what contributes most where most is taken up.
+    pub(super) fn failing(&self, criterion: Criterion, half_space: &HalfSpace) -> Quantity {
+        let interface = match criterion {
+            Criterion::Yield { .. } => return Quantity::Mises,
+            Criterion::Cracking { .. } => return Quantity::Tension,
+            Criterion::Delamination { interface } => interface,
+        };
+        let strength = half_space.layers()[interface - 1].interface_strength();
+        let (opening, shear) =
+            (InterfaceStrength { shear: None, ..strength }, InterfaceStrength { normal: None, ..strength });
+        let taken = |of: InterfaceStrength, state: &State| of.utilisation(state.zz, state.interface_shear());
+        let below = self.depths.iter().position(|depth| depth.material == interface + 1);
+        let states = below.into_iter().flat_map(|row| self.states.row(row));
+        let worst = states.max_by(|a, b| taken(strength, a).total_cmp(&taken(strength, b)));
+        let opens = worst.map_or(strength.shear.is_none(), |state| taken(opening, state) > taken(shear, state));
+        if opens { Quantity::Opening } else { Quantity::Shear }
+    }
+
     /// The stress of a state.
     pub(super) fn stress(&self, quantity: Quantity, state: &State) -> f64 {
         match quantity {
@@ -62,7 +74,8 @@ impl Section {
             Quantity::Tau1 => state.tau1(),
             Quantity::Mises => state.mises(),
             Quantity::Tension => state.principal()[0],
-            Quantity::Shear => state.xz.hypot(state.yz),
+            Quantity::Shear => state.interface_shear(),
+            Quantity::Opening => state.zz,
         }
     }
 
@@ -135,7 +148,33 @@ impl Section {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::{Interface, Layer, Material, Strength};
     use crate::stress::Line;
+
+    #[test]
+    fn an_interface_shows_what_contributes_most_to_its_failure() {
+        let bears = |normal, shear| InterfaceStrength { normal, shear };
+        let shown = |[zz, xz]: [f64; 2], bears: InterfaceStrength| {
+            let material = Material::from_young(1.0, 0.3).unwrap();
+            let layer = Layer::new(material, 1.0, Interface::Bonded).unwrap();
+            let layer = layer.with_strengths(Strength::default(), bears).unwrap();
+            let depths = [(0.0, 1), (1.0, 1), (1.0, 2)].map(|(z, material)| Depth { z, material }).to_vec();
+            let line = Line { origin: [0.0; 2], direction: [1.0, 0.0], span: [0.0, 1.0], points: 2 };
+            // Worst at the second point of the interface; the surface does not count.
+            let parts = [[9.0, 0.0], [0.1, 0.5], [0.1, 1.0]];
+            let states = Array2::from_shape_fn((3, 2), |(row, column)| {
+                let part = parts[row][column];
+                State { zz: part * zz, xz: part * xz, ..State::default() }
+            });
+            let section = Section { line, depths, states, highest: None };
+            section.failing(Criterion::Delamination { interface: 1 }, &HalfSpace::new(vec![layer], material))
+        };
+        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), None)), Quantity::Opening);
+        assert_eq!(shown([1.0, 0.1], bears(None, Some(1.0))), Quantity::Shear);
+        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), Some(1.0))), Quantity::Shear);
+        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), Some(4.0))), Quantity::Opening);
+        assert_eq!(shown([-1.0, 0.2], bears(Some(1.0), Some(4.0))), Quantity::Shear);
+    }
 
     #[test]
     fn values_are_taken_from_the_side_of_the_interface_where_they_are() {

@@ -10,7 +10,7 @@ use super::sheet::sheet;
 use super::snapshot::{Snapshot, equals};
 use super::tiling::{Window, images};
 use crate::friction::Friction;
-use crate::reading::{Criterion, Utilisation, tips};
+use crate::reading::{Criterion, Utilisation, tears, tips};
 use crate::stress::{Line, Section};
 use ndarray::Array2;
 
@@ -23,7 +23,8 @@ const FAILS: f64 = 0.998;
 /// The picture.
 pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     // Beside tension and compression stands what brings failure about, or the paper's τ₁.
-    let second = snapshot.governing().map_or(Quantity::Tau1, Quantity::of);
+    let half_space = snapshot.step.problem().half_space();
+    let second = snapshot.governing().map_or(Quantity::Tau1, |criterion| section.failing(criterion, half_space));
     let quantities = [Quantity::Along, second];
     let values = quantities.map(|quantity| section.values(quantity));
     let [along, other] = [0, 1].map(|k| {
@@ -37,7 +38,13 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let line = |points: Vec<[f64; 2]>, width: f64, dash: Dash, colour: Colour| {
         Over::Line(Stroke { points, width, dash, colour })
     };
-    let singular = matches!(second, Quantity::Tau1 | Quantity::Mises) && passes_tip(snapshot, section);
+    let singular = match second {
+        Quantity::Tau1 | Quantity::Mises => true,
+        Quantity::Tension => tears(&snapshot.step),
+        Quantity::Shear => snapshot.step.problem().friction().is_some(),
+        Quantity::Along | Quantity::Opening => false,
+    };
+    let singular = singular && passes_tip(snapshot, section);
     let [largest_along, largest_other] = quantities.map(|quantity| section.largest(quantity));
     let largest_other = largest_other.filter(|_| !singular);
     let failures = failures(snapshot, section);
@@ -63,7 +70,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
         panel(titled('a', Quantity::Along), Fill::Values(bar, &along), Colour::BLACK, largest_along, zero.collect());
     let [_, symbol] = second.named();
     let (label, [least, most]) = (snapshot.units.pressure("", symbol), span(&values[1], None));
-    let (bar, ink) = if second == Quantity::Tension {
+    let (bar, ink) = if matches!(second, Quantity::Tension | Quantity::Opening) {
         (Bar::signed(label, [least, most]), Colour::BLACK)
     } else {
         (Bar::sequential(label, most.max(f64::MIN_POSITIVE)), Colour::WHITE)
@@ -81,7 +88,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     };
     let infinite = singular.then(|| format!("{symbol} is infinite at the tip"));
     let largest = [words(largest_along, "σₛ"), words(largest_other, symbol), infinite];
-    let residual = snapshot.step.problem().half_space().residual_stresses().any(|stress| stress != 0.0);
+    let residual = half_space.residual_stresses().any(|stress| stress != 0.0);
     let residual = if residual { " Residual stress is in it." } else { "" };
     let failed: Vec<String> =
         (1..).zip(&failures).map(|(number, (criterion, _)): (usize, _)| format!("{number}: {criterion}")).collect();

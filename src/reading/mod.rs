@@ -23,5 +23,5 @@ pub use contact::Reading;
 pub use errors::{Errors, LevelErrors};
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
 pub use strength::{Criterion, Utilisation};
-pub use stress::{StressReading, tips};
+pub use stress::{StressReading, tears, tips};
 pub use touch::first_touches;

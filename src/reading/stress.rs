@@ -40,9 +40,7 @@ impl StressReading {
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
             let first = [&mut stress.materials, &mut stress.faces].map(|all| all.first_mut());
-            // Near it σ_z = −p, σ_x = −(½ + ν)p and τ = μp: there is tension from μ² > ½ + ν on.
-            let (nu, mu) = (step.problem().half_space().surface_material().poisson(), friction(step));
-            let is_torn = mu * mu > 0.5 + nu;
+            let is_torn = tears(step);
             for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
                 for peak in [Some(tau1), Some(mises), Some(tension).filter(|_| is_torn)].into_iter().flatten() {
                     *peak = Peak { value: f64::INFINITY, position: [x, y, 0.0], material: 1, error: None, ..*peak };
@@ -105,6 +103,13 @@ pub fn tips<'a>(step: &'a Step, reading: &'a Reading) -> impl Iterator<Item = &'
     let sites = step.surface().sites().iter().filter(|site| reading.levels[site.level - 1].singular);
     let slides = friction(step) > 0.0;
     sites.filter(move |_| slides || step.problem().half_space().surface_material().poisson() < 0.5)
+}
+
+/// Whether tension is infinite at a tip in contact: near it σ_z = −p, σ_x = −(½ + ν)p and τ = μp, so that there is tension
+/// from μ² > ½ + ν on.
+pub fn tears(step: &Step) -> bool {
+    let (nu, mu) = (step.problem().half_space().surface_material().poisson(), friction(step));
+    mu * mu > 0.5 + nu
 }
 
 /// μ, 0 without friction.

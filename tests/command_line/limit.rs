@@ -46,7 +46,7 @@ fn a_solved_case_with_strengths_says_what_governs() {
     let desk = Desk::new();
     let answer = desk.percoat(&["solve", "dlc-on-steel", "-o", "out", "--no-pictures", "--set", "grid.points=96"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
-    assert!(answer.out.contains("\nyield of material 2 fails at p̄ = 0.050397\n"), "{}", answer.out);
+    assert!(answer.out.contains("\nfirst: yield of material 2 between p̄ = 0.020000 and 0.050397\n"), "{}", answer.out);
     let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&text).unwrap();
     let step = summary["steps"].as_array().unwrap().last().unwrap();
@@ -66,6 +66,59 @@ fn a_solved_case_with_strengths_says_what_governs() {
         let bears = stress(&format!("interfaces/{}/max_shear", index - 4)) / shear;
         assert!((taken(index) / bears - 1.0).abs() < 1e-6, "{index}: {} {bears}", taken(index));
     }
+}
+
+const BOND: &str = r#"
+[lattice]
+kind = "square"
+period = 20.0
+[[levels]]
+shape = "sphere"
+radius = 50.0
+[[layers]]
+thickness = 1.0
+young = 400.0
+poisson = 0.25
+interface_strength = { shear = 1.0 }
+[substrate]
+young = 210.0
+poisson = 0.3
+[load]
+mean_pressure = 0.05
+[grid]
+points = 48
+"#;
+
+/// Without friction four places around a sphere fail alike; the cut goes through the one that is marked.
+#[test]
+fn the_place_that_fails_is_marked_whatever_the_first_load() {
+    let desk = Desk::new();
+    fs::write(desk.path("bond.toml"), BOND).unwrap();
+    for load in ["0.05", "0.06", "0.07", "0.09"] {
+        let load = format!("load.mean_pressure={load}");
+        let (found, _) = limit(&desk, &["bond.toml", "--pictures", "svg", "--set", &load]);
+        let picture = fs::read_to_string(desk.path("out/limit-section.svg")).unwrap();
+        let words: Vec<&str> = picture.split('<').filter_map(|tag| Some(tag.split_once('>')?.1.trim())).collect();
+        let words = words.join(" ").split_whitespace().collect::<Vec<&str>>().join(" ");
+        assert!(words.contains("At or beyond its strength, 1: delamination of interface 1"), "{load}: {words}");
+        assert_eq!(found["first"], found["limits"][0]);
+    }
+}
+
+#[test]
+fn what_residual_stress_alone_breaks_needs_no_load() {
+    let desk = Desk::new();
+    let broken = BOND.replace("interface_strength = { shear = 1.0 }", "residual_stress = 3.0\ntensile_strength = 1.0");
+    fs::write(desk.path("broken.toml"), broken).unwrap();
+    let (found, out) = limit(&desk, &["broken.toml"]);
+    assert_eq!((&found["first"]["mean_pressure"], number(&found, "/first/error")), (&0.0.into(), 0.0));
+    assert!(out.contains("cracking of material 1, without load") && !desk.path("out/limit.csv").exists(), "{out}");
+    let answer = desk.percoat(&["solve", "broken.toml", "-o", "solved", "--no-pictures"]);
+    assert!(
+        answer.out.contains("first: cracking of material 1, without load, by residual stress alone"),
+        "{}",
+        answer.out
+    );
 }
 
 #[test]

@@ -38,6 +38,6 @@ fn finite(x: f64, error: Option<f64>) -> String {
 /// x, y, z; what is a millionth of the largest is zero: no place is known as well.
 pub(super) fn place([x, y, z]: [f64; 3]) -> String {
     let size = x.abs().max(y.abs()).max(z.abs());
-    let plain = |v: f64| if v.abs() < 1e-6 * size { "0".to_owned() } else { number(v) };
+    let plain = |v: f64| if v.abs() <= 1e-6 * size { "0".to_owned() } else { number(v) };
     format!("({}, {}, {})", plain(x), plain(y), plain(z))
 }

@@ -2,12 +2,13 @@
 
 use super::by_step::{Row, by_step, place};
 use super::render;
+use crate::body::HalfSpace;
 use crate::output::number::{number, with_error};
-use crate::reading::Utilisation;
+use crate::reading::{Criterion, Utilisation};
 use crate::run::{At, Limit, Limits, StepRecord};
 
 /// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any.
-pub fn utilisations(steps: &[StepRecord]) -> Option<String> {
+pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
     let last = steps.iter().rev().find(|step| !step.strength.is_empty())?;
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
@@ -19,16 +20,29 @@ pub fn utilisations(steps: &[StepRecord]) -> Option<String> {
         Row { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Row> = governing.into_iter().map(row).collect();
+    Some(format!("{}\n\n{}", in_words(steps, half_space)?, by_step("utilisation", steps, &rows)?))
+}
+
+/// What fails first as far as the load steps tell, else what comes nearest at any. The load at which it does lies between them.
+fn in_words(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
+    if let Some(criterion) = Criterion::all(half_space).into_iter().find(|own| own.at_rest(half_space) >= 1.0) {
+        return Some(format!("first: {criterion}, without load, by residual stress alone"));
+    }
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
-    // The least load at which anything fails, else what comes nearest at any.
     let fails = taken()
         .filter(|(_, own)| own.value >= 1.0)
         .min_by(|(p, a), (q, b)| p.total_cmp(q).then(b.value.total_cmp(&a.value)));
-    let words = match fails {
-        Some((pressure, own)) => format!("{} fails at p̄ = {}", own.criterion, number(pressure)),
-        None => format!("{} governs", taken().max_by(|(_, a), (_, b)| a.value.total_cmp(&b.value))?.1.criterion),
+    let Some((above, Utilisation { criterion, .. })) = fails else {
+        let (_, Utilisation { criterion, .. }) = taken().max_by(|(_, a), (_, b)| a.value.total_cmp(&b.value))?;
+        return Some(format!("{criterion} governs"));
     };
-    Some(format!("{words}\n\n{}", by_step("utilisation", steps, &rows)?))
+    // Every step of a lesser load holds.
+    let loads = steps.iter().map(|step| step.reading.mean_pressure);
+    let below = loads.filter(|&load| 0.0 < load && load < above).max_by(f64::total_cmp);
+    Some(match below {
+        Some(below) => format!("first: {criterion} between p̄ = {} and {}", number(below), number(above)),
+        None => format!("first: {criterion} at or below p̄ = {}", number(above)),
+    })
 }
 
 /// The limit loads, the first of them first.
@@ -41,8 +55,9 @@ pub fn limits(limits: &Limits) -> String {
             At::Below { mean_pressure, position, .. } => {
                 (format!("< {}", number(mean_pressure)), format!("{}, a contact of a few samples", place(position)))
             }
-            At::Never { up_to, utilisation } => {
-                (format!("> {}", number(up_to)), format!("takes up {} there", number(utilisation)))
+            At::Never { up_to, utilisation, at } => {
+                let most = format!("takes up {} at p̄ = {}", number(utilisation), number(at));
+                (format!("> {}", number(up_to)), most)
             }
         };
         vec![limit.criterion.to_string(), pressure, place]

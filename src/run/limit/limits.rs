@@ -50,10 +50,12 @@ pub enum At {
     },
     /// Not up to complete contact, or the largest load that was solved.
     Never {
-        /// Up to this mean pressure,
+        /// Up to this mean pressure.
         up_to: f64,
-        /// where the utilisation is.
+        /// The largest utilisation of all loads that were solved,
         utilisation: f64,
+        /// which it takes at this mean pressure.
+        at: f64,
     },
 }
 
@@ -115,14 +117,23 @@ impl Limit {
         }
     }
 
-    /// Relative change from the same criterion's limit on a coarser grid: of the load, or of the utilisation where it is not
-    /// reached.
+    /// The same one, which fails at another place.
+    pub(super) fn moved_to(self, place: [f64; 3]) -> Self {
+        let mut moved = self;
+        if let At::Load { position, .. } | At::Below { position, .. } | At::Tip { position } = &mut moved.at {
+            *position = place;
+        }
+        moved
+    }
+
+    /// Relative change of the load from the same criterion's limit on a coarser grid. What is reached on neither has none:
+    /// how near it comes in complete contact depends on how fine the grid is, which is where that ends.
     fn change_from(&self, coarse: &Self) -> f64 {
-        let relative = |fine: f64, coarse: f64| if fine == coarse { 0.0 } else { (fine - coarse).abs() / fine.abs() };
         match (self.at, coarse.at) {
-            (At::Rest, At::Rest) | (At::Tip { .. }, At::Tip { .. }) => 0.0,
-            (At::Load { mean_pressure: fine, .. }, At::Load { mean_pressure: coarse, .. })
-            | (At::Never { utilisation: fine, .. }, At::Never { utilisation: coarse, .. }) => relative(fine, coarse),
+            (At::Rest, At::Rest) | (At::Tip { .. }, At::Tip { .. }) | (At::Never { .. }, At::Never { .. }) => 0.0,
+            (At::Load { mean_pressure: fine, .. }, At::Load { mean_pressure: coarse, .. }) => {
+                (fine - coarse).abs() / fine
+            }
             // A bound that falls with the spacing, or a root that appears, is no number yet.
             _ => f64::INFINITY,
         }
@@ -149,6 +160,11 @@ impl Limits {
         ordered
     }
 
+    /// Whether contact is complete under a mean pressure, which is read off a step to rounding.
+    pub fn is_complete(&self, mean_pressure: f64) -> bool {
+        mean_pressure >= self.complete * (1.0 - 1e-9)
+    }
+
     /// Largest relative change of the limits from those of a coarser grid.
     pub(super) fn change_from(&self, coarse: &Self) -> f64 {
         let pairs = self.limits.iter().zip(&coarse.limits);
@@ -163,7 +179,7 @@ impl Limits {
             let nearest = |limit: &Limit| self.steps.iter().all(|other| from(limit, step) <= from(limit, other));
             self.limits.iter().any(|limit| match limit.at {
                 At::Load { .. } | At::Below { .. } => nearest(limit),
-                At::Never { up_to, .. } => step.reading.mean_pressure == up_to,
+                At::Never { at, .. } => step.reading.mean_pressure == at,
                 At::Rest | At::Tip { .. } => false,
             })
         };
@@ -200,7 +216,7 @@ impl fmt::Display for Limits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(Limit { criterion, at }) = self.first() else {
             let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
-            let complete = if most >= self.complete { ", where contact is complete" } else { "" };
+            let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
             return write!(f, "nothing fails up to the mean pressure {}{complete}", number(most));
         };
         write!(f, "first: {criterion}")?;

@@ -17,6 +17,16 @@ const DOUBLINGS: usize = 40;
 const TRIALS: usize = 40;
 /// Samples that the radius of a contact needs to be worth halving its load further.
 const LEAST_SAMPLES: f64 = 2.0;
+/// Utilisations whose ratio is nearer to one do not tell which of them is larger.
+const ALIKE: f64 = 1e-3;
+/// A largest utilisation below this part of a failure is not looked for between the loads: with twice the load stresses are
+/// twice as large at most.
+const WORTH: f64 = 0.5;
+/// Loads around a largest utilisation that are closer tell it well enough.
+const CLOSE: f64 = 1.05;
+/// Where a utilisation grows faster than p̄ to this power, it may as well jump: a root beside a load that was solved needs a
+/// load on its other side.
+const STEEP: f64 = 2.0;
 /// The slope that turns the error of a utilisation into one of its limit is that between loads so far apart: within a
 /// thousandth a stress at an edge of contact may jump from sample to sample.
 const APART: f64 = 1.2;
@@ -75,13 +85,16 @@ impl<'a, R: Recorder> Search<'a, R> {
                 break;
             }
         }
-        let limits =
+        let mut limits =
             Limits { limits, steps: Vec::new(), shown: None, complete, change: None, end: None, warnings: Vec::new() };
         let is_load = |limit: &&&Limit| limit.mean_pressure() > 0.0 && limit.mean_pressure().is_finite();
         let first = limits.ordered().iter().find(is_load).map(|limit| **limit);
         let shown = match first {
             Some(limit) => {
                 let record = search.solve(limit.mean_pressure())?.clone();
+                // Of places alike by symmetry rounding takes one or the other: told is the one of the step that is shown.
+                let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
+                limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
                 search.last.take().map(|step| Shown { limit, record, step })
             }
             None => None,
@@ -118,37 +131,41 @@ impl<'a, R: Recorder> Search<'a, R> {
         pressure.min(self.complete)
     }
 
-    /// Solves loads until each criterion has one load below and one above, or none is left.
+    /// Solves loads until each criterion has one load below and one above, or none is left; downwards until it holds and
+    /// falls with the load, as the tension at an edge and the opening of an interface fall towards complete contact too.
     fn enclose(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
         let mut lowest = self.start();
         let mut highest = lowest;
         self.solve(lowest)?;
-        let is_tip = self.first_is_tip();
         for _ in 0..DOUBLINGS {
-            let record = &self.steps[0];
-            // Under a tip of the highest level it fails however small the load.
-            let fails = |&criterion: &Criterion| {
-                let value = self.utilisation(record, criterion).value;
-                value >= 1.0 && !(value.is_infinite() && is_tip)
-            };
-            if record.reading.spot_resolution < LEAST_SAMPLES || !sought.iter().any(fails) {
-                break;
-            }
-            lowest *= 0.5;
-            self.solve(lowest)?;
-        }
-        for _ in 0..DOUBLINGS {
-            let holds = |&criterion: &Criterion| {
-                let below_one = |record: &StepRecord| self.utilisation(record, criterion).value < 1.0;
-                self.steps.iter().all(below_one)
-            };
+            let holds = |&criterion: &Criterion| self.values(criterion).iter().all(|[_, value]| *value < 1.0);
             if highest >= self.complete || !sought.iter().any(holds) {
                 break;
             }
             highest = (2.0 * highest).min(self.complete);
             self.solve(highest)?;
         }
+        let is_tip = self.first_is_tip();
+        for _ in 0..DOUBLINGS {
+            // Under a tip of the highest level it fails however small the load.
+            let asks_for_less = |&criterion: &Criterion| {
+                let values = self.values(criterion);
+                let [_, first] = values[0];
+                if first >= 1.0 { !(first.is_infinite() && is_tip) } else { !falls_with_the_load(&values) }
+            };
+            if self.steps[0].reading.spot_resolution < LEAST_SAMPLES || !sought.iter().any(asks_for_less) {
+                break;
+            }
+            lowest *= 0.5;
+            self.solve(lowest)?;
+        }
         Ok(())
+    }
+
+    /// Loads that were solved and what each takes up of a criterion.
+    fn values(&self, criterion: Criterion) -> Vec<[f64; 2]> {
+        let value = |record: &StepRecord| [record.reading.mean_pressure, self.utilisation(record, criterion).value];
+        self.steps.iter().map(value).collect()
     }
 
     /// Whether the highest level, which touches under any load, has tips whose pressure is infinite.
@@ -168,11 +185,18 @@ impl<'a, R: Recorder> Search<'a, R> {
     /// Where a criterion is reached.
     fn find(&mut self, criterion: Criterion) -> Result<At, RunError<R::Error>> {
         for trial in 0.. {
+            let values = self.values(criterion);
             let taken: Vec<Utilisation> = self.steps.iter().map(|record| self.utilisation(record, criterion)).collect();
-            let load = |index: usize| self.steps[index].reading.mean_pressure;
-            let last = taken.len() - 1;
+            let load = |index: usize| values[index][0];
             let Some(above) = taken.iter().position(|taken| taken.value >= 1.0) else {
-                return Ok(At::Never { up_to: load(last), utilisation: taken[last].value });
+                match towards_largest(&values).filter(|_| trial < TRIALS) {
+                    Some(next) => self.solve(next)?,
+                    None => {
+                        let [at, utilisation] = values[largest(&values)];
+                        return Ok(At::Never { up_to: load(values.len() - 1), utilisation, at });
+                    }
+                };
+                continue;
             };
             let Some(below) = above.checked_sub(1) else {
                 let Utilisation { value, position, .. } = taken[above];
@@ -190,7 +214,6 @@ impl<'a, R: Recorder> Search<'a, R> {
                 _ => {
                     let nearest = taken[if enclosure.first_is_nearer() { below } else { above }];
                     let mean_pressure = enclosure.root();
-                    let values: Vec<[f64; 2]> = (0..taken.len()).map(|k| [load(k), taken[k].value]).collect();
                     // Of what jumps nothing tells how far the grid moves it.
                     let slope = enclosure.slope().and_then(|_| slope_around(&values, mean_pressure));
                     let by_grid = slope.zip(nearest.error).map(|(slope, error)| error / (nearest.value * slope));
@@ -234,13 +257,55 @@ impl Enclosure {
     fn next(&self, halve: bool) -> Option<f64> {
         let ([low, high], root) = (self.loads, self.root());
         let near = if self.first_is_nearer() { low } else { high };
-        let known = self.slope().is_some() && (root / near - 1.0).abs() <= NEAR * TOLERANCE;
-        if known || high / low - 1.0 <= TOLERANCE {
+        if high / low - 1.0 <= TOLERANCE {
             return None;
         }
-        let inside = low < root && root < high && !halve;
-        Some(if inside { root } else { (low * high).sqrt() })
+        let known = (root / near - 1.0).abs() <= NEAR * TOLERANCE;
+        match self.slope().filter(|_| known) {
+            Some(slope) if slope <= STEEP => None,
+            Some(_) if !halve => {
+                let beyond = 1.0 + 0.5 * TOLERANCE;
+                Some(if self.first_is_nearer() { root * beyond } else { root / beyond })
+            }
+            _ => {
+                let inside = low < root && root < high && !halve;
+                Some(if inside { root } else { (low * high).sqrt() })
+            }
+        }
     }
+}
+
+/// Whether the first of `values` (loads and utilisations) that differs from that at the lowest load is larger.
+fn falls_with_the_load(values: &[[f64; 2]]) -> bool {
+    let [_, first] = values[0];
+    values.iter().find(|[_, u]| (u - first).abs() > ALIKE * first).is_some_and(|[_, u]| *u > first)
+}
+
+/// Which of `values` has the largest utilisation.
+fn largest(values: &[[f64; 2]]) -> usize {
+    (0..values.len()).max_by(|&i, &j| values[i][1].total_cmp(&values[j][1]).then(j.cmp(&i))).unwrap_or(0)
+}
+
+/// The load to solve next in search of a larger utilisation, as long as there may be one of 1: a parabola of u over ln p̄
+/// through the largest of `values` and its neighbours, or beside an end their line, would rise half as far.
+fn towards_largest(values: &[[f64; 2]]) -> Option<f64> {
+    let at = largest(values);
+    let [p, u] = values[at];
+    let ends = [at.checked_sub(1), Some(at + 1)].map(|index| values.get(index?).copied());
+    let rise = match ends {
+        [Some([low, under]), Some([high, over])] => {
+            let ([left, right], [down, up]) = ([(p / low).ln(), (high / p).ln()], [u - under, u - over]);
+            let slope = (down * right / left - up * left / right) / (left + right);
+            let curvature = 2.0 * (down / left + up / right) / (left + right);
+            if curvature > 0.0 { 0.5 * slope * slope / curvature } else { 0.0 }
+        }
+        [Some([_, other]), None] | [None, Some([_, other])] => u - other,
+        [None, None] => 0.0,
+    };
+    let gap = |[low, high]: &[f64; 2]| high / low;
+    let gaps = [ends[0].map(|[low, _]| [low, p]), ends[1].map(|[high, _]| [p, high])].into_iter().flatten();
+    let wide = gaps.filter(|ends| gap(ends) > CLOSE).max_by(|a, b| gap(a).total_cmp(&gap(b)))?;
+    (u > WORTH && u + 2.0 * rise.max(ALIKE * u) >= 1.0).then(|| (wide[0] * wide[1]).sqrt())
 }
 
 /// d ln u / d ln p̄ around a load, between the nearest two of `values` (loads and utilisations) that are far enough apart;
@@ -281,8 +346,43 @@ mod tests {
         near(solved(|p| (p / 1.3).cbrt() + 0.05 * (p - 1.3)), 1.3, 3);
         near(solved(|p| if p < 1.4 { 0.0 } else { f64::INFINITY }), 1.4, 10);
         near(solved(|p| if p < 1.4 { 0.5 } else { 30.0 * p }), 1.4, 30);
+        // Just before they jump.
+        near(solved(|p| if p < 1.9 { 0.999 } else { 60.0 }), 1.9, 30);
+        near(solved(|p| if p < 1.1 { 0.9 } else { 1.001 }), 1.1, 30);
         near(solved(|p| (p - 1.2).max(0.0) / 0.3), 1.5, 10);
         near(solved(|p| 10f64.powf(20.0 * (p - 1.9))), 1.9, 8);
+    }
+
+    /// u(ln p̄) whose loads were solved at every second power of two from a first one on; how many more loads it took.
+    fn largest_of(utilisation: impl Fn(f64) -> f64, first: f64) -> ([f64; 2], usize) {
+        let mut values: Vec<[f64; 2]> = (0..12).map(|k| first * 2f64.powi(k)).map(|p| [p, utilisation(p)]).collect();
+        for trial in 0..TRIALS {
+            let found = values[largest(&values)];
+            let Some(next) = towards_largest(&values).filter(|_| found[1] < 1.0) else { return (found, trial) };
+            values.push([next, utilisation(next)]);
+            values.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        panic!("not found");
+    }
+
+    #[test]
+    fn a_utilisation_that_rises_and_falls_is_followed_to_its_top() {
+        for shift in [0.0, 0.2, 0.4, 0.6, 0.8] {
+            let first = 2f64.powf(shift);
+            let hill = |top: f64| move |p: f64| top * (-0.3 * (p / 90.0).ln().powi(2)).exp();
+            let ([p, u], trials) = largest_of(hill(1.01), first);
+            assert!(u >= 1.0 && trials <= 6 && (p / 90.0).ln().abs() < 0.2, "{first}: {p} {u} {trials}");
+            let ([_, u], trials) = largest_of(hill(0.995), first);
+            // It ends where what may still be above does not reach 1.
+            assert!(u > 0.985 && trials <= 10, "{first}: {u} {trials}");
+            assert!(largest_of(hill(0.8), first).1 <= 2 && largest_of(hill(0.3), first).1 == 0);
+            assert_eq!(largest_of(|p| 0.6 * (p / 2048.0 / first).cbrt(), first).1, 0);
+        }
+        let falling = |values: &[f64]| {
+            falls_with_the_load(&(1..).zip(values).map(|(p, u)| [f64::from(p), *u]).collect::<Vec<_>>())
+        };
+        assert!(falling(&[0.1, 0.2]) && falling(&[0.0, 0.0, 0.3, 0.0]) && falling(&[0.5, 0.500_01, 0.6]));
+        assert!(!falling(&[0.0]) && !falling(&[0.0, 0.0]) && !falling(&[0.2, 0.1, 0.5]));
     }
 
     #[test]
