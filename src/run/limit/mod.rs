@@ -1,13 +1,15 @@
 //! Limit loads: the mean pressure at which each criterion of strength is reached.
 //!
-//! Contact is not linear: a limit is found by solving. From a first load the mean pressure is halved until nothing fails and
-//! doubled until everything has failed or contact is complete; then the root of ln u(ln p̄) = 0 of each criterion, u its
+//! Contact is not linear: a limit is found by solving. From a first load the mean pressure is doubled until everything has
+//! failed or contact is complete, and halved until everything holds and falls with the load; then the root of ln u(ln p̄) = 0 of each criterion, u its
 //! utilisation, is enclosed between two loads and found by secants with bisection as their safeguard, to 10⁻³ of the load.
 //! Every load that is solved counts for all criteria, and starts from the one before. Beyond complete contact the shape adds
 //! nothing, and stresses grow by those of a uniform pressure: no limit is looked for there. Shapes with ridges between them
 //! come into complete contact under an infinite pressure only; on a grid under a finite one, where the search ends.
 //!
-//! Where a utilisation is not monotone, its first crossing between the loads that were solved is taken.
+//! Utilisations are not monotone: the tension at an edge and the opening of an interface fall again towards complete contact.
+//! Where no load that was solved reaches 1 but a larger one between them may, it is looked for around the largest. Of several
+//! crossings between the loads that were solved the first is taken.
 
 mod limits;
 mod search;
