@@ -12,6 +12,7 @@ use percoat::case::plausibility;
 use percoat::case::resources::Job;
 use percoat::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, write_text};
 use percoat::picture::{self, Snapshot};
+use percoat::reading::Utilisation;
 use percoat::run::{Recorder, Shown, StepRecord};
 use percoat::{Solver, Step, StressField};
 use std::convert::Infallible;
@@ -44,7 +45,7 @@ impl Recorder for Searching<'_> {
     }
 
     fn step(&mut self, _step: &Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Infallible> {
-        let worst = record.strength.iter().max_by(|a, b| a.value.total_cmp(&b.value));
+        let worst = Utilisation::governing(&record.strength);
         let words =
             worst.map_or("no contact".to_owned(), |worst| format!("{} {}", worst.criterion, number(worst.value)));
         let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));

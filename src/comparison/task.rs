@@ -60,9 +60,14 @@ impl Task {
     /// # Errors
     /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::CoupledFriction`] for coupled friction.
     pub fn check(&self) -> Result<(), ComparisonError> {
-        self.problem.counterbody().indenters().ok_or(NoIndenters)?;
+        self.indenters().map(|_| ())
+    }
+
+    /// The indenters of a problem that both methods know.
+    fn indenters(&self) -> Result<&Indenters, ComparisonError> {
         let couples = self.problem.friction().is_some_and(Friction::couples);
-        if couples { Err(ComparisonError::CoupledFriction) } else { Ok(()) }
+        let indenters = self.problem.counterbody().indenters().ok_or(NoIndenters)?;
+        if couples { Err(ComparisonError::CoupledFriction) } else { Ok(indenters) }
     }
 
     /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` hears what is begun.
@@ -70,8 +75,7 @@ impl Task {
     /// # Errors
     /// [`ComparisonError`]: see [`Self::check`], or when a number of points is zero.
     pub fn compare(&self, points: [usize; 2], progress: &mut dyn FnMut(&str)) -> Result<Comparison, ComparisonError> {
-        self.check()?;
-        let indenters = self.problem.counterbody().indenters().ok_or(NoIndenters)?;
+        let indenters = self.indenters()?;
         progress("spectral solution");
         let solve = |points: [usize; 2]| -> Result<Step, LatticeError> {
             Ok(Solver::new(Arc::clone(&self.problem), points, self.settings)?.solve(self.load))

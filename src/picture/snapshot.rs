@@ -47,8 +47,7 @@ impl Snapshot {
 
     /// The criterion that fails here or else governs: its utilisation is largest.
     pub fn governing(&self) -> Option<Criterion> {
-        let largest = self.strength.iter().max_by(|a, b| a.value.total_cmp(&b.value));
-        self.failing.or(largest.map(|own| own.criterion))
+        self.failing.or_else(|| Utilisation::governing(&self.strength).map(|own| own.criterion))
     }
 
     /// Pressure sample by sample, a₂ fastest.

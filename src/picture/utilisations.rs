@@ -38,7 +38,7 @@ pub(super) fn utilisation_axis(steps: &[StepRecord]) -> Axis {
 pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterator<Item = Criterion>) -> Vec<Curve> {
     let curve = |criterion: Criterion| {
         let point = |step: &StepRecord| {
-            let own = step.strength.iter().find(|own| own.criterion == criterion).map(|own| own.value);
+            let own = step.utilisation(criterion).map(|own| own.value);
             [step.reading.mean_pressure, own.filter(|value| value.is_finite() && *value > 0.0).unwrap_or(f64::NAN)]
         };
         steps.iter().map(point).collect()

@@ -98,6 +98,11 @@ pub struct Utilisation {
 }
 
 impl Utilisation {
+    /// The largest of all: what fails first, or comes nearest.
+    pub fn governing(all: &[Self]) -> Option<&Self> {
+        all.iter().max_by(|a, b| a.value.total_cmp(&b.value))
+    }
+
     /// Of every criterion of a half-space under the largest stresses of a step.
     pub fn all(half_space: &HalfSpace, stress: &StressReading) -> Vec<Self> {
         let of = |criterion: Criterion| {

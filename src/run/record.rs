@@ -1,7 +1,7 @@
 //! Every scalar of a load step, as `summary.json` has them.
 
 use crate::body::HalfSpace;
-use crate::reading::{Reading, StressReading, Utilisation};
+use crate::reading::{Criterion, Reading, StressReading, Utilisation};
 use crate::spectral::{Certificate, Report, Step, Stop};
 
 /// What stays of a load step beside its fields.
@@ -49,6 +49,11 @@ impl StepRecord {
     pub fn add_stress(&mut self, stress: StressReading, half_space: &HalfSpace) {
         self.strength = Utilisation::all(half_space, &stress);
         self.stress = Some(stress);
+    }
+
+    /// What it takes up of a criterion; `None` without contact, or a strength.
+    pub fn utilisation(&self, criterion: Criterion) -> Option<&Utilisation> {
+        self.strength.iter().find(|own| own.criterion == criterion)
     }
 
     /// Whether the solution meets the tolerance. What is not a number compares as small as any, and does not.

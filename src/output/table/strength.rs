@@ -13,10 +13,7 @@ pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace) -> Option<Stri
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
     let row = |&Utilisation { criterion, .. }: &Utilisation| {
-        let of = |step: &StepRecord| {
-            let own = step.strength.iter().find(|own| own.criterion == criterion)?;
-            Some((own.value, own.error, own.position))
-        };
+        let of = |step: &StepRecord| step.utilisation(criterion).map(|own| (own.value, own.error, own.position));
         Row { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Row> = governing.into_iter().map(row).collect();

@@ -52,7 +52,7 @@ pub enum At {
     Never {
         /// Up to this mean pressure.
         up_to: f64,
-        /// The largest utilisation of all loads that were solved,
+        /// The largest utilisation, to a hundredth where it is more than a half and has its top between the loads,
         utilisation: f64,
         /// which it takes at this mean pressure.
         at: f64,
@@ -120,7 +120,7 @@ impl Limit {
     /// The same one, which fails at another place.
     pub(super) fn moved_to(self, place: [f64; 3]) -> Self {
         let mut moved = self;
-        if let At::Load { position, .. } | At::Below { position, .. } | At::Tip { position } = &mut moved.at {
+        if let At::Load { position, .. } | At::Below { position, .. } = &mut moved.at {
             *position = place;
         }
         moved
@@ -214,19 +214,17 @@ impl Limits {
 /// What fails first, in words.
 impl fmt::Display for Limits {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(Limit { criterion, at }) = self.first() else {
+        let Some(limit) = self.first() else {
             let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
             let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
             return write!(f, "nothing fails up to the mean pressure {}{complete}", number(most));
         };
-        write!(f, "first: {criterion}")?;
-        match *at {
+        write!(f, "first: {}", limit.criterion)?;
+        match limit.at {
             At::Rest => f.write_str(", without load, by residual stress alone"),
             At::Tip { .. } => f.write_str(", under a tip however small the load"),
             At::Below { mean_pressure, .. } => write!(f, ", at less than the mean pressure {}", number(mean_pressure)),
-            At::Load { mean_pressure, .. } | At::Never { up_to: mean_pressure, .. } => {
-                write!(f, " at the mean pressure {}", number(mean_pressure))
-            }
+            At::Load { .. } | At::Never { .. } => write!(f, " at the mean pressure {}", number(limit.mean_pressure())),
         }
     }
 }

@@ -11,6 +11,7 @@
 //! Where no load that was solved reaches 1 but a larger one between them may, it is looked for around the largest. Of several
 //! crossings between the loads that were solved the first is taken.
 
+mod curve;
 mod limits;
 mod search;
 
