@@ -32,6 +32,8 @@ mod refusals;
 mod solve;
 #[path = "command_line/stress.rs"]
 mod stress;
+#[path = "command_line/sweep.rs"]
+mod sweep;
 #[path = "command_line/topography.rs"]
 mod topography;
 #[path = "command_line/validate.rs"]

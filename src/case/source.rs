@@ -26,9 +26,20 @@ impl Source {
     /// 16 MiB or not UTF-8.
     pub fn file(path: &Path) -> io::Result<Self> {
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        let name = path.display().to_string();
+        Self::read(path.display().to_string(), folder, fs::File::open(path)?)
+    }
+
+    /// A case written to standard input; a surface's file is relative to the working folder.
+    ///
+    /// # Errors
+    /// As those of [`Source::file`].
+    pub fn standard_input() -> io::Result<Self> {
+        Self::read("standard input".to_owned(), PathBuf::new(), io::stdin().lock())
+    }
+
+    fn read(name: String, folder: PathBuf, file: impl Read) -> io::Result<Self> {
         let mut bytes = Vec::new();
-        fs::File::open(path)?.take(LONGEST + 1).read_to_end(&mut bytes)?;
+        file.take(LONGEST + 1).read_to_end(&mut bytes)?;
         let refused = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
         if bytes.len() as u64 > LONGEST {
             return Err(refused(format!("{name} is longer than 16 MiB: it is no case file")));

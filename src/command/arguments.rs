@@ -2,11 +2,15 @@
 
 #[cfg(feature = "validate")]
 use super::options::Studies;
-use super::options::{Changes, Common, Work};
+use super::help;
+use super::options::{Changes, Common, Saying, Work};
 use super::pictures::PictureOptions;
-use super::terminal::{self, tell};
+use super::solve::SolveOptions;
+use super::sweep::SweepOptions;
+use super::terminal::{self, Colour, tell};
 use super::without_effect;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use percoat::case::CARRIED;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -14,45 +18,89 @@ use std::process::ExitCode;
 /// Periodic contact of coated bodies: pressures, contact spots and penetrations of a doubly periodic
 /// system of rigid asperities at several heights on a layered elastic half-space.
 #[derive(Debug, Parser)]
-#[command(version, propagate_version = true, arg_required_else_help = true)]
+#[command(version, propagate_version = true, arg_required_else_help = true, after_help = help::PERCOAT)]
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
+    /// When messages are coloured
+    #[arg(long, value_enum, default_value_t, global = true, value_name = "WHEN")]
+    color: Colour,
 }
 
 /// What is to be done.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve every load step of a case (without CASE: the embedded default, Fig. 2 of the paper)
+    #[command(after_help = help::SOLVE)]
     Solve {
-        /// Case file, or the name of an embedded case
+        /// Case file, the name of an embedded case, or - for standard input
         case: Option<PathBuf>,
+        #[command(flatten)]
+        changes: Changes,
+        #[command(flatten)]
+        options: SolveOptions,
         #[command(flatten)]
         pictures: PictureOptions,
         #[command(flatten)]
         common: Common,
     },
     /// Solve a case by both methods, spectral and localized, and show their differences (the last load step)
+    #[command(after_help = help::COMPARE)]
     Compare {
-        /// Case file, or the name of an embedded case
+        /// Case file, the name of an embedded case, or - for standard input
         case: Option<PathBuf>,
+        #[command(flatten)]
+        changes: Changes,
         #[command(flatten)]
         pictures: PictureOptions,
         #[command(flatten)]
         common: Common,
     },
     /// Find the mean pressure at which something first fails, and what (without CASE: a DLC coating on steel)
+    #[command(after_help = help::LIMIT)]
     Limit {
-        /// Case file with strengths, or the name of an embedded case
+        /// Case file with strengths, the name of an embedded case, or - for standard input
         case: Option<PathBuf>,
+        #[command(flatten)]
+        changes: Changes,
         #[command(flatten)]
         pictures: PictureOptions,
         #[command(flatten)]
         common: Common,
     },
+    /// Solve a case for many settings of its keys: one row a combination and load step in sweep.csv
+    #[command(after_help = help::SWEEP)]
+    Sweep {
+        /// Case file, the name of an embedded case, or - for standard input
+        case: PathBuf,
+        /// Values of a key: KEY=V1,V2,… or KEY=A:B:N or KEY=A:B:N:log (repeatable); one value alone is the same in all
+        #[arg(long, value_name = "KEY=VALUES")]
+        set: Vec<String>,
+        #[command(flatten)]
+        options: SweepOptions,
+        #[command(flatten)]
+        pictures: PictureOptions,
+        #[command(flatten)]
+        common: Common,
+    },
+    /// Join the parts of a sweep that were solved with --shard to the table of the whole
+    #[command(after_help = help::MERGE)]
+    Merge {
+        /// Output folders of the parts
+        #[arg(required = true, value_name = "DIR")]
+        folders: Vec<PathBuf>,
+        /// Output folder [default: the one in which all parts stand]
+        #[arg(short, long, value_name = "DIR")]
+        output: Option<PathBuf>,
+        #[command(flatten)]
+        pictures: PictureOptions,
+        #[command(flatten)]
+        saying: Saying,
+    },
     /// Response of the layered half-space to a harmonic pressure or shear traction cos(qx), as JSON lines
+    #[command(after_help = help::KERNEL)]
     Kernel {
-        /// Case file, or the name of an embedded case
+        /// Case file, the name of an embedded case, or - for standard input
         case: Option<PathBuf>,
         /// Wavenumbers q > 0, 1/length
         #[arg(long, value_delimiter = ',', required = true, value_name = "Q,…", value_parser = wavenumber)]
@@ -67,8 +115,9 @@ pub enum Command {
         changes: Changes,
     },
     /// Say what a case means: cell, grid, materials, memory, first touch loads; solves no load step
+    #[command(after_help = help::CHECK)]
     Check {
-        /// Case file, or the name of an embedded case
+        /// Case file, the name of an embedded case, or - for standard input
         case: PathBuf,
         #[command(flatten)]
         changes: Changes,
@@ -76,6 +125,7 @@ pub enum Command {
         work: Work,
     },
     /// List the embedded example cases, or print one; changed by --set it is complete with its defaults
+    #[command(after_help = help::CASES)]
     Cases {
         /// Name of the case to print
         name: Option<String>,
@@ -84,9 +134,13 @@ pub enum Command {
     },
     #[cfg(feature = "validate")]
     /// Hold percoat against closed forms, references and peers; exit code 1 when a check fails
+    #[command(after_help = help::VALIDATE)]
     Validate {
         /// Name of one study, or of a folder of them (`paper`) [default: all of them]
         study: Option<String>,
+        /// List the studies and run none
+        #[arg(long, conflicts_with_all = ["expect", "output", "quiet", "verbose", "threads"])]
+        list: bool,
         /// An earlier REPORT.md: fail unless studies, quantities and verdicts are the same
         #[arg(long, value_name = "REPORT")]
         expect: Option<PathBuf>,
@@ -94,6 +148,18 @@ pub enum Command {
         studies: Studies,
         #[command(flatten)]
         work: Work,
+    },
+    /// Completions of commands and options for a shell
+    #[command(after_help = help::COMPLETIONS)]
+    Completions {
+        /// Which shell
+        shell: Shell,
+    },
+    /// The manual page of percoat, or of one of its commands, as roff
+    #[command(after_help = help::MAN)]
+    Man {
+        /// A command
+        command: Option<String>,
     },
 }
 
@@ -112,6 +178,7 @@ pub enum Traction {
 impl Arguments {
     /// The command line as typed; what cannot be read is told, with the exit code that goes with it.
     pub fn read() -> Result<Self, ExitCode> {
+        terminal::choose_colour(typed_colour(std::env::args()));
         let command = Self::command().color(terminal::parser_colour());
         let read = command.try_get_matches().and_then(|matches| Self::from_arg_matches(&matches));
         read.map_err(|error| {
@@ -129,15 +196,26 @@ impl Arguments {
     /// Threads asked for.
     pub fn threads(&self) -> Option<u16> {
         match &self.command {
-            Command::Solve { common, .. } | Command::Compare { common, .. } | Command::Limit { common, .. } => {
-                common.threads
-            }
+            Command::Solve { common, .. }
+            | Command::Compare { common, .. }
+            | Command::Limit { common, .. }
+            | Command::Sweep { common, .. } => common.threads,
             Command::Check { work, .. } => work.threads,
             #[cfg(feature = "validate")]
             Command::Validate { work, .. } => work.threads,
-            Command::Kernel { .. } | Command::Cases { .. } => None,
+            _ => None,
         }
     }
+}
+
+/// The last colour that is typed, which must be known before anything else can be told.
+fn typed_colour(typed: impl Iterator<Item = String>) -> Colour {
+    let (mut colour, mut typed) = (Colour::Auto, typed.skip(1).take_while(|word| word != "--"));
+    while let Some(word) = typed.next() {
+        let value = if word == "--color" { typed.next() } else { word.strip_prefix("--color=").map(str::to_owned) };
+        colour = value.and_then(|value| Colour::from_str(&value, false).ok()).unwrap_or(colour);
+    }
+    colour
 }
 
 /// A wavenumber that double precision carries through the products made of it.

@@ -4,10 +4,10 @@ use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::interruption;
-use super::options::Common;
+use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
-use super::terminal::{self, tell};
-use indicatif::ProgressBar;
+use super::progress::Progress;
+use super::terminal;
 use percoat::case::plausibility;
 use percoat::case::resources::Job;
 use percoat::comparison::Task;
@@ -19,8 +19,13 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Ending, Failure> {
-    let (case, name) = read_case(case, &common.set)?;
+pub fn run(
+    case: Option<&Path>,
+    changes: &Changes,
+    pictures: &PictureOptions,
+    common: &Common,
+) -> Result<Ending, Failure> {
+    let (case, name) = read_case(case, &changes.set)?;
     if case.counterbody().indenters().is_none() {
         return Err(Failure::Refused(
             "compare needs [[levels]]: the localized method knows indenters, not a [surface]; use percoat solve"
@@ -58,21 +63,23 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
             (refined.points, refined.end.unwrap_or(End::Reached))
         }
     };
-    let progress = common.bar(ProgressBar::new_spinner());
+    let progress = Progress::new("", 0, 0, common);
     let comparison = task.compare(points, &mut |what| {
-        progress.set_message(what.to_owned());
-        progress.tick();
         if common.verbose {
-            tell!("{what}");
+            progress.tell(what);
         }
+        progress.say(what);
     });
-    progress.finish_and_clear();
+    progress.finish();
     let comparison = comparison.map_err(Failure::refused)?;
 
-    write_text(&claim.staging().join("compare.json"), &compare_json(&comparison, &case, loads.len()))?;
+    let json = compare_json(&comparison, &case, loads.len());
+    write_text(&claim.staging().join("compare.json"), &json)?;
     pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &comparison))?;
     interruption::publish(claim, &folder, common.quiet)?;
-    if !common.quiet {
+    if common.json {
+        write!(terminal::out(), "{json}")?;
+    } else if !common.quiet {
         let mut out = terminal::out();
         if !case.title.is_empty() {
             writeln!(out, "{}", case.title)?;
@@ -90,9 +97,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     if end != End::Reached {
         warnings.push(format!("grid.accuracy is not reached: {end}"));
     }
-    if !common.quiet {
-        warnings.iter().for_each(|warning| tell!("warning: {warning}"));
-    }
+    terminal::warn(&warnings, common.quiet);
     let converged = comparison.converged() && end == End::Reached;
     Ok(if converged { Ending::Done } else { Ending::NotConverged })
 }

@@ -20,6 +20,8 @@ pub enum Saved {
     Nothing,
     /// Load steps of an unfinished run.
     Steps { done: usize, of: usize, folder: PathBuf },
+    /// Combinations of an unfinished sweep.
+    Combinations { done: usize, of: usize, folder: PathBuf },
     /// All of it.
     Result(PathBuf),
 }
@@ -30,6 +32,7 @@ impl Saved {
         match self {
             Self::Nothing => false,
             Self::Steps { done, folder, .. } => *done > 0 || RunFolder::coarser(folder).is_some(),
+            Self::Combinations { done, .. } => *done > 0,
             Self::Result(_) => true,
         }
     }
@@ -46,6 +49,14 @@ impl fmt::Display for Saved {
                 RunFolder::coarser(folder)
                     .map_or(Ok(()), |path| write!(f, ", all of them on a coarser grid in {}", path.display()))
             }
+            Self::Combinations { of, .. } if !self.anything() => {
+                write!(f, "none of {of} combinations is done, nothing is saved")
+            }
+            Self::Combinations { done, of, folder } => write!(
+                f,
+                "{done} of {of} combinations saved in {}; the same command with --resume goes on from there",
+                folder.display()
+            ),
             Self::Nothing => f.write_str("nothing is saved"),
             Self::Result(folder) => write!(f, "the whole result is saved in {}", folder.display()),
         }

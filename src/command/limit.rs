@@ -4,10 +4,10 @@ use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::interruption;
-use super::options::Common;
+use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
-use super::terminal::{self, tell};
-use indicatif::ProgressBar;
+use super::progress::Progress;
+use super::terminal;
 use percoat::case::plausibility;
 use percoat::case::resources::Job;
 use percoat::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, write_text};
@@ -18,7 +18,7 @@ use percoat::{Solver, Step, StressField};
 use std::convert::Infallible;
 use std::io::Write;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// The case without one: it has strengths.
 const DEFAULT: &str = "dlc-on-steel";
@@ -27,7 +27,7 @@ const DEFAULT: &str = "dlc-on-steel";
 struct Searching<'a> {
     allowed: Allowed<'a>,
     common: &'a Common,
-    progress: ProgressBar,
+    progress: Progress,
 }
 
 impl Recorder for Searching<'_> {
@@ -39,8 +39,9 @@ impl Recorder for Searching<'_> {
 
     fn begin(&mut self, solver: &Solver) -> Result<(), Infallible> {
         if self.common.verbose {
-            tell!("{}\n{solver}", solver.problem());
+            self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
         }
+        self.progress.grid(solver.grid().points(), 0);
         Ok(())
     }
 
@@ -50,22 +51,27 @@ impl Recorder for Searching<'_> {
             worst.map_or("no contact".to_owned(), |worst| format!("{} {}", worst.criterion, number(worst.value)));
         let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
         if self.common.verbose {
-            tell!("{words}");
+            self.progress.tell(&words);
         }
-        self.progress.set_message(words);
+        self.progress.say(words);
         Ok(())
     }
 
     fn refined(&mut self, points: [usize; 2], change: f64) {
         if self.common.verbose {
-            tell!("{points:?} points: change {change:.2e}");
+            self.progress.tell(format_args!("{points:?} points: change {change:.2e}"));
         }
     }
 }
 
-pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Ending, Failure> {
+pub fn run(
+    case: Option<&Path>,
+    changes: &Changes,
+    pictures: &PictureOptions,
+    common: &Common,
+) -> Result<Ending, Failure> {
     let started = Instant::now();
-    let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &common.set)?;
+    let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &changes.set)?;
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let run = case.run();
     let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() })?;
@@ -75,13 +81,13 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let names = names.chain(pictures.files(&["limit", "limit-section"])).collect();
     let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Limit) })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
-    let progress = common.bar(ProgressBar::new_spinner());
-    progress.enable_steady_tick(Duration::from_millis(200));
+    let progress = Progress::new("", 0, 0, common);
     let mut searching = Searching { allowed, common, progress };
     let limits = run.limits(&mut searching)?;
-    searching.progress.finish_and_clear();
+    searching.progress.finish();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
-    write_text(&claim.staging().join("limit.json"), &limit_json(&limits, &case, &warnings))?;
+    let json = limit_json(&limits, &case, &warnings);
+    write_text(&claim.staging().join("limit.json"), &json)?;
     if !limits.steps.is_empty() {
         write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;
     }
@@ -94,7 +100,9 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         pictures.write(&claim.staging(), "limit-section", || Some(picture::section(&snapshot, &section)))?;
     }
     interruption::publish(claim, &folder, common.quiet)?;
-    if !common.quiet {
+    if common.json {
+        write!(terminal::out(), "{json}")?;
+    } else if !common.quiet {
         let mut out = terminal::out();
         if !case.title.is_empty() {
             writeln!(out, "{}\n", case.title)?;
@@ -105,7 +113,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         }
         let (loads, seconds) = (limits.steps.len(), started.elapsed().as_secs_f64());
         writeln!(out, "{loads} loads solved; {seconds:.2} s; written to {}", folder.display())?;
-        warnings.iter().for_each(|warning| tell!("warning: {warning}"));
     }
+    terminal::warn(&warnings, common.quiet);
     Ok(if limits.converged() { Ending::Done } else { Ending::NotConverged })
 }

@@ -6,15 +6,20 @@ mod cases;
 mod check;
 mod compare;
 mod ending;
+mod help;
 mod input;
 mod interruption;
 mod kernel;
 mod limit;
+mod manual;
+mod merge;
 mod options;
 mod pictures;
 mod plan;
+mod progress;
 mod shown;
 mod solve;
+mod sweep;
 mod terminal;
 #[cfg(feature = "validate")]
 mod validate;
@@ -35,16 +40,28 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         return ExitCode::from(4);
     }
     let ending = match &arguments.command {
-        Command::Solve { case, pictures, common } => solve::run(case.as_deref(), pictures, common),
-        Command::Compare { case, pictures, common } => compare::run(case.as_deref(), pictures, common),
-        Command::Limit { case, pictures, common } => limit::run(case.as_deref(), pictures, common),
+        Command::Solve { case, changes, options, pictures, common } => {
+            solve::run(case.as_deref(), changes, options, pictures, common)
+        }
+        Command::Compare { case, changes, pictures, common } => {
+            compare::run(case.as_deref(), changes, pictures, common)
+        }
+        Command::Limit { case, changes, pictures, common } => limit::run(case.as_deref(), changes, pictures, common),
+        Command::Sweep { case, set, options, pictures, common } => sweep::run(case, set, options, pictures, common),
+        Command::Merge { folders, output, pictures, saying } => {
+            merge::run(folders, output.as_deref(), pictures, saying)
+        }
         Command::Kernel { case, wavenumber, depth, traction, changes } => {
             kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
         }
         Command::Check { case, changes, .. } => check::run(case, &changes.set),
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
         #[cfg(feature = "validate")]
+        Command::Validate { list: true, study, .. } => validate::list(study.as_deref()),
+        #[cfg(feature = "validate")]
         Command::Validate { study, expect, studies, .. } => validate::run(study.as_deref(), expect.as_deref(), studies),
+        Command::Completions { shell } => manual::completions(*shell),
+        Command::Man { command } => manual::page(command.as_deref()),
     };
     ExitCode::from(match ending {
         Ok(ending) => ending.code(),

@@ -1,8 +1,6 @@
 //! Options that several commands share.
 
-use super::terminal;
 use clap::Args;
-use indicatif::ProgressBar;
 use std::path::PathBuf;
 
 /// Options of the commands that solve a case into a folder.
@@ -11,9 +9,6 @@ pub struct Common {
     /// Output folder [default: out/<case name>]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Change a value of the case, as in layers.0.thickness=0.2 (repeatable)
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
     /// Threads to use [default: all cores]; results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
@@ -23,13 +18,20 @@ pub struct Common {
     /// Say more on the way
     #[arg(short, long)]
     pub verbose: bool,
+    /// Print the summary on standard output as JSON, instead of tables
+    #[arg(long)]
+    pub json: bool,
 }
 
-impl Common {
-    /// The bar where progress is drawn; elsewhere a hidden one.
-    pub fn bar(&self, bar: ProgressBar) -> ProgressBar {
-        if self.quiet || self.verbose || !terminal::moves() { ProgressBar::hidden() } else { bar }
-    }
+/// How a command that computes nothing tells of its result.
+#[derive(Debug, Args)]
+pub struct Saying {
+    /// Print nothing but errors
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Print the summary on standard output as JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// Overrides of a case.

@@ -2,24 +2,18 @@
 
 use super::pictures::PictureOptions;
 use percoat::case::Case;
-use percoat::output::{Plan, Writer};
+use percoat::output::{Plan, solved_plan};
 
-/// What a run of the case may write.
-pub fn may_write(case: &Case, steps: usize, pictures: &PictureOptions) -> Plan {
-    let mut names = ["case.toml", "contact.npz", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
+/// What a run of the case may write, with its fields or without.
+pub fn may_write(case: &Case, steps: usize, fields: bool, pictures: &PictureOptions) -> Plan {
+    let mut plan = solved_plan(case, steps, fields);
     let mut drawn = vec!["pressure", "contact", "profiles"];
-    if let Some(stress) = &case.stress {
-        names.push("stress.npz".to_owned());
-        if stress.volume.is_some() {
-            names.extend((1..=steps).map(|step| format!("stress.{step:04}.vts")));
-        }
-        if stress.section.is_some() {
-            drawn.extend(["section", "lines"]);
-        }
+    if case.stress.as_ref().is_some_and(|stress| stress.section.is_some()) {
+        drawn.extend(["section", "lines"]);
     }
     if steps > 1 {
         drawn.push("curve");
     }
-    names.extend(pictures.files(&drawn));
-    Plan { names, case: Some(case.to_toml()), ..Plan::new(Writer::Solve) }
+    plan.names.extend(pictures.files(&drawn));
+    plan
 }

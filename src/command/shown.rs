@@ -3,11 +3,11 @@
 use super::allowed::Allowed;
 use super::interruption::{self, Saved};
 use super::options::Common;
-use super::terminal::{self, tell};
-use indicatif::{ProgressBar, ProgressStyle};
+use super::progress::Progress;
+use super::terminal;
 use percoat::output::{Clock, OutputError, Recording, RunFolder};
 use percoat::run::{Recorder, Run, StepRecord};
-use percoat::{Load, Progress, Section, Solver, Step, StressField};
+use percoat::{Load, Section, Solver, Step, StressField};
 
 /// Records a run and shows how far it is.
 pub struct Shown<'a> {
@@ -17,7 +17,7 @@ pub struct Shown<'a> {
     common: &'a Common,
     /// Number of all load steps.
     steps: usize,
-    progress: ProgressBar,
+    progress: Progress,
 }
 
 impl<'a> Shown<'a> {
@@ -29,19 +29,16 @@ impl<'a> Shown<'a> {
         allowed: Allowed<'a>,
         common: &'a Common,
     ) -> Self {
-        Self { recording, claim, allowed, common, steps: run.loads.len(), progress: ProgressBar::hidden() }
+        let steps = run.loads.len();
+        Self { recording, claim, allowed, common, steps, progress: Progress::new("step", steps, 0, common) }
     }
 
     /// As [`Recording::finish`].
     pub fn finish(self) -> Result<(Option<Section>, Clock), OutputError> {
-        self.progress.finish_and_clear();
-        self.recording.finish()
-    }
-
-    fn progress(&self) -> ProgressBar {
-        let style = ProgressStyle::with_template("{bar:24} step {pos}/{len}  {msg}");
-        let bar = self.common.bar(ProgressBar::new(self.steps as u64));
-        bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        self.progress.say("writing fields");
+        let finished = self.recording.finish();
+        self.progress.finish();
+        finished
     }
 
     /// What a signal to end is answered with.
@@ -59,7 +56,7 @@ impl Recorder for Shown<'_> {
 
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
         if self.common.verbose {
-            tell!("{}\n{solver}", solver.problem());
+            self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
         }
         // While the steps of a coarser grid move aside, a signal waits.
         let mut saved = interruption::hold();
@@ -67,13 +64,12 @@ impl Recorder for Shown<'_> {
         *saved = self.saved();
         drop(saved);
         terminal::tell_aside(self.recording.set_aside(), self.common.quiet);
-        self.progress.finish_and_clear();
-        self.progress = self.progress();
+        self.progress.grid(solver.grid().points(), self.recording.steps());
         Ok(())
     }
 
-    fn iteration(&mut self, progress: Progress) {
-        self.progress.set_message(format!("iteration {}, ε = {:.1e}", progress.iteration, progress.residual));
+    fn iteration(&mut self, progress: percoat::Progress) {
+        self.progress.say(format!("iteration {}, ε = {:.1e}", progress.iteration, progress.residual));
     }
 
     fn load(&mut self, load: Load) {
@@ -86,22 +82,22 @@ impl Recorder for Shown<'_> {
 
     fn stresses(&mut self) {
         self.recording.stresses();
-        self.progress.set_message("stresses");
+        self.progress.say("stresses");
     }
 
     fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
         if self.common.verbose {
-            tell!("{}\n{}\n{}", record.reading, record.report, record.certificate);
+            self.progress.tell(format_args!("{}\n{}\n{}", record.reading, record.report, record.certificate));
         }
         self.recording.step(step, record, field)?;
         *interruption::hold() = self.saved();
-        self.progress.inc(1);
+        self.progress.advance();
         Ok(())
     }
 
     fn refined(&mut self, points: [usize; 2], change: f64) {
         if self.common.verbose {
-            tell!("{points:?} points: change {change:.2e}");
+            self.progress.tell(format_args!("{points:?} points: change {change:.2e}"));
         }
     }
 }

@@ -4,67 +4,75 @@ use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::interruption;
-use super::options::Common;
+use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::plan::may_write;
+use super::progress::Progress;
 use super::shown::Shown;
-use super::terminal::{self, tell};
-use indicatif::ProgressBar;
+use super::terminal;
+use clap::Args;
 use percoat::case::resources::Job;
 use percoat::case::{Case, plausibility};
-use percoat::output::summary::{curve, summary};
-use percoat::output::{Clock, Recording, RunFolder, table, write_text};
+use percoat::output::summary::summary;
+use percoat::output::{Clock, Recording, RunFolder, table, write_scalars};
 use percoat::picture::Snapshot;
 use percoat::run::StepRecord;
 use std::io::Write;
 use std::path::Path;
-use std::time::Duration;
 
-pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> Result<Ending, Failure> {
+/// What stays of a run, and whether it goes on with an earlier one.
+#[derive(Debug, Args)]
+pub struct SolveOptions {
+    /// Keep scalars alone: no contact.npz, stress.npz and volumes
+    #[arg(long)]
+    no_fields: bool,
+}
+
+pub fn run(
+    case: Option<&Path>,
+    changes: &Changes,
+    options: &SolveOptions,
+    pictures: &PictureOptions,
+    common: &Common,
+) -> Result<Ending, Failure> {
     let clock = Clock::start();
-    let (case, name) = read_case(case, &common.set)?;
+    let (case, name) = read_case(case, &changes.set)?;
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let run = case.run();
     let job = Job::Solve { pictures: pictures.wanted() };
     let allowed = Allowed::new(&case, &folder, job)?;
     run.check()?;
     interruption::watch();
-    let claim = RunFolder::claim(&folder, may_write(&case, run.loads.len(), pictures))?;
+    let claim = RunFolder::claim(&folder, may_write(&case, run.loads.len(), !options.no_fields, pictures))?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let recording = Recording::new(&claim, &run, case.to_toml(), clock);
+    let recording = if options.no_fields { recording.without_fields() } else { recording };
     let mut recording = Shown::new(recording, &claim, &run, allowed, common);
     let outcome = run.solve(&mut recording)?;
     let (section, mut clock) = recording.finish()?;
     let ending = if outcome.converged() { Ending::Done } else { Ending::NotConverged };
-    let warnings = [outcome.warnings, plausibility::of_case(&case)].concat();
+    let warnings = [outcome.warnings.clone(), plausibility::of_case(&case)].concat();
     let steps = &outcome.steps;
-    if let (Some(last), Some(record), true) = (outcome.last, steps.last(), pictures.wanted()) {
-        let snapshot = Snapshot::new(&case.title, last, record.reading.clone()).with_strength(record.strength.clone());
-        let spinner = spinner("drawing pictures", common);
+    if let (Some(last), Some(record), true) = (&outcome.last, steps.last(), pictures.wanted()) {
+        let snapshot = Snapshot::new(&case.title, last.clone(), record.reading.clone());
+        let snapshot = snapshot.with_strength(record.strength.clone());
+        let progress = Progress::new("", 0, 0, common);
+        progress.say("drawing pictures");
         pictures.draw(&claim.staging(), &snapshot, section.as_ref(), steps)?;
-        spinner.finish_and_clear();
+        progress.finish();
     }
     let timing = clock.timing();
-    let summary = summary(&case, &warnings, outcome.change, steps, timing);
-    write_text(&claim.staging().join("summary.json"), &summary)?;
-    write_text(&claim.staging().join("curve.csv"), &curve(steps))?;
+    write_scalars(&claim.staging(), &case, &outcome, &warnings, timing)?;
     interruption::publish(claim, &folder, common.quiet)?;
-    if !common.quiet {
+    if common.json {
+        write!(terminal::out(), "{}", summary(&case, &warnings, outcome.change, steps, timing))?;
+    } else if !common.quiet {
         print(&case, steps, outcome.change)?;
         let (seconds, parts) = (clock.seconds(), table::timing(&timing));
         writeln!(terminal::out(), "{seconds:.2} s ({parts}); written to {}", folder.display())?;
-        for warning in &warnings {
-            tell!("warning: {warning}");
-        }
     }
+    terminal::warn(&warnings, common.quiet);
     Ok(ending)
-}
-
-/// A sign of life while something without steps goes on.
-fn spinner(what: &str, common: &Common) -> ProgressBar {
-    let spinner = common.bar(ProgressBar::new_spinner()).with_message(what.to_owned());
-    spinner.enable_steady_tick(Duration::from_millis(200));
-    spinner
 }
 
 fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {

@@ -5,7 +5,8 @@ use std::ffi::OsString;
 use std::io::{self, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 
-use clap::ColorChoice;
+use clap::{ColorChoice, ValueEnum};
+use std::sync::OnceLock;
 
 /// A line on standard error. Where nobody can hear it any more, the command goes on.
 macro_rules! tell {
@@ -56,14 +57,51 @@ pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     }
 }
 
+/// Says what a reader should know before trusting the numbers.
+pub fn warn(warnings: &[String], quiet: bool) {
+    if !quiet {
+        warnings.iter().for_each(|warning| tell!("warning: {warning}"));
+    }
+}
+
+/// When messages are coloured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Colour {
+    /// Where a terminal shows it, unless NO_COLOR is set
+    #[default]
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+/// What `--color` says.
+static CHOSEN: OnceLock<Colour> = OnceLock::new();
+
+/// Whether messages are coloured from now on.
+pub fn choose_colour(colour: Colour) {
+    // It is chosen once, before anything is told.
+    let _ = CHOSEN.set(colour);
+}
+
 /// Whether messages may be coloured.
 pub fn coloured() -> bool {
-    moves() && allows_colour(env::var_os("NO_COLOR"))
+    match CHOSEN.get() {
+        Some(Colour::Always) => true,
+        Some(Colour::Never) => false,
+        Some(Colour::Auto) | None => moves() && allows_colour(env::var_os("NO_COLOR")),
+    }
 }
 
 /// Colour of help and of arguments that cannot be read: where a terminal shows it, also in continuous integration,
 /// where clap alone would colour a terminal that only prints.
 pub fn parser_colour() -> ColorChoice {
+    match CHOSEN.get() {
+        Some(Colour::Always) => return ColorChoice::Always,
+        Some(Colour::Never) => return ColorChoice::Never,
+        Some(Colour::Auto) | None => {}
+    }
     if has_cursor(env::var_os("TERM")) && allows_colour(env::var_os("NO_COLOR")) {
         ColorChoice::Auto
     } else {

@@ -85,6 +85,19 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     Ok(if report.holds() && as_expected { Ending::Done } else { Ending::Failed })
 }
 
+/// What there is to run.
+pub fn list(name: Option<&str>) -> Result<Ending, Failure> {
+    let studies: Vec<&Study> = name.map_or_else(|| STUDIES.iter().collect(), validation::named);
+    if let (Some(name), true) = (name, studies.is_empty()) {
+        return Err(unknown(name));
+    }
+    let mut out = terminal::out();
+    for study in studies {
+        writeln!(out, "{:<18} {}", study.name, study.title)?;
+    }
+    Ok(Ending::Done)
+}
+
 fn unknown(name: &str) -> Failure {
     let names: Vec<&str> = STUDIES.iter().map(|study| study.name).collect();
     Failure::Refused(format!("there is no study {name}; there are {}", names.join(", ")))

@@ -1,7 +1,7 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
 use super::gathered::{is_partial, remove_gathered, remove_own, set_aside};
-use super::layout::{COARSER, FolderError, MARK, OWN, foreign, names, own, remove_folder, staging};
+use super::layout::{COARSER, FolderError, MARK, OWN, SWEEP_LOG, foreign, names, own, remove_folder, staging};
 use super::manifest::{Manifest, Scope, Writer, Written};
 use super::publication::Publication;
 use super::steps_log;
@@ -21,6 +21,8 @@ pub struct Plan {
     pub scope: Scope,
     /// Names whose content shows that they are percoat's, whatever stands in its list.
     pub adopted: Vec<String>,
+    /// Whether finished steps or combinations of an earlier run that was killed stay where they were gathered.
+    pub resumes: bool,
     /// Content of `case.toml`, if it is among them: the same file there already is no obstacle, and stays its owner's.
     pub case: Option<String>,
 }
@@ -28,7 +30,7 @@ pub struct Plan {
 impl Plan {
     /// Of a result without files that replaces the writer's earlier one.
     pub fn new(writer: Writer) -> Self {
-        Self { writer, names: Vec::new(), scope: Scope::default(), adopted: Vec::new(), case: None }
+        Self { writer, names: Vec::new(), scope: Scope::default(), adopted: Vec::new(), resumes: false, case: None }
     }
 }
 
@@ -38,6 +40,7 @@ pub struct RunFolder {
     folder: PathBuf,
     plan: Plan,
     set_aside: Option<PathBuf>,
+    resumed: bool,
     _lock: File,
 }
 
@@ -61,7 +64,12 @@ impl RunFolder {
             aside = Publication::new(folder, writer).complete()?.or(aside);
         }
         refuse_foreign(folder, &adopting(folder, &plan)?, &plan)?;
-        let mut claimed = Self { folder: folder.to_owned(), plan, set_aside: None, _lock: lock };
+        let mut claimed = Self { folder: folder.to_owned(), plan, set_aside: None, resumed: false, _lock: lock };
+        if claimed.plan.resumes && claimed.is_begun() {
+            claimed.resumed = true;
+            claimed.set_aside = aside;
+            return Ok(claimed);
+        }
         claimed.set_aside = claimed.clear_staging()?.or(aside);
         claimed.make_staging()?;
         Ok(claimed)
@@ -70,6 +78,11 @@ impl RunFolder {
     /// Where the result is gathered: every file of it is written here.
     pub fn staging(&self) -> PathBuf {
         staging(&self.folder, self.plan.writer)
+    }
+
+    /// Whether what an earlier run finished stands where the result is gathered, and this run goes on with it.
+    pub fn resumes(&self) -> bool {
+        self.resumed
     }
 
     /// The writer's earlier files whose names begin like this stay as they are.
@@ -126,6 +139,12 @@ impl RunFolder {
         })
     }
 
+    /// Whether an earlier run of this writer has finished something and not published it.
+    fn is_begun(&self) -> bool {
+        let staging = self.staging();
+        staging.join(MARK).is_file() && (has_steps(&staging) || has_steps(&staging.join(COARSER)))
+    }
+
     /// Moves what an earlier run of this writer left unfinished to `interrupted-1/` or the next free number; removes it
     /// where no step was finished and nobody else has put anything there.
     fn clear_staging(&self) -> Result<Option<PathBuf>, OutputError> {
@@ -156,7 +175,7 @@ impl RunFolder {
 /// Whether steps have been finished where a result is gathered. A summary is one too: earlier versions of percoat wrote
 /// it after every step, and no log.
 fn has_steps(folder: &Path) -> bool {
-    [steps_log::NAME, "summary.json"].iter().any(|name| folder.join(name).is_file())
+    [steps_log::NAME, SWEEP_LOG, "summary.json"].iter().any(|name| folder.join(name).is_file())
 }
 
 /// The list of a folder, with the adopted names on it.
@@ -188,7 +207,7 @@ fn refuse_foreign(folder: &Path, manifest: &Manifest, plan: &Plan) -> Result<(),
     }
     let staging = staging(folder, plan.writer);
     let unmarked = || !staging.join(MARK).is_file() && !names(&staging).is_ok_and(|names| names.is_empty());
-    if plan.writer == Writer::Solve && staging.exists() && unmarked() {
+    if [Writer::Solve, Writer::Sweep].contains(&plan.writer) && staging.exists() && unmarked() {
         return Err(FolderError::Foreign { path: staging, reason: "is not of percoat" });
     }
     Ok(())

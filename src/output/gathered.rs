@@ -2,7 +2,7 @@
 //! is neither published nor removed.
 
 use super::OutputError;
-use super::layout::{COARSER, MARK, remove_folder};
+use super::layout::{COARSER, MARK, SWEEP_LOG, remove_folder};
 use super::manifest::Writer;
 use super::steps_log;
 use std::fs;
@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 
 /// Files that steps leave before they are published.
 const STEPS: [&str; 6] = ["case.toml", steps_log::NAME, "summary.json", "curve.csv", "contact.npz", "stress.npz"];
+/// Those that combinations leave.
+const COMBINATIONS: [&str; 3] = [SWEEP_LOG, "sweep.csv", "sweep.json"];
 
 /// Whether fields of the steps wait in a folder of that name.
 pub(super) fn is_partial(name: &str) -> bool {
@@ -21,14 +23,14 @@ pub(super) fn is_partial(name: &str) -> bool {
 fn is_of_steps(name: &str) -> bool {
     let is_volume = name.starts_with("stress.") && name.ends_with(".vts");
     let is_temporary = name.starts_with('.') && name.ends_with(".tmp");
-    STEPS.contains(&name) || is_volume || is_temporary
+    STEPS.contains(&name) || COMBINATIONS.contains(&name) || is_volume || is_temporary
 }
 
 /// Removes where a writer has gathered its result; `also` are further names of its files. What is somebody else's in the
 /// place that everybody sees stays, and the folder around it; returns whether nothing did.
 pub(super) fn remove_gathered(folder: &Path, writer: Writer, also: &dyn Fn(&str) -> bool) -> Result<bool, OutputError> {
     match writer {
-        Writer::Solve => remove_own(folder, also),
+        Writer::Solve | Writer::Sweep => remove_own(folder, also),
         // They gather where percoat keeps what is its own.
         Writer::Compare | Writer::Limit | Writer::Validate => remove_folder(folder).map(|()| true),
     }

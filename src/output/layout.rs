@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 pub(super) const OWN: &str = ".percoat";
 /// Marks a folder as one in which a run of percoat gathers its result.
 pub(super) const MARK: &str = ".percoat";
+/// The combinations of a sweep that are done, one line each.
+pub const SWEEP_LOG: &str = "sweep.jsonl";
 /// Where the coarser grid's steps stand while a finer one is solved.
 pub(super) const COARSER: &str = "coarser";
 
@@ -46,6 +48,7 @@ pub(super) fn own(folder: &Path, name: &str) -> PathBuf {
 pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
     match writer {
         Writer::Solve => folder.join("unfinished"),
+        Writer::Sweep => folder.join("unfinished-sweep"),
         // Here nothing stands that is worth a look before all of it is there.
         Writer::Compare => own(folder, "compare"),
         Writer::Limit => own(folder, "limit"),

@@ -20,6 +20,20 @@ pub fn limit_json(limits: &Limits, case: &Case, warnings: &[String]) -> String {
     format!("{file:#}\n")
 }
 
+/// The first limit and all of them as one object: under `first`, and under their names (`yield_of_material_2`).
+pub fn limits_json(limits: &Limits) -> Value {
+    let first = ("first".to_owned(), json!(limits.first().map(|own| limit(limits, own))));
+    let named = limits.limits.iter().map(|own| {
+        let mut entries = limit(limits, own);
+        if let Some(entries) = entries.as_object_mut() {
+            // Its name says it.
+            ["criterion", "material", "interface"].iter().for_each(|key| drop(entries.shift_remove(*key)));
+        }
+        (own.criterion.to_string().replace(' ', "_"), entries)
+    });
+    Value::Object([first].into_iter().chain(named).collect())
+}
+
 /// Every limit has the same keys: what is not known of it is null.
 fn limit(limits: &Limits, limit: &Limit) -> Value {
     let mut entries = Map::new();

@@ -21,11 +21,13 @@ pub enum Writer {
     Limit,
     /// `percoat validate`.
     Validate,
+    /// `percoat sweep`, and `percoat merge`.
+    Sweep,
 }
 
 impl Writer {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate];
+    pub const ALL: [Self; 5] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate, Self::Sweep];
 }
 
 /// The list of files, by name.
@@ -149,7 +151,10 @@ impl Written {
 
 /// Length and checksum: FNV-1a over words of eight bytes, the upper half of each product folded down. Enough to notice
 /// a change, and as fast as the disk.
-fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
+///
+/// # Errors
+/// When the file cannot be read.
+pub fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
     let (mut length, mut hash) = (0, 0xcbf2_9ce4_8422_2325_u64);
     let mut add = |word: [u8; 8]| {
         hash = (hash ^ u64::from_le_bytes(word)).wrapping_mul(0x100_0000_01b3);

@@ -25,6 +25,7 @@
 //! a single study those of its own folder ([`Scope`]).
 
 mod clock;
+pub mod columns;
 mod comparison;
 mod fields;
 mod folder;
@@ -36,6 +37,7 @@ mod npz;
 mod number;
 mod publication;
 mod recording;
+mod solved;
 mod steps;
 mod steps_log;
 mod stress;
@@ -46,11 +48,12 @@ mod volume;
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
 pub use folder::{Plan, RunFolder};
-pub use layout::FolderError;
-pub use limit::limit_json;
-pub use manifest::{Scope, Writer};
+pub use layout::{FolderError, SWEEP_LOG};
+pub use limit::{limit_json, limits_json};
+pub use manifest::{Scope, Writer, checksum};
 pub use number::number;
 pub use recording::Recording;
+pub use solved::{solved_plan, write_scalars};
 pub use volume::write_volume;
 
 use std::fs;
@@ -66,7 +69,7 @@ pub struct OutputError {
 }
 
 impl OutputError {
-    fn new(path: &Path, source: io::Error) -> Self {
+    pub(crate) fn new(path: &Path, source: io::Error) -> Self {
         Self { path: path.to_owned(), source }
     }
 }

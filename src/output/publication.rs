@@ -92,6 +92,7 @@ impl<'a> Publication<'a> {
             Writer::Compare => "retired-compare",
             Writer::Limit => "retired-limit",
             Writer::Validate => "retired-validate",
+            Writer::Sweep => "retired-sweep",
         };
         own(self.folder, name)
     }

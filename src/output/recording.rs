@@ -19,6 +19,8 @@ pub struct Recording<'a> {
     /// Content of `case.toml`.
     case: String,
     stress: Option<StressRequest>,
+    /// Whether fields are kept.
+    fields: bool,
     clock: Clock,
     /// None before the first grid.
     files: Option<Files>,
@@ -28,8 +30,12 @@ pub struct Recording<'a> {
 /// Files of the steps on one grid.
 #[derive(Debug)]
 struct Files {
-    fields: Fields,
+    /// None where fields are not kept.
+    fields: Option<Fields>,
+    /// None where fields are not kept, or no stresses wanted.
     stresses: Option<Stresses>,
+    /// The section of the last step, where fields are not kept.
+    section: Option<Section>,
     log: StepsLog,
     /// Number of finished steps.
     steps: usize,
@@ -38,7 +44,12 @@ struct Files {
 impl<'a> Recording<'a> {
     /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it. The clock goes on.
     pub fn new(claim: &'a RunFolder, run: &Run, case: String, clock: Clock) -> Self {
-        Self { claim, case, stress: run.stress.clone(), clock, files: None, set_aside: None }
+        Self { claim, case, stress: run.stress.clone(), fields: true, clock, files: None, set_aside: None }
+    }
+
+    /// The same without `contact.npz`, `stress.npz` and volumes: scalars, and what pictures show of the last step.
+    pub fn without_fields(self) -> Self {
+        Self { fields: false, ..self }
     }
 
     /// Number of load steps that are finished on the present grid.
@@ -61,9 +72,10 @@ impl<'a> Recording<'a> {
     /// When nothing has been recorded.
     pub fn finish(mut self) -> Result<(Option<Section>, Clock), OutputError> {
         self.clock.turn(Phase::Output);
-        let Files { fields, stresses, .. } = self.files.expect(BEGUN);
-        fields.finish()?;
-        Ok((stresses.map_or(Ok(None), Stresses::finish)?, self.clock))
+        let Files { fields, stresses, section, .. } = self.files.expect(BEGUN);
+        fields.map_or(Ok(()), Fields::finish)?;
+        let written = stresses.map_or(Ok(None), Stresses::finish)?;
+        Ok((written.or(section), self.clock))
     }
 }
 
@@ -79,9 +91,10 @@ impl Recorder for Recording<'_> {
         self.set_aside = self.claim.begin_finer()?;
         write_text(&folder.join("case.toml"), &self.case)?;
         let half_space = solver.problem().half_space();
-        let stresses = self.stress.clone().map(|request| Stresses::new(&folder, request, half_space.clone()));
-        let fields = Fields::new(&folder, Arc::clone(solver.surface()))?;
-        self.files = Some(Files { fields, stresses: stresses.transpose()?, log: StepsLog::new(&folder), steps: 0 });
+        let request = self.stress.clone().filter(|_| self.fields);
+        let stresses = request.map(|request| Stresses::new(&folder, request, half_space.clone())).transpose()?;
+        let fields = self.fields.then(|| Fields::new(&folder, Arc::clone(solver.surface()))).transpose()?;
+        self.files = Some(Files { fields, stresses, section: None, log: StepsLog::new(&folder), steps: 0 });
         self.clock.turn(Phase::Setup);
         Ok(())
     }
@@ -101,7 +114,13 @@ impl Recorder for Recording<'_> {
     fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);
         let files = self.files.as_mut().expect(BEGUN);
-        files.fields.add(step, record.reading.mean_pressure)?;
+        if let Some(fields) = &mut files.fields {
+            fields.add(step, record.reading.mean_pressure)?;
+        } else if let (Some(field), Some(cut)) = (field, self.stress.as_ref().and_then(|request| request.cut.as_ref())) {
+            self.clock.turn(Phase::Stress);
+            files.section = Some(field.section(&cut.line, &cut.depths(step.problem().half_space())));
+            self.clock.turn(Phase::Output);
+        }
         if let (Some(stresses), Some(field)) = (&mut files.stresses, field) {
             stresses.add(field, &mut self.clock)?;
         }

@@ -71,6 +71,16 @@ impl Axis {
     }
 }
 
+/// Whether values are spread evenly on a logarithmic axis rather than on a linear one.
+pub(super) fn log_spaced(values: &[f64]) -> bool {
+    let spread = |place: fn(f64) -> f64| {
+        let gaps = values.windows(2).map(|pair| (place(pair[1]) - place(pair[0])).abs());
+        let (least, most) = gaps.fold((f64::INFINITY, 0.0f64), |(a, b), gap| (a.min(gap), b.max(gap)));
+        most / least
+    };
+    values.len() > 2 && values.iter().all(|&value| value > 0.0) && spread(f64::ln) < 0.5 * spread(|value| value)
+}
+
 /// Where an axis is marked.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ticks {

@@ -1,6 +1,6 @@
 //! Load curves: what changes with the mean pressure over the steps of a run (Figs 4 and 5).
 
-use super::axis::Axis;
+use super::axis::{Axis, log_spaced};
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
@@ -166,13 +166,7 @@ impl Run<'_> {
 
 /// Whether the steps are spread evenly on a logarithmic axis rather than on a linear one.
 fn logarithmic(steps: &[StepRecord]) -> bool {
-    let loads: Vec<f64> = steps.iter().map(|step| step.reading.mean_pressure).collect();
-    let spread = |value: fn(f64) -> f64| {
-        let gaps: Vec<f64> = loads.windows(2).map(|pair| (value(pair[1]) - value(pair[0])).abs()).collect();
-        let (least, most) = gaps.iter().fold((f64::INFINITY, 0.0f64), |(a, b), &gap| (a.min(gap), b.max(gap)));
-        most / least
-    };
-    loads.len() > 3 && loads.iter().all(|&p| p > 0.0) && spread(f64::ln) < 0.5 * spread(|p| p)
+    log_spaced(&steps.iter().map(|step| step.reading.mean_pressure).collect::<Vec<_>>())
 }
 
 #[cfg(test)]

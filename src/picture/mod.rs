@@ -7,6 +7,7 @@
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
 //! - Its stresses under a line ([`Section`](crate::stress::Section)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
+//! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two.
 //! - Localized against spectral: [`comparison`](comparison()).
 
 mod axis;
@@ -31,6 +32,7 @@ mod rows;
 mod section;
 mod sheet;
 mod snapshot;
+mod sweep;
 mod text;
 mod tiling;
 mod units;
@@ -50,5 +52,6 @@ pub use pressure::pressure;
 pub use profiles::profiles;
 pub use section::section;
 pub use snapshot::Snapshot;
+pub use sweep::sweep;
 pub use units::Units;
 pub use utilisations::utilisations;

@@ -50,6 +50,16 @@ pub struct BeyondFullContact {
     pub complete: f64,
 }
 
+impl<E: Error + 'static> RunError<E> {
+    /// Why, in one sentence: where it cannot be recorded, the recorder's own words.
+    pub fn told(&self) -> String {
+        match self {
+            Self::Recorder(error) => error.to_string(),
+            other => other.to_string(),
+        }
+    }
+}
+
 /// Why a run has not come to its end; `E` is the recorder's reason.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -1,0 +1,89 @@
+//! `percoat merge`: the parts of a sweep, joined to the table of the whole.
+
+use super::ending::{Ending, Failure};
+use super::interruption;
+use super::options::Saying;
+use super::pictures::PictureOptions;
+use super::sweep;
+use super::terminal::{self, tell};
+use percoat::output::{RunFolder, SWEEP_LOG};
+use percoat::sweep::{Row, description, join, read};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+pub fn run(
+    folders: &[PathBuf],
+    output: Option<&Path>,
+    pictures: &PictureOptions,
+    saying: &Saying,
+) -> Result<Ending, Failure> {
+    let parts = folders.iter().map(|folder| part(folder)).collect::<Result<Vec<_>, _>>()?;
+    let first = &parts[0].0;
+    let same = |key: &str| parts.iter().zip(folders).find(|((own, _), _)| own[key] != first[key]);
+    for key in ["case", "task", "of"] {
+        if let Some((_, other)) = same(key) {
+            return Err(Failure::refused(format!(
+                "{} and {} are not parts of one sweep: `{key}` in their sweep.json differs",
+                folders[0].display(),
+                other.display()
+            )));
+        }
+    }
+    let rows = join(parts.iter().map(|(_, rows)| rows)).map_err(Failure::refused)?;
+    let folder = output.map_or_else(|| common_parent(folders), |folder| Ok(folder.to_owned()))?;
+    interruption::watch();
+    let claim = RunFolder::claim(&folder, sweep::plan(pictures))?;
+    terminal::tell_aside(claim.set_aside(), saying.quiet);
+    let text = |key: &str| first[key].as_str().unwrap_or_default();
+    let of = first["of"].as_u64().unwrap_or_default() as usize;
+    let seconds: f64 = parts.iter().filter_map(|(own, _)| own["timing"]["wall"].as_f64()).sum();
+    let description = description(text("title"), text("case"), text("task"), of, &rows, seconds);
+    sweep::finish(claim, &folder, &rows, &description, pictures, saying.quiet)?;
+    sweep::print(&rows, &description, &folder, saying)?;
+    if rows.len() < of {
+        tell!("warning: {} of {of} combinations are missing: {}", of - rows.len(), missing(&rows, of));
+        return Ok(Ending::NotConverged);
+    }
+    Ok(sweep::ending(&rows))
+}
+
+/// The description and the rows of a part, finished or not.
+fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
+    let unfinished = folder.join("unfinished-sweep");
+    let place = if folder.join("sweep.json").is_file() { folder } else { &unfinished };
+    let path = place.join("sweep.json");
+    if !path.is_file() {
+        return Err(Failure::refused(format!(
+            "{} holds no sweep: give the folders that `percoat sweep --shard` wrote",
+            folder.display()
+        )));
+    }
+    let text = std::fs::read_to_string(&path).map_err(|error| Failure::Input { path: path.clone(), error })?;
+    let description = serde_json::from_str(&text)
+        .map_err(|error| Failure::refused(format!("{} is no description of a sweep: {error}", path.display())))?;
+    let log = place.join(SWEEP_LOG);
+    // A part that was killed before its first combination has no log.
+    let rows = if log.is_file() { read(&log).map_err(|error| Failure::Input { path: log, error })? } else { Vec::new() };
+    Ok((description, rows))
+}
+
+/// The folder in which all parts stand.
+fn common_parent(folders: &[PathBuf]) -> Result<PathBuf, Failure> {
+    let parents: Vec<Option<&Path>> = folders.iter().map(|folder| folder.parent()).collect();
+    match parents[0] {
+        Some(parent) if parents.iter().all(|own| *own == parents[0]) && parent != Path::new("") => {
+            Ok(parent.to_owned())
+        }
+        _ => Err(Failure::refused("the parts stand in different folders: say with -o where the whole shall be")),
+    }
+}
+
+/// The numbers of combinations that are not there, the first some.
+fn missing(rows: &[Row], of: usize) -> String {
+    /// Numbers told.
+    const TOLD: usize = 12;
+    let there: std::collections::BTreeSet<usize> = rows.iter().map(|row| row.combination).collect();
+    let missing: Vec<String> = (1..=of).filter(|number| !there.contains(number)).map(|n| n.to_string()).collect();
+    let more = if missing.len() > TOLD { ", …" } else { "" };
+    missing[..missing.len().min(TOLD)].join(", ") + more
+}

@@ -1,0 +1,186 @@
+//! How far a command is: on a terminal a line that is drawn again, elsewhere a line every ten seconds.
+
+use super::options::Common;
+use super::terminal::{self, tell};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fmt;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Between two lines where nothing can be drawn again.
+const PERIOD: Duration = Duration::from_secs(10);
+
+/// What a person who waits is told.
+#[derive(Debug)]
+pub struct Progress {
+    state: Arc<Mutex<State>>,
+    bar: ProgressBar,
+    /// Ends the lines when it goes.
+    _lines: Option<Sender<()>>,
+}
+
+#[derive(Debug, Clone)]
+struct State {
+    /// What is counted, such as `step`; nothing where the end is not known.
+    unit: &'static str,
+    done: usize,
+    of: usize,
+    /// The grid that is worked on.
+    points: Option<[usize; 2]>,
+    /// What goes on right now.
+    phase: String,
+    began: Instant,
+    /// When the present count began, and at what.
+    counted: (Instant, usize),
+}
+
+impl Progress {
+    /// Of so many of a `unit`, some of which are done; of an unknown number of nothing when `of` is 0.
+    pub fn new(unit: &'static str, of: usize, done: usize, common: &Common) -> Self {
+        let now = Instant::now();
+        let state = State { unit, done, of, points: None, phase: String::new(), began: now, counted: (now, done) };
+        let state = Arc::new(Mutex::new(state));
+        let drawn = !common.quiet && !common.verbose && terminal::moves();
+        let bar = if drawn { ProgressBar::new(of as u64) } else { ProgressBar::hidden() };
+        let template = if of > 0 { "{bar:16} {msg}" } else { "{spinner} {msg}" };
+        bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+        bar.set_position(done as u64);
+        if drawn {
+            bar.enable_steady_tick(Duration::from_millis(200));
+        }
+        let lines = (!common.quiet && !terminal::moves()).then(|| {
+            let state = Arc::clone(&state);
+            lines(PERIOD, move || tell!("{}", held(&state)))
+        });
+        Self { state, bar, _lines: lines }
+    }
+
+    /// What goes on now.
+    pub fn say(&self, phase: impl Into<String>) {
+        let mut state = held(&self.state);
+        state.phase = phase.into();
+        self.bar.set_message(state.to_string());
+    }
+
+    /// One more is done.
+    pub fn advance(&self) {
+        let mut state = held(&self.state);
+        state.done += 1;
+        self.bar.set_position(state.done as u64);
+        self.bar.set_message(state.to_string());
+    }
+
+    /// All begins again, on a grid of `points`, with some done already.
+    pub fn grid(&self, points: [usize; 2], done: usize) {
+        let mut state = held(&self.state);
+        (state.points, state.done, state.counted) = (Some(points), done, (Instant::now(), done));
+        self.bar.set_position(done as u64);
+        self.bar.set_message(state.to_string());
+    }
+
+    /// A line between those of progress.
+    pub fn tell(&self, line: impl fmt::Display) {
+        self.bar.suspend(|| tell!("{line}"));
+    }
+
+    /// Nothing more is told.
+    pub fn finish(self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+fn held(state: &Mutex<State>) -> MutexGuard<'_, State> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Calls `line` again and again until the sender goes.
+fn lines(period: Duration, line: impl Fn() + Send + 'static) -> Sender<()> {
+    let (sender, goes_on) = mpsc::channel();
+    // Without a thread there are no lines.
+    let _ = thread::Builder::new().spawn(move || {
+        while goes_on.recv_timeout(period) == Err(RecvTimeoutError::Timeout) {
+            line();
+        }
+    });
+    sender
+}
+
+impl State {
+    /// Time left if the rest takes as long as what was done since the count began.
+    fn left(&self) -> Option<Duration> {
+        let (since, from) = self.counted;
+        let done = self.done.checked_sub(from).filter(|done| *done > 0)?;
+        let left = self.of.checked_sub(self.done).filter(|left| *left > 0)?;
+        Some(since.elapsed().mul_f64(left as f64 / done as f64))
+    }
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut parts = Vec::new();
+        if self.of > 0 {
+            parts.push(format!("{} {} of {}", self.unit, (self.done + 1).min(self.of), self.of));
+        }
+        parts.extend(self.points.map(|[n1, n2]| format!("{n1} × {n2} samples")));
+        parts.extend(Some(self.phase.clone()).filter(|phase| !phase.is_empty()));
+        parts.push(duration(self.began.elapsed()));
+        parts.extend(self.left().map(|left| format!("about {} left", duration(left))));
+        f.write_str(&parts.join(", "))
+    }
+}
+
+/// As a person says it: 12 s, 3 min 20 s, 2 h 5 min.
+fn duration(time: Duration) -> String {
+    let seconds = time.as_secs();
+    match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
+        (0, 0, s) => format!("{s} s"),
+        (0, m, s) => format!("{m} min {s} s"),
+        (h, m, _) => format!("{h} h {m} min"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    #[test]
+    fn a_line_says_what_goes_on_and_how_long_it_takes() {
+        let ago = |seconds| Instant::now().checked_sub(Duration::from_millis(1000 * seconds + 500)).unwrap();
+        let state = State {
+            unit: "step",
+            done: 4,
+            of: 10,
+            points: Some([64, 48]),
+            phase: "stresses".to_owned(),
+            began: ago(200),
+            counted: (ago(20), 2),
+        };
+        assert_eq!(state.to_string(), "step 5 of 10, 64 × 48 samples, stresses, 3 min 20 s, about 1 min 1 s left");
+        let last = State { done: 10, of: 10, ..state };
+        assert_eq!(last.to_string(), "step 10 of 10, 64 × 48 samples, stresses, 3 min 20 s");
+        assert_eq!(duration(Duration::from_secs(7510)), "2 h 5 min");
+    }
+
+    #[test]
+    fn lines_come_until_their_sender_goes() {
+        let count = Arc::new(AtomicUsize::new(0));
+        let own = Arc::clone(&count);
+        let sender = lines(Duration::from_millis(5), move || {
+            own.fetch_add(1, Ordering::SeqCst);
+        });
+        let started = Instant::now();
+        while count.load(Ordering::SeqCst) < 3 {
+            assert!(started.elapsed() < Duration::from_secs(60));
+            thread::sleep(Duration::from_millis(1));
+        }
+        drop(sender);
+        // It has ended when nothing holds the counter any more.
+        while Arc::strong_count(&count) > 1 {
+            assert!(started.elapsed() < Duration::from_secs(60));
+            thread::sleep(Duration::from_millis(1));
+        }
+    }
+}

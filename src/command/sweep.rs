@@ -1,0 +1,218 @@
+//! `percoat sweep`: a case, solved for many settings of its keys.
+
+use super::ending::{Ending, Failure};
+use super::input::read_source;
+use super::interruption::{self, Saved};
+use super::options::{Common, Saying};
+use super::pictures::PictureOptions;
+use super::progress::Progress;
+use super::terminal::{self, tell};
+use clap::Args;
+use percoat::case::{Case, Room};
+use percoat::output::{Plan, RunFolder, SWEEP_LOG, Writer, write_text};
+use percoat::picture;
+use percoat::sweep::{self, Axis, Combinations, Group, Log, Row, Status, Study, Task};
+use serde_json::Value;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// What is varied, and what stays of it.
+#[derive(Debug, Args)]
+pub struct SweepOptions {
+    /// Pair the values of the keys one by one, instead of every combination
+    #[arg(long)]
+    zip: bool,
+    /// Combinations from a CSV table: keys in its first line, a combination in each further one
+    #[arg(long, value_name = "FILE")]
+    table: Option<PathBuf>,
+    /// Look for the limit loads of each combination, as `percoat limit` does
+    #[arg(long)]
+    limit: bool,
+    /// Solve the I-th of N parts only, for a cluster's scheduler; `percoat merge` joins them
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<(usize, usize)>,
+    /// Go on where an earlier sweep ended, however it did; combinations that are done are not solved again
+    #[arg(long)]
+    resume: bool,
+    /// Keep fields and summary of each combination, in combinations/NNNN
+    #[arg(long, conflicts_with = "limit")]
+    keep_fields: bool,
+    /// Keep scalars alone, which is the default
+    #[arg(long, conflicts_with = "keep_fields")]
+    no_fields: bool,
+}
+
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let parts = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
+    parts.filter(|(part, of)| (1..=*of).contains(part)).ok_or_else(|| "must be I/N with 1 ≤ I ≤ N, such as 3/8".to_owned())
+}
+
+/// How often the table on disk is made again while the sweep goes on.
+const REFRESH: Duration = Duration::from_secs(2);
+
+/// What the result consists of, for the sweep and for what is merged.
+pub fn plan(pictures: &PictureOptions) -> Plan {
+    let names = ["sweep.csv", "sweep.json", SWEEP_LOG].map(str::to_owned).into_iter();
+    Plan { names: names.chain(pictures.files(&["sweep"])).collect(), ..Plan::new(Writer::Sweep) }
+}
+
+pub fn run(
+    case: &Path,
+    set: &[String],
+    options: &SweepOptions,
+    pictures: &PictureOptions,
+    common: &Common,
+) -> Result<Ending, Failure> {
+    let started = Instant::now();
+    let (source, name) = read_source(Some(case))?;
+    let (combinations, fixed) = combinations(options, set)?;
+    let of = combinations.all.len();
+    let combinations = match options.shard {
+        Some((part, of)) => combinations.shard(part, of),
+        None => combinations,
+    };
+    let folder = common.output.clone().unwrap_or_else(|| {
+        let folder = Path::new("out").join(&name);
+        options.shard.map_or(folder.clone(), |(part, of)| folder.join(format!("shard-{part}-of-{of}")))
+    });
+    let (room, task) = (Room::on_this_machine(&folder), if options.limit { Task::Limit } else { Task::Solve });
+    let fields = folder.join("combinations");
+    let study = Study::new(&source, &fixed, &combinations, task, room)?;
+    let study = if options.keep_fields { study.keeping_fields(&fields) } else { study };
+    interruption::watch();
+    let claim = RunFolder::claim(&folder, Plan { resumes: options.resume, ..plan(pictures) })?;
+    terminal::tell_aside(claim.set_aside(), common.quiet);
+    let mut rows = Vec::new();
+    if options.resume {
+        rows = study.known(&earlier(&claim, &folder)?);
+        if !common.quiet {
+            tell!("note: {} of {} combinations are done already", rows.len(), combinations.all.len());
+        }
+    }
+    let staging = claim.staging();
+    let mut log = Log::begin(&staging, &rows)?;
+    // Of what is common to all: it may be no case without what is varied.
+    let whole = Case::read(&source, &fixed).ok();
+    let title = whole.as_ref().map_or("", |case| &case.title);
+    let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
+    let task = if options.limit { "limit" } else { "solve" };
+    let describe =
+        |rows: &[Row]| sweep::description(title, &text, task, of, rows, started.elapsed().as_secs_f64());
+    // For who merges a part that was killed.
+    write_text(&staging.join("sweep.json"), &format!("{:#}\n", describe(&rows)))?;
+    let (count, known) = (combinations.all.len(), rows.clone());
+    let saved = |done: usize| Saved::Combinations { done, of: count, folder: staging.clone() };
+    *interruption::hold() = saved(rows.len());
+    let progress = Progress::new("combination", count, rows.len(), common);
+    let mut refreshed = Instant::now();
+    study.run(&known, |row| -> Result<(), Failure> {
+        // A signal waits until the row is whole.
+        let mut hold = interruption::hold();
+        log.add(&row)?;
+        *hold = saved(rows.len() + 1);
+        drop(hold);
+        if common.verbose {
+            progress.tell(format_args!("{}: {}, {:.2} s", row.named(), row.status.name(), row.seconds));
+        }
+        progress.say(format!("{} {}", row.named(), row.status.name()));
+        progress.advance();
+        rows.push(row);
+        if refreshed.elapsed() > REFRESH {
+            write_text(&staging.join("sweep.csv"), &sweep::table(&rows))?;
+            refreshed = Instant::now();
+        }
+        Ok(())
+    })?;
+    progress.finish();
+    drop(log);
+    rows.sort_by_key(|row| row.combination);
+    let description = describe(&rows);
+    finish(claim, &folder, &rows, &description, pictures, common.quiet)?;
+    print(&rows, &description, &folder, &Saying { quiet: common.quiet, json: common.json })?;
+    Ok(ending(&rows))
+}
+
+/// Writes the result and puts it in its place.
+pub fn finish(
+    claim: RunFolder,
+    folder: &Path,
+    rows: &[Row],
+    description: &Value,
+    pictures: &PictureOptions,
+    quiet: bool,
+) -> Result<(), Failure> {
+    let staging = claim.staging();
+    // In the order of the combinations, not in that of their ends.
+    drop(Log::begin(&staging, rows)?);
+    write_text(&staging.join("sweep.csv"), &sweep::table(rows))?;
+    write_text(&staging.join("sweep.json"), &format!("{description:#}\n"))?;
+    pictures.write(&staging, "sweep", || picture::sweep(description["title"].as_str().unwrap_or(""), rows))?;
+    Ok(interruption::publish(claim, folder, quiet)?)
+}
+
+/// What is varied, and what is the same in all: a key with one value.
+fn combinations(options: &SweepOptions, set: &[String]) -> Result<(Combinations, Vec<String>), Failure> {
+    let axes = set.iter().map(|text| Axis::parse(text)).collect::<Result<Vec<_>, _>>().map_err(Failure::refused)?;
+    let (fixed, axes): (Vec<Axis>, Vec<Axis>) = axes.into_iter().partition(|axis| axis.values.len() == 1);
+    let fixed = fixed.iter().flat_map(Axis::settings).collect();
+    let mut groups = Vec::new();
+    if let Some(path) = &options.table {
+        let text = std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.clone(), error })?;
+        let table = Group::table(&text);
+        groups.push(table.map_err(|error| Failure::refused(format!("{}, {error}", path.display())))?);
+    }
+    if options.zip && !axes.is_empty() {
+        groups.push(Group::zip(&axes).map_err(Failure::refused)?);
+    } else {
+        groups.extend(axes.iter().map(Group::of));
+    }
+    let combinations = Combinations::product(&groups).map_err(Failure::refused)?;
+    Ok((combinations, fixed))
+}
+
+/// Rows of an earlier sweep into this folder, unfinished or finished.
+fn earlier(claim: &RunFolder, folder: &Path) -> Result<Vec<Row>, Failure> {
+    let path = if claim.resumes() { claim.staging() } else { folder.to_owned() }.join(SWEEP_LOG);
+    if !path.is_file() {
+        return Ok(Vec::new());
+    }
+    sweep::read(&path).map_err(|error| Failure::Input { path, error })
+}
+
+/// How many are done, and why others are not.
+pub fn print(rows: &[Row], description: &Value, folder: &Path, saying: &Saying) -> Result<(), Failure> {
+    /// Failures told one by one.
+    const TOLD: usize = 5;
+    if saying.json {
+        writeln!(terminal::out(), "{description:#}")?;
+    }
+    if saying.quiet || saying.json {
+        return Ok(());
+    }
+    let mut out = terminal::out();
+    let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
+    let (done, open, failed) = (count(Status::Done), count(Status::NotConverged), count(Status::Failed));
+    let mut words = format!("{done} of {} combinations done", rows.len());
+    for (count, what) in [(open, "not converged"), (failed, "failed")] {
+        if count > 0 {
+            words += &format!(", {count} {what}");
+        }
+    }
+    let seconds = description["timing"]["wall"].as_f64().unwrap_or_default();
+    writeln!(out, "{words}; {seconds:.2} s; written to {}", folder.display())?;
+    drop(out);
+    let unsettled: Vec<&Row> = rows.iter().filter(|row| row.status != Status::Done).collect();
+    for row in unsettled.iter().take(TOLD) {
+        tell!("warning: {}: {}", row.named(), row.reason.as_deref().unwrap_or("not converged"));
+    }
+    if unsettled.len() > TOLD {
+        tell!("warning: and {} more, see the column `reason` of sweep.csv", unsettled.len() - TOLD);
+    }
+    Ok(())
+}
+
+/// Whether everything is as it should be.
+pub fn ending(rows: &[Row]) -> Ending {
+    if rows.iter().all(|row| row.status == Status::Done) { Ending::Done } else { Ending::NotConverged }
+}

@@ -1,0 +1,83 @@
+//! Tables of scalars as CSV, made so that NumPy's `genfromtxt(…, names=True, delimiter=",")` reads them as they are: names
+//! of letters, digits and underscores, no quotes, no commas or `#` within a cell, an empty cell where there is no value.
+
+use serde_json::Value;
+use std::collections::HashSet;
+
+/// A row: its cells, each with the name of its column.
+pub type Cells = Vec<(String, String)>;
+
+/// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1.
+pub fn scalars(value: &Value) -> Cells {
+    let mut cells = Vec::new();
+    flatten("", value, &mut cells);
+    cells
+}
+
+fn flatten(name: &str, value: &Value, cells: &mut Cells) {
+    let join = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}_{key}") };
+    match value {
+        Value::Object(map) => map.iter().for_each(|(key, value)| flatten(&join(key), value, cells)),
+        Value::Array(items) => {
+            (1..).zip(items).for_each(|(number, value): (usize, _)| flatten(&join(&number.to_string()), value, cells));
+        }
+        Value::Null => cells.push((name.to_owned(), String::new())),
+        Value::String(text) => cells.push((name.to_owned(), plain(text))),
+        other => cells.push((name.to_owned(), other.to_string())),
+    }
+}
+
+/// A text as a cell: one line, commas as semicolons, nothing that begins a comment or a quotation.
+pub fn plain(text: &str) -> String {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    words.join(" ").replace(',', ";").replace(['#', '"'], "'")
+}
+
+/// Rows under one head. Columns stand in the order in which they first come; one that comes late stands behind what comes
+/// before it in its row.
+pub fn csv(rows: &[Cells]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    let mut known: HashSet<&str> = HashSet::new();
+    for row in rows {
+        let mut after = 0;
+        for (name, _) in row {
+            if known.insert(name) {
+                names.insert(after, name);
+                after += 1;
+            } else if names.get(after) == Some(&name.as_str()) {
+                after += 1;
+            } else {
+                after = 1 + names.iter().position(|own| own == name).unwrap_or(after);
+            }
+        }
+    }
+    let mut text = names.join(",") + "\n";
+    for row in rows {
+        let cells: std::collections::HashMap<&str, &str> =
+            row.iter().map(|(name, cell)| (name.as_str(), cell.as_str())).collect();
+        let line: Vec<&str> = names.iter().map(|name| cells.get(name).copied().unwrap_or("")).collect();
+        text += &(line.join(",") + "\n");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn names_and_cells_need_no_quotes() {
+        let cells = scalars(&json!({"a": {"b": [1.5, null]}, "why": "x, \"y\" #\n z", "c": true}));
+        let text = csv(&[cells]);
+        assert_eq!(text, "a_b_1,a_b_2,why,c\n1.5,,x; 'y' ' z,true\n");
+    }
+
+    #[test]
+    fn a_row_may_have_columns_that_others_have_not() {
+        let row = |cells: &[(&str, &str)]| cells.iter().map(|(n, c)| ((*n).to_owned(), (*c).to_owned())).collect();
+        let rows: [Cells; 3] =
+            [row(&[("a", "1"), ("z", "2")]), row(&[("a", "3"), ("b", "4"), ("z", "5"), ("y", "6")]), row(&[("z", "7")])];
+        assert_eq!(csv(&rows), "a,b,z,y\n1,,2,\n3,4,5,6\n,,7,\n");
+    }
+}

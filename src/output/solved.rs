@@ -1,0 +1,40 @@
+//! What a solved case leaves beside its pictures.
+
+use super::folder::Plan;
+use super::manifest::Writer;
+use super::summary::{curve, summary};
+use super::{OutputError, Timing, write_text};
+use crate::case::Case;
+use crate::run::Outcome;
+use std::path::Path;
+
+/// The files of a case with so many load steps, with their fields or without; pictures come besides.
+pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
+    let mut names = ["case.toml", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
+    if fields {
+        names.push("contact.npz".to_owned());
+        if let Some(stress) = &case.stress {
+            names.push("stress.npz".to_owned());
+            if stress.volume.is_some() {
+                names.extend((1..=steps).map(|step| format!("stress.{step:04}.vts")));
+            }
+        }
+    }
+    Plan { names, case: Some(case.to_toml()), ..Plan::new(Writer::Solve) }
+}
+
+/// Writes every scalar of a solved case into the folder where its result is gathered.
+///
+/// # Errors
+/// [`OutputError`] with the path.
+pub fn write_scalars(
+    folder: &Path,
+    case: &Case,
+    outcome: &Outcome,
+    warnings: &[String],
+    timing: Timing,
+) -> Result<(), OutputError> {
+    let summary = summary(case, warnings, outcome.change, &outcome.steps, timing);
+    write_text(&folder.join("summary.json"), &summary)?;
+    write_text(&folder.join("curve.csv"), &curve(&outcome.steps))
+}

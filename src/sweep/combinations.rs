@@ -1,0 +1,250 @@
+//! Which settings are solved together: the product of axes, their pairs, or the rows of a table; and a part of them.
+
+use super::axis::Axis;
+use std::collections::BTreeSet;
+
+/// Most combinations of a sweep.
+const MOST: usize = 1_000_000;
+
+/// Settings of the case, solved together.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Combination {
+    /// Its place in the whole sweep, from 1.
+    pub number: usize,
+    /// Its values, one a key of the sweep.
+    pub values: Vec<String>,
+}
+
+/// Keys, and the combinations of their values.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Combinations {
+    /// The keys, as in the case file.
+    pub keys: Vec<String>,
+    /// The combinations, all of them or a [part](Self::shard).
+    pub all: Vec<Combination>,
+}
+
+/// Why there are no such combinations.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CombinationsError {
+    /// Nothing is varied.
+    #[error("a sweep needs a key with several values, for example --set layers.0.thickness=0.1,0.2,0.5, or a table of them")]
+    Nothing,
+    /// A key is given twice.
+    #[error("`{0}` is given twice")]
+    Twice(String),
+    /// Pairs need as many values of each key.
+    #[error("--zip pairs values one by one: `{first}` has {first_count} of them, `{other}` {other_count}")]
+    Unequal {
+        /// One key.
+        first: String,
+        /// How many values it has.
+        first_count: usize,
+        /// Another.
+        other: String,
+        /// How many it has.
+        other_count: usize,
+    },
+    /// There are too many.
+    #[error("{0} combinations are more than {MOST}: sweep over fewer values")]
+    TooMany(String),
+    /// The table cannot be read.
+    #[error("line {line}: {reason}")]
+    Table {
+        /// Which, from 1.
+        line: usize,
+        /// What is wrong.
+        reason: String,
+    },
+}
+
+/// Keys whose values belong together, one row a set of them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Group {
+    keys: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Group {
+    /// The values of one key.
+    pub fn of(axis: &Axis) -> Self {
+        let rows = axis.values.iter().map(|value| vec![value.clone()]).collect();
+        Self { keys: vec![axis.key.clone()], rows }
+    }
+
+    /// The values of several keys, paired one by one.
+    ///
+    /// # Errors
+    /// [`CombinationsError::Unequal`].
+    pub fn zip(axes: &[Axis]) -> Result<Self, CombinationsError> {
+        let count = axes.first().map_or(0, |axis| axis.values.len());
+        if let Some(other) = axes.iter().find(|axis| axis.values.len() != count) {
+            return Err(CombinationsError::Unequal {
+                first: axes[0].key.clone(),
+                first_count: count,
+                other: other.key.clone(),
+                other_count: other.values.len(),
+            });
+        }
+        let row = |k: usize| axes.iter().map(|axis| axis.values[k].clone()).collect();
+        Ok(Self { keys: axes.iter().map(|axis| axis.key.clone()).collect(), rows: (0..count).map(row).collect() })
+    }
+
+    /// A table: the first line names the keys, each further one has a value for each, separated by commas or semicolons.
+    /// Empty lines and those that begin with `#` are skipped. A cell in double quotes may hold the separator.
+    ///
+    /// # Errors
+    /// [`CombinationsError::Table`] with the line.
+    pub fn table(text: &str) -> Result<Self, CombinationsError> {
+        let mut lines = (1..).zip(text.lines()).filter(|(_, line)| {
+            let line = line.trim_start_matches('\u{feff}').trim();
+            !line.is_empty() && !line.starts_with('#')
+        });
+        let refuse = |line: usize, reason: String| CombinationsError::Table { line, reason };
+        let Some((line, head)) = lines.next() else {
+            return Err(refuse(1, "the first line must name the keys, for example layers.0.thickness,grid.points".into()));
+        };
+        let separator = if head.contains(';') { ';' } else { ',' };
+        let keys = cells(head.trim_start_matches('\u{feff}'), separator);
+        if keys.iter().any(String::is_empty) {
+            return Err(refuse(line, "a key is empty".into()));
+        }
+        let rows = lines.map(|(line, text)| {
+            let row = cells(text, separator);
+            match row.iter().position(String::is_empty) {
+                _ if row.len() != keys.len() => {
+                    Err(refuse(line, format!("{} values for {} keys", row.len(), keys.len())))
+                }
+                Some(at) => Err(refuse(line, format!("the value of `{}` is empty", keys[at]))),
+                None => Ok(row),
+            }
+        });
+        let rows = rows.collect::<Result<_, _>>()?;
+        Ok(Self { keys, rows })
+    }
+}
+
+/// The cells of a line, without blanks around them; quotes around a cell go, doubled ones within it are one.
+fn cells(line: &str, separator: char) -> Vec<String> {
+    let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
+    let mut characters = line.chars().peekable();
+    while let Some(c) = characters.next() {
+        match c {
+            '"' if quoted && characters.peek() == Some(&'"') => cell.extend(characters.next()),
+            '"' if quoted || cell.trim().is_empty() => quoted = !quoted,
+            _ if c == separator && !quoted => cells.push(std::mem::take(&mut cell).trim().to_owned()),
+            _ => cell.push(c),
+        }
+    }
+    cells.push(cell.trim().to_owned());
+    cells
+}
+
+impl Combinations {
+    /// Every row of each group with every row of the others, the last group fastest.
+    ///
+    /// # Errors
+    /// [`CombinationsError::Nothing`] without rows, `Twice`, `TooMany`.
+    pub fn product(groups: &[Group]) -> Result<Self, CombinationsError> {
+        let keys: Vec<String> = groups.iter().flat_map(|group| group.keys.clone()).collect();
+        let mut seen = BTreeSet::new();
+        if let Some(key) = keys.iter().find(|key| !seen.insert(column(key))) {
+            return Err(CombinationsError::Twice(key.clone()));
+        }
+        let count = groups.iter().try_fold(1_usize, |count, group| count.checked_mul(group.rows.len()));
+        match count {
+            Some(0) => return Err(CombinationsError::Nothing),
+            _ if keys.is_empty() => return Err(CombinationsError::Nothing),
+            Some(count) if count <= MOST => {}
+            Some(count) => return Err(CombinationsError::TooMany(count.to_string())),
+            None => return Err(CombinationsError::TooMany("that many".to_owned())),
+        }
+        let mut all: Vec<Vec<String>> = vec![Vec::new()];
+        for group in groups {
+            let with = |row: &Vec<String>| group.rows.iter().map(|more| [&row[..], more].concat()).collect::<Vec<_>>();
+            all = all.iter().flat_map(with).collect();
+        }
+        let all = (1..).zip(all).map(|(number, values)| Combination { number, values }).collect();
+        Ok(Self { keys, all })
+    }
+
+    /// Every `of`-th combination from the `part`-th on, both counted from 1: neighbours, which take alike, go to
+    /// different parts.
+    pub fn shard(mut self, part: usize, of: usize) -> Self {
+        self.all.retain(|combination| (combination.number - 1) % of == part - 1);
+        self
+    }
+
+    /// What a combination sets, `KEY=VALUE` each.
+    pub fn settings(&self, combination: &Combination) -> Vec<String> {
+        self.keys.iter().zip(&combination.values).map(|(key, value)| format!("{key}={value}")).collect()
+    }
+}
+
+/// The name of a key's column: `layers_0_thickness` for `layers.0.thickness` and `layers[0].thickness`.
+pub fn column(key: &str) -> String {
+    key.replace(']', "").split(['.', '[']).map(str::trim).collect::<Vec<_>>().join("_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axes(texts: &[&str]) -> Vec<Axis> {
+        texts.iter().map(|text| Axis::parse(text).unwrap()).collect()
+    }
+
+    fn values(all: &Combinations) -> Vec<String> {
+        all.all.iter().map(|combination| format!("{}: {}", combination.number, combination.values.join(" "))).collect()
+    }
+
+    #[test]
+    fn a_product_has_the_last_key_fastest_and_pairs_go_together() {
+        let axes = axes(&["a=1,2", "b.0.c=x,y"]);
+        let groups: Vec<Group> = axes.iter().map(Group::of).collect();
+        let product = Combinations::product(&groups).unwrap();
+        assert_eq!(values(&product), ["1: 1 x", "2: 1 y", "3: 2 x", "4: 2 y"]);
+        assert_eq!(product.settings(&product.all[1]), ["a=1", "b.0.c=y"]);
+        let pairs = Combinations::product(&[Group::zip(&axes).unwrap()]).unwrap();
+        assert_eq!(values(&pairs), ["1: 1 x", "2: 2 y"]);
+    }
+
+    #[test]
+    fn a_table_is_a_group_and_its_faults_have_their_line() {
+        let table = Group::table("\u{feff}# mine\na ; b.c\n\n 1; \"x;\"\"y\"\"\" \n2;[0, 1]\n").unwrap();
+        let all = Combinations::product(&[table, Group::of(&Axis::parse("d=7,8").unwrap())]).unwrap();
+        assert_eq!(all.keys, ["a", "b.c", "d"]);
+        assert_eq!(values(&all), ["1: 1 x;\"y\" 7", "2: 1 x;\"y\" 8", "3: 2 [0, 1] 7", "4: 2 [0, 1] 8"]);
+        for (text, message) in [
+            ("", "line 1: the first line must name the keys"),
+            ("a,b\n1\n", "line 2: 1 values for 2 keys"),
+            ("# x\na,b\n1,\n", "line 3: the value of `b` is empty"),
+            ("a,,b\n", "line 1: a key is empty"),
+        ] {
+            assert!(Group::table(text).unwrap_err().to_string().starts_with(message), "{text}");
+        }
+    }
+
+    #[test]
+    fn parts_are_disjoint_and_make_up_the_whole() {
+        let groups = axes(&["a=1:7:7"]).iter().map(Group::of).collect::<Vec<_>>();
+        let whole = Combinations::product(&groups).unwrap();
+        let mut numbers: Vec<usize> =
+            (1..=3).flat_map(|part| whole.clone().shard(part, 3).all.into_iter().map(|own| own.number)).collect();
+        assert_eq!(whole.clone().shard(2, 3).all.iter().map(|own| own.number).collect::<Vec<_>>(), [2, 5]);
+        numbers.sort_unstable();
+        assert_eq!(numbers, [1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
+    fn what_makes_no_sweep_is_refused() {
+        let product = |texts: &[&str]| {
+            Combinations::product(&axes(texts).iter().map(Group::of).collect::<Vec<_>>()).unwrap_err().to_string()
+        };
+        assert!(product(&[]).contains("several values"));
+        assert!(product(&["layers.0.a=1,2", "layers[0].a=3,4"]).contains("given twice"));
+        assert!(product(&["a=1:2:10000", "b=1:2:10000"]).contains("100000000 combinations"));
+        let unequal = Group::zip(&axes(&["a=1,2", "b=1,2,3"])).unwrap_err().to_string();
+        assert!(unequal.contains("`a` has 2 of them, `b` 3"), "{unequal}");
+    }
+}

@@ -1,0 +1,87 @@
+//! What hears of a combination: what keeps nothing of it, and what keeps its fields, as a solved case in a folder of its own.
+
+use super::row::Ended;
+use crate::case::resources::{Job, needs};
+use crate::case::{Case, Room, plausibility};
+use crate::load::Load;
+use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, solved_plan, write_scalars};
+use crate::run::{Recorder, RunError, StepRecord};
+use crate::spectral::{Solver, Step};
+use crate::stress::StressField;
+use std::convert::Infallible;
+use std::path::Path;
+
+/// Keeps nothing of a combination but that it finds room.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fits<'a> {
+    pub(super) case: &'a Case,
+    pub(super) job: Job,
+    pub(super) room: Room,
+}
+
+impl Recorder for Fits<'_> {
+    type Error = Infallible;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        needs(self.case, points, self.job).fit(self.room)
+    }
+}
+
+/// Why it cannot be kept.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum KeepError {
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error("{}", .0.told())]
+    Run(#[from] RunError<OutputError>),
+}
+
+/// Records a combination that finds room.
+struct Keeping<'a> {
+    recording: Recording<'a>,
+    fits: Fits<'a>,
+}
+
+impl Recorder for Keeping<'_> {
+    type Error = OutputError;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        self.fits.fits(points)
+    }
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
+        self.recording.begin(solver)
+    }
+
+    fn load(&mut self, load: Load) {
+        self.recording.load(load);
+    }
+
+    fn clock(&self) -> Option<f64> {
+        self.recording.clock()
+    }
+
+    fn stresses(&mut self) {
+        self.recording.stresses();
+    }
+
+    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
+        self.recording.step(step, record, field)
+    }
+}
+
+/// Solves a case into `folder`, as `percoat solve --no-pictures` does.
+pub(super) fn keep(case: &Case, folder: &Path, fits: Fits<'_>) -> Result<Ended, KeepError> {
+    let (clock, run) = (Clock::start(), case.run());
+    let claim = RunFolder::claim(folder, solved_plan(case, run.loads.len(), true))?;
+    let recording = Recording::new(&claim, &run, case.to_toml(), clock);
+    let mut keeping = Keeping { recording, fits };
+    let outcome = run.solve(&mut keeping)?;
+    let (_, mut clock) = keeping.recording.finish()?;
+    let warnings = [outcome.warnings.clone(), plausibility::of_case(case)].concat();
+    write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;
+    claim.publish()?;
+    Ok(Ended::solved(&outcome))
+}

@@ -1,0 +1,108 @@
+//! `sweep.jsonl`: every combination that is done, one line each, appended when it is.
+//!
+//! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
+
+use super::row::Row;
+use crate::output::{OutputError, SWEEP_LOG as LOG, write_text};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The log of a sweep that goes on.
+#[derive(Debug)]
+pub struct Log {
+    path: PathBuf,
+    /// Open from the first row on.
+    file: Option<File>,
+}
+
+impl Log {
+    /// Begins the log in a folder, with the rows that are known already. The file is there from the first row on.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn begin(folder: &Path, known: &[Row]) -> Result<Self, OutputError> {
+        let mut log = Self { path: folder.join(LOG), file: None };
+        if !known.is_empty() {
+            log.open(&known.iter().map(line).collect::<String>())?;
+        }
+        Ok(log)
+    }
+
+    /// Appends a combination.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn add(&mut self, row: &Row) -> Result<(), OutputError> {
+        match &mut self.file {
+            Some(file) => {
+                file.write_all(line(row).as_bytes()).map_err(|error| OutputError::new(&self.path, error))
+            }
+            None => self.open(&line(row)),
+        }
+    }
+
+    /// The file and its first lines come at once.
+    fn open(&mut self, text: &str) -> Result<(), OutputError> {
+        write_text(&self.path, text)?;
+        let file = OpenOptions::new().append(true).open(&self.path);
+        self.file = Some(file.map_err(|error| OutputError::new(&self.path, error))?);
+        Ok(())
+    }
+}
+
+fn line(row: &Row) -> String {
+    serde_json::to_string(row).expect("a row is numbers and texts under names") + "\n"
+}
+
+/// The rows of a log, those of whole lines.
+///
+/// # Errors
+/// When it cannot be read, or a whole line is none of a log.
+pub fn read(path: &Path) -> io::Result<Vec<Row>> {
+    let text = std::fs::read_to_string(path)?;
+    let whole = text.split_inclusive('\n').filter(|line| line.ends_with('\n'));
+    let row = |(number, line): (usize, &str)| {
+        serde_json::from_str(line).map_err(|error| {
+            let reason = format!("{}, line {number} is none of a sweep: {error}", path.display());
+            io::Error::new(io::ErrorKind::InvalidData, reason)
+        })
+    };
+    (1..).zip(whole).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::row::Status;
+    use super::*;
+    use serde_json::json;
+
+    fn row(combination: usize) -> Row {
+        Row {
+            combination,
+            settings: vec![("a.b".to_owned(), "0.1".to_owned())],
+            fingerprint: "00".to_owned(),
+            status: Status::Done,
+            reason: None,
+            warnings: vec!["thin".to_owned()],
+            results: vec![json!({"mean_pressure": 0.1 + 0.2})],
+            seconds: 1.5,
+        }
+    }
+
+    #[test]
+    fn a_log_is_read_back_bit_for_bit_but_for_what_a_kill_left_of_a_line() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut log = Log::begin(folder.path(), &[row(1)]).unwrap();
+        log.add(&row(2)).unwrap();
+        log.file.as_mut().unwrap().write_all(b"{\"combination\": 3, \"sett").unwrap();
+        let path = folder.path().join(LOG);
+        assert_eq!(read(&path).unwrap(), [row(1), row(2)]);
+        // Going on cuts it off.
+        let mut log = Log::begin(folder.path(), &read(&path).unwrap()).unwrap();
+        log.add(&row(3)).unwrap();
+        assert_eq!(read(&path).unwrap(), [row(1), row(2), row(3)]);
+        std::fs::write(&path, "{\"steps\": 3}\n").unwrap();
+        assert!(read(&path).unwrap_err().to_string().contains("line 1"));
+    }
+}

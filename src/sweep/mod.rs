@@ -1,0 +1,24 @@
+//! Studies: one case, solved for many settings of its keys.
+//!
+//! [`Axis`] says which values a key takes, [`Group`] which keys change together, [`Combinations`] makes every combination of
+//! the groups, a [`Study`] solves them, and a [`Row`] says what is known of one that is done. Small grids are solved several
+//! at once, large ones one after another by all threads; the rows are the same, bit for bit.
+//!
+//! A row is kept in a [`Log`] as soon as it is done. Whoever goes on after a kill gives the study the rows of the log: those
+//! of the same case, told by a fingerprint, are not solved again.
+
+mod axis;
+mod combinations;
+mod fields;
+mod log;
+mod row;
+mod study;
+mod table;
+mod workers;
+
+pub use axis::{Axis, AxisError};
+pub use combinations::{Combination, Combinations, CombinationsError, Group, column};
+pub use log::{Log, read};
+pub use row::{Row, Status};
+pub use study::{Study, Task};
+pub use table::{description, join, table};

@@ -1,0 +1,213 @@
+//! A sweep: which combinations are solved, how many at once, and what comes out.
+
+use super::combinations::{Combination, Combinations};
+use super::fields::{Fits, keep};
+use super::row::{Ended, Row};
+use super::workers;
+use crate::case::resources::{Job, needs, refusal};
+use crate::case::{Case, CaseError, Room, Source};
+use crate::output;
+use crate::run::Sampling;
+use std::collections::HashMap;
+use std::io::Read;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Samples of the largest grid of which several combinations are solved at once, each by one thread. On larger ones all
+/// threads work on one combination after another: what several have in memory no longer fits the caches.
+const SMALL: usize = 256 * 256;
+
+/// What is done with every combination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Task {
+    /// Its load steps are solved.
+    Solve,
+    /// Its limit loads are looked for.
+    Limit,
+}
+
+/// A sweep that is checked and can begin.
+#[derive(Debug)]
+pub struct Study<'a> {
+    source: &'a Source,
+    /// What all combinations set, `KEY=VALUE`.
+    fixed: &'a [String],
+    combinations: &'a Combinations,
+    task: Task,
+    room: Room,
+    /// Where each combination leaves its fields, if they are kept.
+    fields: Option<&'a Path>,
+    planned: Vec<Planned>,
+}
+
+/// A combination before it is solved.
+#[derive(Debug)]
+struct Planned {
+    /// Its index among the combinations.
+    index: usize,
+    fingerprint: String,
+    /// What solving it takes, bytes.
+    memory: u64,
+    is_small: bool,
+}
+
+impl<'a> Study<'a> {
+    /// Reads the case of every combination. Those that are refused are rows like any other, unless all are.
+    ///
+    /// # Errors
+    /// [`CaseError`] of the first combination, when every case is refused.
+    pub fn new(
+        source: &'a Source,
+        fixed: &'a [String],
+        combinations: &'a Combinations,
+        task: Task,
+        room: Room,
+    ) -> Result<Self, CaseError> {
+        let mut study = Self { source, fixed, combinations, task, room, fields: None, planned: Vec::new() };
+        let mut first = None;
+        for (index, combination) in combinations.all.iter().enumerate() {
+            let planned = match study.case(combination) {
+                Ok(case) => {
+                    let points = match case.grid {
+                        Sampling::Points(points) => Some(points),
+                        // How far it goes is not known.
+                        Sampling::Accuracy(_) => None,
+                    };
+                    let memory = points.map_or(room.memory, |points| needs(&case, points, study.job()).memory);
+                    let is_small = points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL);
+                    Planned { index, fingerprint: fingerprint(&case, task), memory, is_small }
+                }
+                Err(error) => {
+                    first.get_or_insert(error);
+                    Planned { index, fingerprint: String::new(), memory: 0, is_small: true }
+                }
+            };
+            study.planned.push(planned);
+        }
+        match first {
+            Some(error) if study.planned.iter().all(|planned| planned.fingerprint.is_empty()) => Err(error),
+            _ => Ok(study),
+        }
+    }
+
+    /// Keeps the fields of every combination, as a solved case in `folder/NNNN`.
+    pub fn keeping_fields(self, folder: &'a Path) -> Self {
+        Self { fields: Some(folder), ..self }
+    }
+
+    /// Where a combination keeps its fields.
+    pub fn folder_of(&self, number: usize) -> Option<PathBuf> {
+        self.fields.map(|folder| folder.join(format!("{number:04}")))
+    }
+
+    /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again.
+    pub fn known(&self, rows: &[Row]) -> Vec<Row> {
+        let by_print: HashMap<&str, &Row> = rows
+            .iter()
+            .filter(|row| !row.results.is_empty())
+            .map(|row| (row.fingerprint.as_str(), row))
+            .collect();
+        let known = |planned: &Planned| {
+            let combination = &self.combinations.all[planned.index];
+            let row = *by_print.get(planned.fingerprint.as_str())?;
+            // Fields are there under the number they were solved with.
+            let has_fields = self.folder_of(combination.number).is_none_or(|folder| {
+                row.combination == combination.number && folder.join("contact.npz").is_file()
+            });
+            let settings = self.settings(combination);
+            has_fields.then(|| Row { combination: combination.number, settings, ..row.clone() })
+        };
+        self.planned.iter().filter_map(known).collect()
+    }
+
+    /// How many combinations are solved at once by `threads`.
+    pub fn workers(&self, threads: usize) -> usize {
+        let small = self.planned.iter().filter(|planned| planned.is_small);
+        let memory = small.map(|planned| planned.memory).max().unwrap_or(0).max(1);
+        usize::try_from(self.room.memory / memory).unwrap_or(usize::MAX).min(threads).max(1)
+    }
+
+    /// Solves every combination that is not among the `known` rows; `done` hears of each as it is done.
+    ///
+    /// # Errors
+    /// Those of `done`.
+    pub fn run<E>(&self, known: &[Row], mut done: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
+        let is_known = |planned: &&Planned| {
+            known.iter().any(|row| row.combination == self.combinations.all[planned.index].number)
+        };
+        let pending = self.planned.iter().filter(|planned| !is_known(planned));
+        let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
+        let workers = self.workers(rayon::current_num_threads());
+        let share = Room { memory: self.room.memory / workers as u64, ..self.room };
+        workers::each(&small, workers, |planned| self.row(planned, share), &mut done)?;
+        workers::each(&large, 1, |planned| self.row(planned, self.room), &mut done)
+    }
+
+    fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
+        self.combinations.keys.iter().cloned().zip(combination.values.iter().cloned()).collect()
+    }
+
+    fn case(&self, combination: &Combination) -> Result<Case, CaseError> {
+        Case::read(self.source, &[self.fixed, &self.combinations.settings(combination)].concat())
+    }
+
+    fn job(&self) -> Job {
+        match self.task {
+            Task::Solve => Job::Solve { pictures: false },
+            Task::Limit => Job::Limit { pictures: false },
+        }
+    }
+
+    fn row(&self, planned: &Planned, room: Room) -> Row {
+        let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
+        // One combination that brings the program down leaves the others as they are.
+        let ended = catch_unwind(AssertUnwindSafe(|| self.ended(combination, room)));
+        let Ended { status, reason, warnings, results } =
+            ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
+        Row {
+            combination: combination.number,
+            settings: self.settings(combination),
+            fingerprint: planned.fingerprint.clone(),
+            status,
+            reason,
+            warnings,
+            results,
+            seconds: started.elapsed().as_secs_f64(),
+        }
+    }
+
+    fn ended(&self, combination: &Combination, room: Room) -> Ended {
+        let case = match self.case(combination) {
+            Ok(case) => case,
+            Err(error) => return Ended::failed(error.message()),
+        };
+        if let Some(why) = refusal(&case, room, self.job()) {
+            return Ended::failed(why);
+        }
+        let mut fits = Fits { case: &case, job: self.job(), room };
+        match (self.task, self.folder_of(combination.number)) {
+            (Task::Solve, Some(folder)) => {
+                keep(&case, &folder, fits).unwrap_or_else(|error| Ended::failed(error.to_string()))
+            }
+            (Task::Solve, None) => match case.run().solve(&mut fits) {
+                Ok(outcome) => Ended::solved(&outcome),
+                Err(error) => Ended::failed(error.to_string()),
+            },
+            (Task::Limit, _) => match case.run().limits(&mut fits) {
+                Ok(limits) => Ended::limited(&limits, output::limits_json(&limits)),
+                Err(error) => Ended::failed(error.to_string()),
+            },
+        }
+    }
+}
+
+/// Of a whole case, the task and this version of percoat.
+fn fingerprint(case: &Case, task: Task) -> String {
+    let text = format!("{} {task:?}\n{}", env!("CARGO_PKG_VERSION"), case.to_toml());
+    let heights = case.counterbody().topography().map(|own| own.heights().to_owned().into_raw_vec_and_offset().0);
+    let heights = heights.unwrap_or_default();
+    let (length, checksum) = output::checksum(&mut text.as_bytes().chain(bytemuck::cast_slice(&heights)))
+        .expect("what is in memory can be read");
+    format!("{length:x}-{checksum:016x}")
+}

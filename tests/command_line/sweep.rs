@@ -1,0 +1,232 @@
+//! `percoat sweep` and `percoat merge`: every combination a row, whatever happens on the way.
+
+use crate::program::{Answer, Desk, Folder, number};
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+const CASE: &str = r#"
+title = "A small one"
+[lattice]
+kind = "square"
+period = 1.0
+[[levels]]
+shape = "paraboloid"
+radius = 1.0
+[[layers]]
+thickness = 0.2
+shear_ratio = 2.0
+poisson = 0.3
+[substrate]
+young = 1.0
+poisson = 0.3
+[load]
+mean_pressure = [0.01, 0.02]
+[grid]
+points = 32
+"#;
+
+fn desk() -> Desk {
+    let desk = Desk::new();
+    desk.write("case.toml", CASE);
+    desk
+}
+
+fn sweep(desk: &Desk, name: &str, arguments: &[&str]) -> Answer {
+    desk.percoat(&[&["sweep", "case.toml", "-o", name, "--no-pictures"], arguments].concat())
+}
+
+/// Cells of a CSV file without quotes.
+fn cells(text: &str) -> Vec<Vec<&str>> {
+    text.lines().map(|line| line.split(',').collect()).collect()
+}
+
+fn column<'a>(table: &[Vec<&'a str>], name: &str) -> Vec<&'a str> {
+    let at = table[0].iter().position(|own| *own == name).unwrap_or_else(|| panic!("no column {name}"));
+    table[1..].iter().map(|row| row[at]).collect()
+}
+
+#[test]
+fn every_combination_and_step_is_a_row_with_what_solve_finds() {
+    let desk = desk();
+    let answer = sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.3", "--set", "layers[0].poisson=0.2,0.4,0.5"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(answer.out.contains("6 of 6 combinations done"), "{}", answer.out);
+    let folder = Folder(desk.path("out"));
+    assert_eq!(folder.names(), BTreeSet::from(["sweep.csv", "sweep.json", "sweep.jsonl"].map(str::to_owned)));
+    let text = folder.text("sweep.csv");
+    let table = cells(&text);
+    assert_eq!(table[0][..5], ["combination", "layers_0_thickness", "layers_0_poisson", "status", "step"]);
+    assert_eq!(table[0].last(), Some(&"reason"));
+    let allowed = |name: &&str| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    assert!(table[0].iter().all(allowed) && table.iter().all(|row| row.len() == table[0].len()));
+    assert_eq!(column(&table, "combination").join(""), "112233445566");
+    assert_eq!(column(&table, "step").join(""), "121212121212");
+    assert_eq!(column(&table, "layers_0_poisson")[..6], ["0.2", "0.2", "0.4", "0.4", "0.5", "0.5"]);
+    // The fourth combination by itself.
+    let solved = desk.solve(
+        "alone",
+        &["case.toml", "--no-pictures", "--set", "layers.0.thickness=0.3", "--set", "layers.0.poisson=0.2"],
+    );
+    for (row, step) in (6..).zip(solved.steps()) {
+        for (name, pointer) in [("penetration", "/penetration"), ("levels_1_contact_radius", "/levels/0/contact_radius")] {
+            assert_eq!(column(&table, name)[row].parse::<f64>().unwrap(), number(&step, pointer), "{name}");
+        }
+    }
+    // Whatever the number of threads.
+    let again = ["--set", "layers.0.thickness=0.1,0.3", "--set", "layers.0.poisson=0.2,0.4,0.5", "--threads", "3"];
+    assert_eq!(sweep(&desk, "again", &again).code, 0);
+    assert_eq!(Folder(desk.path("again")).text("sweep.csv"), text);
+}
+
+#[test]
+fn what_fails_is_a_row_that_says_why() {
+    let desk = desk();
+    let answer = sweep(&desk, "out", &["--set", "layers.0.poisson=0.3,0.7", "--set", "solver.max_iterations=1,100"]);
+    answer.complains(3, &["combination 3 (layers.0.poisson=0.7", "`layers[0].poisson`"]);
+    let text = Folder(desk.path("out")).text("sweep.csv");
+    let table = cells(&text);
+    let status = ["not_converged", "not_converged", "done", "done", "failed", "failed"];
+    assert_eq!(column(&table, "status"), status);
+    assert!(column(&table, "reason")[4].contains("poisson") && column(&table, "reason")[3].is_empty());
+    assert!(column(&table, "penetration")[4].is_empty() && !column(&table, "penetration")[0].is_empty());
+    let summary: Value = serde_json::from_str(&Folder(desk.path("out")).text("sweep.json")).unwrap();
+    assert_eq!([&summary["done"], &summary["not_converged"], &summary["failed"]], [&1, &1, &2].map(|n| Value::from(*n)).each_ref());
+}
+
+#[test]
+fn what_can_be_no_sweep_is_refused_and_nothing_written() {
+    let desk = desk();
+    desk.write("table.csv", "layers.0.thickness,grid.points\n0.1\n");
+    for (arguments, words) in [
+        (&[][..], "needs a key with several values"),
+        (&["--set", "layers.0.thickness=0.3"], "needs a key with several values"),
+        (&["--set", "layers.0.thicknes=0.1,0.2"], "thickness"),
+        (&["--set", "layers.0.thickness=0.1:0.2:0"], "number of values"),
+        (&["--set", "layers.0.thickness=0.1,0.2", "--set", "grid.points=16,32,64", "--zip"], "--zip pairs"),
+        (&["--table", "table.csv"], "table.csv, line 2: 1 values for 2 keys"),
+        (&["--set", "grid.points=16,32", "--shard", "4/3"], "1 ≤ I ≤ N"),
+        (&["--set", "grid.points=16,32", "--limit"], "strength"),
+    ] {
+        let answer = sweep(&desk, "out", arguments);
+        if arguments.contains(&"--limit") {
+            // Every row says so.
+            answer.complains(3, &[words]);
+            continue;
+        }
+        answer.complains(2, &[words]);
+        assert!(!desk.path("out").exists(), "{arguments:?}");
+    }
+    fs::create_dir(desk.path("mine")).unwrap();
+    desk.write("mine/sweep.csv", "my own");
+    sweep(&desk, "mine", &["--set", "grid.points=16,32"]).complains(2, &["sweep.csv", "choose another folder"]);
+    assert_eq!(Folder(desk.path("mine")).text("sweep.csv"), "my own");
+}
+
+#[test]
+fn pairs_and_tables_make_the_same_rows() {
+    let desk = desk();
+    desk.write("table.csv", "# mine\nlayers.0.thickness; layers.0.interface\n0.1; bonded\n0.2; \"frictionless\"\n");
+    let zip = ["--zip", "--set", "layers.0.thickness=0.1,0.2", "--set", "layers.0.interface=bonded,frictionless"];
+    assert_eq!(sweep(&desk, "zip", &zip).code, 0);
+    assert_eq!(sweep(&desk, "table", &["--table", "table.csv"]).code, 0);
+    let [zip, table] = ["zip", "table"].map(|name| Folder(desk.path(name)).text("sweep.csv"));
+    assert_eq!(zip, table);
+    assert_eq!(zip.lines().count(), 5);
+}
+
+const MANY: [&str; 4] = ["--set", "layers.0.thickness=0.05:0.5:10", "--set", "layers.0.poisson=0:0.5:6"];
+
+#[test]
+fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
+    let desk = desk();
+    let larger = ["--set", "grid.points=96"];
+    assert_eq!(sweep(&desk, "whole", &[&MANY[..], &larger].concat()).code, 0);
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
+        .args(["sweep", "case.toml", "-o", "killed", "--no-pictures"])
+        .args(MANY)
+        .args(larger)
+        .current_dir(desk.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let (log, started) = (desk.path("killed/unfinished-sweep/sweep.jsonl"), Instant::now());
+    while fs::read_to_string(&log).unwrap_or_default().lines().count() < 5 {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
+        assert!(started.elapsed() < Duration::from_secs(120));
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    // As if it had been killed within a line.
+    let text = fs::read_to_string(&log).unwrap();
+    let done: Vec<&str> = text.split_inclusive('\n').filter(|line| line.ends_with('\n')).collect();
+    fs::write(&log, format!("{text}{}", &done[0][..40])).unwrap();
+    let answer = sweep(&desk, "killed", &[&MANY[..], &larger, &["--resume"]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(answer.err.contains(&format!("{} of 60 combinations are done already", done.len())), "{}", answer.err);
+    let [whole, killed] = ["whole", "killed"].map(|name| Folder(desk.path(name)));
+    assert_eq!(whole.text("sweep.csv"), killed.text("sweep.csv"));
+    assert_eq!(whole.names(), killed.names());
+    // What was done was not solved again: even the times are the same.
+    let log = killed.text("sweep.jsonl");
+    assert!(done.iter().all(|line| log.contains(line.trim_end())));
+    // Without --resume nothing is lost either, and a finished sweep can be continued by more values.
+    let more = ["--set", "layers.0.thickness=0.05:0.5:10", "--set", "layers.0.poisson=0,0.1,0.2,0.25,0.3,0.4,0.5", "--resume"];
+    let answer = sweep(&desk, "killed", &[&more[..], &larger].concat());
+    assert!(answer.err.contains("60 of 70 combinations are done already"), "{}", answer.err);
+    assert_eq!(killed.text("sweep.csv").lines().count(), 141);
+}
+
+#[test]
+fn parts_are_joined_to_the_table_of_the_whole() {
+    let desk = desk();
+    assert_eq!(sweep(&desk, "whole", &MANY).code, 0);
+    for part in ["1/3", "2/3", "3/3"] {
+        let folder = format!("parts/shard-{}", &part[..1]);
+        assert_eq!(sweep(&desk, &folder, &[&MANY[..], &["--shard", part]].concat()).code, 0);
+    }
+    let merge = |folders: &[&str]| desk.percoat(&[&["merge", "--no-pictures"], folders].concat());
+    merge(&["parts/shard-1", "parts/shard-3"]).complains(3, &["20 of 60 combinations are missing: 2, 5, 8"]);
+    let answer = merge(&["parts/shard-3", "parts/shard-1", "parts/shard-2"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let [whole, parts] = ["whole", "parts"].map(|name| Folder(desk.path(name)));
+    assert_eq!(whole.text("sweep.csv"), parts.text("sweep.csv"));
+    assert_eq!(sweep(&desk, "other", &["--set", "grid.points=16,24"]).code, 0);
+    merge(&["parts/shard-1", "other"]).complains(2, &["not parts of one sweep"]);
+    merge(&["parts/shard-1", "."]).complains(2, &["holds no sweep"]);
+}
+
+#[test]
+fn fields_are_kept_where_they_are_asked_for() {
+    let desk = desk();
+    let answer = sweep(&desk, "out", &["--keep-fields", "--set", "layers.0.thickness=0.1,0.2"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let alone = desk.solve("alone", &["case.toml", "--no-pictures", "--set", "layers.0.thickness=0.2"]);
+    assert_eq!(Folder(desk.path("out/combinations/0002")).results(), alone.results());
+}
+
+#[test]
+fn limits_of_every_combination_are_a_row() {
+    let desk = desk();
+    let strengths = ["--set", "layers.0.yield_strength=0.1", "--set", "substrate.yield_strength=0.05"];
+    let keys = ["--set", "layers.0.shear_ratio=1,2", "--limit", "--json"];
+    let answer = sweep(&desk, "out", &[&strengths[..], &keys].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let printed: Value = serde_json::from_str(&answer.out).unwrap();
+    assert_eq!((&printed["task"], &printed["done"]), (&"limit".into(), &2.into()));
+    let text = Folder(desk.path("out")).text("sweep.csv");
+    let table = cells(&text);
+    let limits: Vec<f64> = column(&table, "first_mean_pressure").iter().map(|cell| cell.parse().unwrap()).collect();
+    assert!(limits.len() == 2 && limits.iter().all(|limit| *limit > 0.0));
+    let own = desk.percoat(&[&["limit", "case.toml", "-o", "own", "--no-pictures"], &strengths[..]].concat());
+    assert_eq!(own.code, 0, "{}", own.err);
+    let own: Value = serde_json::from_str(&Folder(desk.path("own")).text("limit.json")).unwrap();
+    assert_eq!(limits[1], number(&own, "/first/mean_pressure"));
+    let material = column(&table, "first_material")[1];
+    assert_eq!(column(&table, &format!("yield_of_material_{material}_mean_pressure"))[1], limits[1].to_string());
+}
