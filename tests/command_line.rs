@@ -8,6 +8,8 @@ mod archive;
 mod cases;
 #[path = "command_line/compare.rs"]
 mod compare;
+#[path = "command_line/daily.rs"]
+mod daily;
 #[path = "command_line/exit_codes.rs"]
 mod exit_codes;
 #[path = "command_line/folder.rs"]

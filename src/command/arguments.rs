@@ -1,8 +1,8 @@
 //! The command line as it is typed.
 
+use super::help;
 #[cfg(feature = "validate")]
 use super::options::Studies;
-use super::help;
 use super::options::{Changes, Common, Saying, Work};
 use super::pictures::PictureOptions;
 use super::solve::SolveOptions;
@@ -22,8 +22,8 @@ use std::process::ExitCode;
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
-    /// When messages are coloured
-    #[arg(long, value_enum, default_value_t, global = true, value_name = "WHEN")]
+    /// When messages are coloured: auto, always or never
+    #[arg(long, value_enum, default_value_t, global = true, value_name = "WHEN", hide_possible_values = true)]
     color: Colour,
 }
 

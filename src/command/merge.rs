@@ -63,7 +63,8 @@ fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
         .map_err(|error| Failure::refused(format!("{} is no description of a sweep: {error}", path.display())))?;
     let log = place.join(SWEEP_LOG);
     // A part that was killed before its first combination has no log.
-    let rows = if log.is_file() { read(&log).map_err(|error| Failure::Input { path: log, error })? } else { Vec::new() };
+    let rows =
+        if log.is_file() { read(&log).map_err(|error| Failure::Input { path: log, error })? } else { Vec::new() };
     Ok((description, rows))
 }
 

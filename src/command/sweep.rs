@@ -45,7 +45,9 @@ pub struct SweepOptions {
 
 fn shard(text: &str) -> Result<(usize, usize), String> {
     let parts = text.split_once('/').and_then(|(part, of)| Some((part.parse().ok()?, of.parse().ok()?)));
-    parts.filter(|(part, of)| (1..=*of).contains(part)).ok_or_else(|| "must be I/N with 1 ≤ I ≤ N, such as 3/8".to_owned())
+    parts
+        .filter(|(part, of)| (1..=*of).contains(part))
+        .ok_or_else(|| "must be I/N with 1 ≤ I ≤ N, such as 3/8".to_owned())
 }
 
 /// How often the table on disk is made again while the sweep goes on.
@@ -97,8 +99,7 @@ pub fn run(
     let title = whole.as_ref().map_or("", |case| &case.title);
     let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
     let task = if options.limit { "limit" } else { "solve" };
-    let describe =
-        |rows: &[Row]| sweep::description(title, &text, task, of, rows, started.elapsed().as_secs_f64());
+    let describe = |rows: &[Row]| sweep::description(title, &text, task, of, rows, started.elapsed().as_secs_f64());
     // For who merges a part that was killed.
     write_text(&staging.join("sweep.json"), &format!("{:#}\n", describe(&rows)))?;
     let (count, known) = (combinations.all.len(), rows.clone());

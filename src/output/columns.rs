@@ -76,8 +76,11 @@ mod tests {
     #[test]
     fn a_row_may_have_columns_that_others_have_not() {
         let row = |cells: &[(&str, &str)]| cells.iter().map(|(n, c)| ((*n).to_owned(), (*c).to_owned())).collect();
-        let rows: [Cells; 3] =
-            [row(&[("a", "1"), ("z", "2")]), row(&[("a", "3"), ("b", "4"), ("z", "5"), ("y", "6")]), row(&[("z", "7")])];
+        let rows: [Cells; 3] = [
+            row(&[("a", "1"), ("z", "2")]),
+            row(&[("a", "3"), ("b", "4"), ("z", "5"), ("y", "6")]),
+            row(&[("z", "7")]),
+        ];
         assert_eq!(csv(&rows), "a,b,z,y\n1,,2,\n3,4,5,6\n,,7,\n");
     }
 }

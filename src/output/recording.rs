@@ -116,7 +116,8 @@ impl Recorder for Recording<'_> {
         let files = self.files.as_mut().expect(BEGUN);
         if let Some(fields) = &mut files.fields {
             fields.add(step, record.reading.mean_pressure)?;
-        } else if let (Some(field), Some(cut)) = (field, self.stress.as_ref().and_then(|request| request.cut.as_ref())) {
+        } else if let (Some(field), Some(cut)) = (field, self.stress.as_ref().and_then(|request| request.cut.as_ref()))
+        {
             self.clock.turn(Phase::Stress);
             files.section = Some(field.section(&cut.line, &cut.depths(step.problem().half_space())));
             self.clock.turn(Phase::Output);

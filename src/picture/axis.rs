@@ -11,6 +11,16 @@ pub enum Scale {
     Degrees,
 }
 
+impl Scale {
+    /// What stands at a part of the way from one value to another.
+    pub(super) fn between(self, first: f64, last: f64, part: f64) -> f64 {
+        match self {
+            Self::Linear | Self::Degrees => first + (last - first) * part,
+            Self::Log => first * (last / first).powf(part),
+        }
+    }
+}
+
 /// An axis of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {

@@ -88,7 +88,7 @@ impl Map<'_> {
         let place = |row: f64, column: f64| {
             let across = (column + 0.5) / columns as f64;
             let down = (row + 0.5) / rows as f64;
-            [x0 + (x1 - x0) * across, y1 + (y0 - y1) * down]
+            [self.x.scale.between(x0, x1, across), self.y.scale.between(y1, y0, down)]
         };
         let table = match &self.fill {
             Fill::Values(bar, _) => bar.colours.table(),

@@ -136,7 +136,8 @@ impl Keys {
             let Some(x) = number(row, *index) else { continue };
             // Load steps have curves of their own where nothing else has.
             let steps = if self.names.len() == 1 { row.results.len() } else { 1 };
-            for (step, result) in row.results.iter().enumerate().skip(row.results.len() - steps.min(row.results.len())) {
+            for (step, result) in row.results.iter().enumerate().skip(row.results.len() - steps.min(row.results.len()))
+            {
                 let load = result.get("mean_pressure").and_then(Value::as_f64);
                 let own = match load {
                     Some(load) if steps > 1 => (step, format!("p̄ = {}", short(load))),
@@ -153,7 +154,7 @@ impl Keys {
             Curve { label, points, style, colour }
         });
         let x = Axis { scale: scale(values), ..Axis::linear(&self.names[*index]) };
-        Chart { title: quantity.name.clone(), x, y: Axis::linear(&quantity.name), curves: curves.collect() }
+        Chart { title: String::new(), x, y: Axis::linear(&quantity.name), curves: curves.collect() }
     }
 
     /// A map for each of the first quantities.
@@ -196,7 +197,7 @@ impl Keys {
                 let span = if span[0] < span[1] { span } else { [0.0, span[1].abs().max(1e-300)] };
                 let bar = Bar { label: quantity.name.clone(), colours: ColourMap::Sequential, span, apart: false };
                 Map {
-                    title: quantity.name.clone(),
+                    title: String::new(),
                     x: x.axis(&self.names[along.0]),
                     y: y.axis(&self.names[up.0]),
                     aspect: 0.8,
@@ -314,6 +315,14 @@ mod tests {
         let labels: Vec<&str> = chart.curves.iter().map(|curve| &curve.label[..]).collect();
         assert_eq!(labels, ["kind soft", "kind hard"]);
         assert_eq!(chart.curves[0].points, [[0.0, 0.0], [2.0, 4.0], [3.0, 6.0]]);
+    }
+
+    #[test]
+    fn a_map_over_a_logarithmic_key_has_cells_of_one_width() {
+        let cells = Cells::new(&[0.01, 0.1, 1.0, 10.0]);
+        let [low, high] = cells.axis("").range.unwrap();
+        let quarter = |part: f64| cells.at(cells.scale.between(low, high, part));
+        assert_eq!([0.01, 0.24, 0.26, 0.49, 0.51, 0.74, 0.76, 0.99].map(quarter), [0, 0, 1, 1, 2, 2, 3, 3]);
     }
 
     #[test]

@@ -16,7 +16,9 @@ pub struct Axis {
 
 /// Why a text is no axis.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("--set {text}: {reason}; write KEY=V1,V2,…, KEY=A:B:N or KEY=A:B:N:log, for example layers.0.thickness=0.1:1:5:log")]
+#[error(
+    "--set {text}: {reason}; write KEY=V1,V2,…, KEY=A:B:N or KEY=A:B:N:log, for example layers.0.thickness=0.1:1:5:log"
+)]
 pub struct AxisError {
     text: String,
     reason: String,
@@ -85,7 +87,15 @@ fn range(text: &str) -> Option<Result<Vec<String>, String>> {
             Some("log") => return Err("both ends of a geometric range must be above 0".to_owned()),
             Some(other) => return Err(format!("a range is `linear` or `log`, not `{other}`")),
         };
-        let inner = |k: usize, value: f64| if k == 0 { from } else if k + 1 == count { to } else { short(value) };
+        let inner = |k: usize, value: f64| {
+            if k == 0 {
+                from
+            } else if k + 1 == count {
+                to
+            } else {
+                short(value)
+            }
+        };
         Ok(values.into_iter().enumerate().map(|(k, value)| plain(inner(k, value))).collect())
     };
     Some(spaced())

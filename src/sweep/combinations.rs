@@ -28,7 +28,9 @@ pub struct Combinations {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CombinationsError {
     /// Nothing is varied.
-    #[error("a sweep needs a key with several values, for example --set layers.0.thickness=0.1,0.2,0.5, or a table of them")]
+    #[error(
+        "a sweep needs a key with several values, for example --set layers.0.thickness=0.1,0.2,0.5, or a table of them"
+    )]
     Nothing,
     /// A key is given twice.
     #[error("`{0}` is given twice")]
@@ -102,7 +104,10 @@ impl Group {
         });
         let refuse = |line: usize, reason: String| CombinationsError::Table { line, reason };
         let Some((line, head)) = lines.next() else {
-            return Err(refuse(1, "the first line must name the keys, for example layers.0.thickness,grid.points".into()));
+            return Err(refuse(
+                1,
+                "the first line must name the keys, for example layers.0.thickness,grid.points".into(),
+            ));
         };
         let separator = if head.contains(';') { ';' } else { ',' };
         let keys = cells(head.trim_start_matches('\u{feff}'), separator);

@@ -35,9 +35,7 @@ impl Log {
     /// When it cannot be written.
     pub fn add(&mut self, row: &Row) -> Result<(), OutputError> {
         match &mut self.file {
-            Some(file) => {
-                file.write_all(line(row).as_bytes()).map_err(|error| OutputError::new(&self.path, error))
-            }
+            Some(file) => file.write_all(line(row).as_bytes()).map_err(|error| OutputError::new(&self.path, error)),
             None => self.open(&line(row)),
         }
     }

@@ -68,7 +68,8 @@ impl Ended {
 
     pub(super) fn solved(outcome: &Outcome) -> Self {
         let stopped = outcome.steps.iter().find(|step| !step.converged()).map(StepRecord::stop_reason);
-        let inaccurate = || outcome.end.filter(|_| !outcome.is_accurate()).map(|end| format!("accuracy not reached: {end}"));
+        let inaccurate =
+            || outcome.end.filter(|_| !outcome.is_accurate()).map(|end| format!("accuracy not reached: {end}"));
         let reason = stopped.or_else(inaccurate);
         let results = outcome.steps.iter().map(|step| {
             let mut step = json!(step);

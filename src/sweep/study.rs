@@ -103,18 +103,15 @@ impl<'a> Study<'a> {
 
     /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again.
     pub fn known(&self, rows: &[Row]) -> Vec<Row> {
-        let by_print: HashMap<&str, &Row> = rows
-            .iter()
-            .filter(|row| !row.results.is_empty())
-            .map(|row| (row.fingerprint.as_str(), row))
-            .collect();
+        let by_print: HashMap<&str, &Row> =
+            rows.iter().filter(|row| !row.results.is_empty()).map(|row| (row.fingerprint.as_str(), row)).collect();
         let known = |planned: &Planned| {
             let combination = &self.combinations.all[planned.index];
             let row = *by_print.get(planned.fingerprint.as_str())?;
             // Fields are there under the number they were solved with.
-            let has_fields = self.folder_of(combination.number).is_none_or(|folder| {
-                row.combination == combination.number && folder.join("contact.npz").is_file()
-            });
+            let has_fields = self
+                .folder_of(combination.number)
+                .is_none_or(|folder| row.combination == combination.number && folder.join("contact.npz").is_file());
             let settings = self.settings(combination);
             has_fields.then(|| Row { combination: combination.number, settings, ..row.clone() })
         };
@@ -133,9 +130,8 @@ impl<'a> Study<'a> {
     /// # Errors
     /// Those of `done`.
     pub fn run<E>(&self, known: &[Row], mut done: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
-        let is_known = |planned: &&Planned| {
-            known.iter().any(|row| row.combination == self.combinations.all[planned.index].number)
-        };
+        let is_known =
+            |planned: &&Planned| known.iter().any(|row| row.combination == self.combinations.all[planned.index].number);
         let pending = self.planned.iter().filter(|planned| !is_known(planned));
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());

@@ -23,7 +23,9 @@ pub fn join<'a>(parts: impl Iterator<Item = &'a Vec<Row>>) -> Result<Vec<Row>, S
     for row in parts.flatten() {
         match rows.entry(row.combination) {
             Entry::Vacant(place) => drop(place.insert(row.clone())),
-            Entry::Occupied(there) if there.get().fingerprint != row.fingerprint || there.get().settings != row.settings => {
+            Entry::Occupied(there)
+                if there.get().fingerprint != row.fingerprint || there.get().settings != row.settings =>
+            {
                 return Err(format!("two parts have different {}: they are not of one sweep", row.named()));
             }
             // What was solved twice is the same, unless one of them failed.

@@ -56,10 +56,15 @@ mod tests {
         let items: Vec<usize> = (0..50).collect();
         for workers in [0, 1, 2, 7, 100] {
             let mut seen = Vec::new();
-            each(&items, workers, |&k| k * k, |square| {
-                seen.push(square);
-                Ok::<_, ()>(())
-            })
+            each(
+                &items,
+                workers,
+                |&k| k * k,
+                |square| {
+                    seen.push(square);
+                    Ok::<_, ()>(())
+                },
+            )
             .unwrap();
             assert_eq!(seen.len(), 50);
             assert_eq!(seen.into_iter().collect::<BTreeSet<_>>(), items.iter().map(|k| k * k).collect());
@@ -70,10 +75,15 @@ mod tests {
     fn workers_have_one_thread_and_one_alone_has_all() {
         let threads = |workers| {
             let mut seen = BTreeSet::new();
-            each(&[0; 8], workers, |_| rayon::current_num_threads(), |n| {
-                seen.insert(n);
-                Ok::<_, ()>(())
-            })
+            each(
+                &[0; 8],
+                workers,
+                |_| rayon::current_num_threads(),
+                |n| {
+                    seen.insert(n);
+                    Ok::<_, ()>(())
+                },
+            )
             .unwrap();
             seen
         };

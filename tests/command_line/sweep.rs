@@ -52,7 +52,8 @@ fn column<'a>(table: &[Vec<&'a str>], name: &str) -> Vec<&'a str> {
 #[test]
 fn every_combination_and_step_is_a_row_with_what_solve_finds() {
     let desk = desk();
-    let answer = sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.3", "--set", "layers[0].poisson=0.2,0.4,0.5"]);
+    let answer =
+        sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.3", "--set", "layers[0].poisson=0.2,0.4,0.5"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
     assert!(answer.out.contains("6 of 6 combinations done"), "{}", answer.out);
     let folder = Folder(desk.path("out"));
@@ -72,7 +73,9 @@ fn every_combination_and_step_is_a_row_with_what_solve_finds() {
         &["case.toml", "--no-pictures", "--set", "layers.0.thickness=0.3", "--set", "layers.0.poisson=0.2"],
     );
     for (row, step) in (6..).zip(solved.steps()) {
-        for (name, pointer) in [("penetration", "/penetration"), ("levels_1_contact_radius", "/levels/0/contact_radius")] {
+        for (name, pointer) in
+            [("penetration", "/penetration"), ("levels_1_contact_radius", "/levels/0/contact_radius")]
+        {
             assert_eq!(column(&table, name)[row].parse::<f64>().unwrap(), number(&step, pointer), "{name}");
         }
     }
@@ -94,7 +97,10 @@ fn what_fails_is_a_row_that_says_why() {
     assert!(column(&table, "reason")[4].contains("poisson") && column(&table, "reason")[3].is_empty());
     assert!(column(&table, "penetration")[4].is_empty() && !column(&table, "penetration")[0].is_empty());
     let summary: Value = serde_json::from_str(&Folder(desk.path("out")).text("sweep.json")).unwrap();
-    assert_eq!([&summary["done"], &summary["not_converged"], &summary["failed"]], [&1, &1, &2].map(|n| Value::from(*n)).each_ref());
+    assert_eq!(
+        [&summary["done"], &summary["not_converged"], &summary["failed"]],
+        [&1, &1, &2].map(|n| Value::from(*n)).each_ref()
+    );
 }
 
 #[test]
@@ -176,7 +182,8 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
     let log = killed.text("sweep.jsonl");
     assert!(done.iter().all(|line| log.contains(line.trim_end())));
     // Without --resume nothing is lost either, and a finished sweep can be continued by more values.
-    let more = ["--set", "layers.0.thickness=0.05:0.5:10", "--set", "layers.0.poisson=0,0.1,0.2,0.25,0.3,0.4,0.5", "--resume"];
+    let more =
+        ["--set", "layers.0.thickness=0.05:0.5:10", "--set", "layers.0.poisson=0,0.1,0.2,0.25,0.3,0.4,0.5", "--resume"];
     let answer = sweep(&desk, "killed", &[&more[..], &larger].concat());
     assert!(answer.err.contains("60 of 70 combinations are done already"), "{}", answer.err);
     assert_eq!(killed.text("sweep.csv").lines().count(), 141);

@@ -1,0 +1,112 @@
+//! What people expect of any command line: help, completions, a manual, colour, standard input, JSON.
+
+use crate::program::{Desk, Folder};
+use serde_json::Value;
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+const COMMANDS: [&str; 11] =
+    ["solve", "compare", "limit", "sweep", "merge", "kernel", "check", "cases", "validate", "completions", "man"];
+
+#[test]
+fn every_help_has_an_example_and_the_exit_codes_and_fits_a_terminal() {
+    let desk = Desk::new();
+    let listed = desk.percoat(&["--help"]).out;
+    for command in COMMANDS {
+        assert!(listed.contains(&format!("\n  {command}")), "{command} does not stand in\n{listed}");
+        let help = desk.percoat(&[command, "--help"]).out;
+        for words in ["Examples:\n  percoat ", "Exit codes: 0 "] {
+            assert!(help.contains(words), "\"{words}\" does not stand in\n{help}");
+        }
+        let own = help.split("Examples:").nth(1).unwrap();
+        assert!(own.lines().all(|line| line.chars().count() <= 80), "{own}");
+    }
+    let named = listed.lines().filter(|line| line.starts_with("  ") && !line.starts_with("   ")).count();
+    assert!(named >= COMMANDS.len() && listed.contains("Exit codes"), "{listed}");
+}
+
+#[test]
+fn examples_of_the_help_are_read() {
+    // What a case or a table needs to be there.
+    let desk = Desk::new();
+    desk.write("mine.toml", desk.percoat(&["cases", "dlc-on-steel"]).out);
+    desk.write("settings.csv", "layers.0.thickness\n1.5\n");
+    for command in COMMANDS {
+        let help = desk.percoat(&[command, "--help"]).out;
+        let examples = help.split("Examples:\n").nth(1).unwrap().split("\n\n").next().unwrap();
+        for example in examples.lines() {
+            let words = example.split('#').next().unwrap().split(['>', '|', '<']).next().unwrap().split_whitespace();
+            let words: Vec<&str> = words.skip(1).collect();
+            // What is refused as a command line says so with its usage; what is asked for is not done here.
+            let probe: Vec<&str> = words.iter().copied().chain(["--help"]).collect();
+            assert_eq!(desk.percoat(&probe).code, 0, "{example}");
+            let known = words[1..].iter().filter(|word| word.starts_with("--"));
+            let unknown: Vec<_> = known.filter(|word| !help.contains(**word)).collect();
+            assert!(unknown.is_empty(), "{example}: {unknown:?}");
+        }
+    }
+}
+
+#[test]
+fn completions_and_the_manual_know_every_command() {
+    let desk = Desk::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let answer = desk.percoat(&["completions", shell]);
+        assert_eq!(answer.code, 0, "{}", answer.err);
+        assert!(COMMANDS.iter().all(|command| answer.out.contains(command)), "{shell}");
+    }
+    let page = desk.percoat(&["man"]).out;
+    assert!(page.contains(".TH percoat 1") && COMMANDS.iter().all(|command| page.contains(command)), "{page}");
+    let page = desk.percoat(&["man", "sweep"]).out;
+    assert!(page.contains("\\-\\-resume") && page.contains("Exit codes"), "{page}");
+    desk.percoat(&["man", "weep"]).complains(2, &["no command weep", "sweep"]);
+    desk.percoat(&["completions", "tcsh"]).complains(2, &["tcsh", "bash"]);
+}
+
+#[test]
+fn colour_is_as_it_is_asked_for() {
+    let desk = Desk::new();
+    let wrong = ["check", "fig2", "--set", "layers.0.poisson=2"];
+    let with = |colour: &[&str]| desk.percoat(&[&wrong[..], colour].concat()).err.contains('\u{1b}');
+    assert!(!with(&[]) && !with(&["--color", "never"]) && with(&["--color=always"]) && with(&["--color", "always"]));
+    assert!(desk.percoat(&["--color=always", "solv"]).err.contains('\u{1b}'));
+    desk.percoat(&["check", "fig2", "--color", "pink"]).complains(2, &["pink", "auto"]);
+}
+
+#[test]
+fn a_case_comes_from_standard_input_and_its_summary_goes_to_standard_output() {
+    let desk = Desk::new();
+    let case = desk.percoat(&["cases", "fig2"]).out;
+    let run = |arguments: &[&str]| {
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
+            .args(arguments)
+            .current_dir(desk.path(""))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        child.stdin.take().unwrap().write_all(case.as_bytes()).unwrap();
+        child.wait_with_output().unwrap()
+    };
+    let output = run(&["solve", "-", "--json", "--no-pictures", "--no-fields", "--set", "grid.points=48"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let folder = Folder(desk.path("out/stdin"));
+    assert_eq!(printed, folder.summary());
+    let names: Vec<String> = folder.names().into_iter().collect();
+    assert_eq!(names, ["case.toml", "curve.csv", "summary.json"], "--no-fields keeps scalars");
+    let output = run(&["check", "-", "--set", "layers.0.poisson=2"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("poisson"));
+}
+
+#[test]
+fn studies_are_listed_and_not_run() {
+    let desk = Desk::new();
+    let listed = desk.percoat(&["validate", "--list"]);
+    assert!(listed.code == 0 && listed.out.lines().count() > 15 && listed.out.contains("\nhertz "), "{}", listed.out);
+    assert_eq!(desk.percoat(&["validate", "paper", "--list"]).out.lines().count(), 7);
+    desk.percoat(&["validate", "nothing", "--list"]).complains(2, &["no study nothing"]);
+    assert!(desk.names().is_empty());
+}
