@@ -34,5 +34,7 @@ mod solve;
 mod stress;
 #[path = "command_line/topography.rs"]
 mod topography;
+#[path = "command_line/units.rs"]
+mod units;
 #[path = "command_line/validate.rs"]
 mod validate;

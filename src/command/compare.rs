@@ -70,7 +70,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let comparison = comparison.map_err(Failure::refused)?;
 
     write_text(&claim.staging().join("compare.json"), &compare_json(&comparison, &case, loads.len()))?;
-    pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &comparison))?;
+    pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
     interruption::publish(claim, &folder, common.quiet)?;
     if !common.quiet {
         let mut out = terminal::out();
@@ -80,8 +80,8 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
         if loads.len() > 1 {
             writeln!(out, "the last of {} load steps", loads.len())?;
         }
-        writeln!(out, "\n{}\n\n{}\n", table::readings(&comparison), table::differences(&comparison))?;
-        if let Some(text) = table::stresses(&comparison) {
+        writeln!(out, "\n{}\n\n{}\n", table::readings(&comparison, &case.units()), table::differences(&comparison))?;
+        if let Some(text) = table::stresses(&comparison, &case.units()) {
             writeln!(out, "{text}")?;
         }
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;

@@ -68,7 +68,7 @@ impl PictureOptions {
             }),
             ("section", &|| Some(picture::section(last, touching_section?))),
             ("lines", &|| Some(picture::lines(last, touching_section?))),
-            ("curve", &|| picture::load_curves(&last.title, last.step.problem(), steps)),
+            ("curve", &|| picture::load_curves(&last.title, last.step.problem(), &last.units, steps)),
         ];
         pictures.par_iter().try_for_each(|(name, draw)| self.write(folder, name, draw))
     }

@@ -40,6 +40,7 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let steps = &outcome.steps;
     if let (Some(last), Some(record), true) = (outcome.last, steps.last(), pictures.wanted()) {
         let snapshot = Snapshot::new(&case.title, last, record.reading.clone()).with_strength(record.strength.clone());
+        let snapshot = snapshot.with_units(case.units());
         let spinner = spinner("drawing pictures", common);
         pictures.draw(&claim.staging(), &snapshot, section.as_ref(), steps)?;
         spinner.finish_and_clear();
@@ -72,11 +73,12 @@ fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), F
     if !case.title.is_empty() {
         writeln!(out, "{}", case.title)?;
     }
-    writeln!(out, "\n{}\n\n{}", table::steps(steps), table::solved(steps))?;
-    if let Some(largest) = table::largest_stresses(steps) {
+    let units = case.units();
+    writeln!(out, "\n{}\n\n{}", table::steps(steps, &units), table::solved(steps))?;
+    if let Some(largest) = table::largest_stresses(steps, &units) {
         writeln!(out, "\n{largest}\n")?;
     }
-    if let Some(strength) = table::utilisations(steps, case.problem().half_space()) {
+    if let Some(strength) = table::utilisations(steps, case.problem().half_space(), &units) {
         writeln!(out, "\n{strength}\n")?;
     }
     if let Some(errors) = table::largest_errors(steps) {

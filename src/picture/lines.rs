@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
+use super::number::degrees;
 use super::rows::Quantity;
 use super::snapshot::Snapshot;
 use crate::stress::Section;
@@ -35,7 +36,7 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
     };
     let chart = |title: &str, quantity: Quantity, y: Axis| Chart {
         title: title.to_owned(),
-        x: Axis::linear(snapshot.units.length("distance", "s")),
+        x: Axis::linear(snapshot.units.length_of("distance", "s")),
         y,
         curves: (1..)
             .zip(section.face_rows())
@@ -47,13 +48,12 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
             })
             .collect(),
     };
-    let along = Axis::linear(snapshot.units.pressure("stress along the section", "σₛ"));
-    let tau1 = Axis::linear(snapshot.units.pressure("principal shear stress", "τ₁"));
+    let along = Axis::linear(snapshot.units.pressure_of("stress along the section", "σₛ"));
+    let tau1 = Axis::linear(snapshot.units.pressure_of("principal shear stress", "τ₁"));
     let charts = [
         chart("(a) tension and compression", Quantity::Along, along),
         chart("(b) principal shear stress", Quantity::Tau1, tau1),
     ];
-    let [dx, dy] = section.line.direction;
-    let what = format!("Lines along {:.0}° from the x axis.", dy.atan2(dx).to_degrees());
+    let what = format!("Lines along {} from the x axis.", degrees(section.line.direction));
     plots(&snapshot.caption(&what), &charts)
 }

@@ -4,23 +4,23 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
+use super::quantity::Quantity;
 use super::snapshot::caption;
-use super::units::Units;
 use super::utilisations::{utilisation_axis, utilisation_curves};
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
 use crate::stress::Peak;
 use crate::stress::maxima::{Carried, Extremes};
+use crate::units::Units;
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
-pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Option<Canvas> {
+pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepRecord]) -> Option<Canvas> {
     if steps.len() < 2 || !steps.iter().any(|step| step.reading.mean_pressure > 0.0) {
         return None;
     }
-    let units = Units::of(problem);
     let levels = problem.counterbody().levels().len();
-    let run = Run { steps, levels, units: &units, logarithmic: logarithmic(steps) };
+    let run = Run { steps, levels, units, logarithmic: logarithmic(steps) };
     let mut charts = vec![run.peak_pressure(), run.extent(), run.penetration()];
     if run.levels > 1 {
         charts.push(run.shares());
@@ -33,7 +33,7 @@ pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Opti
     }
     let [n1, n2] = steps[0].points;
     let more = [format!("{} load steps", steps.len()), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    Some(plots(&caption(title, problem, &more), &charts))
+    Some(plots(&caption(title, problem, units, &more), &charts))
 }
 
 struct Run<'a> {
@@ -45,7 +45,7 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn axis(&self, label: String) -> Axis {
+    fn axis(&self, label: Quantity) -> Axis {
         if self.logarithmic { Axis::log(label) } else { Axis::linear(label) }
     }
 
@@ -54,7 +54,7 @@ impl Run<'_> {
         let last = loads.clone().fold(0.0, f64::max);
         let least = loads.fold(f64::INFINITY, f64::min);
         let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
-        let x = self.axis(self.units.pressure("mean pressure", "p̄")).from_to(first, last);
+        let x = self.axis(self.units.pressure_of("mean pressure", "p̄")).from_to(first, last);
         Chart { title: title.to_owned(), x, y, curves }
     }
 
@@ -84,21 +84,21 @@ impl Run<'_> {
     }
 
     fn peak_pressure(&self) -> Chart {
-        let label = self.units.pressure("peak pressure", "p");
+        let label = self.units.pressure_of("peak pressure", "p");
         self.chart("peak pressure", self.axis(label), self.by_level(Reading::finite_peak, LevelReading::finite_peak))
     }
 
     fn extent(&self) -> Chart {
         let (title, label) = match self.levels {
-            0 => ("contact area", "fraction of the cell in contact".to_owned()),
-            _ => ("contact radius", self.units.length("contact radius", "a")),
+            0 => ("contact area", "fraction of the cell in contact".into()),
+            _ => ("contact radius", self.units.length_of("contact radius", "a")),
         };
         let curves = self.by_level(|reading| Some(reading.contact_fraction), |level| level.contact_radius);
         self.chart(title, self.axis(label), curves)
     }
 
     fn penetration(&self) -> Chart {
-        let label = self.units.length("additional displacement", "δ");
+        let label = self.units.length_of("additional displacement", "δ");
         let curve = self.curve("", 0, |step| step.reading.penetration);
         self.chart("additional displacement", self.axis(label), vec![curve])
     }
@@ -127,9 +127,9 @@ impl Run<'_> {
             };
             (0..materials).map(of).collect()
         };
-        let tau1 = self.units.pressure("largest principal shear stress", "τ₁");
-        let tension = self.units.pressure("largest tension", "σ₁");
-        let mises = self.units.pressure("largest stress of von Mises", "σᵥ");
+        let tau1 = self.units.pressure_of("largest principal shear stress", "τ₁");
+        let tension = self.units.pressure_of("largest tension", "σ₁");
+        let mises = self.units.pressure_of("largest stress of von Mises", "σᵥ");
         vec![
             self.chart("principal shear stress", self.axis(tau1), curves(|extremes| extremes.tau1)),
             self.chart("tension", Axis::linear(tension), curves(|extremes| extremes.tension)),
@@ -152,7 +152,7 @@ impl Run<'_> {
                 curve(index, "shear", |carried| carried.shear, false),
             ]
         });
-        let y = Axis::linear(self.units.pressure("largest tension and shear", "σ, τ"));
+        let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
         (interfaces > 0).then(|| self.chart("interfaces", y, curves.collect()))
     }
 
@@ -196,6 +196,9 @@ mod tests {
         };
         let (open, closed) = ([-0.2, -0.1].map(&mut record), [0.01, 0.02].map(&mut record));
         let problem = solver.problem();
-        assert!(load_curves("", problem, &open).is_none() && load_curves("", problem, &closed).is_some());
+        let units = Units::of(problem);
+        assert!(
+            load_curves("", problem, &units, &open).is_none() && load_curves("", problem, &units, &closed).is_some()
+        );
     }
 }

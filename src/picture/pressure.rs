@@ -15,7 +15,7 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
-    let bar = Bar::sequential(snapshot.units.pressure("contact pressure", "p"), most);
+    let bar = Bar::sequential(snapshot.units.pressure_of("contact pressure", "p"), most);
     let [x, y] = axes(snapshot, window);
     let mut over = unit_cell(snapshot);
     over.extend(numbers(snapshot, window, |place| {
@@ -49,8 +49,8 @@ pub fn aspect([[x0, x1], [y0, y1]]: Window) -> f64 {
 /// Axes along the surface.
 pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
     [
-        Axis::linear(snapshot.units.length("", "x")).from_to(x0, x1),
-        Axis::linear(snapshot.units.length("", "y")).from_to(y0, y1),
+        Axis::linear(snapshot.units.length_of("", "x")).from_to(x0, x1),
+        Axis::linear(snapshot.units.length_of("", "y")).from_to(y0, y1),
     ]
 }
 

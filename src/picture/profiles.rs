@@ -35,8 +35,9 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
         }
         let chart = Chart {
             title: String::new(),
-            x: Axis::linear(snapshot.units.length("distance from the axis", "s")).from_to(-1.06 * reach, 1.06 * reach),
-            y: Axis::linear(snapshot.units.pressure("contact pressure", "p")),
+            x: Axis::linear(snapshot.units.length_of("distance from the axis", "s"))
+                .from_to(-1.06 * reach, 1.06 * reach),
+            y: Axis::linear(snapshot.units.pressure_of("contact pressure", "p")),
             curves,
         };
         plots(&snapshot.caption(&what), &[chart])

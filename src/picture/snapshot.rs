@@ -1,13 +1,14 @@
 //! A solved load step with what is known about it: what the pictures of fields are drawn from.
 
-use super::axis::{power, signed};
-use super::units::{Units, lowered, substrate_index};
+use super::number::{degrees, short};
+use super::quantity::equals;
 use crate::body::{HalfSpace, Interface};
 use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;
 use crate::problem::Problem;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::spectral::Step;
+use crate::units::{Unit, Units, lowered, substrate_index};
 
 /// One load step.
 #[derive(Debug, Clone)]
@@ -31,6 +32,12 @@ impl Snapshot {
     pub fn new(title: &str, step: Step, reading: Reading) -> Self {
         let units = Units::of(step.problem());
         Self { title: title.to_owned(), step, reading, strength: Vec::new(), failing: None, units }
+    }
+
+    /// With units that have names.
+    #[must_use]
+    pub fn with_units(self, units: Units) -> Self {
+        Self { units, ..self }
     }
 
     /// With what it takes up of the strengths.
@@ -64,31 +71,24 @@ impl Snapshot {
     pub fn caption(&self, more: &str) -> String {
         let [n1, n2] = self.step.grid().points();
         let load = [
-            equals(&self.units.pressure_symbol("p̄"), &[self.reading.mean_pressure]),
-            equals(&self.units.length_symbol("δ"), &[self.step.penetration()]),
+            self.units.pressure_equals("p̄", &[self.reading.mean_pressure]),
+            self.units.length_equals("δ", &[self.step.penetration()]),
         ];
         let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");
-        format!("{} {more}", caption(&self.title, self.step.problem(), &[load.join(", "), samples]))
+        format!("{} {more}", caption(&self.title, self.step.problem(), &self.units, &[load.join(", "), samples]))
     }
 }
 
 /// Title and parameters of a case, then what else is to be said about it.
-pub fn caption(title: &str, problem: &Problem, more: &[String]) -> String {
-    let units = Units::of(problem);
+pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -> String {
     let title = title.trim_end_matches('.');
     let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
-    let parts = [materials(problem.half_space(), &units)]
+    let parts = [materials(problem.half_space(), units)]
         .into_iter()
-        .chain(geometry(problem.counterbody(), &units))
+        .chain(geometry(problem.counterbody(), units))
         .chain(problem.friction().map(sliding))
         .chain(more.iter().cloned());
     format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))
-}
-
-/// A symbol and its values, which no line break parts from the first one.
-pub fn equals(symbol: &str, values: &[f64]) -> String {
-    let values: Vec<String> = values.iter().map(|&x| short(x)).collect();
-    format!("{}\u{a0}=\u{a0}{}", symbol.replace(' ', "\u{a0}"), values.join(", "))
 }
 
 fn materials(half_space: &HalfSpace, units: &Units) -> String {
@@ -100,12 +100,12 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
         let own = if single { "" } else { &index };
         let mut part = [
             equals(&format!("χ{own}"), &[layer.material().shear() / substrate.shear()]),
-            equals(&units.length_symbol(&format!("h{own}")), &[layer.thickness()]),
+            units.length_equals(&format!("h{own}"), &[layer.thickness()]),
             equals(&format!("ν{index}"), &[layer.material().poisson()]),
         ]
         .join(", ");
         if layer.residual_stress() != 0.0 {
-            part += &format!(", {}", equals(&units.pressure_symbol(&format!("σᵣ{own}")), &[layer.residual_stress()]));
+            part += &format!(", {}", units.pressure_equals(&format!("σᵣ{own}"), &[layer.residual_stress()]));
         }
         match layer.interface() {
             Interface::Bonded => {}
@@ -116,28 +116,25 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
     }
     let index = substrate_index(half_space);
     let mut last = equals(&format!("ν{index}"), &[substrate.poisson()]);
-    if units.pressure_symbol("E") == "E" {
-        last += &format!(", {}", equals(&format!("E{index}"), &[substrate.young()]));
+    if !matches!(units.pressure(), Unit::Relative(_)) {
+        last += &format!(", {}", units.pressure_equals(&format!("E{index}"), &[substrate.young()]));
     }
     parts.push(last);
     parts.join(if single { ", " } else { "; " })
 }
 
 fn sliding(friction: &Friction) -> String {
-    let [x, y] = friction.direction();
-    // No minus before a zero.
-    let angle = y.atan2(x).to_degrees().round() + 0.0;
+    let angle = degrees(friction.direction());
     let uncoupled = if friction.is_coupled() { "" } else { ", uncoupled" };
-    format!("sliding at {angle:.0}° from the x axis, {}{uncoupled}", equals("μ", &[friction.coefficient()]))
+    format!("sliding at {angle} from the x axis, {}{uncoupled}", equals("μ", &[friction.coefficient()]))
 }
 
 fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
     let indenters = counterbody.indenters()?;
     let levels = indenters.levels();
     let mut parts = Vec::new();
-    let l = units.length_symbol("l");
-    if l != "l/l" {
-        parts.push(equals(&l, &[indenters.lattice().period()]));
+    if *units.length() != Unit::Relative("l".to_owned()) {
+        parts.push(units.length_equals("l", &[indenters.lattice().period()]));
     }
     let radius = |level: &Level| match level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
@@ -145,52 +142,20 @@ fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
     };
     let shape = |level: &Level| match level.shape() {
         Shape::Cone { slope } => format!("cone of slope {}", short(slope)),
-        Shape::Power { coefficient, exponent } => format!("{}·rⁿ, n = {}", short(coefficient), short(exponent)),
+        Shape::Power { coefficient, exponent } => format!("{} rⁿ, n = {}", short(coefficient), short(exponent)),
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
-            format!("{} of {}", level.shape().name(), equals(&units.length_symbol("r"), &[radius]))
+            format!("{} of {}", level.shape().name(), units.length_equals("r", &[radius]))
         }
     };
     match levels.iter().map(radius).collect::<Option<Vec<f64>>>() {
         Some(radii) => {
             let same = radii.iter().all(|x| *x == radii[0]);
-            parts.push(equals(&units.length_symbol("rₘ"), if same { &radii[..1] } else { &radii }));
+            parts.push(units.length_equals("rₘ", if same { &radii[..1] } else { &radii }));
         }
         None => parts.extend(levels.iter().map(shape)),
     }
     if levels.len() > 1 {
-        let symbol = units.length_symbol("(h₁ − hₘ)");
-        let bare = symbol.strip_suffix(')').and_then(|symbol| symbol.strip_prefix('(')).unwrap_or(&symbol);
-        parts.push(equals(bare, &indenters.drops()[1..]));
+        parts.push(format!("lower by {}", units.length_equals("Δₘ", &indenters.drops()[1..])));
     }
     Some(parts.join(", "))
-}
-
-/// A number with up to five digits, as print has it.
-pub fn short(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    let scientific = format!("{x:.4e}");
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let trimmed = |text: &str| {
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
-        signed(text)
-    };
-    match exponent {
-        -3..6 => trimmed(&format!("{x:.*}", usize::try_from(4 - exponent).unwrap_or(0))),
-        _ if trimmed(digits) == "1" => power(exponent),
-        _ => format!("{}·{}", trimmed(digits), power(exponent)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short_and_printed_as_a_journal_does() {
-        let texts = [0.06, 2.0, -0.055395, 2.1e11, 1e-6, 0.0, 20e-6, 123456.0].map(short);
-        assert_eq!(texts, ["0.06", "2", "−0.055395", "2.1·10¹¹", "10⁻⁶", "0", "2·10⁻⁵", "123456"]);
-    }
 }

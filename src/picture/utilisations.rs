@@ -4,26 +4,27 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
+use super::number::short;
 use super::snapshot::caption;
-use super::units::Units;
 use crate::problem::Problem;
 use crate::reading::Criterion;
 use crate::run::{Limits, StepRecord};
+use crate::units::Units;
 
 /// The picture; `None` where less than two loads were solved.
-pub fn utilisations(title: &str, problem: &Problem, limits: &Limits) -> Option<Canvas> {
+pub fn utilisations(title: &str, problem: &Problem, units: &Units, limits: &Limits) -> Option<Canvas> {
     let loads = || limits.steps.iter().map(|step| step.reading.mean_pressure);
     let (least, most) = (loads().next()?, loads().next_back()?);
     if least == most {
         return None;
     }
-    let units = Units::of(problem);
     let curves = utilisation_curves(&limits.steps, limits.limits.iter().map(|limit| limit.criterion));
-    let x = Axis::log(units.pressure("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
+    let x = Axis::log(units.pressure_of("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
     let chart = Chart { title: String::new(), x, y: utilisation_axis(&limits.steps), curves };
     let [n1, n2] = limits.steps[0].points;
-    let more = [limits.to_string(), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    Some(plots(&caption(title, problem, &more), &[chart]))
+    let more =
+        [limits.in_words(|pressure| units.pressure().told(pressure, short)), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
+    Some(plots(&caption(title, problem, units, &more), &[chart]))
 }
 
 /// From a hundredth on at least: what takes up less is as good as nothing.
