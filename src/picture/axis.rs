@@ -24,17 +24,19 @@ pub struct Axis {
     pub scale: Scale,
     /// First and last value; none, or one without length or end: what the curves need.
     pub range: Option<[f64; 2]>,
+    /// Values of a horizontal axis that a dotted line across the plot marks, each with a word.
+    pub marks: Vec<(f64, String)>,
 }
 
 impl Axis {
     /// A linear axis for the values of the curves.
     pub fn linear(label: impl Into<Quantity>) -> Self {
-        Self { label: label.into(), scale: Scale::Linear, range: None }
+        Self { label: label.into(), scale: Scale::Linear, range: None, marks: Vec::new() }
     }
 
     /// A logarithmic axis for the values of the curves.
     pub fn log(label: impl Into<Quantity>) -> Self {
-        Self { label: label.into(), scale: Scale::Log, range: None }
+        Self { label: label.into(), scale: Scale::Log, range: None, marks: Vec::new() }
     }
 
     /// The same axis from `first` to `last`.

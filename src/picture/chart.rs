@@ -3,9 +3,10 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::curve::{Curve, Style};
-use super::frame::Frame;
+use super::frame::{Frame, MARK};
 use super::legend::{self, Legend};
-use super::sheet::{Margins, Panel, sheet};
+use super::sheet::{Margins, NUMBERS, Panel, sheet};
+use super::text;
 
 /// A chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,6 +103,12 @@ impl<'a> Plot<'a> {
             }
             taken.extend(run.first());
         }
+        let [top, bottom] = [frame.corner[1], frame.corner[1] + frame.size[1]];
+        let steps = || (0..=20).map(|k| top + (bottom - top) * f64::from(k) / 20.0);
+        for (x, word) in frame.marks(&self.chart.x) {
+            taken.extend(steps().map(|y| [x, y]));
+            taken.push([x + 2.0 + text::width(word, NUMBERS), top + MARK]);
+        }
         taken
     }
 }
@@ -136,6 +143,7 @@ impl Panel for Plot<'_> {
         let Layout { frame, legend, .. } = self.layout(width, margins);
         frame.draw(canvas, [ox, oy]);
         frame.draw_zero(canvas, [ox, oy]);
+        frame.draw_marks(canvas, &self.chart.x, [ox, oy]);
         for curve in &self.chart.curves {
             for run in runs(curve, &frame) {
                 let run: Vec<[f64; 2]> = run.into_iter().map(|[x, y]| [ox + x, oy + y]).collect();
@@ -163,7 +171,7 @@ mod tests {
     }
 
     fn line(points: Vec<[f64; 2]>) -> Curve {
-        Curve { label: "a curve".into(), points, style: Style::Line, colour: 1 }
+        Curve { label: "a curve".into(), points, style: Style::Line, colour: 1.into() }
     }
 
     #[test]

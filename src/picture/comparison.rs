@@ -62,7 +62,7 @@ pub fn comparison(title: &str, units: &Units, comparison: &Comparison) -> Option
 
 fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
     let mut curves = Vec::new();
-    for (colour, (name, value)) in (1..).zip(QUANTITIES) {
+    for (colour, (name, value)) in (1usize..).zip(QUANTITIES) {
         let points = |of: &dyn Fn(&CircleComparison) -> f64| {
             circles.iter().map(|circle| [circle.indenters as f64, of(circle)]).collect()
         };
@@ -71,10 +71,10 @@ fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
             label,
             points: points(&|circle| value(&circle.difference)),
             style: Style::LineMarkers,
-            colour,
+            colour: colour.into(),
         });
         let points = points(&|circle| value(&circle.mesh_error));
-        curves.push(Curve { label: String::new(), points, style: Style::Dashed, colour });
+        curves.push(Curve { label: String::new(), points, style: Style::Dashed, colour: colour.into() });
     }
     curves
 }

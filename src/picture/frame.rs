@@ -1,7 +1,7 @@
 //! The frame of a plot: two axes with their ranges, numbers and quantities, and where a point stands between them.
 
 use super::axis::{Axis, Scale, Ticks};
-use super::canvas::{Anchor, Canvas};
+use super::canvas::{Anchor, Canvas, Dash};
 use super::colour::Colour;
 use super::number;
 use super::sheet::{HAIR, LABELS, Margins, NUMBERS};
@@ -11,6 +11,8 @@ use super::text::{self, wrapped};
 const TICK: f64 = 3.0;
 /// How far numbers stand away from a plot with outward ticks.
 const BEYOND: f64 = 0.7 * TICK;
+/// Where the words of marks stand below the top of the plot, points.
+pub const MARK: f64 = 9.5;
 /// Most numbers on a horizontal and on a vertical axis.
 const MOST: [usize; 2] = [7, 6];
 /// Distance at which numbers stand apart, of their size: beside and above each other.
@@ -160,6 +162,27 @@ impl Frame {
         }
         if let Some(factor) = factor(x_ticks) {
             canvas.text(&factor, [right, below], Anchor::Right, NUMBERS, Colour::BLACK);
+        }
+    }
+
+    /// Places of the marks of the horizontal axis within the plot, each with its word.
+    pub fn marks<'a>(&self, axis: &'a Axis) -> impl Iterator<Item = (f64, &'a str)> {
+        let [left, right] = [self.corner[0], self.corner[0] + self.size[0]];
+        let y = self.ranges[1][0];
+        let places = axis.marks.iter().map(move |(x, word)| (self.place([*x, y]), word.as_str()));
+        let places: Vec<(f64, &'a str)> = places.filter_map(|(place, word)| Some((place?[0], word))).collect();
+        places.into_iter().filter(move |(x, _)| (left..=right).contains(x))
+    }
+
+    /// Draws the marks of the horizontal axis, their words at the top.
+    pub fn draw_marks(&self, canvas: &mut Canvas, axis: &Axis, origin: [f64; 2]) {
+        let [[_, top], [right, bottom]] = self.bounds(origin);
+        for (x, word) in self.marks(axis) {
+            let x = origin[0] + x;
+            canvas.dashed(&[[x, top], [x, bottom]], 0.7, Dash::Dotted, Colour::GREY);
+            let width = text::width(word, NUMBERS);
+            let (at, anchor) = if x + width + 4.0 < right { (x + 2.0, Anchor::Left) } else { (x - 2.0, Anchor::Right) };
+            canvas.text(word, [at, top + MARK], anchor, NUMBERS, Colour::GREY);
         }
     }
 

@@ -3,11 +3,14 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Style};
+use super::curve::{Curve, Ink, MOST, Style};
 use super::number::degrees;
 use super::rows::Quantity;
 use super::snapshot::Snapshot;
 use crate::stress::Section;
+
+/// From so many interfaces on colours tell depths, and both sides of an interface have one name.
+const MANY: usize = MOST;
 
 /// The picture.
 pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
@@ -21,6 +24,8 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
             (0, ..) => "surface".to_owned(),
             (_, 1, true) => "interface, coating".to_owned(),
             (_, 1, false) => "interface, substrate".to_owned(),
+            (_, MANY.., true) => format!("interface {}", depth.material),
+            (_, MANY.., false) => String::new(),
             (_, _, true) => format!("interface {}, above", depth.material),
             (_, _, false) => format!("interface {}, below", depth.material - 1),
         }
@@ -38,13 +43,16 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
         title: title.to_owned(),
         x: Axis::linear(snapshot.units.length_of("distance", "s")),
         y,
-        curves: (1..)
+        curves: (1usize..)
             .zip(section.face_rows())
-            .map(|(colour, row)| Curve {
+            .map(|(number, row)| Curve {
                 label: name(row),
                 points: points(row, quantity),
                 style: if below(row) { Style::Dashed } else { Style::Line },
-                colour,
+                colour: match interfaces {
+                    MANY.. => Ink::by_depth(number / 2, interfaces + 1),
+                    _ => number.into(),
+                },
             })
             .collect(),
     };
@@ -55,5 +63,6 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
         chart("(b) principal shear stress", Quantity::Tau1, tau1),
     ];
     let what = format!("Lines along {} from the x axis.", degrees(section.line.direction));
-    plots(&snapshot.caption(&what), &charts)
+    let sides = if interfaces >= MANY { " Solid: above an interface; dashed: below." } else { "" };
+    plots(&snapshot.caption(&(what + sides)), &charts)
 }

@@ -3,9 +3,10 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Style};
+use super::curve::{Curve, Ink, MOST, Style};
 use super::quantity::Quantity;
 use super::snapshot::caption;
+use super::touches::touches;
 use super::utilisations::{utilisation_axis, utilisation_curves};
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
@@ -20,7 +21,8 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
         return None;
     }
     let levels = problem.counterbody().levels().len();
-    let run = Run { steps, levels, units, logarithmic: logarithmic(steps) };
+    let touches = touches(problem, steps);
+    let run = Run { steps, levels, units, logarithmic: logarithmic(steps), touches: &touches };
     let mut charts = vec![run.peak_pressure(), run.extent(), run.penetration()];
     if run.levels > 1 {
         charts.push(run.shares());
@@ -33,7 +35,11 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
     }
     let [n1, n2] = steps[0].points;
     let more = [format!("{} load steps", steps.len()), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    Some(plots(&caption(title, problem, units, &more), &charts))
+    let what = match touches.len() {
+        0 => "",
+        _ => " Dotted, with the level's number: where a level touches first, from its loads at the steps behind.",
+    };
+    Some(plots(&format!("{}{what}", caption(title, problem, units, &more)), &charts))
 }
 
 struct Run<'a> {
@@ -42,6 +48,8 @@ struct Run<'a> {
     units: &'a Units,
     /// Whether the mean pressure and what grows with it have logarithmic axes.
     logarithmic: bool,
+    /// Levels and the mean pressures at which they touch first.
+    touches: &'a [(usize, f64)],
 }
 
 impl Run<'_> {
@@ -55,10 +63,11 @@ impl Run<'_> {
         let least = loads.fold(f64::INFINITY, f64::min);
         let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
         let x = self.axis(self.units.pressure_of("mean pressure", "p̄")).from_to(first, last);
-        Chart { title: title.to_owned(), x, y, curves }
+        let marks = self.touches.iter().map(|(level, pressure)| (*pressure, level.to_string())).collect();
+        Chart { title: title.to_owned(), x: Axis { marks, ..x }, y, curves }
     }
 
-    fn curve(&self, label: &str, colour: usize, value: impl Fn(&StepRecord) -> f64) -> Curve {
+    fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> f64) -> Curve {
         let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.reading.mean_pressure, value(step)]).collect();
         // Markers show the steps where they are few.
         let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
@@ -72,11 +81,11 @@ impl Run<'_> {
         value: impl Fn(&LevelReading) -> Option<f64>,
     ) -> Vec<Curve> {
         if self.levels == 0 {
-            return vec![self.curve("", 1, |step| whole(&step.reading).unwrap_or(f64::NAN))];
+            return vec![self.curve("", 1.into(), |step| whole(&step.reading).unwrap_or(f64::NAN))];
         }
         let touching = |level: &LevelReading| if level.load > 0.0 { value(level) } else { None };
         let of = |level: usize| {
-            self.curve(&format!("level {level}"), level, |step| {
+            self.curve(&format!("level {level}"), level.into(), |step| {
                 touching(&step.reading.levels[level - 1]).unwrap_or(f64::NAN)
             })
         };
@@ -99,7 +108,7 @@ impl Run<'_> {
 
     fn penetration(&self) -> Chart {
         let label = self.units.length_of("additional displacement", "δ");
-        let curve = self.curve("", 0, |step| step.reading.penetration);
+        let curve = self.curve("", 0.into(), |step| step.reading.penetration);
         self.chart("additional displacement", self.axis(label), vec![curve])
     }
 
@@ -120,7 +129,7 @@ impl Run<'_> {
         };
         let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
             let of = |index: usize| {
-                self.curve(&name(index), index + 1, |step| {
+                self.curve(&name(index), Ink::by_depth(index, materials), |step| {
                     let extremes = step.stress.as_ref().and_then(|stress| stress.materials.get(index));
                     extremes.and_then(|extremes| value(extremes).finite()).unwrap_or(f64::NAN)
                 })
@@ -141,9 +150,14 @@ impl Run<'_> {
     fn interfaces(&self) -> Option<Chart> {
         let interfaces = self.steps.iter().filter_map(|step| Some(step.stress.as_ref()?.interfaces.len())).max()?;
         let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, dashed: bool| {
-            let name = if interfaces == 1 { what.to_owned() } else { format!("{what}, interface {}", index + 1) };
+            let name = match interfaces {
+                1 => what.to_owned(),
+                MOST.. if dashed => String::new(),
+                MOST.. => format!("interface {}", index + 1),
+                _ => format!("{what}, interface {}", index + 1),
+            };
             let of = |step: &StepRecord| Some(value(step.stress.as_ref()?.interfaces.get(index)?).value);
-            let curve = self.curve(&name, index + 1, |step| of(step).unwrap_or(f64::NAN));
+            let curve = self.curve(&name, Ink::by_depth(index, interfaces), |step| of(step).unwrap_or(f64::NAN));
             if dashed { Curve { style: Style::Dashed, ..curve } } else { curve }
         };
         let curves = (0..interfaces).flat_map(|index| {
@@ -153,7 +167,8 @@ impl Run<'_> {
             ]
         });
         let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
-        (interfaces > 0).then(|| self.chart("interfaces", y, curves.collect()))
+        let title = if interfaces < MOST { "interfaces" } else { "interfaces; solid: shear, dashed: tension" };
+        (interfaces > 0).then(|| self.chart(title, y, curves.collect()))
     }
 
     /// What is taken up of the strengths.

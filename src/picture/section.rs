@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::bar::Bar;
 use super::canvas::{Canvas, Dash, Stroke};
 use super::colour::Colour;
+use super::curve::MOST;
 use super::map::{Fill, Map, Over};
 use super::number::degrees;
 use super::quantity::equals;
@@ -52,7 +53,9 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let failures = failures(snapshot, section);
     let panel = |title: String, fill, ink: Colour, largest: Option<Largest>, below: Vec<Over>| {
         let interfaces = section.interfaces().into_iter().map(|z| vec![[first, z], [last, z]]);
-        let interfaces = interfaces.map(|points| line(points, 0.9, Dash::Dashed, ink));
+        // Of many the lines are thin.
+        let width = if interfaces.len() < MOST { 0.9 } else { 0.4 };
+        let interfaces = interfaces.map(|points| line(points, width, Dash::Dashed, ink));
         let mark = largest.map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour: ink });
         let rings = (1..).zip(&failures).map(|(number, &(_, at))| Over::Ring { at, number });
         let over = below.into_iter().chain(interfaces).chain(contacts(snapshot, section)).chain(mark).chain(rings);

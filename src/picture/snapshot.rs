@@ -2,9 +2,10 @@
 
 use super::number::{degrees, short};
 use super::quantity::equals;
-use crate::body::{HalfSpace, Interface};
+use crate::body::{HalfSpace, Interface, Layer};
 use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;
+use crate::lattice::{Cell, LatticeError};
 use crate::problem::Problem;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::spectral::Step;
@@ -91,8 +92,14 @@ pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -
     format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))
 }
 
+/// Most layers that a caption names one by one.
+const FEW: usize = 4;
+
 fn materials(half_space: &HalfSpace, units: &Units) -> String {
     let substrate = half_space.substrate();
+    if half_space.layers().len() > FEW {
+        return [many_layers(half_space, units), substrate_words(half_space, units)].join("; ");
+    }
     let single = half_space.layers().len() == 1;
     let mut parts = Vec::new();
     for (number, layer) in (1..).zip(half_space.layers()) {
@@ -114,13 +121,51 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
         }
         parts.push(part);
     }
+    parts.push(substrate_words(half_space, units));
+    parts.join(if single { ", " } else { "; " })
+}
+
+/// Many layers by how thick they are together and by the ranges of their parameters.
+fn many_layers(half_space: &HalfSpace, units: &Units) -> String {
+    let layers = half_space.layers();
+    let range = |of: &dyn Fn(&Layer) -> f64| {
+        let (least, most) =
+            layers.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        if least == most { vec![least] } else { vec![least, most] }
+    };
+    let to = |text: String| text.replace(", ", " to ");
+    let shear = half_space.substrate().shear();
+    let together: f64 = layers.iter().map(Layer::thickness).sum();
+    let mut parts = vec![
+        format!("{} layers, together {}", layers.len(), units.length_equals("h", &[together])),
+        to(equals("χ", &range(&|layer| layer.material().shear() / shear))),
+        to(equals("ν", &range(&|layer| layer.material().poisson()))),
+    ];
+    let residual = range(&|layer| layer.residual_stress());
+    if residual != [0.0] {
+        parts.push(to(units.pressure_equals("σᵣ", &residual)));
+    }
+    let kinds: [(&str, fn(&Interface) -> bool); 2] = [
+        ("frictionless", |own| matches!(own, Interface::Frictionless)),
+        ("spring", |own| matches!(own, Interface::Spring { .. })),
+    ];
+    for (name, is) in kinds {
+        let count = layers.iter().filter(|layer| is(&layer.interface())).count();
+        if count > 0 {
+            parts.push(format!("{count} {name} interface{}", if count > 1 { "s" } else { "" }));
+        }
+    }
+    parts.join(", ")
+}
+
+fn substrate_words(half_space: &HalfSpace, units: &Units) -> String {
+    let substrate = half_space.substrate();
     let index = substrate_index(half_space);
     let mut last = equals(&format!("ν{index}"), &[substrate.poisson()]);
     if !matches!(units.pressure(), Unit::Relative(_)) {
         last += &format!(", {}", units.pressure_equals(&format!("E{index}"), &[substrate.young()]));
     }
-    parts.push(last);
-    parts.join(if single { ", " } else { "; " })
+    last
 }
 
 fn sliding(friction: &Friction) -> String {
@@ -129,10 +174,34 @@ fn sliding(friction: &Friction) -> String {
     format!("sliding at {angle} from the x axis, {}{uncoupled}", equals("μ", &[friction.coefficient()]))
 }
 
+/// Whether a cell is neither the hexagonal nor the square one, so that it is known by its vectors alone.
+pub fn is_oblique(cell: &Cell) -> bool {
+    let [[side, _], _] = cell.vectors();
+    let like = |named: Result<Cell, LatticeError>| {
+        named.is_ok_and(|named| {
+            let pairs = named.vectors().into_iter().flatten().zip(cell.vectors().into_iter().flatten());
+            pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9 * side.abs())
+        })
+    };
+    !like(Cell::hexagonal(side)) && !like(Cell::square(side))
+}
+
+/// a₁ = (1, 0.2), a₂ = (0.3, 1.4), with their unit.
+fn cell_vectors(cell: &Cell, units: &Units) -> String {
+    let unit = units.length().suited(cell.vectors().into_iter().flatten());
+    let [a1, a2] = cell.vectors().map(|vector| vector.map(|c| short(unit.shown(c))).join(",\u{a0}"));
+    let over = if let Unit::Relative(to) = units.length() { format!("/{to}") } else { String::new() };
+    let vector = |name: &str, places: &str| unit.behind(&format!("{name}{over}\u{a0}=\u{a0}({places})"));
+    format!("cell {}, {}", vector("a₁", &a1), vector("a₂", &a2))
+}
+
 fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
-    let indenters = counterbody.indenters()?;
-    let levels = indenters.levels();
     let mut parts = Vec::new();
+    if is_oblique(&counterbody.cell()) {
+        parts.push(cell_vectors(&counterbody.cell(), units));
+    }
+    let Some(indenters) = counterbody.indenters() else { return (!parts.is_empty()).then(|| parts.join(", ")) };
+    let levels = indenters.levels();
     if *units.length() != Unit::Relative("l".to_owned()) {
         parts.push(units.length_equals("l", &[indenters.lattice().period()]));
     }
@@ -158,4 +227,40 @@ fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
         parts.push(format!("lower by {}", units.length_equals("Δₘ", &indenters.drops()[1..])));
     }
     Some(parts.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Material;
+    use crate::counterbody::Indenters;
+    use crate::lattice::Lattice;
+
+    fn words(layers: usize, cell: Cell) -> String {
+        let material = |young: f64| Material::from_young(young, 0.3).unwrap();
+        let layer = |k: usize| Layer::new(material(1.0 + k as f64), 0.1, Interface::Bonded).unwrap();
+        let body = HalfSpace::new((0..layers).map(layer).collect(), material(1.0));
+        let levels = [0.1, 0.0].map(|height| Level::new(Shape::Paraboloid { radius: 3.0 }, height).unwrap()).to_vec();
+        let sites = vec![vec![[0.0, 0.0]], vec![[0.5, 0.5]]];
+        let problem = Problem::new(Indenters::new(Lattice::new(cell, sites).unwrap(), levels).unwrap(), body);
+        caption("", &problem, &Units::of(&problem), &[]).replace('\u{a0}', " ")
+    }
+
+    #[test]
+    fn a_thickness_and_a_height_have_letters_of_their_own() {
+        let words = words(2, Cell::square(2.0).unwrap());
+        assert!(
+            words.contains("h₁ = 0.1") && words.contains("h₂ = 0.1") && words.contains("lower by Δₘ = 0.1"),
+            "{words}"
+        );
+        assert!(!words.contains("h₁ −") && !words.contains("a₁"), "{words}");
+    }
+
+    #[test]
+    fn many_layers_take_no_more_room_than_few_and_an_oblique_cell_has_its_vectors() {
+        let (few, many) = (words(4, Cell::square(2.0).unwrap()), words(40, Cell::new([2.0, 0.5], [0.0, 3.0]).unwrap()));
+        assert!(many.contains("40 layers, together h = 4, χ = 1 to 40, ν = 0.3; ν₄₁ = 0.3"), "{many}");
+        assert!(many.contains("cell a₁ = (2, 0.5), a₂ = (0, 3)"), "{many}");
+        assert!(many.len() < few.len(), "{many}\n{few}");
+    }
 }

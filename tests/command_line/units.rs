@@ -10,7 +10,8 @@ fn tables_and_captions_have_prefixes_and_files_the_numbers_of_the_case() {
     let desk = Desk::new();
     let answer = desk.percoat(&[&["solve", "tin-on-steel", "-o", "si", "--pictures", "svg"], &SMALL[..]].concat());
     let (out, folder) = (answer.out.replace('\u{a0}', " "), Folder(desk.path("si")));
-    for head in ["mean pressure (MPa)", "penetration (nm)", "load on one (mN)", "peak pressure (GPa)", "p̄ = 50.000 MPa"] {
+    for head in ["mean pressure (MPa)", "penetration (nm)", "load on one (mN)", "peak pressure (GPa)", "p̄ = 50.000 MPa"]
+    {
         assert!(out.contains(head), "{head}: {out}");
     }
     let summary: Value = serde_json::from_str(&folder.text("summary.json")).unwrap();
