@@ -213,7 +213,14 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
         (x, text)
     };
     let choices: [&'static [u8]; 5] = [&[1, 2, 3, 4, 5, 6, 7, 8, 9], &[1, 2, 3, 5], &[1, 2, 5], &[1, 3], &[1, 5]];
-    let Some(factors) = choices.into_iter().find(|factors| (2..=most).contains(&all(factors).count())) else {
+    // Numbers must not gather at one end.
+    let spread = |factors: &'static [u8]| {
+        let mut values = all(factors).map(|(_, _, x)| x);
+        let first = values.next().unwrap_or(low);
+        (values.last().unwrap_or(first) / first).ln() > 0.5 * (high / low).ln()
+    };
+    let fits = |factors: &&'static [u8]| (2..=most).contains(&all(factors).count()) && spread(factors);
+    let Some(factors) = choices.into_iter().find(fits) else {
         return linear_ticks([low, high], most);
     };
     let numbered: Vec<(f64, String)> = all(factors).map(named).collect();
@@ -256,6 +263,7 @@ mod tests {
         assert_eq!(numbers([60.0, 700.0], Scale::Log, 5).0, ["100", "200", "300", "500"]);
         assert_eq!(numbers([2e-5, 9e-5], Scale::Log, 4).0, ["2×10⁻⁵", "3×10⁻⁵", "5×10⁻⁵"]);
         assert_eq!(numbers([0.21, 0.29], Scale::Log, 5).0, ["0.22", "0.24", "0.26", "0.28"]);
+        assert_eq!(numbers([0.088, 0.19], Scale::Log, 6).0, ["0.10", "0.12", "0.14", "0.16", "0.18"]);
         assert_eq!(
             numbers([2.1e8, 2.9e8], Scale::Log, 5),
             (["220", "240", "260", "280"].map(str::to_owned).to_vec(), 6)

@@ -3,10 +3,9 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::curve::{Curve, Style};
-use super::frame::{Frame, MARK};
+use super::frame::Frame;
 use super::legend::{self, Legend};
-use super::sheet::{Margins, NUMBERS, Panel, sheet};
-use super::text;
+use super::sheet::{Margins, Panel, sheet};
 
 /// A chart.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,12 +101,6 @@ impl<'a> Plot<'a> {
                 taken.extend((0..=steps as u32).map(|k| part(f64::from(k))));
             }
             taken.extend(run.first());
-        }
-        let [top, bottom] = [frame.corner[1], frame.corner[1] + frame.size[1]];
-        let steps = || (0..=20).map(|k| top + (bottom - top) * f64::from(k) / 20.0);
-        for (x, word) in frame.marks(&self.chart.x) {
-            taken.extend(steps().map(|y| [x, y]));
-            taken.push([x + 2.0 + text::width(word, NUMBERS), top + MARK]);
         }
         taken
     }

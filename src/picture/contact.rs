@@ -52,7 +52,7 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
         }
         let lines = snapshot.outlines(window).into_iter();
         over.extend(lines.map(|points| {
-            Over::Line(Stroke { points, width: 0.9, dash: Dash::Solid, colour: Colour::BLACK })
+            Over::Line(Stroke { points, width: 0.6, dash: Dash::Solid, colour: Colour::BLACK })
         }));
         over.extend(numbers(snapshot, window, |_| Colour::BLACK));
         over.extend(sliding_arrow(snapshot));

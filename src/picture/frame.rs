@@ -11,8 +11,6 @@ use super::text::{self, wrapped};
 const TICK: f64 = 3.0;
 /// How far numbers stand away from a plot with outward ticks.
 const BEYOND: f64 = 0.7 * TICK;
-/// Where the words of marks stand below the top of the plot, points.
-pub const MARK: f64 = 9.5;
 /// Most numbers on a horizontal and on a vertical axis.
 const MOST: [usize; 2] = [7, 6];
 /// Distance at which numbers stand apart, of their size: beside and above each other.
@@ -53,7 +51,8 @@ impl Frame {
         let numbers = widest + 3.5 + beyond;
         let high = aspect * (width - 1.35 * LABELS - numbers - right);
         let lines = wrapped(&label(axes[1], ranges[1]), LABELS, high).len().max(1) as f64;
-        let top = if factor(&all(MOST[1])).is_some() { 1.5 * NUMBERS } else { 0.6 * NUMBERS };
+        let above = factor(&all(MOST[1])).is_some() || !axes[0].marks.is_empty();
+        let top = if above { 1.5 * NUMBERS } else { 0.6 * NUMBERS };
         Margins { left: (0.1 + 1.25 * lines) * LABELS + numbers, right, top }
     }
 
@@ -165,24 +164,34 @@ impl Frame {
         }
     }
 
-    /// Places of the marks of the horizontal axis within the plot, each with its word.
-    pub fn marks<'a>(&self, axis: &'a Axis) -> impl Iterator<Item = (f64, &'a str)> {
-        let [left, right] = [self.corner[0], self.corner[0] + self.size[0]];
-        let y = self.ranges[1][0];
-        let places = axis.marks.iter().map(move |(x, word)| (self.place([*x, y]), word.as_str()));
-        let places: Vec<(f64, &'a str)> = places.filter_map(|(place, word)| Some((place?[0], word))).collect();
-        places.into_iter().filter(move |(x, _)| (left..=right).contains(x))
+    /// Places of the marks of the horizontal axis within the plot.
+    fn marks<'a>(&self, axis: &'a Axis) -> Vec<(f64, &'a str)> {
+        let (left, right, y) = (self.corner[0], self.corner[0] + self.size[0], self.ranges[1][0]);
+        let places = axis.marks.iter().filter_map(|(x, word)| Some((self.place([*x, y])?[0], word.as_str())));
+        let mut places: Vec<(f64, &str)> = places.filter(|(x, _)| (left..=right).contains(x)).collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        places
     }
 
-    /// Draws the marks of the horizontal axis, their words at the top.
+    /// Draws the marks of the horizontal axis, their words above the plot; those too near for words of their own have
+    /// one together.
     pub fn draw_marks(&self, canvas: &mut Canvas, axis: &Axis, origin: [f64; 2]) {
-        let [[_, top], [right, bottom]] = self.bounds(origin);
+        let [[_, top], [_, bottom]] = self.bounds(origin);
+        let mut words: Vec<([f64; 2], String)> = Vec::new();
         for (x, word) in self.marks(axis) {
-            let x = origin[0] + x;
-            canvas.dashed(&[[x, top], [x, bottom]], 0.7, Dash::Dotted, Colour::GREY);
-            let width = text::width(word, NUMBERS);
-            let (at, anchor) = if x + width + 4.0 < right { (x + 2.0, Anchor::Left) } else { (x - 2.0, Anchor::Right) };
-            canvas.text(word, [at, top + MARK], anchor, NUMBERS, Colour::GREY);
+            canvas.dashed(&[[origin[0] + x, top], [origin[0] + x, bottom]], 0.7, Dash::Dotted, Colour::GREY);
+            let room = text::width(word, NUMBERS) + NUMBERS;
+            match words.last_mut() {
+                Some(([_, last], own)) if x - *last < room => {
+                    *last = x;
+                    own.push_str(&format!(", {word}"));
+                }
+                _ => words.push(([x, x], word.to_owned())),
+            }
+        }
+        for ([first, last], word) in words {
+            let at = [origin[0] + 0.5 * (first + last), top - 2.5];
+            canvas.text(&word, at, Anchor::Centre, NUMBERS, Colour::GREY);
         }
     }
 
@@ -233,7 +242,7 @@ mod tests {
     #[test]
     fn no_two_numbers_of_an_axis_collide_and_most_axes_have_two() {
         for scale in [Scale::Linear, Scale::Log] {
-            for (k, width) in (0..120).flat_map(|k| [60.0, 120.0, 230.0].map(|width| (k, width))) {
+            for (k, width) in (0..120).flat_map(|k| [90.0, 140.0, 230.0].map(|width| (k, width))) {
                 let first = 10f64.powf(-9.0 + 0.37 * f64::from(k) % 17.0);
                 let ratio = 10f64.powf(0.001 * 1.08f64.powi(k));
                 let range = [first, first * ratio];

@@ -64,14 +64,19 @@ enum Rim {
     Seam,
 }
 
-/// A line through points (distance from the axis, pressure) from the axis to the edge: between them the square of the
-/// pressure over that of the distance is a cubic without waves (F. Fritsch & R. Carlson, 1980). The last element before
-/// the edge is covered in part and left out.
+/// A line through points (distance from the axis, pressure) from the axis, or the inner edge of a ring, to the edge: between
+/// them the square of the pressure over that of the distance is a cubic without waves (F. Fritsch & R. Carlson, 1980).
+/// Elements at an edge are covered in part and left out.
 fn smooth(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let Some((&[edge, _], inner)) = points.split_last() else { return Vec::new() };
     let element = if inner.len() > 1 { inner[1][0] - inner[0][0] } else { 0.0 };
-    let kept = inner.iter().filter(|[r, _]| edge - r >= 0.9 * element).chain(points.last());
-    let places: Vec<[f64; 2]> = kept.map(|[r, p]| [r * r, p * p]).collect();
+    // A ring's first element stands half of its width behind the inner edge.
+    let first = inner.first().map_or(0.0, |[r, _]| *r);
+    let hole = if first > 1.1 * element { first - 0.5 * element } else { 0.0 };
+    let is_whole = |r: f64| edge - r >= 0.9 * element && (hole == 0.0 || r - hole >= 0.9 * element);
+    let kept = inner.iter().filter(|[r, _]| is_whole(*r)).chain(points.last());
+    let begin = (hole > 0.0).then_some([hole * hole, 0.0]);
+    let places: Vec<[f64; 2]> = begin.into_iter().chain(kept.map(|[r, p]| [r * r, p * p])).collect();
     if places.len() < 3 {
         return points.to_vec();
     }
@@ -91,7 +96,12 @@ fn smooth(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let square = a + t * (c + t * (3.0 * (b - a) - 2.0 * c - d + t * (2.0 * (a - b) + c + d)));
         [r, square.max(0.0).sqrt()]
     };
-    (0..=POINTS).map(|k| at(edge * (0.5 * PI * f64::from(k) / f64::from(POINTS)).sin())).collect()
+    // Points gather at edges.
+    let part = |k: u32| {
+        let turn = PI * f64::from(k) / f64::from(POINTS);
+        if hole > 0.0 { 0.5 - 0.5 * turn.cos() } else { (0.5 * turn).sin() }
+    };
+    (0..=POINTS).map(|k| at(hole + (edge - hole) * part(k))).collect()
 }
 
 impl Snapshot {
@@ -190,6 +200,16 @@ mod tests {
         for [r, p] in smooth(&points) {
             assert!((p - (1.0 - r * r).sqrt()).abs() < 1e-12, "{r}: {p}");
         }
+    }
+
+    #[test]
+    fn a_smooth_line_through_a_ring_is_zero_at_both_edges() {
+        let square = |r: f64| (r - 0.5) * (1.0 - r);
+        let points = (0..8).map(|k| 0.53 + 0.06 * f64::from(k)).map(|r| [r, square(r).sqrt()]);
+        let line = smooth(&points.chain([[1.0, 0.0]]).collect::<Vec<[f64; 2]>>());
+        assert!(line[0][0] == 0.5 && line[0][1] == 0.0 && line[line.len() - 1][1] == 0.0, "{line:?}");
+        // Halfway between edge and first whole element a cubic without waves is within a tenth.
+        assert!(line.iter().all(|[r, p]| (p * p - square(*r)).abs() < 0.1 * square(0.75)), "{line:?}");
     }
 
     /// Neighbours of two levels on a square lattice stand √½ apart: the seam is not far from halfway.

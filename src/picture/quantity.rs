@@ -77,6 +77,8 @@ fn equals_in(unit: &Unit, symbol: &str, values: &[f64]) -> String {
     let shown: Vec<f64> = values.iter().map(|&x| prefixed.shown(x)).collect();
     match unit {
         Unit::Relative(to) => equals(&format!("{symbol}/{to}"), &shown),
+        // Nothing needs no unit.
+        _ if values.iter().all(|x| *x == 0.0) => equals(symbol, &shown),
         _ => prefixed.behind(&equals(symbol, &shown)),
     }
 }
@@ -133,6 +135,7 @@ mod tests {
         let si = units(2.0).named(Some("m"), Some("Pa"));
         assert_eq!(plain(&si.pressure_equals("E₂", &[2.1e11])), "E₂ = 210 GPa");
         assert_eq!(plain(&si.length_equals("Δₘ", &[1e-7, 2e-7])), "Δₘ = 100, 200 nm");
+        assert_eq!(plain(&si.length_equals("s", &[0.0])), "s = 0");
         assert_eq!(plain(&units(1.0).pressure_equals("p̄", &[0.06])), "p̄/E = 0.06");
         assert_eq!(plain(&units(2.0).pressure_equals("p̄", &[6e7])), "p̄ = 6×10⁷");
     }

@@ -211,7 +211,10 @@ fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
     };
     let shape = |level: &Level| match level.shape() {
         Shape::Cone { slope } => format!("cone of slope {}", short(slope)),
-        Shape::Power { coefficient, exponent } => format!("{} rⁿ, n = {}", short(coefficient), short(exponent)),
+        Shape::Power { coefficient, exponent } => {
+            let coefficient = if coefficient == 1.0 { String::new() } else { short(coefficient) + "\u{a0}" };
+            format!("{coefficient}rⁿ, {}", equals("n", &[exponent]))
+        }
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
             format!("{} of {}", level.shape().name(), units.length_equals("r", &[radius]))
         }
