@@ -36,7 +36,7 @@ mod tests {
     use crate::reading::first_touches;
     use crate::spectral::{Settings, Solver};
 
-    /// Steps a quarter apart lead back to first touch within a tenth of the step, as bisection finds it.
+    /// Steps a third apart lead back to first touch within a tenth of the step, as bisection finds it.
     #[test]
     fn the_steps_lead_back_to_first_touch() {
         let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height).unwrap();
@@ -48,13 +48,13 @@ mod tests {
             let step = solver.solve(Load::MeanPressure(pressure));
             StepRecord::new(&step, step.reading())
         };
-        let steps: Vec<StepRecord> = (0..14).map(|k| record(1e-3 * 1.25f64.powi(k), &mut solver)).collect();
+        let steps: Vec<StepRecord> = (0..15).map(|k| record(2e-4 * 1.35f64.powi(k), &mut solver)).collect();
         let found = touches(solver.problem(), &steps);
         let exact = first_touches(&mut solver);
         assert_eq!(found.iter().map(|(level, _)| *level).collect::<Vec<usize>>(), [2, 3]);
         for (level, pressure) in found {
             let exact = exact[level - 1].unwrap();
-            assert!((pressure / exact - 1.0).abs() < 0.025, "level {level}: {pressure} {exact}");
+            assert!((pressure / exact - 1.0).abs() < 0.035, "level {level}: {pressure} {exact}");
         }
     }
 }
