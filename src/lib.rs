@@ -21,7 +21,7 @@
 //!
 //! ```text
 //! numeric → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
-//! → case → output → sweep → picture → validation
+//! → units → case → output → sweep → picture → validation
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
@@ -30,7 +30,7 @@
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `case`, `output`, `sweep`, `picture` and the
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `units`, `case`, `output`, `sweep`, `picture` and the
 //! command line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! # Example
@@ -73,6 +73,8 @@ pub mod spectral;
 pub mod stress;
 #[cfg(feature = "cli")]
 pub mod sweep;
+#[cfg(feature = "cli")]
+pub mod units;
 #[cfg(feature = "validate")]
 #[path = "../validation/mod.rs"]
 pub mod validation;

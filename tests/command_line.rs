@@ -38,5 +38,7 @@ mod stress;
 mod sweep;
 #[path = "command_line/topography.rs"]
 mod topography;
+#[path = "command_line/units.rs"]
+mod units;
 #[path = "command_line/validate.rs"]
 mod validate;

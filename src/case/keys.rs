@@ -102,6 +102,7 @@ pub(super) static CASE: Keys = Keys::new(&[
     key("grid", "samples of the cell").holds(&GRID),
     key("solver", "how the contact problem is solved, and how far").holds(&SOLVER),
     key("friction", "the indenters slide; without the section they do not").holds(&FRICTION),
+    key("units", "names for axes, tables and captions; numbers are not converted").holds(&UNITS),
     key("stress", "stresses that are wanted; without the section none").holds(&STRESS),
     key("localized", "circles of the localized method, for `compare`").holds(&LOCALIZED),
 ]);
@@ -206,6 +207,11 @@ static FRICTION: Keys = Keys::new(&[
     key("coefficient", "μ ≥ 0: the body feels the traction μp"),
     key("direction", "in which the indenters slide, [x, y] of any length; [1, 0] when not given"),
     key("coupling", "whether the pressure follows what the traction displaces; true when not given"),
+]);
+
+static UNITS: Keys = Keys::new(&[
+    key("length", "what lengths are measured in, such as \"µm\"; not named when not given"),
+    key("pressure", "what pressures are measured in, such as \"GPa\"; not named when not given"),
 ]);
 
 static STRESS: Keys = Keys::new(&[

@@ -2,7 +2,7 @@
 //!
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
 //! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]). One file a section:
-//! lattice, levels, surface, layers (with the substrate), load, grid, solver, friction, stress, localized; `keys` names every key.
+//! lattice, levels, surface, layers (with the substrate), load, grid, solver, friction, units, stress, localized; `keys` names every key.
 //! `magnitude` refuses what double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says
 //! what a run takes.
 //!
@@ -40,6 +40,7 @@ mod stress;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod units;
 
 pub use error::CaseError;
 pub use foreseen::foreseen;
@@ -55,3 +56,4 @@ pub use room::{Room, available_memory};
 pub use source::Source;
 pub use stress::{Cut, Origin, StressSection, Toward};
 pub use surface::SurfaceSection;
+pub use units::UnitsSection;

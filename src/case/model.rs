@@ -9,7 +9,7 @@ use super::reader::TableAt;
 use super::surface::Heights;
 use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
-    SubstrateSection, SurfaceSection,
+    SubstrateSection, SurfaceSection, UnitsSection,
 };
 use super::{grid, keys, lattice, layers, levels, magnitude, overrides, solver};
 use crate::body::HalfSpace;
@@ -18,6 +18,7 @@ use crate::numeric::array::field;
 use crate::problem::Problem;
 use crate::run::{Run, Sampling};
 use crate::spectral::Settings;
+use crate::units::Units;
 use std::sync::Arc;
 
 /// A valid case with every default resolved. It is read, never edited: overrides change it while it is read.
@@ -49,6 +50,9 @@ pub struct Case {
     /// Sliding; none: the indenters do not slide.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionSection>,
+    /// Names of the units; none: not named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitsSection>,
     /// Stresses wanted; none: no stresses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stress: Option<StressSection>,
@@ -86,6 +90,12 @@ impl Case {
     /// The layers on the substrate.
     pub fn half_space(&self) -> &HalfSpace {
         self.problem.half_space()
+    }
+
+    /// What lengths and pressures are measured in, by name or as far as the problem shows it.
+    pub fn units(&self) -> Units {
+        let name = |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|own| of(own).as_deref());
+        Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure))
     }
 
     /// What `percoat solve` does.
@@ -190,6 +200,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         grid: sampling,
         solver: settings,
         friction,
+        units: root.section("units")?.as_ref().map(UnitsSection::read).transpose()?,
         stress: root
             .section("stress")?
             .map(|section| StressSection::read(&section, levels.len(), friction.map(|own| own.direction)))

@@ -9,6 +9,7 @@ use percoat::case::{Case, Room, foreseen, plausibility};
 use percoat::output::number;
 use percoat::reading::first_touches;
 use percoat::run::{Sampling, balanced_points};
+use percoat::units::{Unit, Units};
 use percoat::{Grid, Solver};
 use std::io::Write;
 use std::path::Path;
@@ -22,6 +23,9 @@ pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
     let mut out = terminal::out();
     let title = if case.title.is_empty() { &name } else { &case.title };
     writeln!(out, "{title}\n\n{}\n\n{}\n", case.counterbody(), case.half_space())?;
+    if let Some(names) = units(&case.units()) {
+        writeln!(out, "{names}")?;
+    }
     match case.grid {
         Sampling::Points(points) => {
             writeln!(out, "{}", Grid::new(case.counterbody().cell(), points).map_err(Failure::refused)?)?;
@@ -41,6 +45,15 @@ pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
         tell!("warning: {doubt}");
     }
     Ok(Ending::Done)
+}
+
+/// What all numbers here are measured in, where units have names.
+fn units(units: &Units) -> Option<String> {
+    let named = |of: &str, unit: &Unit| unit.name().map(|name| format!("{of} in {name}"));
+    let names =
+        [named("lengths", units.length()), named("pressures", units.pressure()), named("forces", &units.force())];
+    let names: Vec<String> = names.into_iter().flatten().collect();
+    (!names.is_empty()).then(|| format!("units: {}", names.join(", ")))
 }
 
 /// Memory and disk that solving the case takes on its finest grid, with pictures and without.

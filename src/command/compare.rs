@@ -75,7 +75,7 @@ pub fn run(
 
     let json = compare_json(&comparison, &case, loads.len());
     write_text(&claim.staging().join("compare.json"), &json)?;
-    pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &comparison))?;
+    pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
     interruption::publish(claim, &folder, common.quiet)?;
     if common.json {
         write!(terminal::out(), "{json}")?;
@@ -87,8 +87,8 @@ pub fn run(
         if loads.len() > 1 {
             writeln!(out, "the last of {} load steps", loads.len())?;
         }
-        writeln!(out, "\n{}\n\n{}\n", table::readings(&comparison), table::differences(&comparison))?;
-        if let Some(text) = table::stresses(&comparison) {
+        writeln!(out, "\n{}\n\n{}\n", table::readings(&comparison, &case.units()), table::differences(&comparison))?;
+        if let Some(text) = table::stresses(&comparison, &case.units()) {
             writeln!(out, "{text}")?;
         }
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;

@@ -91,12 +91,14 @@ pub fn run(
     if !limits.steps.is_empty() {
         write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;
     }
-    pictures.write(&claim.staging(), "limit", || picture::utilisations(&case.title, case.problem(), &limits))?;
+    pictures.write(&claim.staging(), "limit", || {
+        picture::utilisations(&case.title, case.problem(), &case.units(), &limits)
+    })?;
     if let (true, Some(section), Some(Shown { limit, record, step })) =
         (pictures.wanted(), limits.section(&run), limits.shown.clone())
     {
         let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);
-        let snapshot = snapshot.at_limit_of(limit.criterion);
+        let snapshot = snapshot.at_limit_of(limit.criterion).with_units(case.units());
         pictures.write(&claim.staging(), "limit-section", || Some(picture::section(&snapshot, &section)))?;
     }
     interruption::publish(claim, &folder, common.quiet)?;
@@ -107,7 +109,7 @@ pub fn run(
         if !case.title.is_empty() {
             writeln!(out, "{}\n", case.title)?;
         }
-        writeln!(out, "{}\n", table::limits(&limits))?;
+        writeln!(out, "{}\n", table::limits(&limits, &case.units()))?;
         if let Some(change) = limits.change {
             writeln!(out, "change from the next coarser grid: {change:.1e}")?;
         }

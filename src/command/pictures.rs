@@ -15,15 +15,15 @@ pub struct PictureOptions {
     /// Draw no pictures
     #[arg(long, conflicts_with = "pictures")]
     no_pictures: bool,
-    /// Format of the pictures: png, svg, or both
+    /// Formats of the pictures: png, svg, pdf or several
     #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = format, default_value = "png")]
     pictures: Vec<Format>,
 }
 
-const FORMATS: [Format; 2] = [Format::Png, Format::Svg];
+const FORMATS: [Format; 3] = [Format::Png, Format::Svg, Format::Pdf];
 
 fn format(ending: &str) -> Result<Format, &'static str> {
-    FORMATS.into_iter().find(|format| format.extension() == ending).ok_or("must be png or svg")
+    FORMATS.into_iter().find(|format| format.extension() == ending).ok_or("must be png, svg or pdf")
 }
 
 impl PictureOptions {
@@ -68,7 +68,7 @@ impl PictureOptions {
             }),
             ("section", &|| Some(picture::section(last, touching_section?))),
             ("lines", &|| Some(picture::lines(last, touching_section?))),
-            ("curve", &|| picture::load_curves(&last.title, last.step.problem(), steps)),
+            ("curve", &|| picture::load_curves(&last.title, last.step.problem(), &last.units, steps)),
         ];
         pictures.par_iter().try_for_each(|(name, draw)| self.write(folder, name, draw))
     }

@@ -55,7 +55,7 @@ pub fn run(
     let steps = &outcome.steps;
     if let (Some(last), Some(record), true) = (&outcome.last, steps.last(), pictures.wanted()) {
         let snapshot = Snapshot::new(&case.title, last.clone(), record.reading.clone());
-        let snapshot = snapshot.with_strength(record.strength.clone());
+        let snapshot = snapshot.with_strength(record.strength.clone()).with_units(case.units());
         let progress = Progress::new("", 0, 0, common);
         progress.say("drawing pictures");
         pictures.draw(&claim.staging(), &snapshot, section.as_ref(), steps)?;
@@ -80,11 +80,12 @@ fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), F
     if !case.title.is_empty() {
         writeln!(out, "{}", case.title)?;
     }
-    writeln!(out, "\n{}\n\n{}", table::steps(steps), table::solved(steps))?;
-    if let Some(largest) = table::largest_stresses(steps) {
+    let units = case.units();
+    writeln!(out, "\n{}\n\n{}", table::steps(steps, &units), table::solved(steps))?;
+    if let Some(largest) = table::largest_stresses(steps, &units) {
         writeln!(out, "\n{largest}\n")?;
     }
-    if let Some(strength) = table::utilisations(steps, case.problem().half_space()) {
+    if let Some(strength) = table::utilisations(steps, case.problem().half_space(), &units) {
         writeln!(out, "\n{strength}\n")?;
     }
     if let Some(errors) = table::largest_errors(steps) {

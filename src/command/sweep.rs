@@ -8,10 +8,11 @@ use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::terminal::{self, tell};
 use clap::Args;
-use percoat::case::{Case, Room};
+use percoat::case::{Case, Room, Source};
 use percoat::output::{Plan, RunFolder, SWEEP_LOG, Writer, write_text};
 use percoat::picture;
 use percoat::sweep::{self, Axis, Combinations, Group, Log, Row, Status, Study, Task};
+use percoat::units::Units;
 use serde_json::Value;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -148,7 +149,10 @@ pub fn finish(
     drop(Log::begin(&staging, rows)?);
     write_text(&staging.join("sweep.csv"), &sweep::table(rows))?;
     write_text(&staging.join("sweep.json"), &format!("{description:#}\n"))?;
-    pictures.write(&staging, "sweep", || picture::sweep(description["title"].as_str().unwrap_or(""), rows))?;
+    let text = |key: &str| description[key].as_str().unwrap_or_default().to_owned();
+    let common = Source { name: "the common case".to_owned(), text: text("case"), folder: PathBuf::new() };
+    let units = Case::read(&common, &[]).map_or_else(|_| Units::unknown(), |case| case.units());
+    pictures.write(&staging, "sweep", || picture::sweep(&text("title"), &units, rows))?;
     Ok(interruption::publish(claim, folder, quiet)?)
 }
 

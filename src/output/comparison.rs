@@ -1,5 +1,6 @@
 //! `compare.json`: spectral and localized solution side by side.
 
+use super::summary::units;
 use crate::case::Case;
 use crate::comparison::{CircleComparison, Comparison, StressPair};
 use crate::localized::Stop;
@@ -16,6 +17,7 @@ pub fn compare_json(comparison: &Comparison, case: &Case, step: usize) -> String
         "percoat": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "case": case,
+        "units": units(case),
         "step": step,
         "spectral": comparison.spectral,
         "spectral_error": comparison.grid_error,

@@ -1,5 +1,6 @@
 //! `limit.json`: the mean pressure at which each criterion is reached, the first of them, and every load that was solved.
 
+use super::summary::units;
 use crate::case::Case;
 use crate::run::{At, Limit, Limits};
 use serde_json::{Map, Value, json};
@@ -10,6 +11,7 @@ pub fn limit_json(limits: &Limits, case: &Case, warnings: &[String]) -> String {
         "percoat": env!("CARGO_PKG_VERSION"),
         "title": case.title,
         "case": case,
+        "units": units(case),
         "warnings": warnings,
         "first": limits.first().map(|own| limit(limits, own)),
         "complete_contact": Some(limits.complete).filter(|pressure| pressure.is_finite()),

@@ -1,5 +1,9 @@
 //! Axes: a quantity with its unit, a range, and numbers that a reader can read off.
 
+use super::number::{signed, times};
+use super::quantity::Quantity;
+use crate::units::Prefixed;
+
 /// How values are spread along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
@@ -25,28 +29,41 @@ impl Scale {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Quantity and unit.
-    pub label: String,
+    pub label: Quantity,
     /// How values are spread.
     pub scale: Scale,
     /// First and last value; none, or one without length or end: what the curves need.
     pub range: Option<[f64; 2]>,
+    /// Values of a horizontal axis that a dotted line across the plot marks, each with a word.
+    pub marks: Vec<(f64, String)>,
 }
 
 impl Axis {
     /// A linear axis for the values of the curves.
-    pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Linear, range: None }
+    pub fn linear(label: impl Into<Quantity>) -> Self {
+        Self { label: label.into(), scale: Scale::Linear, range: None, marks: Vec::new() }
     }
 
     /// A logarithmic axis for the values of the curves.
-    pub fn log(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Log, range: None }
+    pub fn log(label: impl Into<Quantity>) -> Self {
+        Self { label: label.into(), scale: Scale::Log, range: None, marks: Vec::new() }
     }
 
     /// The same axis from `first` to `last`.
     #[must_use]
     pub fn from_to(self, first: f64, last: f64) -> Self {
         Self { range: Some([first, last]), ..self }
+    }
+
+    /// The unit of its numbers over a range.
+    pub(super) fn unit(&self, range: [f64; 2]) -> Prefixed {
+        self.label.unit(range, self.scale)
+    }
+
+    /// Ticks of a range with at most `most` numbers, these in the axis' unit.
+    pub(super) fn ticks(&self, range: [f64; 2], most: usize) -> Ticks {
+        let unit = self.unit(range);
+        ticks(range.map(|end| unit.shown(end)), self.scale, most).in_unit(&unit)
     }
 
     /// The range, from the values if it is not given: on a linear axis with zero where that is near, `margin` of the
@@ -100,6 +117,34 @@ pub(super) struct Ticks {
     pub plain: Vec<f64>,
     /// See `numbered`.
     pub exponent: i32,
+}
+
+impl Ticks {
+    /// Ticks of shown numbers at the places of the case's.
+    pub fn in_unit(self, unit: &Prefixed) -> Self {
+        let own = Prefixed { exponent: -unit.exponent, name: String::new() };
+        Self {
+            numbered: self.numbered.into_iter().map(|(x, number)| (own.shown(x), number)).collect(),
+            plain: self.plain.into_iter().map(|x| own.shown(x)).collect(),
+            ..self
+        }
+    }
+
+    /// The same with only as many numbers as stand apart where each takes the `span` of the sheet.
+    pub fn apart(mut self, span: impl Fn(f64, &str) -> Option<[f64; 2]>) -> Self {
+        let mut taken: Vec<[f64; 2]> = Vec::new();
+        let fits = |(value, number): &(f64, String)| {
+            let Some([first, last]) = span(*value, number) else { return true };
+            let free = taken.iter().all(|[from, to]| last < *from || first > *to);
+            if free {
+                taken.push([first, last]);
+            }
+            free
+        };
+        let (numbered, left): (Vec<_>, Vec<_>) = self.numbered.into_iter().partition(fits);
+        self.plain.extend(left.into_iter().map(|(value, _)| value));
+        Self { numbered, ..self }
+    }
 }
 
 /// Ticks of a range with at most `most` numbers.
@@ -170,7 +215,7 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     if count >= 2 {
         let stride = count.div_ceil(most) as i32;
         let numbered: Vec<(f64, String)> =
-            decades.clone().filter(|k| k.rem_euclid(stride) == 0).map(|k| (10f64.powi(k), power(k))).collect();
+            decades.clone().filter(|k| k.rem_euclid(stride) == 0).map(|k| (10f64.powi(k), times("1", k))).collect();
         let plain = if count <= 8 {
             all(&[2, 3, 4, 5, 6, 7, 8, 9]).map(|(_, _, x)| x).collect()
         } else {
@@ -178,44 +223,30 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
         };
         return Ticks { numbered, plain, exponent: 0 };
     }
-    // Within one decade or two: numbers between the powers.
+    // Within one decade or two: numbers between the powers, or as on a linear axis where these are too few.
     let named = |(f, k, x): (u8, i32, f64)| {
         let text = match k {
             -2..0 => format!("{x:.*}", usize::try_from(-k).unwrap_or(0)),
             0..4 => format!("{x:.0}"),
-            _ if f == 1 => power(k),
-            _ => format!("{f}·{}", power(k)),
+            _ => times(&f.to_string(), k),
         };
         (x, text)
     };
-    let choices: [&'static [u8]; 3] = [&[1, 2, 3, 4, 5, 6, 7, 8, 9], &[1, 2, 5], &[1, 3]];
-    let factors = choices.into_iter().find(|factors| all(factors).count() <= most).unwrap_or(choices[2]);
+    let choices: [&'static [u8]; 5] = [&[1, 2, 3, 4, 5, 6, 7, 8, 9], &[1, 2, 3, 5], &[1, 2, 5], &[1, 3], &[1, 5]];
+    // Numbers must not gather at one end.
+    let spread = |factors: &'static [u8]| {
+        let mut values = all(factors).map(|(_, _, x)| x);
+        let first = values.next().unwrap_or(low);
+        (values.last().unwrap_or(first) / first).ln() > 0.5 * (high / low).ln()
+    };
+    let fits = |factors: &&'static [u8]| (2..=most).contains(&all(factors).count()) && spread(factors);
+    let Some(factors) = choices.into_iter().find(fits) else {
+        return linear_ticks([low, high], most);
+    };
     let numbered: Vec<(f64, String)> = all(factors).map(named).collect();
     let taken = |x: &f64| !numbered.iter().any(|(own, _)| (own / x - 1.0).abs() < 1e-9);
     let plain = all(choices[0]).map(|(_, _, x)| x).filter(taken).collect();
     Ticks { numbered, plain, exponent: 0 }
-}
-
-/// 10ⁿ.
-pub(super) fn power(exponent: i32) -> String {
-    let raised = |c: char| match c {
-        '-' => '⁻',
-        digit => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit.to_digit(10).unwrap_or(0) as usize],
-    };
-    match exponent {
-        0 => "1".to_owned(),
-        1 => "10".to_owned(),
-        n => format!("10{}", n.to_string().chars().map(raised).collect::<String>()),
-    }
-}
-
-/// A number with a true minus sign, and no sign at zero.
-pub(super) fn signed(text: &str) -> String {
-    match text.strip_prefix('-') {
-        Some(rest) if rest.chars().any(|c| ('1'..='9').contains(&c)) => format!("−{rest}"),
-        Some(rest) => rest.to_owned(),
-        None => text.to_owned(),
-    }
 }
 
 #[cfg(test)]
@@ -248,8 +279,15 @@ mod tests {
     fn logarithmic_ticks_are_powers_of_ten() {
         assert_eq!(numbers([2e-4, 3.0], Scale::Log, 8).0, ["10⁻³", "10⁻²", "10⁻¹", "1"]);
         assert_eq!(numbers([1e-12, 1.0], Scale::Log, 5).0.len(), 5);
-        assert_eq!(numbers([0.01, 0.06], Scale::Log, 4).0, ["0.01", "0.02", "0.05"]);
-        assert_eq!(numbers([60.0, 700.0], Scale::Log, 5).0, ["100", "200", "500"]);
+        assert_eq!(numbers([0.01, 0.06], Scale::Log, 4).0, ["0.01", "0.02", "0.03", "0.05"]);
+        assert_eq!(numbers([60.0, 700.0], Scale::Log, 5).0, ["100", "200", "300", "500"]);
+        assert_eq!(numbers([2e-5, 9e-5], Scale::Log, 4).0, ["2×10⁻⁵", "3×10⁻⁵", "5×10⁻⁵"]);
+        assert_eq!(numbers([0.21, 0.29], Scale::Log, 5).0, ["0.22", "0.24", "0.26", "0.28"]);
+        assert_eq!(numbers([0.088, 0.19], Scale::Log, 6).0, ["0.10", "0.12", "0.14", "0.16", "0.18"]);
+        assert_eq!(
+            numbers([2.1e8, 2.9e8], Scale::Log, 5),
+            (["220", "240", "260", "280"].map(str::to_owned).to_vec(), 6)
+        );
     }
 
     #[test]

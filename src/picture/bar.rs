@@ -4,14 +4,16 @@ use super::axis::{Scale, Ticks, ticks};
 use super::canvas::{Anchor, Canvas, PIXELS};
 use super::colour::{Colour, ColourMap};
 use super::frame::{all, factor, tick, widest};
+use super::number::short;
+use super::quantity::Quantity;
 use super::sheet::{HAIR, LABELS, NUMBERS};
-use super::snapshot::short;
+use super::text;
 
 /// What colours stand for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
     /// Quantity and unit.
-    pub label: String,
+    pub label: Quantity,
     /// The map.
     pub colours: ColourMap,
     /// Least and largest value shown. A diverging map is white at zero and as dark at −x as at x, unless the signs are
@@ -29,12 +31,12 @@ const PALE: [f64; 2] = [0.01, 0.4];
 
 impl Bar {
     /// Of values from zero on.
-    pub fn sequential(label: String, most: f64) -> Self {
+    pub fn sequential(label: Quantity, most: f64) -> Self {
         Self { label, colours: ColourMap::Sequential, span: [0.0, most], apart: false }
     }
 
     /// Of tension and compression, each with a scale of its own where one would be pale beside the other.
-    pub fn signed(label: String, [low, high]: [f64; 2]) -> Self {
+    pub fn signed(label: Quantity, [low, high]: [f64; 2]) -> Self {
         let ratio = (high / -low).min(-low / high);
         Self { label, colours: ColourMap::Diverging, span: [low, high], apart: (PALE[0]..PALE[1]).contains(&ratio) }
     }
@@ -69,24 +71,45 @@ impl Bar {
         table[(part * 255.0).round().clamp(0.0, 255.0) as usize]
     }
 
-    pub(super) fn ticks(&self) -> Ticks {
+    /// Ticks on a bar of a height, whose numbers stand apart.
+    pub(super) fn ticks(&self, height: f64) -> Ticks {
+        let span = |value: f64, _: &str| {
+            let half = 0.5 * (text::CAPITALS + 0.25) * NUMBERS;
+            Some([height * self.place(value) - half, height * self.place(value) + half])
+        };
+        let most = (2..=6).rev().map(|most| self.ticks_of(most));
+        let fits = |ticks: &Ticks| ticks.clone().apart(span).numbered.len() == ticks.numbered.len();
+        most.into_iter().find(fits).unwrap_or_else(|| self.ticks_of(2).apart(span))
+    }
+
+    fn ticks_of(&self, most: usize) -> Ticks {
+        let unit = self.label.unit(self.span, Scale::Linear);
+        let [low, high] = self.span.map(|end| unit.shown(end));
         if !self.apart {
-            return ticks(self.span, Scale::Linear, 6);
+            return ticks([low, high], Scale::Linear, most).in_unit(&unit);
         }
-        let [low, high] = self.span;
-        let halves = [[low, 0.0], [0.0, high]].map(|half| ticks(half, Scale::Linear, 5));
+        let halves = [[low, 0.0], [0.0, high]].map(|half| ticks(half, Scale::Linear, most.saturating_sub(1)));
         let mut numbered: Vec<(f64, String)> = halves.iter().flat_map(|half| half.numbered.clone()).collect();
         numbered.dedup_by(|a, b| a.0 == 0.0 && b.0 == 0.0);
         let exponent = halves[0].exponent.max(halves[1].exponent);
         for (value, number) in &mut numbered {
             *number = short(*value / 10f64.powi(exponent));
         }
-        Ticks { numbered, plain: halves.into_iter().flat_map(|half| half.plain).collect(), exponent }
+        Ticks { numbered, plain: halves.into_iter().flat_map(|half| half.plain).collect(), exponent }.in_unit(&unit)
     }
 
-    /// Width with its numbers and its quantity.
+    /// Width with its numbers, however many there are, and its quantity.
     pub(super) fn width(&self) -> f64 {
-        GAP + BAR + 4.0 + widest(&self.ticks()) + 1.6 * LABELS
+        GAP + BAR + 4.0 + self.widest() + 1.6 * LABELS
+    }
+
+    fn widest(&self) -> f64 {
+        (2..=6).map(|most| widest(&self.ticks_of(most))).fold(0.0, f64::max)
+    }
+
+    /// The power of ten over the bar.
+    pub(super) fn factor(&self) -> Option<String> {
+        factor(&self.ticks_of(6))
     }
 
     pub(super) fn draw(&self, canvas: &mut Canvas, [x, top]: [f64; 2], height: f64) {
@@ -97,7 +120,7 @@ impl Bar {
         let pixels = (0..rows).flat_map(|row| colour(row).0.repeat(columns)).collect();
         canvas.image([x, top], [BAR, height], [columns, rows], pixels);
         canvas.outline(&[[x, top], [x + BAR, top], [x + BAR, top + height], [x, top + height]], HAIR, Colour::BLACK);
-        let ticks = self.ticks();
+        let ticks = self.ticks(height);
         for (value, number) in all(&ticks) {
             let y = top + height * (1.0 - self.place(value));
             tick(canvas, [x + BAR, y], [2.2, 0.0], number.is_some());
@@ -105,11 +128,12 @@ impl Bar {
                 canvas.label(number, [x + BAR + 4.0, y], Anchor::Left, NUMBERS, Colour::BLACK);
             }
         }
-        if let Some(factor) = factor(&ticks) {
+        if let Some(factor) = self.factor() {
             canvas.text(&factor, [x, top - 3.0], Anchor::Left, NUMBERS, Colour::BLACK);
         }
-        let right = x + BAR + 4.0 + widest(&ticks) + 1.35 * LABELS;
-        canvas.upward(&self.label, [right, top + 0.5 * height], LABELS, Colour::BLACK);
+        let right = x + BAR + 4.0 + self.widest() + 1.35 * LABELS;
+        let label = self.label.label(&self.label.unit(self.span, Scale::Linear));
+        canvas.upward(&label, [right, top + 0.5 * height], LABELS, Colour::BLACK);
     }
 }
 
@@ -119,7 +143,7 @@ mod tests {
 
     #[test]
     fn signs_stand_apart_where_one_would_be_pale_and_places_lead_back_to_values() {
-        let bar = |span: [f64; 2]| Bar::signed(String::new(), span);
+        let bar = |span: [f64; 2]| Bar::signed("".into(), span);
         for (span, apart) in [
             ([-1.0, 0.9], false),
             ([-1.0, 0.1], true),
@@ -132,8 +156,8 @@ mod tests {
             for place in [0.0, 0.2, 0.5, 0.9, 1.0] {
                 assert!((bar.place(bar.value(place)) - place).abs() < 1e-12, "{span:?} {place}");
             }
-            assert!(bar.ticks().numbered.len() > 3, "{span:?}: {:?}", bar.ticks());
-            let zeros = bar.ticks().numbered.iter().filter(|(value, _)| *value == 0.0).count();
+            assert!(bar.ticks(150.0).numbered.len() > 3, "{span:?}: {:?}", bar.ticks(150.0));
+            let zeros = bar.ticks(150.0).numbered.iter().filter(|(value, _)| *value == 0.0).count();
             assert_eq!(zeros, 1, "{span:?}");
         }
         let table = ColourMap::Diverging.table();

@@ -136,6 +136,7 @@ impl Panel for Plot<'_> {
         let Layout { frame, legend, .. } = self.layout(width, margins);
         frame.draw(canvas, [ox, oy]);
         frame.draw_zero(canvas, [ox, oy]);
+        frame.draw_marks(canvas, &self.chart.x, [ox, oy]);
         for curve in &self.chart.curves {
             for run in runs(curve, &frame) {
                 let run: Vec<[f64; 2]> = run.into_iter().map(|[x, y]| [ox + x, oy + y]).collect();
@@ -163,7 +164,7 @@ mod tests {
     }
 
     fn line(points: Vec<[f64; 2]>) -> Curve {
-        Curve { label: "a curve".into(), points, style: Style::Line, colour: 1 }
+        Curve { label: "a curve".into(), points, style: Style::Line, colour: 1.into() }
     }
 
     #[test]

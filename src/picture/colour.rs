@@ -27,6 +27,11 @@ impl Colour {
         }
     }
 
+    /// The colour of a line at a depth from 0 to 1: the sequential map without its end, too light on white.
+    pub fn deep(part: f64) -> Self {
+        ColourMap::Sequential.colour(0.87 * part.clamp(0.0, 1.0))
+    }
+
     /// Mixed with white: 0 leaves it, 1 makes it white.
     pub fn lighter(self, part: f64) -> Self {
         Self(self.0.map(|c| (f64::from(c) + part * (255.0 - f64::from(c))).round() as u8))

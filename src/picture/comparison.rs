@@ -7,7 +7,7 @@ use super::curve::{Curve, Style};
 use super::snapshot::caption;
 use crate::comparison::{CircleComparison, Comparison, Deviation};
 use crate::localized::CircleRadius;
-use crate::numeric::number::number;
+use crate::units::Units;
 
 /// What is read off a deviation.
 type Value = fn(&Deviation) -> f64;
@@ -21,7 +21,7 @@ const QUANTITIES: [(&str, Value); 4] = [
 ];
 
 /// The picture: one panel for each rule; `None` for less than two circles, or where nothing differs, as without contact.
-pub fn comparison(title: &str, comparison: &Comparison) -> Option<Canvas> {
+pub fn comparison(title: &str, units: &Units, comparison: &Comparison) -> Option<Canvas> {
     if comparison.circles.len() < 2 || comparison.other_rule.is_empty() {
         return None;
     }
@@ -51,18 +51,18 @@ pub fn comparison(title: &str, comparison: &Comparison) -> Option<Canvas> {
     let charts: Vec<Chart> = ('a'..).zip(&panels).map(chart).collect();
     let [n1, n2] = comparison.spectral.points;
     let more = [
-        format!("p̄\u{a0}=\u{a0}{}", number(comparison.spectral.reading.mean_pressure)),
+        units.pressure_equals("p̄", &[comparison.spectral.reading.mean_pressure]),
         format!("localized with {} elements across the largest contact", comparison.task.elements),
         format!("spectral on {n1}\u{a0}×\u{a0}{n2} samples"),
     ];
     let what = "Lines with markers: largest difference of any level from the spectral solution. Dashed: what half the \
                 elements change, a bound of the mesh's own error.";
-    Some(plots(&format!("{} {what}", caption(title, &comparison.task.problem, &more)), &charts))
+    Some(plots(&format!("{} {what}", caption(title, &comparison.task.problem, units, &more)), &charts))
 }
 
 fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
     let mut curves = Vec::new();
-    for (colour, (name, value)) in (1..).zip(QUANTITIES) {
+    for (colour, (name, value)) in (1usize..).zip(QUANTITIES) {
         let points = |of: &dyn Fn(&CircleComparison) -> f64| {
             circles.iter().map(|circle| [circle.indenters as f64, of(circle)]).collect()
         };
@@ -71,10 +71,10 @@ fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
             label,
             points: points(&|circle| value(&circle.difference)),
             style: Style::LineMarkers,
-            colour,
+            colour: colour.into(),
         });
         let points = points(&|circle| value(&circle.mesh_error));
-        curves.push(Curve { label: String::new(), points, style: Style::Dashed, colour });
+        curves.push(Curve { label: String::new(), points, style: Style::Dashed, colour: colour.into() });
     }
     curves
 }

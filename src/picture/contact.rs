@@ -6,10 +6,12 @@ use super::chart::{Chart, Plot};
 use super::colour::Colour;
 use super::curve::{Curve, Style};
 use super::map::{Fill, Map, Over};
+use super::number::signed;
 use super::pressure::{aspect, axes, numbers, sliding_arrow, sliding_words, unit_cell};
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
-use super::tiling::{around, images, window};
+use super::tiling::{images, window};
+use crate::reading::LevelReading;
 use std::f64::consts::TAU;
 
 /// Least range of deviations from a circle that is shown, per cent: a fitted boundary is good to some 0.03.
@@ -48,64 +50,111 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
                 }
             }
         }
+        let lines = snapshot.outlines(window).into_iter();
+        over.extend(lines.map(|points| {
+            Over::Line(Stroke { points, width: 0.6, dash: Dash::Solid, colour: Colour::BLACK })
+        }));
         over.extend(numbers(snapshot, window, |_| Colour::BLACK));
         over.extend(sliding_arrow(snapshot));
         let fill = Fill::Colours(&colour);
         let spots = Map { title: "(a) contact spots".into(), x, y, aspect: aspect(window), fill, over };
         let radii = radii(snapshot, without_mutual_effect);
-        let mut what = "Numbers are levels; ρ(θ) is the boundary's distance from the indenter's axis, θ its direction \
-                        from the x axis, πa² the area within it."
-            .to_owned();
-        if without_mutual_effect.is_some() {
-            what += " Dashed circles and lines: without the mutual effect of the indenters.";
+        let mut what = "Numbers are levels.".to_owned();
+        what += &merged_words(snapshot);
+        if let Some((_, beyond)) = &radii {
+            what += " ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the \
+                     area within it.";
+            if snapshot.reading.boundaries.iter().flatten().any(|boundary| !boundary.hole.is_empty()) {
+                what += " Dotted in (b): the hole of a ring, over its own mean radius.";
+            }
+            if without_mutual_effect.is_some() {
+                what += " Dashed circles and lines: without the mutual effect of the indenters";
+                what += &if beyond.is_empty() { ".".to_owned() } else { format!(", beyond (b) {}.", beyond.join(", ")) };
+            }
         }
         what += sliding_words(snapshot);
         let caption = snapshot.caption(&what);
         match radii {
-            Some(chart) => sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: aspect(window).min(1.0) }]),
+            Some((chart, _)) => {
+                sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: aspect(window).min(1.0) }])
+            }
             None => sheet(&caption, &[&Map { title: String::new(), ..spots }]),
         }
     })
 }
 
-/// Boundary radius against direction, relative to the radius of the circle of equal area; `None` when no spot has a
-/// boundary of its own.
-fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Chart> {
+/// Which contacts have no boundary of their own: what is said of them.
+fn merged_words(snapshot: &Snapshot) -> String {
+    let levels = |which: fn(&LevelReading) -> bool| {
+        let own = snapshot.reading.levels.iter().filter(|level| level.load > 0.0 && which(level));
+        own.map(|level| level.level.to_string()).collect::<Vec<String>>()
+    };
+    let plural = |levels: &[String]| format!("level{} {}", if levels.len() > 1 { "s" } else { "" }, levels.join(", "));
+    let merged = levels(|level| level.merged);
+    let few = levels(|level| !level.merged && level.radius_min.is_none());
+    let mut words = String::new();
+    if !merged.is_empty() {
+        words += &format!(
+            " Contacts of {} have merged with neighbours: black outlines around all of them, colours by whose indenter \
+             faces the surface, no radius.",
+            plural(&merged)
+        );
+    }
+    if !few.is_empty() {
+        words += &format!(" Contacts of {} have too few samples for a radius (black outlines).", plural(&few));
+    }
+    words
+}
+
+/// Boundary radius against direction, relative to the radius of the circle of equal area, and the levels whose radius
+/// without mutual effect is not in the chart; `None` when no spot has a boundary of its own.
+fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(Chart, Vec<String>)> {
     let degrees = |k: usize, count: usize| 360.0 * k as f64 / count as f64;
-    let mut curves = Vec::new();
+    let deviations = |radii: &[f64], mean: f64| -> Vec<[f64; 2]> {
+        let count = radii.len();
+        (0..=count).map(|k| [degrees(k, count), 100.0 * (radii[k % count] / mean - 1.0)]).collect()
+    };
+    let (mut curves, mut alone) = (Vec::new(), Vec::new());
     for level in 1..=snapshot.levels() {
         let site = snapshot.step.surface().site_of(level)?;
         let Some(boundary) = &snapshot.reading.boundaries[site] else { continue };
-        let mean = boundary.mean_radius();
-        let count = boundary.radii.len();
-        let points = (0..=count).map(|k| [degrees(k, count), 100.0 * (boundary.radii[k % count] / mean - 1.0)]);
-        curves.push(Curve {
-            label: format!("level {level}"),
-            points: points.collect(),
-            style: Style::Line,
-            colour: level,
-        });
-        let alone = without_mutual_effect.and_then(|radii| radii.get(level - 1));
-        if let Some(radius) = alone.filter(|radius| **radius > 0.0) {
-            let deviation = 100.0 * (radius / mean - 1.0);
-            curves.push(Curve {
-                label: String::new(),
-                points: vec![[0.0, deviation], [360.0, deviation]],
-                style: Style::Dashed,
-                colour: level,
-            });
+        let curve =
+            |label: String, points: Vec<[f64; 2]>, style: Style| Curve { label, points, style, colour: level.into() };
+        curves.push(curve(format!("level {level}"), deviations(&boundary.radii, boundary.mean_radius()), Style::Line));
+        if !boundary.hole.is_empty() {
+            let points = deviations(&boundary.hole, boundary.mean_hole_radius());
+            curves.push(curve(format!("level {level}, hole"), points, Style::Dotted));
+        }
+        let own = without_mutual_effect.and_then(|radii| radii.get(level - 1)).filter(|radius| **radius > 0.0);
+        if let Some(radius) = own {
+            let deviation = 100.0 * (radius / boundary.mean_radius() - 1.0);
+            alone.push((
+                level,
+                deviation,
+                curve(String::new(), vec![[0.0, deviation], [360.0, deviation]], Style::Dashed),
+            ));
         }
     }
-    // Deviations near the accuracy of the fit are not blown up.
-    let largest = curves.iter().flat_map(|curve| &curve.points).map(|point| point[1].abs()).fold(0.0, f64::max);
+    // The computed boundaries make the scale; deviations near the accuracy of the fit are not blown up.
     let y = Axis::linear("boundary radius, ρ/a − 1 (%)");
-    let y = if largest < LEAST { y.from_to(-LEAST, LEAST) } else { y };
-    (!curves.is_empty()).then(|| Chart {
+    let computed = || curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]);
+    let largest = computed().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let [low, high] = if largest < LEAST { [-LEAST, LEAST] } else { y.reach(computed(), 0.05) };
+    let mut beyond = Vec::new();
+    for (level, deviation, curve) in alone {
+        if (low..=high).contains(&deviation) {
+            curves.push(curve);
+        } else {
+            beyond.push(format!("level {level} at {}\u{a0}%", signed(&format!("{deviation:.1}"))));
+        }
+    }
+    let chart = Chart {
         title: "(b) boundary".into(),
         x: Axis { scale: Scale::Degrees, ..Axis::linear("direction θ (degrees)").from_to(0.0, 360.0) },
-        y,
+        y: y.from_to(low, high),
         curves,
-    })
+    };
+    (!chart.curves.is_empty()).then_some((chart, beyond))
 }
 
 /// A window with the spots that reach into it.
@@ -117,9 +166,52 @@ impl Snapshot {
     /// Level whose indenter is in contact at a place, if one is.
     fn level_in_contact(&self, place: [f64; 2]) -> Option<usize> {
         self.pressure_at(place)?;
-        let touching = |&(index, _): &(usize, f64)| self.pressures()[index] > 0.0;
-        let nearest = around(self.step.grid(), place).into_iter().filter(touching).max_by(|a, b| a.1.total_cmp(&b.1));
-        let (index, _) = nearest?;
-        Some(self.step.surface().level_at(index))
+        self.facing(place).map(|(site, _)| self.step.surface().sites()[site].level)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::{Indenters, Level, Shape};
+    use crate::lattice::Lattice;
+    use crate::load::Load;
+    use crate::problem::Problem;
+    use crate::spectral::{Settings, Solver};
+
+    fn snapshot(mean_pressure: f64) -> Snapshot {
+        let levels = [0.01, 0.0].map(|height| Level::new(Shape::Paraboloid { radius: 1.0 }, height).unwrap()).to_vec();
+        let indenters = Indenters::new(Lattice::square(1.0, 2).unwrap(), levels).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let mut solver = Solver::new(Problem::new(indenters, body), [48, 48], Settings::default()).unwrap();
+        let step = solver.solve(Load::MeanPressure(mean_pressure));
+        let reading = step.reading();
+        Snapshot::new("", step, reading)
+    }
+
+    #[test]
+    fn the_computed_boundaries_make_the_scale_and_what_lies_beyond_is_told() {
+        let snapshot = snapshot(0.05);
+        let range = |alone: Option<&[f64]>| {
+            let (chart, beyond) = radii(&snapshot, alone).unwrap();
+            (chart.y.range.unwrap(), chart.curves.len(), beyond)
+        };
+        let own = |level: usize| snapshot.reading.levels[level].contact_radius.unwrap();
+        let (bare, two, none) = range(None);
+        assert_eq!((two, none.len()), (2, 0));
+        let near = [own(0) * (1.0 + 0.004 * bare[1]), own(1) * 3.0];
+        let (scaled, curves, beyond) = range(Some(&near));
+        assert_eq!((scaled, curves), (bare, 3));
+        assert_eq!(beyond, ["level 2 at 200.0\u{a0}%"]);
+    }
+
+    #[test]
+    fn merged_contacts_are_outlined_and_have_no_radius() {
+        let snapshot = snapshot(0.6);
+        assert!(snapshot.reading.levels.iter().all(|level| level.merged), "{}", snapshot.reading);
+        assert!(radii(&snapshot, None).is_none());
+        assert!(merged_words(&snapshot).contains("levels 1, 2 have merged"));
+        assert!(!snapshot.outlines(window(snapshot.step.grid().cell())).is_empty());
     }
 }

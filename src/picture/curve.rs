@@ -13,10 +13,44 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
     /// How it is drawn.
     pub style: Style,
-    /// Index of its colour: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue, and again
-    /// from 1.
-    pub colour: usize,
+    /// Its colour.
+    pub colour: Ink,
 }
+
+/// The colour of a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ink {
+    /// By its index: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue, and again from 1.
+    Number(usize),
+    /// By depth, from 0 at the surface, dark, to 1, light: for more curves than there are colours.
+    Depth(f64),
+}
+
+impl From<usize> for Ink {
+    fn from(number: usize) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl Ink {
+    /// Of the `index`-th of `count` things from the surface down (from 0): by number while there are colours for all.
+    pub(super) fn by_depth(index: usize, count: usize) -> Self {
+        match count {
+            0..=MOST => Self::Number(index + 1),
+            _ => Self::Depth(index as f64 / (count - 1) as f64),
+        }
+    }
+
+    fn colour(self) -> Colour {
+        match self {
+            Self::Number(number) => Colour::line(number),
+            Self::Depth(part) => Colour::deep(part),
+        }
+    }
+}
+
+/// Most things that are told apart by numbered colours, one below the other: four layers on a substrate.
+pub(super) const MOST: usize = 5;
 
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +79,7 @@ impl Curve {
     pub(super) fn draw(&self, canvas: &mut Canvas, run: &[[f64; 2]], bounds: [[f64; 2]; 2]) {
         if let Some(dash) = self.style.dash() {
             for piece in clipped(run, bounds) {
-                canvas.dashed(&piece, STROKE, dash, Colour::line(self.colour));
+                canvas.dashed(&piece, STROKE, dash, self.colour.colour());
             }
         }
         let [low, high] = bounds;
@@ -58,7 +92,7 @@ impl Curve {
     /// Draws the curve's entry in a legend: a piece of it, then its name.
     pub(super) fn entry(&self, canvas: &mut Canvas, [x, y]: [f64; 2], length: f64) {
         if let Some(dash) = self.style.dash() {
-            canvas.dashed(&[[x, y], [x + length, y]], STROKE, dash, Colour::line(self.colour));
+            canvas.dashed(&[[x, y], [x + length, y]], STROKE, dash, self.colour.colour());
         }
         self.mark(canvas, [x + 0.5 * length, y]);
         canvas.label(&self.label, [x + length + TEXT_GAP, y], Anchor::Left, NUMBERS, Colour::BLACK);
@@ -71,14 +105,15 @@ impl Curve {
             Style::LineMarkers => false,
             _ => return,
         };
-        let colour = Colour::line(self.colour);
-        let corners: &[[f64; 2]] = match self.colour % 4 {
+        let colour = self.colour.colour();
+        let number = if let Ink::Number(number) = self.colour { number % 4 } else { 0 };
+        let corners: &[[f64; 2]] = match number {
             1 => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
             2 => &[[0.0, -1.35], [1.35, 0.0], [0.0, 1.35], [-1.35, 0.0]],
             _ => &[[0.0, -1.3], [1.25, 1.0], [-1.25, 1.0]],
         };
         let shape: Vec<[f64; 2]> = corners.iter().map(|[u, v]| [x + MARKER * u, y + MARKER * v]).collect();
-        if self.colour.is_multiple_of(4) {
+        if number == 0 {
             canvas.disc([x, y], MARKER + if open { 0.35 } else { 0.0 }, colour);
             if open {
                 canvas.disc([x, y], MARKER - 0.45, Colour::WHITE);

@@ -1,7 +1,7 @@
-//! A picture as a file: PNG or SVG.
+//! A picture as a file: PNG, SVG or PDF.
 
 use super::canvas::Canvas;
-use super::{raster, vector};
+use super::{paper, raster, vector};
 use crate::output::{OutputError, write_file};
 use std::io::Write;
 use std::path::Path;
@@ -12,8 +12,10 @@ pub enum Format {
     /// Pixels, 300 dots per inch.
     #[default]
     Png,
-    /// Lines, texts and, for fields, embedded pixels.
+    /// Lines, letters as outlines and, for fields, embedded pixels.
     Svg,
+    /// The same as a page.
+    Pdf,
 }
 
 impl Format {
@@ -22,12 +24,13 @@ impl Format {
         match self {
             Self::Png => "png",
             Self::Svg => "svg",
+            Self::Pdf => "pdf",
         }
     }
 }
 
 impl Canvas {
-    /// Writes the sheet as `<folder>/<name>.png` or `.svg`, whole or not at all.
+    /// Writes the sheet as `<folder>/<name>.png`, `.svg` or `.pdf`, whole or not at all.
     ///
     /// # Errors
     /// [`OutputError`] with the path.
@@ -35,6 +38,7 @@ impl Canvas {
         let picture = match format {
             Format::Png => raster::png(self),
             Format::Svg => vector::svg(self).into_bytes(),
+            Format::Pdf => paper::pdf(self),
         };
         write_file(&folder.join(format!("{name}.{}", format.extension())), |writer| writer.write_all(&picture))
     }

@@ -1,8 +1,9 @@
 //! The frame of a plot: two axes with their ranges, numbers and quantities, and where a point stands between them.
 
-use super::axis::{Axis, Scale, Ticks, power, ticks};
-use super::canvas::{Anchor, Canvas};
+use super::axis::{Axis, Scale, Ticks};
+use super::canvas::{Anchor, Canvas, Dash};
 use super::colour::Colour;
+use super::number;
 use super::sheet::{HAIR, LABELS, Margins, NUMBERS};
 use super::text::{self, wrapped};
 
@@ -10,8 +11,10 @@ use super::text::{self, wrapped};
 const TICK: f64 = 3.0;
 /// How far numbers stand away from a plot with outward ticks.
 const BEYOND: f64 = 0.7 * TICK;
-/// Most numbers on a vertical axis.
-const MOST: usize = 6;
+/// Most numbers on a horizontal and on a vertical axis.
+const MOST: [usize; 2] = [7, 6];
+/// Distance at which numbers stand apart, of their size: beside and above each other.
+const APART: [f64; 2] = [0.6, 0.25];
 
 /// A frame, laid out relative to the upper left corner of its panel.
 #[derive(Debug, Clone)]
@@ -41,12 +44,15 @@ impl Frame {
         aspect: f64,
         outward: bool,
     ) -> Margins {
-        let ticks = ticks(ranges[1], axes[1].scale, MOST);
+        // As many numbers as there may be: how high the plot is shows later.
+        let all = |most: usize| axes[1].ticks(ranges[1], most);
+        let widest = (2..=MOST[1]).map(|most| widest(&all(most))).fold(0.0, f64::max);
         let beyond = if outward { BEYOND } else { 0.0 };
-        let numbers = widest(&ticks) + 3.5 + beyond;
+        let numbers = widest + 3.5 + beyond;
         let high = aspect * (width - 1.35 * LABELS - numbers - right);
-        let lines = wrapped(&axes[1].label, LABELS, high).len().max(1) as f64;
-        let top = if factor(&ticks).is_some() { 1.5 * NUMBERS } else { 0.6 * NUMBERS };
+        let lines = wrapped(&label(axes[1], ranges[1]), LABELS, high).len().max(1) as f64;
+        let above = factor(&all(MOST[1])).is_some() || !axes[0].marks.is_empty();
+        let top = if above { 1.5 * NUMBERS } else { 0.6 * NUMBERS };
         Margins { left: (0.1 + 1.25 * lines) * LABELS + numbers, right, top }
     }
 
@@ -59,28 +65,35 @@ impl Frame {
         aspect: f64,
         outward: bool,
     ) -> Self {
-        let wide = width - left - right;
-        let x_ticks = {
-            // As many numbers as stand apart.
-            let fits = |most: &usize| {
-                let numbers = ticks(ranges[0], axes[0].scale, *most).numbered;
-                let all: f64 = numbers.iter().map(|(_, number)| text::width(number, NUMBERS) + NUMBERS).sum();
-                all <= wide + NUMBERS
-            };
-            ticks(ranges[0], axes[0].scale, (2..=7).rev().find(fits).unwrap_or(2))
-        };
-        let high = aspect * wide;
+        let size = [width - left - right, aspect * (width - left - right)];
         let beyond = if outward { BEYOND } else { 0.0 };
-        Self {
-            labels: [vec![axes[0].label.clone()], wrapped(&axes[1].label, LABELS, high)],
+        let mut frame = Self {
+            labels: [vec![label(axes[0], ranges[0])], wrapped(&label(axes[1], ranges[1]), LABELS, size[1])],
             scales: axes.map(|axis| axis.scale),
             ranges,
-            ticks: [x_ticks, ticks(ranges[1], axes[1].scale, MOST)],
+            ticks: [0, 1].map(|k| axes[k].ticks(ranges[k], MOST[k])),
             outward,
             corner: [left, top],
-            size: [wide, high],
-            height: top + high + beyond + NUMBERS * 1.45 + LABELS * 1.5,
+            size,
+            height: top + size[1] + beyond + NUMBERS * 1.45 + LABELS * 1.5,
+        };
+        for k in 0..2 {
+            // As many numbers as stand apart; of two that do not, one.
+            let span = |value: f64, number: &str| frame.span(k, value, number);
+            let ticks = (2..=MOST[k]).rev().map(|most| axes[k].ticks(ranges[k], most));
+            let fits = |ticks: &Ticks| ticks.clone().apart(span).numbered.len() == ticks.numbered.len();
+            let ticks = ticks.into_iter().find(fits).unwrap_or_else(|| axes[k].ticks(ranges[k], 2).apart(span));
+            frame.ticks[k] = ticks;
         }
+        frame
+    }
+
+    /// What a number takes of the sheet along its axis (0: x, 1: y), with half of the distance to the next.
+    fn span(&self, axis: usize, value: f64, number: &str) -> Option<[f64; 2]> {
+        let place = self.place([0, 1].map(|k| if k == axis { value } else { self.ranges[k][0] }))?;
+        let extent = if axis == 0 { text::width(number, NUMBERS) } else { text::CAPITALS * NUMBERS };
+        let half = 0.5 * (extent + APART[axis] * NUMBERS);
+        Some([place[axis] - half, place[axis] + half])
     }
 
     /// Place of a point of the plot, if it has one.
@@ -132,8 +145,10 @@ impl Frame {
             }
         }
         let below = bottom + beyond + 1.45 * NUMBERS + 1.05 * LABELS;
+        let beside = factor(x_ticks).map_or(0.0, |factor| text::width(&factor, NUMBERS) + NUMBERS);
         for label in &self.labels[0] {
-            canvas.text(label, [0.5 * (left + right), below], Anchor::Centre, LABELS, Colour::BLACK);
+            let most = right - beside - 0.5 * text::width(label, LABELS);
+            canvas.text(label, [most.min(0.5 * (left + right)), below], Anchor::Centre, LABELS, Colour::BLACK);
         }
         // Next to the widest number of this axis.
         let nearest = left - beyond - 3.0 - widest(y_ticks) - 0.45 * LABELS;
@@ -146,6 +161,37 @@ impl Frame {
         }
         if let Some(factor) = factor(x_ticks) {
             canvas.text(&factor, [right, below], Anchor::Right, NUMBERS, Colour::BLACK);
+        }
+    }
+
+    /// Places of the marks of the horizontal axis within the plot.
+    fn marks<'a>(&self, axis: &'a Axis) -> Vec<(f64, &'a str)> {
+        let (left, right, y) = (self.corner[0], self.corner[0] + self.size[0], self.ranges[1][0]);
+        let places = axis.marks.iter().filter_map(|(x, word)| Some((self.place([*x, y])?[0], word.as_str())));
+        let mut places: Vec<(f64, &str)> = places.filter(|(x, _)| (left..=right).contains(x)).collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        places
+    }
+
+    /// Draws the marks of the horizontal axis, their words above the plot; those too near for words of their own have
+    /// one together.
+    pub fn draw_marks(&self, canvas: &mut Canvas, axis: &Axis, origin: [f64; 2]) {
+        let [[_, top], [_, bottom]] = self.bounds(origin);
+        let mut words: Vec<([f64; 2], String)> = Vec::new();
+        for (x, word) in self.marks(axis) {
+            canvas.dashed(&[[origin[0] + x, top], [origin[0] + x, bottom]], 0.7, Dash::Dotted, Colour::GREY);
+            let room = text::width(word, NUMBERS) + NUMBERS;
+            match words.last_mut() {
+                Some(([_, last], own)) if x - *last < room => {
+                    *last = x;
+                    own.push_str(&format!(", {word}"));
+                }
+                _ => words.push(([x, x], word.to_owned())),
+            }
+        }
+        for ([first, last], word) in words {
+            let at = [origin[0] + 0.5 * (first + last), top - 2.5];
+            canvas.text(&word, at, Anchor::Centre, NUMBERS, Colour::GREY);
         }
     }
 
@@ -180,5 +226,38 @@ pub fn widest(ticks: &Ticks) -> f64 {
 
 /// The power of ten that the numbers are to be multiplied by, if it is not one.
 pub fn factor(ticks: &Ticks) -> Option<String> {
-    (ticks.exponent != 0).then(|| format!("×{}", power(ticks.exponent)))
+    (ticks.exponent != 0).then(|| number::factor(ticks.exponent))
+}
+
+/// What an axis shows over a range, with its unit.
+fn label(axis: &Axis, range: [f64; 2]) -> String {
+    axis.label.label(&axis.unit(range))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ranges of all lengths, from a tenth of a per cent to twelve decades, on plots of all shapes.
+    #[test]
+    fn no_two_numbers_of_an_axis_collide_and_most_axes_have_two() {
+        for scale in [Scale::Linear, Scale::Log] {
+            for (k, width) in (0..120).flat_map(|k| [90.0, 140.0, 230.0].map(|width| (k, width))) {
+                let first = 10f64.powf(-9.0 + 0.37 * f64::from(k) % 17.0);
+                let ratio = 10f64.powf(0.001 * 1.08f64.powi(k));
+                let range = [first, first * ratio];
+                let axis = Axis { scale, ..Axis::linear("p") };
+                let aspect = 0.3 + 0.01 * f64::from(k);
+                let margins = Frame::margins([&axis, &axis], [range; 2], [width, 6.0], aspect, false);
+                let frame = Frame::new([&axis, &axis], [range; 2], width, margins, aspect, false);
+                for (k, ticks) in frame.ticks.iter().enumerate() {
+                    let mut spans: Vec<[f64; 2]> =
+                        ticks.numbered.iter().filter_map(|(value, number)| frame.span(k, *value, number)).collect();
+                    spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+                    assert!(spans.windows(2).all(|pair| pair[0][1] <= pair[1][0]), "{range:?} {width}: {ticks:?}");
+                    assert!(spans.len() > 1 || width < 200.0, "{range:?} {width}: {ticks:?}");
+                }
+            }
+        }
+    }
 }

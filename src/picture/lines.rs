@@ -3,10 +3,14 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Style};
+use super::curve::{Curve, Ink, MOST, Style};
+use super::number::degrees;
 use super::rows::Quantity;
 use super::snapshot::Snapshot;
 use crate::stress::Section;
+
+/// From so many interfaces on colours tell depths, and both sides of an interface have one name.
+const MANY: usize = MOST;
 
 /// The picture.
 pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
@@ -20,6 +24,8 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
             (0, ..) => "surface".to_owned(),
             (_, 1, true) => "interface, coating".to_owned(),
             (_, 1, false) => "interface, substrate".to_owned(),
+            (_, MANY.., true) => format!("interface {}", depth.material),
+            (_, MANY.., false) => String::new(),
             (_, _, true) => format!("interface {}, above", depth.material),
             (_, _, false) => format!("interface {}, below", depth.material - 1),
         }
@@ -35,25 +41,28 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
     };
     let chart = |title: &str, quantity: Quantity, y: Axis| Chart {
         title: title.to_owned(),
-        x: Axis::linear(snapshot.units.length("distance", "s")),
+        x: Axis::linear(snapshot.units.length_of("distance", "s")),
         y,
-        curves: (1..)
+        curves: (1usize..)
             .zip(section.face_rows())
-            .map(|(colour, row)| Curve {
+            .map(|(number, row)| Curve {
                 label: name(row),
                 points: points(row, quantity),
                 style: if below(row) { Style::Dashed } else { Style::Line },
-                colour,
+                colour: match interfaces {
+                    MANY.. => Ink::by_depth(number / 2, interfaces + 1),
+                    _ => number.into(),
+                },
             })
             .collect(),
     };
-    let along = Axis::linear(snapshot.units.pressure("stress along the section", "σₛ"));
-    let tau1 = Axis::linear(snapshot.units.pressure("principal shear stress", "τ₁"));
+    let along = Axis::linear(snapshot.units.pressure_of("stress along the section", "σₛ"));
+    let tau1 = Axis::linear(snapshot.units.pressure_of("principal shear stress", "τ₁"));
     let charts = [
         chart("(a) tension and compression", Quantity::Along, along),
         chart("(b) principal shear stress", Quantity::Tau1, tau1),
     ];
-    let [dx, dy] = section.line.direction;
-    let what = format!("Lines along {:.0}° from the x axis.", dy.atan2(dx).to_degrees());
-    plots(&snapshot.caption(&what), &charts)
+    let what = format!("Lines along {} from the x axis.", degrees(section.line.direction));
+    let sides = if interfaces >= MANY { " Solid: above an interface; dashed: below." } else { "" };
+    plots(&snapshot.caption(&(what + sides)), &charts)
 }

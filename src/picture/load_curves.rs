@@ -3,24 +3,26 @@
 use super::axis::{Axis, log_spaced};
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Style};
+use super::curve::{Curve, Ink, MOST, Style};
+use super::quantity::Quantity;
 use super::snapshot::caption;
-use super::units::Units;
+use super::touches::touches;
 use super::utilisations::{utilisation_axis, utilisation_curves};
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
 use crate::stress::Peak;
 use crate::stress::maxima::{Carried, Extremes};
+use crate::units::Units;
 
 /// The picture; `None` for less than two steps, or where none of them carries load.
-pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Option<Canvas> {
+pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepRecord]) -> Option<Canvas> {
     if steps.len() < 2 || !steps.iter().any(|step| step.reading.mean_pressure > 0.0) {
         return None;
     }
-    let units = Units::of(problem);
     let levels = problem.counterbody().levels().len();
-    let run = Run { steps, levels, units: &units, logarithmic: logarithmic(steps) };
+    let touches = touches(problem, steps);
+    let run = Run { steps, levels, units, logarithmic: logarithmic(steps), touches: &touches };
     let mut charts = vec![run.peak_pressure(), run.extent(), run.penetration()];
     if run.levels > 1 {
         charts.push(run.shares());
@@ -33,7 +35,11 @@ pub fn load_curves(title: &str, problem: &Problem, steps: &[StepRecord]) -> Opti
     }
     let [n1, n2] = steps[0].points;
     let more = [format!("{} load steps", steps.len()), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    Some(plots(&caption(title, problem, &more), &charts))
+    let what = match touches.len() {
+        0 => "",
+        _ => " Dotted, with the level's number: where a level touches first, from its loads at the steps behind.",
+    };
+    Some(plots(&format!("{}{what}", caption(title, problem, units, &more)), &charts))
 }
 
 struct Run<'a> {
@@ -42,10 +48,12 @@ struct Run<'a> {
     units: &'a Units,
     /// Whether the mean pressure and what grows with it have logarithmic axes.
     logarithmic: bool,
+    /// Levels and the mean pressures at which they touch first.
+    touches: &'a [(usize, f64)],
 }
 
 impl Run<'_> {
-    fn axis(&self, label: String) -> Axis {
+    fn axis(&self, label: Quantity) -> Axis {
         if self.logarithmic { Axis::log(label) } else { Axis::linear(label) }
     }
 
@@ -54,11 +62,12 @@ impl Run<'_> {
         let last = loads.clone().fold(0.0, f64::max);
         let least = loads.fold(f64::INFINITY, f64::min);
         let (first, last) = if self.logarithmic { (least / 1.1, last * 1.1) } else { (0.0, 1.03 * last) };
-        let x = self.axis(self.units.pressure("mean pressure", "p̄")).from_to(first, last);
-        Chart { title: title.to_owned(), x, y, curves }
+        let x = self.axis(self.units.pressure_of("mean pressure", "p̄")).from_to(first, last);
+        let marks = self.touches.iter().map(|(level, pressure)| (*pressure, level.to_string())).collect();
+        Chart { title: title.to_owned(), x: Axis { marks, ..x }, y, curves }
     }
 
-    fn curve(&self, label: &str, colour: usize, value: impl Fn(&StepRecord) -> f64) -> Curve {
+    fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> f64) -> Curve {
         let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.reading.mean_pressure, value(step)]).collect();
         // Markers show the steps where they are few.
         let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
@@ -72,11 +81,11 @@ impl Run<'_> {
         value: impl Fn(&LevelReading) -> Option<f64>,
     ) -> Vec<Curve> {
         if self.levels == 0 {
-            return vec![self.curve("", 1, |step| whole(&step.reading).unwrap_or(f64::NAN))];
+            return vec![self.curve("", 1.into(), |step| whole(&step.reading).unwrap_or(f64::NAN))];
         }
         let touching = |level: &LevelReading| if level.load > 0.0 { value(level) } else { None };
         let of = |level: usize| {
-            self.curve(&format!("level {level}"), level, |step| {
+            self.curve(&format!("level {level}"), level.into(), |step| {
                 touching(&step.reading.levels[level - 1]).unwrap_or(f64::NAN)
             })
         };
@@ -84,22 +93,22 @@ impl Run<'_> {
     }
 
     fn peak_pressure(&self) -> Chart {
-        let label = self.units.pressure("peak pressure", "p");
+        let label = self.units.pressure_of("peak pressure", "p");
         self.chart("peak pressure", self.axis(label), self.by_level(Reading::finite_peak, LevelReading::finite_peak))
     }
 
     fn extent(&self) -> Chart {
         let (title, label) = match self.levels {
-            0 => ("contact area", "fraction of the cell in contact".to_owned()),
-            _ => ("contact radius", self.units.length("contact radius", "a")),
+            0 => ("contact area", "fraction of the cell in contact".into()),
+            _ => ("contact radius", self.units.length_of("contact radius", "a")),
         };
         let curves = self.by_level(|reading| Some(reading.contact_fraction), |level| level.contact_radius);
         self.chart(title, self.axis(label), curves)
     }
 
     fn penetration(&self) -> Chart {
-        let label = self.units.length("additional displacement", "δ");
-        let curve = self.curve("", 0, |step| step.reading.penetration);
+        let label = self.units.length_of("additional displacement", "δ");
+        let curve = self.curve("", 0.into(), |step| step.reading.penetration);
         self.chart("additional displacement", self.axis(label), vec![curve])
     }
 
@@ -120,16 +129,16 @@ impl Run<'_> {
         };
         let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
             let of = |index: usize| {
-                self.curve(&name(index), index + 1, |step| {
+                self.curve(&name(index), Ink::by_depth(index, materials), |step| {
                     let extremes = step.stress.as_ref().and_then(|stress| stress.materials.get(index));
                     extremes.and_then(|extremes| value(extremes).finite()).unwrap_or(f64::NAN)
                 })
             };
             (0..materials).map(of).collect()
         };
-        let tau1 = self.units.pressure("largest principal shear stress", "τ₁");
-        let tension = self.units.pressure("largest tension", "σ₁");
-        let mises = self.units.pressure("largest stress of von Mises", "σᵥ");
+        let tau1 = self.units.pressure_of("largest principal shear stress", "τ₁");
+        let tension = self.units.pressure_of("largest tension", "σ₁");
+        let mises = self.units.pressure_of("largest stress of von Mises", "σᵥ");
         vec![
             self.chart("principal shear stress", self.axis(tau1), curves(|extremes| extremes.tau1)),
             self.chart("tension", Axis::linear(tension), curves(|extremes| extremes.tension)),
@@ -141,9 +150,14 @@ impl Run<'_> {
     fn interfaces(&self) -> Option<Chart> {
         let interfaces = self.steps.iter().filter_map(|step| Some(step.stress.as_ref()?.interfaces.len())).max()?;
         let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, dashed: bool| {
-            let name = if interfaces == 1 { what.to_owned() } else { format!("{what}, interface {}", index + 1) };
+            let name = match interfaces {
+                1 => what.to_owned(),
+                MOST.. if dashed => String::new(),
+                MOST.. => format!("interface {}", index + 1),
+                _ => format!("{what}, interface {}", index + 1),
+            };
             let of = |step: &StepRecord| Some(value(step.stress.as_ref()?.interfaces.get(index)?).value);
-            let curve = self.curve(&name, index + 1, |step| of(step).unwrap_or(f64::NAN));
+            let curve = self.curve(&name, Ink::by_depth(index, interfaces), |step| of(step).unwrap_or(f64::NAN));
             if dashed { Curve { style: Style::Dashed, ..curve } } else { curve }
         };
         let curves = (0..interfaces).flat_map(|index| {
@@ -152,8 +166,9 @@ impl Run<'_> {
                 curve(index, "shear", |carried| carried.shear, false),
             ]
         });
-        let y = Axis::linear(self.units.pressure("largest tension and shear", "σ, τ"));
-        (interfaces > 0).then(|| self.chart("interfaces", y, curves.collect()))
+        let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
+        let title = if interfaces < MOST { "interfaces" } else { "interfaces; solid: shear, dashed: tension" };
+        (interfaces > 0).then(|| self.chart(title, y, curves.collect()))
     }
 
     /// What is taken up of the strengths.
@@ -190,6 +205,9 @@ mod tests {
         };
         let (open, closed) = ([-0.2, -0.1].map(&mut record), [0.01, 0.02].map(&mut record));
         let problem = solver.problem();
-        assert!(load_curves("", problem, &open).is_none() && load_curves("", problem, &closed).is_some());
+        let units = Units::of(problem);
+        assert!(
+            load_curves("", problem, &units, &open).is_none() && load_curves("", problem, &units, &closed).is_some()
+        );
     }
 }

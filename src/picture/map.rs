@@ -5,7 +5,7 @@ use super::bar::{Bar, GAP};
 use super::canvas::{Anchor, Canvas, PIXELS, Stroke};
 use super::colour::Colour;
 use super::curve::clipped;
-use super::frame::{Frame, factor};
+use super::frame::Frame;
 use super::sheet::{HAIR, Margins, NUMBERS, Panel};
 use rayon::prelude::*;
 
@@ -144,7 +144,7 @@ impl Panel for Map<'_> {
 
     fn margins(&self, width: f64) -> Margins {
         let (right, has_factor) = match &self.fill {
-            Fill::Values(bar, _) => (bar.width(), factor(&bar.ticks()).is_some()),
+            Fill::Values(bar, _) => (bar.width(), bar.factor().is_some()),
             Fill::Colours(_) => (GAP, false),
         };
         let own = Frame::margins([&self.x, &self.y], self.ranges(), [width, right], self.aspect, true);

@@ -1,7 +1,7 @@
-//! Pictures as a journal prints them: charts and fields, as PNG or SVG files.
+//! Pictures as a journal prints them: charts and fields, as PNG, SVG or PDF files.
 //!
 //! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. What is
-//! drawn goes on a sheet measured in points ([`Canvas`]), which becomes pixels or an SVG file.
+//! drawn goes on a sheet measured in points ([`Canvas`]), which becomes pixels or a file of lines.
 //!
 //! - Any curves: [`Chart`], and [`Figure`] for several side by side.
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
@@ -22,11 +22,16 @@ mod curve;
 mod file;
 mod frame;
 mod legend;
+mod letters;
 mod lines;
 mod load_curves;
 mod map;
+mod number;
+mod outline;
+mod paper;
 mod pressure;
 mod profiles;
+mod quantity;
 mod raster;
 mod rows;
 mod section;
@@ -35,7 +40,7 @@ mod snapshot;
 mod sweep;
 mod text;
 mod tiling;
-mod units;
+mod touches;
 mod utilisations;
 mod vector;
 
@@ -44,14 +49,14 @@ pub use canvas::Canvas;
 pub use chart::{Chart, Figure};
 pub use comparison::comparison;
 pub use contact::contact;
-pub use curve::{Curve, Style};
+pub use curve::{Curve, Ink, Style};
 pub use file::Format;
 pub use lines::lines;
 pub use load_curves::load_curves;
 pub use pressure::pressure;
 pub use profiles::profiles;
+pub use quantity::Quantity;
 pub use section::section;
 pub use snapshot::Snapshot;
 pub use sweep::sweep;
-pub use units::Units;
 pub use utilisations::utilisations;

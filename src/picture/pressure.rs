@@ -6,7 +6,7 @@ use super::canvas::{Canvas, Dash, Stroke};
 use super::colour::Colour;
 use super::map::{Fill, Map, Over};
 use super::sheet::sheet;
-use super::snapshot::Snapshot;
+use super::snapshot::{Snapshot, is_oblique};
 use super::tiling::{Window, images, window};
 
 /// The picture; white is where there is no contact.
@@ -15,7 +15,7 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
-    let bar = Bar::sequential(snapshot.units.pressure("contact pressure", "p"), most);
+    let bar = Bar::sequential(snapshot.units.pressure_of("contact pressure", "p"), most);
     let [x, y] = axes(snapshot, window);
     let mut over = unit_cell(snapshot);
     over.extend(numbers(snapshot, window, |place| {
@@ -49,8 +49,8 @@ pub fn aspect([[x0, x1], [y0, y1]]: Window) -> f64 {
 /// Axes along the surface.
 pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
     [
-        Axis::linear(snapshot.units.length("", "x")).from_to(x0, x1),
-        Axis::linear(snapshot.units.length("", "y")).from_to(y0, y1),
+        Axis::linear(snapshot.units.length_of("", "x")).from_to(x0, x1),
+        Axis::linear(snapshot.units.length_of("", "y")).from_to(y0, y1),
     ]
 }
 
@@ -66,7 +66,27 @@ pub fn unit_cell(snapshot: &Snapshot) -> Vec<Over> {
             Over::Line(Stroke { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) })
         })
     };
-    (0..4).flat_map(side).collect()
+    (0..4).flat_map(side).chain(names(snapshot, corners)).collect()
+}
+
+/// a₁ and a₂ beside their sides, outside the cell, where it has no other name.
+fn names(snapshot: &Snapshot, [origin, along1, _, along2]: [[f64; 2]; 4]) -> Vec<Over> {
+    let cell = snapshot.step.grid().cell();
+    if !is_oblique(&cell) {
+        return Vec::new();
+    }
+    let [[x0, x1], [y0, y1]] = window(cell);
+    let off = 0.035 * (x1 - x0).min(y1 - y0);
+    let beside = |word: &str, to: [f64; 2], other: [f64; 2]| {
+        let ([dx, dy], away) = ([to[0] - origin[0], to[1] - origin[1]], [other[0] - origin[0], other[1] - origin[1]]);
+        let length = dx.hypot(dy);
+        let sign = if dx * away[1] - dy * away[0] > 0.0 { 1.0 } else { -1.0 };
+        let normal = [sign * dy / length, -sign * dx / length];
+        let at = [0, 1].map(|k| origin[k] + 0.38 * [dx, dy][k] + off * normal[k]);
+        let dark = snapshot.pressure_at(at).is_some();
+        Over::Word { word: word.to_owned(), at, colour: if dark { Colour::WHITE } else { Colour::BLACK } }
+    };
+    vec![beside("a₁", along1, along2), beside("a₂", along2, along1)]
 }
 
 /// The number of the level at each site within the window.

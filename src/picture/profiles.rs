@@ -4,6 +4,7 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
+use super::number::degrees;
 use super::snapshot::Snapshot;
 use super::tiling::around;
 use std::f64::consts::PI;
@@ -15,28 +16,33 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
     let mut directions = Vec::new();
     for level in 1..=snapshot.levels() {
         let Some((direction, points)) = snapshot.profile(level) else { continue };
-        curves.push(Curve { label: format!("level {level}"), points, style: Style::Line, colour: level });
-        directions.push(format!("{:.0}°", direction.to_degrees()));
+        curves.push(Curve { label: format!("level {level}"), points, style: Style::Line, colour: level.into() });
+        directions.push(degrees([direction.cos(), direction.sin()]));
         if let Some(points) = isolated.and_then(|levels| levels.get(level - 1)) {
+            let points = smooth(points);
             let left = points.iter().rev().map(|[r, p]| [-r, *p]);
             curves.push(Curve {
                 label: String::new(),
                 points: left.chain(points.iter().copied()).collect(),
                 style: Style::Dashed,
-                colour: level,
+                colour: level.into(),
             });
         }
     }
     let reach = curves.iter().flat_map(|curve| &curve.points).map(|[s, _]| s.abs()).fold(0.0, f64::max);
     (!curves.is_empty()).then(|| {
         let mut what = format!("Lines of largest extent: {} from the x axis.", directions.join(", "));
+        if snapshot.reading.levels.iter().any(|level| level.merged && level.load > 0.0) {
+            what += " Lines of merged contacts end where the neighbour's begins.";
+        }
         if isolated.is_some() {
             what += " Dashed: isolated indenters under the same loads.";
         }
         let chart = Chart {
             title: String::new(),
-            x: Axis::linear(snapshot.units.length("distance from the axis", "s")).from_to(-1.06 * reach, 1.06 * reach),
-            y: Axis::linear(snapshot.units.pressure("contact pressure", "p")),
+            x: Axis::linear(snapshot.units.length_of("distance from the axis", "s"))
+                .from_to(-1.06 * reach, 1.06 * reach),
+            y: Axis::linear(snapshot.units.pressure_of("contact pressure", "p")),
             curves,
         };
         plots(&snapshot.caption(&what), &[chart])
@@ -45,6 +51,58 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
 
 /// Points on either side of the axis.
 const POINTS: u32 = 240;
+
+/// Most steps of a quarter of a spacing on the way to the end of a contact.
+const MOST_STEPS: f64 = 4e4;
+
+/// What ends a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rim {
+    /// Its edge.
+    Edge,
+    /// The contact of the next indenter, with which it has merged.
+    Seam,
+}
+
+/// A line through points (distance from the axis, pressure) from the axis, or the inner edge of a ring, to the edge: between
+/// them the square of the pressure over that of the distance is a cubic without waves (F. Fritsch & R. Carlson, 1980).
+/// Elements next to an edge, which err most, are left out.
+fn smooth(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let Some((&[edge, _], inner)) = points.split_last() else { return Vec::new() };
+    let element = if inner.len() > 1 { inner[1][0] - inner[0][0] } else { 0.0 };
+    // A ring's first element stands half of its width behind the inner edge.
+    let first = inner.first().map_or(0.0, |[r, _]| *r);
+    let hole = if first > 1.1 * element { first - 0.5 * element } else { 0.0 };
+    let is_whole = |r: f64| edge - r > 1.05 * element && (hole == 0.0 || r - hole > 1.05 * element);
+    let kept = inner.iter().filter(|[r, _]| is_whole(*r)).chain(points.last());
+    let begin = (hole > 0.0).then_some([hole * hole, 0.0]);
+    let places: Vec<[f64; 2]> = begin.into_iter().chain(kept.map(|[r, p]| [r * r, p * p])).collect();
+    if places.len() < 3 {
+        return points.to_vec();
+    }
+    let chords: Vec<f64> =
+        places.windows(2).map(|pair| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).collect();
+    let slope = |k: usize| match (k.checked_sub(1).map(|before| chords[before]), chords.get(k)) {
+        (Some(a), Some(b)) if a * b > 0.0 => 2.0 * a * b / (a + b),
+        (Some(_), Some(_)) => 0.0,
+        (a, b) => a.or(b.copied()).unwrap_or(0.0),
+    };
+    let at = |r: f64| {
+        let u = (r * r).max(places[0][0]);
+        let k = places.partition_point(|place| place[0] <= u).clamp(1, places.len() - 1) - 1;
+        let ([from, a], [to, b]) = (places[k], places[k + 1]);
+        let (width, t) = (to - from, (u - from) / (to - from));
+        let (c, d) = (slope(k) * width, slope(k + 1) * width);
+        let square = a + t * (c + t * (3.0 * (b - a) - 2.0 * c - d + t * (2.0 * (a - b) + c + d)));
+        [r, square.max(0.0).sqrt()]
+    };
+    // Points gather at edges.
+    let part = |k: u32| {
+        let turn = PI * f64::from(k) / f64::from(POINTS);
+        if hole > 0.0 { 0.5 - 0.5 * turn.cos() } else { (0.5 * turn).sin() }
+    };
+    (0..=POINTS).map(|k| at(hole + (edge - hole) * part(k))).collect()
+}
 
 impl Snapshot {
     /// A line through an indenter's axis: its direction from the x axis in radians, distances from the axis and
@@ -55,34 +113,36 @@ impl Snapshot {
         if self.reading.boundaries[site].is_none() && self.pressure_squared(centre) <= 0.0 {
             return None;
         }
-        let (direction, [left, right]) = match &self.reading.boundaries[site] {
-            Some(boundary) => {
-                let ends = |theta: f64| [boundary.radius(theta + PI), boundary.radius(theta)];
-                // Of equal extents the first one.
-                let (mut best, mut widest) = (0.0, 0.0);
-                for theta in (0..180).map(|k| f64::from(k).to_radians()) {
-                    let extent: f64 = ends(theta).iter().sum();
-                    if extent > widest * (1.0 + 1e-4) {
-                        (best, widest) = (theta, extent);
-                    }
-                }
-                (best, ends(best))
-            }
-            // Merged: halfway to the nearest equal indenter.
-            None => {
-                let lattice = self.step.problem().counterbody().indenters()?.lattice();
-                let [x, y] = lattice.toward(self.step.surface().sites()[site].place, level);
-                (y.atan2(x), [0.5 * x.hypot(y); 2])
-            }
+        let boundary = self.reading.boundaries[site].as_ref();
+        let ends = |theta: f64| match boundary {
+            Some(boundary) => [theta + PI, theta].map(|theta| (boundary.radius(theta), Rim::Edge)),
+            None => [theta + PI, theta].map(|theta| self.end(site, centre, theta)),
         };
+        // Of equal extents the first one.
+        let (mut direction, mut widest) = (0.0, 0.0);
+        for theta in (0..180).map(|k| f64::from(k).to_radians()) {
+            let extent: f64 = ends(theta).iter().map(|(end, _)| end).sum();
+            if extent > widest * (1.0 + 1e-4) {
+                (direction, widest) = (theta, extent);
+            }
+        }
+        let [(left, left_rim), (right, right_rim)] = ends(direction);
+        let hole = |theta: f64| boundary.map_or(0.0, |boundary| boundary.hole_radius(theta));
         let (sin, cos) = direction.sin_cos();
         let squared = |s: f64| self.pressure_squared([centre[0] + s * cos, centre[1] + s * sin]);
-        // Between the outermost samples and the edge the square of the pressure falls evenly to zero.
-        let rim = if self.reading.boundaries[site].is_some() { 1.5 * self.step.grid().spacing() } else { 0.0 };
+        // Between the outermost samples and an edge the square of the pressure falls evenly to zero.
+        let rim = 1.5 * self.step.grid().spacing();
         let at = |s: f64| {
-            let (end, sign) = if s < 0.0 { (left, -1.0) } else { (right, 1.0) };
-            let inside = end - s.abs();
-            let square = if inside < rim { squared(sign * (end - rim)) * inside / rim } else { squared(s) };
+            let (end, kind, sign, hole) = match s < 0.0 {
+                true => (left, left_rim, -1.0, hole(direction + PI)),
+                false => (right, right_rim, 1.0, hole(direction)),
+            };
+            let (outer, inner) = (end - s.abs(), s.abs() - hole);
+            let square = match kind {
+                _ if hole > 0.0 && inner < rim => squared(sign * (hole + rim)) * inner.max(0.0) / rim,
+                Rim::Edge if outer < rim => squared(sign * (end - rim)) * outer / rim,
+                _ => squared(s),
+            };
             [s, square.max(0.0).sqrt()]
         };
         let points = (0..=2 * POINTS)
@@ -94,8 +154,82 @@ impl Snapshot {
         Some((direction, points))
     }
 
+    /// Where a line from the axis of an indenter whose contact has no boundary of its own leaves this contact for the last
+    /// time: the distance, and whether there is an edge or the next indenter's contact.
+    fn end(&self, site: usize, centre: [f64; 2], theta: f64) -> (f64, Rim) {
+        let step = 0.25 * self.step.grid().spacing();
+        let at = |r: f64| [centre[0] + r * theta.cos(), centre[1] + r * theta.sin()];
+        let own = |r: f64| {
+            let way = self.facing(at(r)).filter(|(facing, _)| *facing == site).map(|(_, way)| way);
+            way.is_some_and(|[x, y]| (x - r * theta.cos()).hypot(y - r * theta.sin()) < step)
+        };
+        let (mut last, mut k) = (0.0, 0.0);
+        while own(k * step) && k < MOST_STEPS {
+            if self.inside(at(k * step)) > 0.0 {
+                last = k * step;
+            }
+            k += 1.0;
+        }
+        let rim = if last >= (k - 1.5) * step { Rim::Seam } else { Rim::Edge };
+        (last, rim)
+    }
+
     /// Square of the pressure between the samples: near the edge it is almost linear, as the pressure is not.
     fn pressure_squared(&self, place: [f64; 2]) -> f64 {
         around(self.step.grid(), place).iter().map(|&(index, weight)| weight * self.pressures()[index].powi(2)).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::{Indenters, Level, Shape};
+    use crate::lattice::Lattice;
+    use crate::load::Load;
+    use crate::problem::Problem;
+    use crate::spectral::{Settings, Solver};
+
+    #[test]
+    fn a_smooth_line_through_few_points_of_a_hertzian_contact_is_hertzian() {
+        let mut points: Vec<[f64; 2]> =
+            (0..12).map(|k| f64::from(k) / 12.0).map(|r| [r, (1.0 - r * r).sqrt()]).collect();
+        // The last element says too much.
+        points[11][1] *= 1.3;
+        points.push([1.0, 0.0]);
+        for [r, p] in smooth(&points) {
+            assert!((p - (1.0 - r * r).sqrt()).abs() < 1e-12, "{r}: {p}");
+        }
+    }
+
+    #[test]
+    fn a_smooth_line_through_a_ring_is_zero_at_both_edges() {
+        let square = |r: f64| (r - 0.5) * (1.0 - r);
+        let points = (0..8).map(|k| 0.53 + 0.06 * f64::from(k)).map(|r| [r, square(r).sqrt()]);
+        let line = smooth(&points.chain([[1.0, 0.0]]).collect::<Vec<[f64; 2]>>());
+        assert!((line[0][0] - 0.5).abs() < 1e-12 && line[0][1] == 0.0 && line[line.len() - 1][1] == 0.0, "{line:?}");
+        // Halfway between edge and first whole element a cubic without waves is within a tenth.
+        assert!(line.iter().all(|[r, p]| (p * p - square(*r)).abs() < 0.1 * square(0.75)), "{line:?}");
+    }
+
+    /// Neighbours of two levels on a square lattice stand √½ apart: the seam is not far from halfway.
+    #[test]
+    fn a_merged_contact_ends_at_the_seam() {
+        let levels = [0.01, 0.0].map(|height| Level::new(Shape::Paraboloid { radius: 1.0 }, height).unwrap()).to_vec();
+        let indenters = Indenters::new(Lattice::square(1.0, 2).unwrap(), levels).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let mut solver = Solver::new(Problem::new(indenters, body), [48, 48], Settings::default()).unwrap();
+        let step = solver.solve(Load::MeanPressure(0.6));
+        let reading = step.reading();
+        assert!(reading.levels.iter().all(|level| level.merged));
+        let snapshot = Snapshot::new("", step, reading);
+        // With r²/2 + d equal on both sides the seam lies at ½l + d/l from the higher axis.
+        let (apart, drop) = (snapshot.step.problem().counterbody().indenters().unwrap().lattice().period(), 0.01);
+        for (level, farthest) in [(1, 0.5 * apart + drop / apart), (2, 0.5 * apart - drop / apart)] {
+            let (direction, points) = snapshot.profile(level).unwrap();
+            let reach = points.iter().map(|[s, _]| s.abs()).fold(0.0, f64::max);
+            // The cell of the indenter is a square whose corners are farther than its sides.
+            assert!(reach <= farthest * 2f64.sqrt() + 1e-9 && reach > 0.9 * farthest, "{level}: {reach} {direction}");
+        }
     }
 }

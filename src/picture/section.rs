@@ -4,10 +4,13 @@ use super::axis::Axis;
 use super::bar::Bar;
 use super::canvas::{Canvas, Dash, Stroke};
 use super::colour::Colour;
+use super::curve::MOST;
 use super::map::{Fill, Map, Over};
+use super::number::degrees;
+use super::quantity::equals;
 use super::rows::{Largest, Quantity};
 use super::sheet::sheet;
-use super::snapshot::{Snapshot, equals};
+use super::snapshot::Snapshot;
 use super::tiling::{Window, images};
 use crate::friction::Friction;
 use crate::reading::{Criterion, Utilisation, tears, tips};
@@ -50,26 +53,28 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let failures = failures(snapshot, section);
     let panel = |title: String, fill, ink: Colour, largest: Option<Largest>, below: Vec<Over>| {
         let interfaces = section.interfaces().into_iter().map(|z| vec![[first, z], [last, z]]);
-        let interfaces = interfaces.map(|points| line(points, 0.9, Dash::Dashed, ink));
+        // Of many the lines are thin.
+        let width = if interfaces.len() < MOST { 0.9 } else { 0.4 };
+        let interfaces = interfaces.map(|points| line(points, width, Dash::Dashed, ink));
         let mark = largest.map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour: ink });
         let rings = (1..).zip(&failures).map(|(number, &(_, at))| Over::Ring { at, number });
         let over = below.into_iter().chain(interfaces).chain(contacts(snapshot, section)).chain(mark).chain(rings);
         Map {
             title,
-            x: Axis::linear(snapshot.units.length("distance", "s")).from_to(first, last),
-            y: Axis::linear(snapshot.units.length("depth", "z")).from_to(depth, 0.0),
+            x: Axis::linear(snapshot.units.length_of("distance", "s")).from_to(first, last),
+            y: Axis::linear(snapshot.units.length_of("depth", "z")).from_to(depth, 0.0),
             aspect,
             fill,
             over: over.collect(),
         }
     };
     let zero = section.zero_lines(&values[0]).into_iter().map(|points| line(points, 0.5, Dash::Solid, Colour::GREY));
-    let bar = Bar::signed(snapshot.units.pressure("", "σₛ"), span(&values[0], section.highest));
+    let bar = Bar::signed(snapshot.units.pressure_of("", "σₛ"), span(&values[0], section.highest));
     let apart = if bar.apart { "; tension and compression have scales of their own" } else { "" };
     let along =
         panel(titled('a', Quantity::Along), Fill::Values(bar, &along), Colour::BLACK, largest_along, zero.collect());
     let [_, symbol] = second.named();
-    let (label, [least, most]) = (snapshot.units.pressure("", symbol), span(&values[1], None));
+    let (label, [least, most]) = (snapshot.units.pressure_of("", symbol), span(&values[1], None));
     let (bar, ink) = if matches!(second, Quantity::Tension | Quantity::Opening) {
         (Bar::signed(label, [least, most]), Colour::BLACK)
     } else {
@@ -81,9 +86,9 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let to_scale = if aspect == scale { "" } else { " Depth is stretched." };
     let words = |largest: Option<Largest>, symbol: &str| {
         largest.map(|Largest { value, s, depth }| {
-            let symbol = snapshot.units.pressure_symbol(symbol);
-            let place = [equals("s", &[rounded(s)]), equals("z", &[rounded(depth.z)])].join(", ");
-            format!("{} at {place}", equals(&symbol, &[rounded(value)]))
+            let length = |symbol: &str, x: f64| snapshot.units.length_equals(symbol, &[rounded(x)]);
+            let place = [length("s", s), length("z", depth.z)].join(", ");
+            format!("{} at {place}", snapshot.units.pressure_equals(symbol, &[rounded(value)]))
         })
     };
     let infinite = singular.then(|| format!("{symbol} is infinite at the tip"));
@@ -101,9 +106,9 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
         _ => "",
     };
     let caption = snapshot.caption(&format!(
-        "Section along {:.0}° from the x axis{sliding}; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
+        "Section along {} from the x axis{sliding}; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
          Crosses: the largest values here, {}.{rings}",
-        dy.atan2(dx).to_degrees() + 0.0,
+        degrees([dx, dy]),
         equals("σₛ", &[0.0]),
         largest.into_iter().flatten().collect::<Vec<String>>().join("; ")
     ));

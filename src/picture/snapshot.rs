@@ -1,13 +1,15 @@
 //! A solved load step with what is known about it: what the pictures of fields are drawn from.
 
-use super::axis::{power, signed};
-use super::units::{Units, lowered, substrate_index};
-use crate::body::{HalfSpace, Interface};
+use super::number::{degrees, short};
+use super::quantity::equals;
+use crate::body::{HalfSpace, Interface, Layer};
 use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;
+use crate::lattice::{Cell, LatticeError};
 use crate::problem::Problem;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::spectral::Step;
+use crate::units::{Unit, Units, lowered, substrate_index};
 
 /// One load step.
 #[derive(Debug, Clone)]
@@ -31,6 +33,12 @@ impl Snapshot {
     pub fn new(title: &str, step: Step, reading: Reading) -> Self {
         let units = Units::of(step.problem());
         Self { title: title.to_owned(), step, reading, strength: Vec::new(), failing: None, units }
+    }
+
+    /// With units that have names.
+    #[must_use]
+    pub fn with_units(self, units: Units) -> Self {
+        Self { units, ..self }
     }
 
     /// With what it takes up of the strengths.
@@ -64,35 +72,34 @@ impl Snapshot {
     pub fn caption(&self, more: &str) -> String {
         let [n1, n2] = self.step.grid().points();
         let load = [
-            equals(&self.units.pressure_symbol("p̄"), &[self.reading.mean_pressure]),
-            equals(&self.units.length_symbol("δ"), &[self.step.penetration()]),
+            self.units.pressure_equals("p̄", &[self.reading.mean_pressure]),
+            self.units.length_equals("δ", &[self.step.penetration()]),
         ];
         let samples = format!("{n1}\u{a0}×\u{a0}{n2} samples");
-        format!("{} {more}", caption(&self.title, self.step.problem(), &[load.join(", "), samples]))
+        format!("{} {more}", caption(&self.title, self.step.problem(), &self.units, &[load.join(", "), samples]))
     }
 }
 
 /// Title and parameters of a case, then what else is to be said about it.
-pub fn caption(title: &str, problem: &Problem, more: &[String]) -> String {
-    let units = Units::of(problem);
+pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -> String {
     let title = title.trim_end_matches('.');
     let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
-    let parts = [materials(problem.half_space(), &units)]
+    let parts = [materials(problem.half_space(), units)]
         .into_iter()
-        .chain(geometry(problem.counterbody(), &units))
+        .chain(geometry(problem.counterbody(), units))
         .chain(problem.friction().map(sliding))
         .chain(more.iter().cloned());
     format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))
 }
 
-/// A symbol and its values, which no line break parts from the first one.
-pub fn equals(symbol: &str, values: &[f64]) -> String {
-    let values: Vec<String> = values.iter().map(|&x| short(x)).collect();
-    format!("{}\u{a0}=\u{a0}{}", symbol.replace(' ', "\u{a0}"), values.join(", "))
-}
+/// Most layers that a caption names one by one.
+const FEW: usize = 4;
 
 fn materials(half_space: &HalfSpace, units: &Units) -> String {
     let substrate = half_space.substrate();
+    if half_space.layers().len() > FEW {
+        return [many_layers(half_space, units), substrate_words(half_space, units)].join("; ");
+    }
     let single = half_space.layers().len() == 1;
     let mut parts = Vec::new();
     for (number, layer) in (1..).zip(half_space.layers()) {
@@ -100,12 +107,12 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
         let own = if single { "" } else { &index };
         let mut part = [
             equals(&format!("χ{own}"), &[layer.material().shear() / substrate.shear()]),
-            equals(&units.length_symbol(&format!("h{own}")), &[layer.thickness()]),
+            units.length_equals(&format!("h{own}"), &[layer.thickness()]),
             equals(&format!("ν{index}"), &[layer.material().poisson()]),
         ]
         .join(", ");
         if layer.residual_stress() != 0.0 {
-            part += &format!(", {}", equals(&units.pressure_symbol(&format!("σᵣ{own}")), &[layer.residual_stress()]));
+            part += &format!(", {}", units.pressure_equals(&format!("σᵣ{own}"), &[layer.residual_stress()]));
         }
         match layer.interface() {
             Interface::Bonded => {}
@@ -114,30 +121,89 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
         }
         parts.push(part);
     }
-    let index = substrate_index(half_space);
-    let mut last = equals(&format!("ν{index}"), &[substrate.poisson()]);
-    if units.pressure_symbol("E") == "E" {
-        last += &format!(", {}", equals(&format!("E{index}"), &[substrate.young()]));
-    }
-    parts.push(last);
+    parts.push(substrate_words(half_space, units));
     parts.join(if single { ", " } else { "; " })
 }
 
+/// Many layers by how thick they are together and by the ranges of their parameters.
+fn many_layers(half_space: &HalfSpace, units: &Units) -> String {
+    let layers = half_space.layers();
+    let range = |of: &dyn Fn(&Layer) -> f64| {
+        let (least, most) =
+            layers.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        if least == most { vec![least] } else { vec![least, most] }
+    };
+    let to = |text: String| text.replace(", ", " to ");
+    let shear = half_space.substrate().shear();
+    let together: f64 = layers.iter().map(Layer::thickness).sum();
+    let mut parts = vec![
+        format!("{} layers, together {}", layers.len(), units.length_equals("h", &[together])),
+        to(equals("χ", &range(&|layer| layer.material().shear() / shear))),
+        to(equals("ν", &range(&|layer| layer.material().poisson()))),
+    ];
+    let residual = range(&|layer| layer.residual_stress());
+    if residual != [0.0] {
+        parts.push(to(units.pressure_equals("σᵣ", &residual)));
+    }
+    let kinds: [(&str, fn(&Interface) -> bool); 2] = [
+        ("frictionless", |own| matches!(own, Interface::Frictionless)),
+        ("spring", |own| matches!(own, Interface::Spring { .. })),
+    ];
+    for (name, is) in kinds {
+        let count = layers.iter().filter(|layer| is(&layer.interface())).count();
+        if count > 0 {
+            parts.push(format!("{count} {name} interface{}", if count > 1 { "s" } else { "" }));
+        }
+    }
+    parts.join(", ")
+}
+
+fn substrate_words(half_space: &HalfSpace, units: &Units) -> String {
+    let substrate = half_space.substrate();
+    let index = substrate_index(half_space);
+    let mut last = equals(&format!("ν{index}"), &[substrate.poisson()]);
+    if !matches!(units.pressure(), Unit::Relative(_)) {
+        last += &format!(", {}", units.pressure_equals(&format!("E{index}"), &[substrate.young()]));
+    }
+    last
+}
+
 fn sliding(friction: &Friction) -> String {
-    let [x, y] = friction.direction();
-    // No minus before a zero.
-    let angle = y.atan2(x).to_degrees().round() + 0.0;
+    let angle = degrees(friction.direction());
     let uncoupled = if friction.is_coupled() { "" } else { ", uncoupled" };
-    format!("sliding at {angle:.0}° from the x axis, {}{uncoupled}", equals("μ", &[friction.coefficient()]))
+    format!("sliding at {angle} from the x axis, {}{uncoupled}", equals("μ", &[friction.coefficient()]))
+}
+
+/// Whether a cell is neither the hexagonal nor the square one, so that it is known by its vectors alone.
+pub fn is_oblique(cell: &Cell) -> bool {
+    let [[side, _], _] = cell.vectors();
+    let like = |named: Result<Cell, LatticeError>| {
+        named.is_ok_and(|named| {
+            let pairs = named.vectors().into_iter().flatten().zip(cell.vectors().into_iter().flatten());
+            pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9 * side.abs())
+        })
+    };
+    !like(Cell::hexagonal(side)) && !like(Cell::square(side))
+}
+
+/// a₁ = (1, 0.2), a₂ = (0.3, 1.4), with their unit.
+fn cell_vectors(cell: &Cell, units: &Units) -> String {
+    let unit = units.length().suited(cell.vectors().into_iter().flatten());
+    let [a1, a2] = cell.vectors().map(|vector| vector.map(|c| short(unit.shown(c))).join(",\u{a0}"));
+    let over = if let Unit::Relative(to) = units.length() { format!("/{to}") } else { String::new() };
+    let vector = |name: &str, places: &str| unit.behind(&format!("{name}{over}\u{a0}=\u{a0}({places})"));
+    format!("cell {}, {}", vector("a₁", &a1), vector("a₂", &a2))
 }
 
 fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
-    let indenters = counterbody.indenters()?;
-    let levels = indenters.levels();
     let mut parts = Vec::new();
-    let l = units.length_symbol("l");
-    if l != "l/l" {
-        parts.push(equals(&l, &[indenters.lattice().period()]));
+    if is_oblique(&counterbody.cell()) {
+        parts.push(cell_vectors(&counterbody.cell(), units));
+    }
+    let Some(indenters) = counterbody.indenters() else { return (!parts.is_empty()).then(|| parts.join(", ")) };
+    let levels = indenters.levels();
+    if *units.length() != Unit::Relative("l".to_owned()) {
+        parts.push(units.length_equals("l", &[indenters.lattice().period()]));
     }
     let radius = |level: &Level| match level.shape() {
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => Some(radius),
@@ -145,52 +211,59 @@ fn geometry(counterbody: &Counterbody, units: &Units) -> Option<String> {
     };
     let shape = |level: &Level| match level.shape() {
         Shape::Cone { slope } => format!("cone of slope {}", short(slope)),
-        Shape::Power { coefficient, exponent } => format!("{}·rⁿ, n = {}", short(coefficient), short(exponent)),
+        Shape::Power { coefficient, exponent } => {
+            let coefficient = if coefficient == 1.0 { String::new() } else { short(coefficient) + "\u{a0}" };
+            format!("{coefficient}rⁿ, {}", equals("n", &[exponent]))
+        }
         Shape::Paraboloid { radius } | Shape::Sphere { radius } => {
-            format!("{} of {}", level.shape().name(), equals(&units.length_symbol("r"), &[radius]))
+            format!("{} of {}", level.shape().name(), units.length_equals("r", &[radius]))
         }
     };
     match levels.iter().map(radius).collect::<Option<Vec<f64>>>() {
         Some(radii) => {
             let same = radii.iter().all(|x| *x == radii[0]);
-            parts.push(equals(&units.length_symbol("rₘ"), if same { &radii[..1] } else { &radii }));
+            parts.push(units.length_equals("rₘ", if same { &radii[..1] } else { &radii }));
         }
         None => parts.extend(levels.iter().map(shape)),
     }
     if levels.len() > 1 {
-        let symbol = units.length_symbol("(h₁ − hₘ)");
-        let bare = symbol.strip_suffix(')').and_then(|symbol| symbol.strip_prefix('(')).unwrap_or(&symbol);
-        parts.push(equals(bare, &indenters.drops()[1..]));
+        parts.push(format!("lower by {}", units.length_equals("Δₘ", &indenters.drops()[1..])));
     }
     Some(parts.join(", "))
-}
-
-/// A number with up to five digits, as print has it.
-pub fn short(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    let scientific = format!("{x:.4e}");
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let trimmed = |text: &str| {
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text };
-        signed(text)
-    };
-    match exponent {
-        -3..6 => trimmed(&format!("{x:.*}", usize::try_from(4 - exponent).unwrap_or(0))),
-        _ if trimmed(digits) == "1" => power(exponent),
-        _ => format!("{}·{}", trimmed(digits), power(exponent)),
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::Material;
+    use crate::counterbody::Indenters;
+    use crate::lattice::Lattice;
+
+    fn words(layers: usize, cell: Cell) -> String {
+        let material = |young: f64| Material::from_young(young, 0.3).unwrap();
+        let layer = |k: usize| Layer::new(material(1.0 + k as f64), 0.1, Interface::Bonded).unwrap();
+        let body = HalfSpace::new((0..layers).map(layer).collect(), material(1.0));
+        let levels = [0.1, 0.0].map(|height| Level::new(Shape::Paraboloid { radius: 3.0 }, height).unwrap()).to_vec();
+        let sites = vec![vec![[0.0, 0.0]], vec![[0.5, 0.5]]];
+        let problem = Problem::new(Indenters::new(Lattice::new(cell, sites).unwrap(), levels).unwrap(), body);
+        caption("", &problem, &Units::of(&problem), &[]).replace('\u{a0}', " ")
+    }
 
     #[test]
-    fn numbers_are_short_and_printed_as_a_journal_does() {
-        let texts = [0.06, 2.0, -0.055395, 2.1e11, 1e-6, 0.0, 20e-6, 123456.0].map(short);
-        assert_eq!(texts, ["0.06", "2", "−0.055395", "2.1·10¹¹", "10⁻⁶", "0", "2·10⁻⁵", "123456"]);
+    fn a_thickness_and_a_height_have_letters_of_their_own() {
+        let words = words(2, Cell::square(2.0).unwrap());
+        assert!(
+            words.contains("h₁ = 0.1") && words.contains("h₂ = 0.1") && words.contains("lower by Δₘ = 0.1"),
+            "{words}"
+        );
+        assert!(!words.contains("h₁ −") && !words.contains("a₁"), "{words}");
+    }
+
+    #[test]
+    fn many_layers_take_no_more_room_than_few_and_an_oblique_cell_has_its_vectors() {
+        let (few, many) = (words(4, Cell::square(2.0).unwrap()), words(40, Cell::new([2.0, 0.5], [0.0, 3.0]).unwrap()));
+        assert!(many.contains("40 layers, together h = 4, χ = 1 to 40, ν = 0.3; ν₄₁ = 0.3"), "{many}");
+        assert!(many.contains("cell a₁ = (2, 0.5), a₂ = (0, 3)"), "{many}");
+        assert!(many.len() < few.len(), "{many}\n{few}");
     }
 }

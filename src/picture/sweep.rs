@@ -5,11 +5,13 @@ use super::bar::Bar;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::colour::ColourMap;
-use super::curve::{Curve, Style};
+use super::curve::{Curve, Ink, Style};
 use super::map::{Fill, Map};
+use super::number::short;
+use super::quantity::Quantity;
 use super::sheet::{Panel, sheet};
-use super::snapshot::short;
 use crate::sweep::Row;
+use crate::units::Units;
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -21,10 +23,10 @@ const MAPS: usize = 4;
 const SIDE: usize = 3;
 
 /// The picture; `None` where no key has several numbers, or nothing came out.
-pub fn sweep(title: &str, rows: &[Row]) -> Option<Canvas> {
+pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
     let keys = Keys::of(rows)?;
-    let quantities = quantities(rows);
-    if quantities.is_empty() {
+    let numbers = numbers(units, rows);
+    if numbers.is_empty() {
         return None;
     }
     let failed = rows.iter().filter(|row| row.results.is_empty()).count();
@@ -37,55 +39,55 @@ pub fn sweep(title: &str, rows: &[Row]) -> Option<Canvas> {
     if keys.pair.is_some() {
         words.extend((steps > 1).then(|| "the last load step of each".to_owned()));
         let caption = words.join("; ") + ".";
-        return keys.maps(rows, &quantities, &caption);
+        return keys.maps(rows, &numbers, &caption);
     }
-    let charts: Vec<Chart> = quantities.iter().map(|quantity| keys.chart(rows, quantity)).collect();
+    let charts: Vec<Chart> = numbers.iter().map(|own| keys.chart(rows, own)).collect();
     Some(plots(&(words.join("; ") + "."), &charts))
 }
 
 /// A number of a result.
-struct Quantity {
-    name: String,
+struct Number {
+    quantity: Quantity,
     /// Where it stands.
     value: Box<dyn Fn(&Value) -> Option<f64> + Sync>,
 }
 
-impl Quantity {
-    fn at(name: &str, pointer: &'static str) -> Self {
-        Self { name: name.to_owned(), value: Box::new(move |result| result.pointer(pointer)?.as_f64()) }
+impl Number {
+    fn at(quantity: impl Into<Quantity>, pointer: &'static str) -> Self {
+        Self { quantity: quantity.into(), value: Box::new(move |result| result.pointer(pointer)?.as_f64()) }
     }
 
     /// The largest of a list.
-    fn largest(name: &str, list: &'static str, pointer: &'static str) -> Self {
+    fn largest(quantity: impl Into<Quantity>, list: &'static str, pointer: &'static str) -> Self {
         let value = move |result: &Value| {
             let items = result.pointer(list)?.as_array()?.iter();
             items.filter_map(|item| item.pointer(pointer)?.as_f64()).reduce(f64::max)
         };
-        Self { name: name.to_owned(), value: Box::new(value) }
+        Self { quantity: quantity.into(), value: Box::new(value) }
     }
 }
 
-/// What the rows have numbers of.
-fn quantities(rows: &[Row]) -> Vec<Quantity> {
+/// The numbers that the rows have.
+fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
     let limits = |result: &Value| -> Vec<String> {
         let names = result.as_object().into_iter().flatten().map(|(name, _)| name.clone());
         names.filter(|name| result.get("first").is_some() && name != "first").collect()
     };
     let mut all = vec![
-        Quantity::at("first limit, mean pressure", "/first/mean_pressure"),
-        Quantity::at("peak pressure", "/max_pressure"),
-        Quantity::at("penetration", "/penetration"),
-        Quantity::at("fraction in contact", "/contact_fraction"),
-        Quantity::largest("largest utilisation", "/strength", "/utilisation"),
-        Quantity::largest("largest shear stress τ₁", "/stress/materials", "/max_tau1/value"),
+        Number::at(units.pressure_of("first limit, mean pressure", "p̄"), "/first/mean_pressure"),
+        Number::at(units.pressure_of("peak pressure", "p"), "/max_pressure"),
+        Number::at(units.length_of("penetration", "δ"), "/penetration"),
+        Number::at("fraction in contact", "/contact_fraction"),
+        Number::largest("largest utilisation", "/strength", "/utilisation"),
+        Number::largest(units.pressure_of("largest shear stress", "τ₁"), "/stress/materials", "/max_tau1/value"),
     ];
     for name in rows.iter().flat_map(|row| &row.results).next().map(limits).unwrap_or_default() {
-        let words = name.replace('_', " ");
+        let quantity = units.pressure_of(&format!("{}, mean pressure", name.replace('_', " ")), "p̄");
         let value = move |result: &Value| result.get(&name)?.get("mean_pressure")?.as_f64();
-        all.push(Quantity { name: words, value: Box::new(value) });
+        all.push(Number { quantity, value: Box::new(value) });
     }
-    let is_there = |quantity: &Quantity| {
-        rows.iter().filter_map(|row| row.results.last()).any(|result| (quantity.value)(result).is_some())
+    let is_there = |number: &Number| {
+        rows.iter().filter_map(|row| row.results.last()).any(|result| (number.value)(result).is_some())
     };
     all.retain(is_there);
     all
@@ -122,7 +124,7 @@ impl Keys {
     }
 
     /// A curve for each set of the other keys, or for each load step where there are no others.
-    fn chart(&self, rows: &[Row], quantity: &Quantity) -> Chart {
+    fn chart(&self, rows: &[Row], shown: &Number) -> Chart {
         let (index, values) = &self.along;
         let mut curves: BTreeMap<(usize, String), Vec<[f64; 2]>> = BTreeMap::new();
         let mut order: Vec<String> = Vec::new();
@@ -143,7 +145,7 @@ impl Keys {
                     Some(load) if steps > 1 => (step, format!("p̄ = {}", short(load))),
                     _ => (at, label.clone()),
                 };
-                let value = (quantity.value)(result).unwrap_or(f64::NAN);
+                let value = (shown.value)(result).unwrap_or(f64::NAN);
                 curves.entry(own).or_default().push([x, value]);
             }
         }
@@ -151,19 +153,19 @@ impl Keys {
         let curves = (1..).zip(curves.into_iter().step_by(every)).map(|(colour, ((_, label), mut points))| {
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
-            Curve { label, points, style, colour }
+            Curve { label, points, style, colour: Ink::Number(colour) }
         });
-        let x = Axis { scale: scale(values), ..Axis::linear(&self.names[*index]) };
-        Chart { title: String::new(), x, y: Axis::linear(&quantity.name), curves: curves.collect() }
+        let x = Axis { scale: scale(values), ..Axis::linear(&self.names[*index][..]) };
+        Chart { title: String::new(), x, y: Axis::linear(shown.quantity.clone()), curves: curves.collect() }
     }
 
-    /// A map for each of the first quantities.
-    fn maps(&self, rows: &[Row], quantities: &[Quantity], caption: &str) -> Option<Canvas> {
+    /// A map for each of the first numbers.
+    fn maps(&self, rows: &[Row], numbers: &[Number], caption: &str) -> Option<Canvas> {
         let (along, up) = (&self.along, self.pair.as_ref()?);
-        let fields: Vec<Vec<Option<f64>>> = quantities
+        let fields: Vec<Vec<Option<f64>>> = numbers
             .iter()
             .take(MAPS)
-            .map(|quantity| {
+            .map(|shown| {
                 let mut field = vec![None; along.1.len() * up.1.len()];
                 for row in rows {
                     let place = |(index, values): &(usize, Vec<f64>)| {
@@ -171,7 +173,7 @@ impl Keys {
                         values.iter().position(|value| *value == own)
                     };
                     if let (Some(i), Some(j)) = (place(along), place(up)) {
-                        let value = row.results.last().and_then(|result| (quantity.value)(result));
+                        let value = row.results.last().and_then(|result| (shown.value)(result));
                         field[j * along.1.len() + i] = value.filter(|value| value.is_finite());
                     }
                 }
@@ -187,15 +189,15 @@ impl Keys {
                 move |[u, v]: [f64; 2]| field[y.at(v) * columns + x.at(u)]
             })
             .collect();
-        let maps: Vec<Map> = quantities
+        let maps: Vec<Map> = numbers
             .iter()
             .zip(&fields)
             .zip(&lookups)
-            .map(|((quantity, field), value)| {
-                let numbers = || field.iter().copied().flatten();
-                let span = [numbers().fold(f64::INFINITY, f64::min), numbers().fold(f64::NEG_INFINITY, f64::max)];
+            .map(|((shown, field), value)| {
+                let values = || field.iter().copied().flatten();
+                let span = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
                 let span = if span[0] < span[1] { span } else { [0.0, span[1].abs().max(1e-300)] };
-                let bar = Bar { label: quantity.name.clone(), colours: ColourMap::Sequential, span, apart: false };
+                let bar = Bar { label: shown.quantity.clone(), colours: ColourMap::Sequential, span, apart: false };
                 Map {
                     title: String::new(),
                     x: x.axis(&self.names[along.0]),
@@ -238,7 +240,7 @@ impl Cells {
 
     fn axis(&self, label: &str) -> Axis {
         let range = Some([self.borders[0], self.borders[self.borders.len() - 1]]);
-        Axis { label: label.to_owned(), scale: self.scale, range }
+        Axis { range, scale: self.scale, ..Axis::linear(label) }
     }
 }
 
@@ -287,7 +289,10 @@ mod tests {
             (1..).zip(values).map(|(n, x)| row(n, &[("layers.0.thickness", x.to_string())], vec![step(x)])).collect();
         let keys = Keys::of(&one).unwrap();
         assert!(keys.pair.is_none());
-        assert_eq!(keys.chart(&one, &quantities(&one)[0]).curves[0].points, [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]);
+        assert_eq!(
+            keys.chart(&one, &numbers(&Units::unknown(), &one)[0]).curves[0].points,
+            [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]
+        );
         let pairs = values.iter().flat_map(|x| values.map(|y| [*x, y]));
         let two: Vec<Row> = (1..)
             .zip(pairs)
@@ -295,10 +300,10 @@ mod tests {
             .collect();
         assert!(Keys::of(&two).unwrap().pair.is_some());
         assert!(Keys::of(&two[1..]).unwrap().pair.is_none(), "a pair is missing");
-        let text = svg(&sweep("A title", &two).unwrap());
+        let text = svg(&sweep("A title", &Units::unknown(), &two).unwrap());
         assert!(text.contains("peak pressure") && text.contains("9 combinations"));
         let words = [row(1, &[("a", "bonded".into())], vec![step(1.0)]), row(2, &[("a", "x".into())], vec![step(2.0)])];
-        assert!(sweep("", &words).is_none());
+        assert!(sweep("", &Units::unknown(), &words).is_none());
     }
 
     #[test]
@@ -311,7 +316,7 @@ mod tests {
             .collect();
         rows[2].results.clear();
         let keys = Keys::of(&rows).unwrap();
-        let chart = keys.chart(&rows, &quantities(&rows)[0]);
+        let chart = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0]);
         let labels: Vec<&str> = chart.curves.iter().map(|curve| &curve.label[..]).collect();
         assert_eq!(labels, ["kind soft", "kind hard"]);
         assert_eq!(chart.curves[0].points, [[0.0, 0.0], [2.0, 4.0], [3.0, 6.0]]);

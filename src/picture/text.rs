@@ -6,10 +6,7 @@
 use ab_glyph::{Font, FontRef, GlyphId, Point};
 use std::sync::LazyLock;
 
-/// Names under which a viewer of SVG files may have a typeface of the same widths.
-pub const FAMILY: &str = "DejaVu Sans, Bitstream Vera Sans, Verdana, sans-serif";
-
-static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
+pub(super) static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
     FontRef::try_from_slice(include_bytes!("font/DejaVuSans.ttf")).expect("the embedded typeface is whole")
 });
 
@@ -18,13 +15,13 @@ pub const CAPITALS: f64 = 0.73;
 
 /// A glyph and where its origin stands, in units of the size.
 #[derive(Debug, Clone, Copy)]
-struct Placed {
-    glyph: GlyphId,
-    x: f64,
+pub(super) struct Placed {
+    pub glyph: GlyphId,
+    pub x: f64,
 }
 
 /// The glyphs of a text in a line, and its width, in units of the size.
-fn placed(text: &str) -> (Vec<Placed>, f64) {
+pub(super) fn placed(text: &str) -> (Vec<Placed>, f64) {
     let em = f64::from(FONT.units_per_em().unwrap_or(2048.0));
     let advance = |glyph: GlyphId| f64::from(FONT.h_advance_unscaled(glyph)) / em;
     let middle = |glyph: GlyphId| {

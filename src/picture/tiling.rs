@@ -62,7 +62,7 @@ impl Snapshot {
     }
 
     /// Pressure at a place; `None` outside contact. Between samples on both sides of the edge the fitted boundary
-    /// decides, or where there is none the nearer samples.
+    /// decides, or where there is none the distance from the edge.
     pub fn pressure_at(&self, place: [f64; 2]) -> Option<f64> {
         let (mut weight, mut sum, mut touching, mut site) = (0.0, 0.0, 0, None);
         for (index, part) in around(self.step.grid(), place) {
@@ -86,7 +86,7 @@ impl Snapshot {
                     let [x, y] = cell.reduced().nearest([s[0] - t[0], s[1] - t[1]]);
                     (boundary.hole_radius(y.atan2(x))..boundary.radius(y.atan2(x))).contains(&x.hypot(y))
                 }
-                _ => weight >= 0.5,
+                _ => touching == 4 || self.inside(place) > 0.0,
             };
         (is_inside && weight > 0.0).then(|| sum / weight)
     }

@@ -3,27 +3,31 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Style};
+use super::curve::{Curve, Ink, Style};
+use super::number::short;
 use super::snapshot::caption;
-use super::units::Units;
 use crate::problem::Problem;
 use crate::reading::Criterion;
 use crate::run::{Limits, StepRecord};
+use crate::units::Units;
+
+/// Colours that lines have by their number.
+const COLOURS: usize = 6;
 
 /// The picture; `None` where less than two loads were solved.
-pub fn utilisations(title: &str, problem: &Problem, limits: &Limits) -> Option<Canvas> {
+pub fn utilisations(title: &str, problem: &Problem, units: &Units, limits: &Limits) -> Option<Canvas> {
     let loads = || limits.steps.iter().map(|step| step.reading.mean_pressure);
     let (least, most) = (loads().next()?, loads().next_back()?);
     if least == most {
         return None;
     }
-    let units = Units::of(problem);
     let curves = utilisation_curves(&limits.steps, limits.limits.iter().map(|limit| limit.criterion));
-    let x = Axis::log(units.pressure("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
+    let x = Axis::log(units.pressure_of("mean pressure", "p̄")).from_to(least / 1.1, most * 1.1);
     let chart = Chart { title: String::new(), x, y: utilisation_axis(&limits.steps), curves };
     let [n1, n2] = limits.steps[0].points;
-    let more = [limits.to_string(), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    Some(plots(&caption(title, problem, &more), &[chart]))
+    let more =
+        [limits.in_words(|pressure| units.pressure().told(pressure, short)), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
+    Some(plots(&caption(title, problem, units, &more), &[chart]))
 }
 
 /// From a hundredth on at least: what takes up less is as good as nothing.
@@ -43,11 +47,10 @@ pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterat
         };
         steps.iter().map(point).collect()
     };
-    let own = (1..).zip(criteria).map(|(colour, criterion)| Curve {
-        label: criterion.to_string(),
-        points: curve(criterion),
-        style: Style::Line,
-        colour,
+    let criteria: Vec<Criterion> = criteria.into_iter().collect();
+    let own = criteria.iter().enumerate().map(|(index, &criterion)| {
+        let (style, colour) = drawn(criterion, index, &criteria);
+        Curve { label: criterion.to_string(), points: curve(criterion), style, colour }
     });
     let loads = steps.iter().map(|step| step.reading.mean_pressure).filter(|pressure| *pressure > 0.0);
     let (least, most) = loads.fold((f64::INFINITY, 0.0f64), |(least, most), p| (least.min(p), most.max(p)));
@@ -55,7 +58,26 @@ pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterat
         label: "failure".to_owned(),
         points: vec![[least / 1.1, 1.0], [most * 1.1, 1.0]],
         style: Style::Dashed,
-        colour: 0,
+        colour: 0.into(),
     };
     own.chain([failure]).collect()
+}
+
+/// Solid lines in the order of the criteria; of more than there are colours, what fails is told by the line and where by
+/// its colour.
+fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) {
+    let depth = |criterion: &Criterion| match *criterion {
+        Criterion::Yield { material } | Criterion::Cracking { material } => material,
+        Criterion::Delamination { interface } => interface,
+    };
+    if all.len() <= COLOURS {
+        return (Style::Line, Ink::Number(index + 1));
+    }
+    let style = match criterion {
+        Criterion::Yield { .. } => Style::Line,
+        Criterion::Cracking { .. } => Style::Dashed,
+        Criterion::Delamination { .. } => Style::Dotted,
+    };
+    let deepest = all.iter().map(depth).max().unwrap_or(1);
+    (style, Ink::by_depth(depth(&criterion) - 1, deepest))
 }

@@ -1,23 +1,44 @@
-//! A sheet as an SVG file: its lines and texts stay lines and texts.
+//! A sheet as an SVG file: its lines stay lines, its letters are outlines.
 //!
-//! Texts name the embedded typeface and others of the same widths, so that a viewer without them still shows every
-//! word. Fields are images within the file. The unit of the file is the point.
+//! Every letter stands once in the file and is used from there, so that browsers, drawing programs and what makes a page
+//! of it for LaTeX show the same, whatever typefaces are at hand. The words lie over the letters without ink: they can be
+//! searched and copied. Fields are images within the file. The unit of the file is the point.
 
 use super::canvas::{Anchor, Canvas, Dash, Mark, Stroke};
 use super::colour::Colour;
+use super::letters::{Letter, Piece, letters, outline};
 use super::{raster, text};
+use std::collections::BTreeSet;
+
+/// Units of a letter's outline in the em.
+const EM: f64 = 2048.0;
 
 /// The SVG file of a sheet.
 pub fn svg(canvas: &Canvas) -> String {
     let [width, height] = canvas.size.map(hundredths);
     let [wide, high] = canvas.size.map(|length| hundredths(length * 25.4 / 72.0));
     let marks: String = canvas.marks.iter().map(element).collect();
+    let texts =
+        canvas.marks.iter().filter_map(|mark| if let Mark::Text { text, .. } = mark { Some(text) } else { None });
+    let used: BTreeSet<u16> = texts.flat_map(|text| letters(text)).map(|letter| letter.glyph).collect();
+    let outlines: String = used.into_iter().map(outlined).collect();
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}mm\" height=\"{high}mm\" \
-         viewBox=\"0 0 {width} {height}\" font-family=\"{}\" stroke-linejoin=\"round\">\n\
-         <rect width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\"/>\n{marks}</svg>\n",
-        text::FAMILY
+         viewBox=\"0 0 {width} {height}\" stroke-linejoin=\"round\">\n<defs>\n{outlines}</defs>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#FFFFFF\"/>\n{marks}</svg>\n"
     )
+}
+
+/// The outline of a letter under its number in the typeface, which is the same in all files, y down.
+fn outlined(glyph: u16) -> String {
+    let units = |[x, y]: [f64; 2]| format!("{:.0},{:.0}", EM * x, 0.0 - EM * y);
+    let piece = |piece: Piece| match piece {
+        Piece::Move(to) => format!("M{}", units(to)),
+        Piece::Line(to) => format!("L{}", units(to)),
+        Piece::Curve(places) => format!("C{}", places.map(units).join(" ")),
+    };
+    let path: String = outline(glyph).into_iter().map(piece).collect();
+    format!("<path id=\"g{glyph}\" d=\"{path}Z\"/>\n")
 }
 
 /// A mark as a line of the file.
@@ -38,17 +59,23 @@ fn element(mark: &Mark) -> String {
             format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{}\"/>\n", hex(*colour))
         }
         Mark::Text { text, at, anchor, size, upward, colour } => {
-            let anchor = match anchor {
-                Anchor::Left => "start",
-                Anchor::Centre => "middle",
-                Anchor::Right => "end",
+            let length = text::width(text, *size);
+            let before = match anchor {
+                Anchor::Left => 0.0,
+                Anchor::Centre => 0.5 * length,
+                Anchor::Right => length,
             };
-            let [x, y] = at.map(hundredths);
-            let turn = if *upward { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
-            let (size, colour, text) = (hundredths(*size), hex(*colour), escaped(text));
+            let turn = if *upward { " rotate(-90)" } else { "" };
+            let used = |Letter { glyph, x }: Letter| format!("<use href=\"#g{glyph}\" x=\"{:.0}\"/>", EM * x);
+            let used: String = letters(text).into_iter().map(used).collect();
+            let ([x, y], colour, words) = (at.map(hundredths), hex(*colour), escaped(text));
+            let (scale, start) = (format!("{:.5}", size / EM), hundredths(-before));
+            let (length, size) = (hundredths(length), hundredths(*size));
             format!(
-                "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{colour}\"{turn}>\
-                 {text}</text>\n"
+                "<g transform=\"translate({x} {y}){turn} translate({start})\" fill=\"{colour}\">\
+                 <g transform=\"scale({scale})\">{used}</g>\
+                 <text font-size=\"{size}\" font-family=\"sans-serif\" textLength=\"{length}\" fill-opacity=\"0\">\
+                 {words}</text></g>\n"
             )
         }
         Mark::Image { corner, size, pixels, colours } => {
@@ -110,11 +137,30 @@ mod tests {
     }
 
     #[test]
+    fn every_letter_stands_once_in_the_file_and_every_use_finds_it() {
+        let mut canvas = Canvas::new([50.0, 20.0]);
+        canvas.text("aba p̄", [1.0, 10.0], Anchor::Left, 7.0, Colour::BLACK);
+        canvas.upward("ab", [1.0, 10.0], 7.0, Colour::BLACK);
+        let file = svg(&canvas);
+        let all = |mark: &str| {
+            file.match_indices(mark)
+                .map(|(at, _)| {
+                    let rest = &file[at + mark.len()..];
+                    rest[..rest.find('"').unwrap()].to_owned()
+                })
+                .collect::<Vec<String>>()
+        };
+        let (defined, used) = (all("id=\"g"), all("href=\"#g"));
+        assert_eq!((defined.len(), used.len()), (4, 7), "{file}");
+        assert!(used.iter().all(|glyph| defined.contains(glyph)));
+    }
+
+    #[test]
     fn signs_of_the_file_are_escaped_within_text() {
         let mut canvas = Canvas::new([50.0, 20.0]);
         canvas.text("a < b & \"c\" > d", [-0.001, 10.126], Anchor::Left, 7.0, Colour::BLACK);
         let file = svg(&canvas);
         assert!(file.contains(">a &lt; b &amp; &quot;c&quot; &gt; d</text>"), "{file}");
-        assert!(file.contains("x=\"0\" y=\"10.13\""), "{file}");
+        assert!(file.contains("translate(0 10.13)"), "{file}");
     }
 }

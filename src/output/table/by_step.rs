@@ -1,8 +1,9 @@
 //! Quantities with their places over the load steps, a row each.
 
-use super::{DETAILED, render};
-use crate::output::number::{number, with_error};
+use super::{DETAILED, in_unit, render};
+use crate::output::number::number;
 use crate::run::StepRecord;
+use crate::units::{Prefixed, Unit, Units};
 
 /// Value, error and place of a quantity in a step that has it.
 pub(super) type Found = (f64, Option<f64>, [f64; 3]);
@@ -14,30 +15,35 @@ pub(super) struct Row {
     pub found: Vec<Option<Found>>,
 }
 
-/// A few steps side by side, or the last of many; the places are those in the last. `None` where no step has any.
-pub(super) fn by_step(head: &str, steps: &[StepRecord], rows: &[Row]) -> Option<String> {
+/// Quantities of one unit, a few steps side by side, or the last of many; the places are those in the last. `None` where
+/// no step has any.
+pub(super) fn by_step(head: &str, unit: &Unit, units: &Units, steps: &[StepRecord], rows: &[Row]) -> Option<String> {
     let last = (0..steps.len()).rev().find(|&step| rows.iter().any(|row| row.found[step].is_some()))?;
     let shown = if steps.len() <= DETAILED { 0..steps.len() } else { last..last + 1 };
-    let pressures = steps[shown.clone()].iter().map(|step| format!("p̄ = {}", number(step.reading.mean_pressure)));
+    let pressures = steps[shown.clone()].iter().map(|step| step.reading.mean_pressure);
+    let pressures = pressures.map(|pressure| format!("p̄ = {}", units.pressure().told(pressure, number)));
     let place_of = if shown.len() > 1 { "place (x, y, z) in the last" } else { "place (x, y, z)" };
-    let header: Vec<String> = [head.to_owned()].into_iter().chain(pressures).chain([place_of.to_owned()]).collect();
+    let unit = unit.suited(rows.iter().flat_map(|row| &row.found[shown.clone()]).flatten().map(|(x, ..)| *x));
+    let length = units.length().suited(rows.iter().filter_map(|row| row.found[last]).flat_map(|(_, _, place)| place));
+    let header: Vec<String> =
+        [unit.headed(head)].into_iter().chain(pressures).chain([length.headed(place_of)]).collect();
     let line = |row: &Row| {
-        let of = |found: &Option<Found>| found.map_or("–".to_owned(), |(x, error, _)| finite(x, error));
+        let of = |found: &Option<Found>| found.map_or("–".to_owned(), |(x, error, _)| finite(&unit, x, error));
         let values = row.found[shown.clone()].iter().map(of);
-        let place = row.found[last].map_or("–".to_owned(), |(_, _, position)| place(position));
+        let place = row.found[last].map_or("–".to_owned(), |(_, _, position)| place(&length, position));
         [row.name.clone()].into_iter().chain(values).chain([place]).collect()
     };
     Some(render(&header, &rows.iter().map(line).collect::<Vec<Vec<String>>>(), 1))
 }
 
 /// What is no number is not infinite.
-fn finite(x: f64, error: Option<f64>) -> String {
-    if x.is_infinite() { "singular".to_owned() } else { with_error(x, error) }
+fn finite(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
+    if x.is_infinite() { "singular".to_owned() } else { in_unit(unit, x, error) }
 }
 
 /// x, y, z; what is a millionth of the largest is zero: no place is known as well.
-pub(super) fn place([x, y, z]: [f64; 3]) -> String {
+pub(super) fn place(length: &Prefixed, [x, y, z]: [f64; 3]) -> String {
     let size = x.abs().max(y.abs()).max(z.abs());
-    let plain = |v: f64| if v.abs() <= 1e-6 * size { "0".to_owned() } else { number(v) };
+    let plain = |v: f64| if v.abs() <= 1e-6 * size { "0".to_owned() } else { number(length.shown(v)) };
     format!("({}, {}, {})", plain(x), plain(y), plain(z))
 }

@@ -3,38 +3,48 @@
 use super::{percent, render};
 use crate::comparison::{Answer, CircleComparison, Comparison, Deviation};
 use crate::output::number;
+use crate::units::{Prefixed, Units};
 
 /// Both solutions level by level, one block for the spectral one and for each circle.
-pub fn readings(comparison: &Comparison) -> String {
-    let header = [
-        "solution",
-        "inside",
-        "penetration",
-        "level",
-        "load on one",
-        "share",
-        "peak pressure",
-        "contact radius",
-        "circle",
-    ];
+pub fn readings(comparison: &Comparison, units: &Units) -> String {
     let spectral = Answer::from(&comparison.spectral.reading);
+    let answers = || std::iter::once(&spectral).chain(comparison.circles.iter().map(|circle| &circle.answer));
+    let levels = || answers().flat_map(|answer| &answer.levels);
+    let penetration = units.length().suited(answers().map(|answer| answer.penetration));
+    let load = units.force().suited(levels().map(|level| level.load));
+    let pressure = units.pressure().suited(levels().filter_map(|level| level.finite_peak()));
+    let radius = units.length().suited(levels().filter_map(|level| level.contact_radius));
+    let around = units.length().suited(comparison.circles.iter().flat_map(|circle| circle.radii.iter().copied()));
+    let header = [
+        "solution".to_owned(),
+        "inside".to_owned(),
+        penetration.headed("penetration"),
+        "level".to_owned(),
+        load.headed("load on one"),
+        "share".to_owned(),
+        pressure.headed("peak pressure"),
+        radius.headed("contact radius"),
+        around.headed("circle"),
+    ];
     let nowhere = vec![f64::INFINITY; spectral.levels.len()];
     let circles = comparison.circles.iter();
     let blocks = std::iter::once(("spectral", String::new(), &spectral, &nowhere))
         .chain(circles.map(|circle| ("localized", inside(comparison, circle), &circle.answer, &circle.radii)));
     let mut rows = Vec::new();
     for (name, inside, answer, radii) in blocks {
-        let mut lead = [name.to_owned(), inside, number(answer.penetration)];
+        let mut lead = [name.to_owned(), inside, number(penetration.shown(answer.penetration))];
         for (level, &circle) in answer.levels.iter().zip(radii) {
-            let value = |x: f64| if x.is_finite() { number(x) } else { "–".to_owned() };
+            let value = |unit: &Prefixed, x: Option<f64>| {
+                x.filter(|x| x.is_finite()).map_or("–".to_owned(), |x| number(unit.shown(x)))
+            };
             let cells = [
                 level.level.to_string(),
-                number(level.load),
+                number(load.shown(level.load)),
                 percent(level.load_share),
-                value(level.finite_peak().unwrap_or(f64::NAN)),
-                value(level.contact_radius.filter(|_| level.load > 0.0).unwrap_or(f64::NAN))
+                value(&pressure, level.finite_peak()),
+                value(&radius, level.contact_radius.filter(|_| level.load > 0.0))
                     + if level.ring { " (ring)" } else { "" },
-                value(circle),
+                value(&around, Some(circle)),
             ];
             rows.push([&lead[..], &cells[..]].concat());
             lead = [const { String::new() }; 3];
@@ -73,7 +83,7 @@ pub fn differences(comparison: &Comparison) -> String {
 }
 
 /// How far the stresses agree, in a line; `None` where none are compared.
-pub fn stresses(comparison: &Comparison) -> Option<String> {
+pub fn stresses(comparison: &Comparison, units: &Units) -> Option<String> {
     let worst = comparison.stresses.iter().max_by(|a, b| a.difference().total_cmp(&b.difference()))?;
     let largest = comparison.stresses.iter().flat_map(|pair| pair.spectral.components()[..6].to_vec());
     let largest = largest.fold(0.0, |most: f64, stress| most.max(stress.abs()));
@@ -81,7 +91,7 @@ pub fn stresses(comparison: &Comparison) -> Option<String> {
         "stresses at {} points under the highest level agree within {:.2} % of the largest, worst at z = {} in material {}",
         comparison.stresses.len(),
         100.0 * worst.difference() / largest,
-        number(worst.depth.z),
+        units.length().told(worst.depth.z, number),
         worst.depth.material
     ))
 }

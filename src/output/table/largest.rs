@@ -4,9 +4,10 @@ use super::by_step::{Row, by_step};
 use crate::reading::StressReading;
 use crate::run::StepRecord;
 use crate::stress::Peak;
+use crate::units::Units;
 
 /// One row a quantity; `None` where no step has stresses.
-pub fn largest_stresses(steps: &[StepRecord]) -> Option<String> {
+pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<String> {
     let any = steps.iter().find_map(|step| step.stress.as_ref())?;
     let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
         let of = |step: &StepRecord| peak(step.stress.as_ref()?).map(|peak| (peak.value, peak.error, peak.position));
@@ -29,5 +30,5 @@ pub fn largest_stresses(steps: &[StepRecord]) -> Option<String> {
     };
     let materials = (0..any.materials.len()).flat_map(material);
     let rows: Vec<Row> = materials.chain((0..any.interfaces.len()).flat_map(interface)).collect();
-    by_step("largest stress", steps, &rows)
+    by_step("largest stress", units.pressure(), units, steps, &rows)
 }

@@ -12,7 +12,9 @@ pub use strength::{limits, utilisations};
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
 use crate::numeric::search::largest;
+use crate::reading::Reading;
 use crate::run::StepRecord;
+use crate::units::{Prefixed, Units};
 use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Relative errors up to this are rounding.
@@ -22,28 +24,42 @@ const NOTHING: f64 = 1e-12;
 pub const DETAILED: usize = 6;
 
 /// The load steps as a table: in detail for a few steps, one row a step for many.
-pub fn steps(steps: &[StepRecord]) -> String {
+pub fn steps(steps: &[StepRecord], units: &Units) -> String {
     let levels = steps.first().map_or(0, |step| step.reading.levels.len());
-    if steps.len() <= DETAILED && levels > 0 { detailed(steps) } else { compact(steps, levels) }
+    if steps.len() <= DETAILED && levels > 0 { detailed(steps, units) } else { compact(steps, levels, units) }
 }
 
-fn detailed(steps: &[StepRecord]) -> String {
+/// The units of the mean pressure and the penetration.
+fn units_of_loads(steps: &[StepRecord], units: &Units) -> [Prefixed; 2] {
+    let readings = || steps.iter().map(|step| &step.reading);
+    [
+        units.pressure().suited(readings().map(|reading| reading.mean_pressure)),
+        units.length().suited(readings().map(|reading| reading.penetration)),
+    ]
+}
+
+fn detailed(steps: &[StepRecord], units: &Units) -> String {
+    let levels = || steps.iter().flat_map(|step| &step.reading.levels);
+    let [mean, penetration] = units_of_loads(steps, units);
+    let load = units.force().suited(levels().map(|level| level.load));
+    let pressure = units.pressure().suited(levels().filter_map(|level| level.finite_peak()));
+    let length = units.length().suited(levels().filter_map(|level| level.contact_radius));
     let header = [
-        "mean pressure",
-        "penetration",
-        "contact",
-        "level",
-        "load on one",
-        "share",
-        "peak pressure",
-        "contact radius",
-        "asymmetry",
+        mean.headed("mean pressure"),
+        penetration.headed("penetration"),
+        "contact".to_owned(),
+        "level".to_owned(),
+        load.headed("load on one"),
+        "share".to_owned(),
+        pressure.headed("peak pressure"),
+        length.headed("contact radius"),
+        "asymmetry".to_owned(),
     ];
     let mut rows = Vec::new();
     for step in steps {
         let mut lead = [
-            with_error(step.reading.mean_pressure, step.reading.errors.mean_pressure),
-            with_error(step.reading.penetration, step.reading.errors.penetration),
+            in_unit(&mean, step.reading.mean_pressure, step.reading.errors.mean_pressure),
+            in_unit(&penetration, step.reading.penetration, step.reading.errors.penetration),
             percent_with_error(step.reading.contact_fraction, step.reading.errors.contact_fraction),
         ];
         for level in &step.reading.levels {
@@ -53,19 +69,19 @@ fn detailed(steps: &[StepRecord]) -> String {
                 Some(radius) if level.ring => match (level.radius_inner, level.radius_outer) {
                     (Some(inner), Some(outer)) => format!(
                         "ring {} to {}",
-                        with_error(inner, level.errors.radius_inner),
-                        with_error(outer, level.errors.radius_outer)
+                        in_unit(&length, inner, level.errors.radius_inner),
+                        in_unit(&length, outer, level.errors.radius_outer)
                     ),
-                    _ => format!("ring, area of {}", number(radius)),
+                    _ => format!("ring, area of {}", number(length.shown(radius))),
                 },
-                Some(radius) => with_error(radius, level.errors.contact_radius),
+                Some(radius) => in_unit(&length, radius, level.errors.contact_radius),
                 None => "merged".to_owned(),
             };
             let cells = [
                 level.level.to_string(),
-                with_error(level.load, level.errors.load),
+                in_unit(&load, level.load, level.errors.load),
                 percent_with_error(level.load_share, level.errors.load_share),
-                finite(level.finite_peak(), level.errors.max_pressure),
+                finite(&pressure, level.finite_peak(), level.errors.max_pressure),
                 radius,
                 level.asymmetry().map_or("–".to_owned(), |part| percent_with_error(part, level.errors.asymmetry)),
             ];
@@ -76,30 +92,30 @@ fn detailed(steps: &[StepRecord]) -> String {
     render(&header, &rows, 0)
 }
 
-fn compact(steps: &[StepRecord], levels: usize) -> String {
-    let mut header = ["mean pressure", "penetration", "contact"].map(str::to_owned).to_vec();
-    header.extend((1..=levels).map(|level| format!("peak {level}")));
+fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> String {
+    let readings = || steps.iter().map(|step| &step.reading);
+    let [mean, penetration] = units_of_loads(steps, units);
+    let pressure = units.pressure().suited(readings().filter_map(Reading::finite_peak));
+    let mut header = vec![mean.headed("mean pressure"), penetration.headed("penetration"), "contact".to_owned()];
+    header.extend((1..=levels).map(|level| pressure.headed(&format!("peak {level}"))));
     header.extend((1..=levels).map(|level| format!("share {level}")));
     if levels == 0 {
-        header.push("peak pressure".to_owned());
+        header.push(pressure.headed("peak pressure"));
     }
-    let rows: Vec<Vec<String>> = steps
-        .iter()
-        .map(|step| {
-            let mut row = vec![
-                number(step.reading.mean_pressure),
-                number(step.reading.penetration),
-                percent(step.reading.contact_fraction),
-            ];
-            row.extend(step.reading.levels.iter().map(|level| finite(level.finite_peak(), None)));
-            row.extend(step.reading.levels.iter().map(|level| percent(level.load_share)));
-            if levels == 0 {
-                row.push(finite(step.reading.finite_peak(), None));
-            }
-            row
-        })
-        .collect();
-    render(&header, &rows, 0)
+    let row = |reading: &Reading| {
+        let mut row = vec![
+            number(mean.shown(reading.mean_pressure)),
+            number(penetration.shown(reading.penetration)),
+            percent(reading.contact_fraction),
+        ];
+        row.extend(reading.levels.iter().map(|level| finite(&pressure, level.finite_peak(), None)));
+        row.extend(reading.levels.iter().map(|level| percent(level.load_share)));
+        if levels == 0 {
+            row.push(finite(&pressure, reading.finite_peak(), None));
+        }
+        row
+    };
+    render(&header, &readings().map(row).collect::<Vec<Vec<String>>>(), 0)
 }
 
 /// A table under a rule, whose first `words` columns are aligned left, the others right.
@@ -126,8 +142,13 @@ fn percent(x: f64) -> String {
 }
 
 /// A number with its error, or that there is none because it is infinite.
-fn finite(x: Option<f64>, error: Option<f64>) -> String {
-    x.map_or("singular".to_owned(), |x| with_error(x, error))
+fn finite(unit: &Prefixed, x: Option<f64>, error: Option<f64>) -> String {
+    x.map_or("singular".to_owned(), |x| in_unit(unit, x, error))
+}
+
+/// A number of the case with its error, both in the unit of their column.
+fn in_unit(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
+    with_error(unit.shown(x), error.map(|error| unit.shown(error)))
 }
 
 /// A part with its error in per cent: two digits behind the point, fewer where the error counts before them.
@@ -188,10 +209,11 @@ pub fn timing(timing: &Timing) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::units::Unit;
 
     #[test]
     fn what_rounds_to_zero_has_no_sign_and_what_is_infinite_no_number() {
         assert_eq!([-1e-9, 0.0, -0.00006, 0.5].map(percent), ["0.00 %", "0.00 %", "-0.01 %", "50.00 %"]);
-        assert_eq!([None, Some(0.5)].map(|x| finite(x, None)), ["singular", "0.50000"]);
+        assert_eq!([None, Some(0.5)].map(|x| finite(&Unit::None.prefixed(1.0), x, None)), ["singular", "0.50000"]);
     }
 }

@@ -1,14 +1,15 @@
 //! What materials and interfaces bear: utilisations of the load steps, and limit loads.
 
 use super::by_step::{Row, by_step, place};
-use super::render;
+use super::{in_unit, render};
 use crate::body::HalfSpace;
-use crate::output::number::{number, with_error};
+use crate::output::number::number;
 use crate::reading::{Criterion, Utilisation};
 use crate::run::{At, Limit, Limits, StepRecord};
+use crate::units::{Unit, Units};
 
 /// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any.
-pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
+pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace, units: &Units) -> Option<String> {
     let last = steps.iter().rev().find(|step| !step.strength.is_empty())?;
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
@@ -17,11 +18,15 @@ pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace) -> Option<Stri
         Row { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Row> = governing.into_iter().map(row).collect();
-    Some(format!("{}\n\n{}", in_words(steps, half_space)?, by_step("utilisation", steps, &rows)?))
+    Some(format!(
+        "{}\n\n{}",
+        in_words(steps, half_space, units)?,
+        by_step("utilisation", &Unit::None, units, steps, &rows)?
+    ))
 }
 
 /// What fails first as far as the load steps tell, else what comes nearest at any. The load at which it does lies between them.
-fn in_words(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
+fn in_words(steps: &[StepRecord], half_space: &HalfSpace, units: &Units) -> Option<String> {
     if let Some(criterion) = Criterion::all(half_space).into_iter().find(|own| own.at_rest(half_space) >= 1.0) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
@@ -36,29 +41,40 @@ fn in_words(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
     // Every step of a lesser load holds.
     let loads = steps.iter().map(|step| step.reading.mean_pressure);
     let below = loads.filter(|&load| 0.0 < load && load < above).max_by(f64::total_cmp);
+    let told = |pressure: f64| units.pressure().told(pressure, number);
     Some(match below {
-        Some(below) => format!("first: {criterion} between p̄ = {} and {}", number(below), number(above)),
-        None => format!("first: {criterion} at or below p̄ = {}", number(above)),
+        Some(below) => format!("first: {criterion} between p̄ = {} and {}", told(below), told(above)),
+        None => format!("first: {criterion} at or below p̄ = {}", told(above)),
     })
 }
 
 /// The limit loads, the first of them first.
-pub fn limits(limits: &Limits) -> String {
+pub fn limits(limits: &Limits, units: &Units) -> String {
+    let pressures = limits.limits.iter().map(|limit| match limit.at {
+        At::Never { up_to, .. } => up_to,
+        _ => limit.mean_pressure(),
+    });
+    let places = limits.limits.iter().filter_map(Limit::position).flatten();
+    let (pressure, length) = (units.pressure().suited(pressures), units.length().suited(places));
+    let place = |position: [f64; 3]| place(&length, position);
     let row = |limit: &&Limit| {
         let (pressure, place) = match limit.at {
             At::Rest => ("0".to_owned(), "by residual stress alone".to_owned()),
             At::Tip { position } => ("0".to_owned(), format!("{}, a tip", place(position))),
-            At::Load { mean_pressure, error, position } => (with_error(mean_pressure, error), place(position)),
-            At::Below { mean_pressure, position, .. } => {
-                (format!("< {}", number(mean_pressure)), format!("{}, a contact of a few samples", place(position)))
-            }
+            At::Load { mean_pressure, error, position } => (in_unit(&pressure, mean_pressure, error), place(position)),
+            At::Below { mean_pressure, position, .. } => (
+                format!("< {}", number(pressure.shown(mean_pressure))),
+                format!("{}, a contact of a few samples", place(position)),
+            ),
             At::Never { up_to, utilisation, at } => {
-                let most = format!("takes up {} at p̄ = {}", number(utilisation), number(at));
-                (format!("> {}", number(up_to)), most)
+                let most = format!("takes up {} at p̄ = {}", number(utilisation), units.pressure().told(at, number));
+                (format!("> {}", number(pressure.shown(up_to))), most)
             }
         };
         vec![limit.criterion.to_string(), pressure, place]
     };
     let rows: Vec<Vec<String>> = limits.ordered().iter().map(row).collect();
-    format!("{limits}\n\n{}", render(&["criterion", "mean pressure", "place (x, y, z)"], &rows, 1))
+    let header = ["criterion".to_owned(), pressure.headed("mean pressure"), length.headed("place (x, y, z)")];
+    let words = limits.in_words(|x| units.pressure().told(x, number));
+    format!("{words}\n\n{}", render(&header, &rows, 1))
 }

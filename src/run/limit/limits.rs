@@ -211,20 +211,27 @@ impl Limits {
     }
 }
 
-/// What fails first, in words.
-impl fmt::Display for Limits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Limits {
+    /// What fails first, in words, with pressures as `told` has them.
+    pub fn in_words(&self, told: impl Fn(f64) -> String) -> String {
         let Some(limit) = self.first() else {
             let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
             let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
-            return write!(f, "nothing fails up to the mean pressure {}{complete}", number(most));
+            return format!("nothing fails up to the mean pressure {}{complete}", told(most));
         };
-        write!(f, "first: {}", limit.criterion)?;
-        match limit.at {
-            At::Rest => f.write_str(", without load, by residual stress alone"),
-            At::Tip { .. } => f.write_str(", under a tip however small the load"),
-            At::Below { mean_pressure, .. } => write!(f, ", at less than the mean pressure {}", number(mean_pressure)),
-            At::Load { .. } | At::Never { .. } => write!(f, " at the mean pressure {}", number(limit.mean_pressure())),
-        }
+        let at = match limit.at {
+            At::Rest => ", without load, by residual stress alone".to_owned(),
+            At::Tip { .. } => ", under a tip however small the load".to_owned(),
+            At::Below { mean_pressure, .. } => format!(", at less than the mean pressure {}", told(mean_pressure)),
+            At::Load { .. } | At::Never { .. } => format!(" at the mean pressure {}", told(limit.mean_pressure())),
+        };
+        format!("first: {}{at}", limit.criterion)
+    }
+}
+
+/// What fails first, in words.
+impl fmt::Display for Limits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.in_words(number))
     }
 }

@@ -1,0 +1,142 @@
+//! A quantity as an axis or a caption names it: words, symbol and unit.
+
+use super::axis::Scale;
+use super::number::short;
+use crate::units::{Prefixed, Unit, Units};
+
+/// What an axis shows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Quantity {
+    /// Its words and its symbol.
+    text: String,
+    unit: Unit,
+}
+
+impl Quantity {
+    /// The unit for numbers over a range.
+    pub(super) fn unit(&self, [first, last]: [f64; 2], scale: Scale) -> Prefixed {
+        match scale {
+            // Numbers on both sides of the middle read well.
+            Scale::Log => self.unit.prefixed((first * last).abs().sqrt()),
+            Scale::Linear | Scale::Degrees => self.unit.suited([first, last]),
+        }
+    }
+
+    /// The text with a unit.
+    pub(super) fn label(&self, unit: &Prefixed) -> String {
+        if unit.name.is_empty() { self.text.clone() } else { format!("{}\u{a0}({})", self.text, unit.name) }
+    }
+}
+
+impl From<&str> for Quantity {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
+    }
+}
+
+impl From<String> for Quantity {
+    fn from(text: String) -> Self {
+        Self { text, unit: Unit::None }
+    }
+}
+
+impl Units {
+    /// A length as an axis names it.
+    pub(super) fn length_of(&self, words: &str, symbol: &str) -> Quantity {
+        quantity(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
+    }
+
+    /// A pressure as an axis names it.
+    pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Quantity {
+        quantity(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
+    }
+
+    /// Lengths in a list of parameters: h/l = 0.5, h = 3 µm or h = 3.
+    pub(super) fn length_equals(&self, symbol: &str, values: &[f64]) -> String {
+        equals_in(self.length(), symbol, values)
+    }
+
+    /// Pressures in a list of parameters: p̄/E₂ = 0.06, p̄ = 60 MPa or p̄ = 60.
+    pub(super) fn pressure_equals(&self, symbol: &str, values: &[f64]) -> String {
+        equals_in(self.pressure(), symbol, values)
+    }
+}
+
+fn quantity(words: &str, symbol: &str, unit: &Unit, unknown: &str) -> Quantity {
+    let symbol = match unit {
+        Unit::None => format!("{symbol}\u{a0}({unknown})"),
+        Unit::Relative(to) => format!("{symbol}/{to}"),
+        Unit::Named(_) | Unit::Si { .. } => symbol.to_owned(),
+    };
+    let text = if words.is_empty() { symbol } else { format!("{words} {symbol}") };
+    Quantity { text, unit: unit.clone() }
+}
+
+fn equals_in(unit: &Unit, symbol: &str, values: &[f64]) -> String {
+    let prefixed = unit.suited(values.iter().copied());
+    let shown: Vec<f64> = values.iter().map(|&x| prefixed.shown(x)).collect();
+    match unit {
+        Unit::Relative(to) => equals(&format!("{symbol}/{to}"), &shown),
+        // Nothing needs no unit.
+        _ if values.iter().all(|x| *x == 0.0) => equals(symbol, &shown),
+        _ => prefixed.behind(&equals(symbol, &shown)),
+    }
+}
+
+/// A symbol and its values, which no line break parts from the first one.
+pub(super) fn equals(symbol: &str, values: &[f64]) -> String {
+    let values: Vec<String> = values.iter().map(|&x| short(x)).collect();
+    format!("{}\u{a0}=\u{a0}{}", symbol.replace(' ', "\u{a0}"), values.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::{Indenters, Level, Shape};
+    use crate::lattice::Lattice;
+    use crate::problem::Problem;
+
+    fn units(young: f64) -> Units {
+        let levels = vec![Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap()];
+        let indenters = Indenters::new(Lattice::square(young, 1).unwrap(), levels).unwrap();
+        let half_space = HalfSpace::new(vec![], Material::from_young(young, 0.3).unwrap());
+        Units::of(&Problem::new(indenters, half_space))
+    }
+
+    fn plain(text: &str) -> String {
+        text.replace('\u{a0}', " ")
+    }
+
+    #[test]
+    fn axes_have_the_prefix_with_which_their_numbers_read_well() {
+        let si = units(2.0).named(Some("m"), Some("Pa"));
+        let named = |quantity: &Quantity, range: [f64; 2], scale: Scale| {
+            let unit = quantity.unit(range, scale);
+            (plain(&quantity.label(&unit)), unit.shown(range[1]))
+        };
+        let (length, pressure) = (si.length_of("contact radius", "a"), si.pressure_of("", "p"));
+        assert_eq!(named(&length, [0.0, 20e-6], Scale::Linear).0, "contact radius a (µm)");
+        let (label, most) = named(&pressure, [1e5, 1e10], Scale::Log);
+        assert!(label == "p (MPa)" && (most - 1e4).abs() < 1e-6, "{label} {most}");
+        assert_eq!(named(&units(1.0).pressure_of("pressure", "p"), [0.0, 1e-9], Scale::Linear).0, "pressure p/E");
+        assert_eq!(
+            named(&units(2.0).pressure_of("pressure", "p"), [0.0, 1e9], Scale::Linear).0,
+            "pressure p (unit of E)"
+        );
+        assert_eq!(
+            named(&units(2.0).named(None, Some("psi")).pressure_of("", "p"), [0.0, 1e9], Scale::Log).0,
+            "p (psi)"
+        );
+    }
+
+    #[test]
+    fn captions_have_units_behind_numbers() {
+        let si = units(2.0).named(Some("m"), Some("Pa"));
+        assert_eq!(plain(&si.pressure_equals("E₂", &[2.1e11])), "E₂ = 210 GPa");
+        assert_eq!(plain(&si.length_equals("Δₘ", &[1e-7, 2e-7])), "Δₘ = 100, 200 nm");
+        assert_eq!(plain(&si.length_equals("s", &[0.0])), "s = 0");
+        assert_eq!(plain(&units(1.0).pressure_equals("p̄", &[0.06])), "p̄/E = 0.06");
+        assert_eq!(plain(&units(2.0).pressure_equals("p̄", &[6e7])), "p̄ = 6×10⁷");
+    }
+}

@@ -1,0 +1,60 @@
+//! Where along a run each level touches first, as far as its load steps tell.
+//!
+//! Next to first touch the load of a profile c rⁿ goes as the (n + 1)/n-th power of what the indenter has gone in, and that
+//! grows evenly with the mean pressure: P^{n/(n+1)} is a straight line, which the two steps behind the touch lead back to
+//! zero, between the last step without load and the first with it.
+
+use crate::problem::Problem;
+use crate::run::StepRecord;
+
+/// Mean pressure of first touch of each level that first carries load between two steps, with the level.
+pub fn touches(problem: &Problem, steps: &[StepRecord]) -> Vec<(usize, f64)> {
+    let mut steps: Vec<&StepRecord> = steps.iter().collect();
+    steps.sort_by(|a, b| a.reading.mean_pressure.total_cmp(&b.reading.mean_pressure));
+    let levels = problem.counterbody().levels().iter().zip(1..);
+    let touch = |exponent: f64, level: usize| {
+        let load = |step: &StepRecord| step.reading.levels.get(level - 1).map_or(0.0, |own| own.load);
+        let first = steps.iter().position(|step| load(step) > 0.0).filter(|&first| first > 0)?;
+        // What touches from the beginning has no load of first touch.
+        let before = steps[first - 1].reading.mean_pressure;
+        let at = |step: &StepRecord| [step.reading.mean_pressure, load(step).powf(exponent / (exponent + 1.0))];
+        let [p, own] = at(steps[first]);
+        let line = steps.get(first + 1).map(|step| at(step)).filter(|[_, next]| *next > own);
+        let zero = line.map_or(0.5 * (before + p), |[next, further]| p - own * (next - p) / (further - own));
+        (before > 0.0 || level > 1).then_some(zero.clamp(before, p))
+    };
+    levels.filter_map(|(level, number)| Some((number, touch(level.shape().exponent(), number)?))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::{Indenters, Level, Shape};
+    use crate::lattice::Lattice;
+    use crate::load::Load;
+    use crate::reading::first_touches;
+    use crate::spectral::{Settings, Solver};
+
+    /// Steps a third apart lead back to first touch within a tenth of the step, as bisection finds it.
+    #[test]
+    fn the_steps_lead_back_to_first_touch() {
+        let level = |height| Level::new(Shape::Paraboloid { radius: 0.8 }, height).unwrap();
+        let levels = [0.02, 0.01, 0.0].map(level).to_vec();
+        let indenters = Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), levels).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let mut solver = Solver::new(Problem::new(indenters, body), [72, 72], Settings::default()).unwrap();
+        let record = |pressure: f64, solver: &mut Solver| {
+            let step = solver.solve(Load::MeanPressure(pressure));
+            StepRecord::new(&step, step.reading())
+        };
+        let steps: Vec<StepRecord> = (0..15).map(|k| record(2e-4 * 1.35f64.powi(k), &mut solver)).collect();
+        let found = touches(solver.problem(), &steps);
+        let exact = first_touches(&mut solver);
+        assert_eq!(found.iter().map(|(level, _)| *level).collect::<Vec<usize>>(), [2, 3]);
+        for (level, pressure) in found {
+            let exact = exact[level - 1].unwrap();
+            assert!((pressure / exact - 1.0).abs() < 0.035, "level {level}: {pressure} {exact}");
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! What the numbers of a case are measured in, as far as the case says or shows it.
+//!
+//! Cases take any consistent units, and what programs read is never converted. Where people read, a unit has a name:
+//!
+//! - Of an SI unit with its prefix (m, mm, µm, nm; Pa … TPa) axes, tables and captions take the prefix with which their
+//!   numbers read well, 2.1·10¹¹ Pa as 210 GPa. A force is a pressure times an area: GPa·µm² = mN.
+//! - Any other name stands behind the numbers as they are.
+//! - Without a name pressures are relative to the substrate's modulus where that is 1, p/E₂ as in the paper, and lengths to
+//!   the lattice period or the first level's radius where these are; otherwise units are unknown.
+
+use crate::body::HalfSpace;
+use crate::counterbody::{Level, Shape};
+use crate::problem::Problem;
+
+/// A unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unit {
+    /// Of a number without dimension, or of one of which nothing is known.
+    None,
+    /// A quantity of the case, by its symbol.
+    Relative(String),
+    /// A name that says no more.
+    Named(String),
+    /// An SI unit times a power of ten.
+    Si {
+        /// Its symbol without prefix.
+        base: &'static str,
+        /// The power of ten.
+        exponent: i32,
+    },
+}
+
+/// A unit with the prefix that suits numbers of some size.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Prefixed {
+    /// Its name; empty where there is none.
+    pub name: String,
+    /// The numbers shown are those of the case times ten to this power.
+    pub exponent: i32,
+}
+
+/// Units of lengths and pressures.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Units {
+    length: Unit,
+    pressure: Unit,
+}
+
+/// Prefixes from 10⁻¹² to 10¹² by thousands.
+const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
+
+impl Units {
+    /// Units of a problem, whose numbers alone are known.
+    pub fn of(problem: &Problem) -> Self {
+        let (counterbody, half_space) = (problem.counterbody(), problem.half_space());
+        let is_one = |x: f64| (x - 1.0).abs() < 1e-9;
+        let length = match counterbody.levels().first().map(Level::shape) {
+            Some(_) if counterbody.indenters().is_some_and(|own| is_one(own.lattice().period())) => Some("l"),
+            Some(Shape::Paraboloid { radius } | Shape::Sphere { radius }) if is_one(radius) => Some("r₁"),
+            _ => None,
+        };
+        let pressure = is_one(half_space.substrate().young()).then(|| format!("E{}", substrate_index(half_space)));
+        let relative = |symbol: Option<String>| symbol.map_or(Unit::None, Unit::Relative);
+        Self { length: relative(length.map(str::to_owned)), pressure: relative(pressure) }
+    }
+
+    /// Of which nothing is known.
+    pub fn unknown() -> Self {
+        Self { length: Unit::None, pressure: Unit::None }
+    }
+
+    /// The same with names for lengths, for pressures or for both.
+    #[must_use]
+    pub fn named(self, length: Option<&str>, pressure: Option<&str>) -> Self {
+        Self {
+            length: length.map_or(self.length, |name| Unit::called(name, "m")),
+            pressure: pressure.map_or(self.pressure, |name| Unit::called(name, "Pa")),
+        }
+    }
+
+    /// Of lengths.
+    pub fn length(&self) -> &Unit {
+        &self.length
+    }
+
+    /// Of pressures.
+    pub fn pressure(&self) -> &Unit {
+        &self.pressure
+    }
+
+    /// Of forces: a pressure times an area. None where one of both has no name.
+    pub fn force(&self) -> Unit {
+        match (&self.pressure, &self.length) {
+            (Unit::Si { exponent, .. }, Unit::Si { exponent: length, .. }) => {
+                Unit::Si { base: "N", exponent: exponent + 2 * length }
+            }
+            (pressure, length) => match (pressure.name(), length.name()) {
+                (Some(pressure), Some(length)) => Unit::Named(format!("{pressure}·{length}²")),
+                _ => Unit::None,
+            },
+        }
+    }
+}
+
+impl Unit {
+    /// By its name, which may be that of an SI unit `base` with a prefix.
+    fn called(name: &str, base: &'static str) -> Self {
+        // The letters mu and u are written for the sign.
+        let prefix = name.strip_suffix(base).map(|prefix| if ["u", "μ"].contains(&prefix) { "µ" } else { prefix });
+        match prefix.and_then(|prefix| PREFIXES.iter().position(|own| *own == prefix)) {
+            Some(place) => Self::Si { base, exponent: 3 * place as i32 - 12 },
+            None => Self::Named(name.to_owned()),
+        }
+    }
+
+    /// Its name, if it has one.
+    pub fn name(&self) -> Option<String> {
+        match self {
+            Self::None | Self::Relative(_) => None,
+            Self::Named(name) => Some(name.clone()),
+            Self::Si { base, exponent } => Some(si(base, *exponent)),
+        }
+    }
+
+    /// With the prefix for numbers up to `size`: its own while they are from 0.01 to 9999, which stand as they are.
+    pub fn prefixed(&self, size: f64) -> Prefixed {
+        let own = || Prefixed { name: self.name().unwrap_or_default(), exponent: 0 };
+        let Self::Si { base, exponent } = *self else { return own() };
+        let reads_well = !size.is_normal() || (0.01..9999.5).contains(&size.abs());
+        // A force of small units may lie below all prefixes.
+        if reads_well && exponent.abs() <= 12 {
+            return own();
+        }
+        let size = if size.is_normal() { size.abs() } else { 1.0 };
+        let magnitude = (size * (1.0 + 1e-12)).log10().floor() as i32 + exponent;
+        let prefix = (magnitude.div_euclid(3) * 3).clamp(-12, 12);
+        Prefixed { name: si(base, prefix), exponent: exponent - prefix }
+    }
+
+    /// With the prefix for all of these numbers, of which the largest decides.
+    pub fn suited(&self, numbers: impl IntoIterator<Item = f64>) -> Prefixed {
+        self.prefixed(numbers.into_iter().map(f64::abs).filter(|x| x.is_finite()).fold(0.0, f64::max))
+    }
+
+    /// A number with its unit, as `text` writes the number.
+    pub fn told(&self, x: f64, text: impl Fn(f64) -> String) -> String {
+        let prefixed = self.prefixed(x);
+        prefixed.behind(&text(prefixed.shown(x)))
+    }
+}
+
+impl Prefixed {
+    /// A number of the case as it is shown.
+    pub fn shown(&self, x: f64) -> f64 {
+        if self.exponent < 0 { x / 10f64.powi(-self.exponent) } else { x * 10f64.powi(self.exponent) }
+    }
+
+    /// A name with this unit: "mean pressure (GPa)", or the name alone.
+    pub fn headed(&self, name: &str) -> String {
+        if self.name.is_empty() { name.to_owned() } else { format!("{name} ({})", self.name) }
+    }
+
+    /// A text with this unit behind it, from which no line break parts it.
+    pub fn behind(&self, text: &str) -> String {
+        if self.name.is_empty() { text.to_owned() } else { format!("{text}\u{a0}{}", self.name) }
+    }
+}
+
+/// An SI unit with the prefix of a power of ten.
+fn si(base: &str, exponent: i32) -> String {
+    format!("{}{base}", PREFIXES[((exponent + 12) / 3).clamp(0, 8) as usize])
+}
+
+/// Index of the substrate's material as letters carry it: none where there is no coating.
+pub fn substrate_index(half_space: &HalfSpace) -> String {
+    let layers = half_space.layers().len();
+    if layers == 0 { String::new() } else { lowered(layers + 1) }
+}
+
+/// A number as an index.
+pub fn lowered(number: usize) -> String {
+    let digit = |c: char| ['₀', '₁', '₂', '₃', '₄', '₅', '₆', '₇', '₈', '₉'][c.to_digit(10).unwrap_or(0) as usize];
+    number.to_string().chars().map(digit).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Material;
+    use crate::counterbody::Indenters;
+    use crate::lattice::Lattice;
+
+    fn units(period: f64, radius: f64, young: f64) -> Units {
+        let levels = vec![Level::new(Shape::Paraboloid { radius }, 0.0).unwrap(); 3];
+        let indenters = Indenters::new(Lattice::hexagonal(period, 3).unwrap(), levels).unwrap();
+        let half_space = HalfSpace::new(vec![], Material::from_young(young, 0.3).unwrap());
+        Units::of(&Problem::new(indenters, half_space))
+    }
+
+    #[test]
+    fn units_without_a_name_are_relative_where_something_is_one() {
+        let relative = |symbol: &str| Unit::Relative(symbol.to_owned());
+        assert_eq!(units(1.0, 0.8, 1.0), Units { length: relative("l"), pressure: relative("E") });
+        assert_eq!(units(0.6, 1.0, 1.0).length, relative("r₁"));
+        assert_eq!(units(2e-5, 8e-5, 2.1e11), Units { length: Unit::None, pressure: Unit::None });
+        assert_eq!(units(1.0, 0.8, 1.0).force(), Unit::None);
+    }
+
+    #[test]
+    fn numbers_of_an_si_unit_take_the_prefix_with_which_they_read_well() {
+        let shown = |length: &str, pressure: &str, sizes: [f64; 3]| {
+            let units = units(1.0, 1.0, 1.0).named(Some(length), Some(pressure));
+            let own = [units.length.clone(), units.pressure.clone(), units.force()];
+            [0, 1, 2].map(|k| {
+                let prefixed = own[k].prefixed(sizes[k]);
+                // 2.0999999 is 2.1.
+                prefixed.behind(&format!("{}", (1e6 * prefixed.shown(sizes[k])).round() / 1e6)).replace('\u{a0}', " ")
+            })
+        };
+        assert_eq!(shown("m", "Pa", [2e-6, 2.1e11, 3e-4]), ["2 µm", "210 GPa", "300 µN"]);
+        assert_eq!(shown("µm", "GPa", [2.0, 0.002, 0.5]), ["2 µm", "2 MPa", "0.5 mN"]);
+        assert_eq!(shown("um", "GPa", [1e-3, 0.05, 2e4]), ["1 nm", "0.05 GPa", "20 N"]);
+        assert_eq!(shown("μm", "MPa", [1e6, 210e3, 1e-3]), ["1 m", "210 GPa", "1 nN"]);
+        assert_eq!(shown("mm", "MPa", [0.5, 9999.0, 1e4]), ["0.5 mm", "9999 MPa", "10 kN"]);
+        assert_eq!(shown("nm", "GPa", [0.0, -2e4, 1.0]), ["0 nm", "-20 TPa", "1 nN"]);
+        assert_eq!(shown("m", "Pa", [1e-20, 1e20, 0.0]), ["0 pm", "100000000 TPa", "0 N"]);
+        assert_eq!(shown("in", "psi", [1e-3, 3e7, 1.0]), ["0.001 in", "30000000 psi", "1 psi·in²"]);
+        assert_eq!(shown("pm", "Pa", [1.0, 1.0, 1.0]), ["1 pm", "1 Pa", "0 pN"]);
+    }
+
+    #[test]
+    fn one_name_alone_leaves_the_other_unit_as_it_is() {
+        let units = units(1.0, 0.8, 1.0).named(Some("mm"), None);
+        assert_eq!(units.length.name().as_deref(), Some("mm"));
+        assert_eq!((units.pressure.clone(), units.force()), (Unit::Relative("E".to_owned()), Unit::None));
+    }
+}
