@@ -51,6 +51,7 @@ pub use load::LoadSection;
 pub use localized::LocalizedSection;
 pub use magnitude::CARRIED;
 pub use model::Case;
+pub(crate) use model::written;
 pub use room::{Room, available_memory};
 pub use source::Source;
 pub use stress::{Cut, Origin, StressSection, Toward};

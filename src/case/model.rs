@@ -69,8 +69,7 @@ impl Case {
 
     /// The case as TOML, complete with its defaults; it reads back equal.
     pub fn to_toml(&self) -> String {
-        let text = toml::to_string(self).expect("keys are strings, integers come from TOML, absent values are skipped");
-        text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
+        written(self)
     }
 
     /// What is pressed into what.
@@ -98,6 +97,12 @@ impl Case {
             stress: self.stress.as_ref().map(|stress| stress.request(self.counterbody())),
         }
     }
+}
+
+/// A case as TOML: one that has been read, or what a result says of it.
+pub(crate) fn written(case: &impl Serialize) -> String {
+    let text = toml::to_string(case).expect("keys are strings, integers come from TOML, absent values are skipped");
+    text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
 }
 
 /// A line `key = value` with the numbers of the value as a person would write them: 2e-7 for 0.0000002.

@@ -50,6 +50,18 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
+    /// Make one HTML page of a finished run, sweep or limit: it opens without network, on a phone and in print
+    Report {
+        /// Output folder of the run
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// File to write [default: DIR/report.html]
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+        /// Print nothing but errors
+        #[arg(short, long)]
+        quiet: bool,
+    },
     /// Response of the layered half-space to a harmonic pressure or shear traction cos(qx), as JSON lines
     Kernel {
         /// Case file, or the name of an embedded case
@@ -135,7 +147,7 @@ impl Arguments {
             Command::Check { work, .. } => work.threads,
             #[cfg(feature = "validate")]
             Command::Validate { work, .. } => work.threads,
-            Command::Kernel { .. } | Command::Cases { .. } => None,
+            Command::Report { .. } | Command::Kernel { .. } | Command::Cases { .. } => None,
         }
     }
 }

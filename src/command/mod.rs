@@ -13,6 +13,7 @@ mod limit;
 mod options;
 mod pictures;
 mod plan;
+mod report;
 mod shown;
 mod solve;
 mod terminal;
@@ -38,6 +39,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         Command::Solve { case, pictures, common } => solve::run(case.as_deref(), pictures, common),
         Command::Compare { case, pictures, common } => compare::run(case.as_deref(), pictures, common),
         Command::Limit { case, pictures, common } => limit::run(case.as_deref(), pictures, common),
+        Command::Report { folder, output, quiet } => report::run(folder, output.as_deref(), *quiet),
         Command::Kernel { case, wavenumber, depth, traction, changes } => {
             kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
         }

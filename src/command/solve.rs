@@ -76,7 +76,7 @@ fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), F
     if let Some(largest) = table::largest_stresses(steps) {
         writeln!(out, "\n{largest}\n")?;
     }
-    if let Some(strength) = table::utilisations(steps, case.problem().half_space()) {
+    if let Some(strength) = table::utilisations(steps, Some(case.problem().half_space())) {
         writeln!(out, "\n{strength}\n")?;
     }
     if let Some(errors) = table::largest_errors(steps) {

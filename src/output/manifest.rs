@@ -21,11 +21,24 @@ pub enum Writer {
     Limit,
     /// `percoat validate`.
     Validate,
+    /// `percoat report`.
+    Report,
 }
 
 impl Writer {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate];
+    pub const ALL: [Self; 5] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate, Self::Report];
+
+    /// Whose files go when this one's result is replaced: its own, and the report, which shows the old one.
+    pub(super) fn takes_along(self) -> &'static [Self] {
+        match self {
+            Self::Solve => &[Self::Solve, Self::Report],
+            Self::Compare => &[Self::Compare, Self::Report],
+            Self::Limit => &[Self::Limit, Self::Report],
+            Self::Validate => &[Self::Validate],
+            Self::Report => &[Self::Report],
+        }
+    }
 }
 
 /// The list of files, by name.
@@ -100,6 +113,11 @@ impl Manifest {
         others
     }
 
+    /// Whether it has a file of that name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.files.contains_key(name)
+    }
+
     /// Adds a file.
     pub(super) fn add(&mut self, name: &str, file: Written) {
         self.files.insert(name.to_owned(), file);
@@ -149,7 +167,7 @@ impl Written {
 
 /// Length and checksum: FNV-1a over words of eight bytes, the upper half of each product folded down. Enough to notice
 /// a change, and as fast as the disk.
-fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
+pub(crate) fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
     let (mut length, mut hash) = (0, 0xcbf2_9ce4_8422_2325_u64);
     let mut add = |word: [u8; 8]| {
         hash = (hash ^ u64::from_le_bytes(word)).wrapping_mul(0x100_0000_01b3);

@@ -35,7 +35,7 @@ mod text;
 mod tiling;
 mod units;
 mod utilisations;
-mod vector;
+pub(crate) mod vector;
 
 pub use axis::{Axis, Scale};
 pub use canvas::Canvas;

@@ -1,6 +1,6 @@
 //! Quantities with their places over the load steps, a row each.
 
-use super::{DETAILED, render};
+use super::{DETAILED, Table};
 use crate::output::number::{number, with_error};
 use crate::run::StepRecord;
 
@@ -15,7 +15,7 @@ pub(super) struct Row {
 }
 
 /// A few steps side by side, or the last of many; the places are those in the last. `None` where no step has any.
-pub(super) fn by_step(head: &str, steps: &[StepRecord], rows: &[Row]) -> Option<String> {
+pub(super) fn by_step(head: &str, steps: &[StepRecord], rows: &[Row]) -> Option<Table> {
     let last = (0..steps.len()).rev().find(|&step| rows.iter().any(|row| row.found[step].is_some()))?;
     let shown = if steps.len() <= DETAILED { 0..steps.len() } else { last..last + 1 };
     let pressures = steps[shown.clone()].iter().map(|step| format!("p̄ = {}", number(step.reading.mean_pressure)));
@@ -27,7 +27,7 @@ pub(super) fn by_step(head: &str, steps: &[StepRecord], rows: &[Row]) -> Option<
         let place = row.found[last].map_or("–".to_owned(), |(_, _, position)| place(position));
         [row.name.clone()].into_iter().chain(values).chain([place]).collect()
     };
-    Some(render(&header, &rows.iter().map(line).collect::<Vec<Vec<String>>>(), 1))
+    Some(Table::new(&header, rows.iter().map(line).collect(), 1))
 }
 
 /// What is no number is not infinite.

@@ -4,16 +4,17 @@ mod by_step;
 mod comparison;
 mod largest;
 mod strength;
+mod text;
 
 pub use comparison::{differences, readings, stresses};
 pub use largest::largest_stresses;
 pub use strength::{limits, utilisations};
+pub use text::{Table, Worded};
 
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
 use crate::numeric::search::largest;
 use crate::run::StepRecord;
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Relative errors up to this are rounding.
 const NOTHING: f64 = 1e-12;
@@ -22,12 +23,12 @@ const NOTHING: f64 = 1e-12;
 pub const DETAILED: usize = 6;
 
 /// The load steps as a table: in detail for a few steps, one row a step for many.
-pub fn steps(steps: &[StepRecord]) -> String {
+pub fn steps(steps: &[StepRecord]) -> Table {
     let levels = steps.first().map_or(0, |step| step.reading.levels.len());
     if steps.len() <= DETAILED && levels > 0 { detailed(steps) } else { compact(steps, levels) }
 }
 
-fn detailed(steps: &[StepRecord]) -> String {
+fn detailed(steps: &[StepRecord]) -> Table {
     let header = [
         "mean pressure",
         "penetration",
@@ -73,10 +74,10 @@ fn detailed(steps: &[StepRecord]) -> String {
             lead = [const { String::new() }; 3];
         }
     }
-    render(&header, &rows, 0)
+    Table::new(&header, rows, 0)
 }
 
-fn compact(steps: &[StepRecord], levels: usize) -> String {
+fn compact(steps: &[StepRecord], levels: usize) -> Table {
     let mut header = ["mean pressure", "penetration", "contact"].map(str::to_owned).to_vec();
     header.extend((1..=levels).map(|level| format!("peak {level}")));
     header.extend((1..=levels).map(|level| format!("share {level}")));
@@ -99,24 +100,12 @@ fn compact(steps: &[StepRecord], levels: usize) -> String {
             row
         })
         .collect();
-    render(&header, &rows, 0)
+    Table::new(&header, rows, 0)
 }
 
 /// A table under a rule, whose first `words` columns are aligned left, the others right.
 pub fn render(header: &[impl ToString], rows: &[Vec<String>], words: usize) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header.iter().map(ToString::to_string));
-    table.add_rows(rows);
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_cell_alignment(if index < words { CellAlignment::Left } else { CellAlignment::Right });
-    }
-    let text = table.trim_fmt();
-    let width = text.lines().map(|line| line.chars().count()).max().unwrap_or(0);
-    let mut lines: Vec<&str> = text.lines().collect();
-    let rule = "─".repeat(width);
-    lines.insert(1.min(lines.len()), &rule);
-    lines.join("\n")
+    Table::new(header, rows.to_vec(), words).to_string()
 }
 
 /// Two decimals; what rounds to zero has no sign.
@@ -126,12 +115,12 @@ fn percent(x: f64) -> String {
 }
 
 /// A number with its error, or that there is none because it is infinite.
-fn finite(x: Option<f64>, error: Option<f64>) -> String {
+pub(crate) fn finite(x: Option<f64>, error: Option<f64>) -> String {
     x.map_or("singular".to_owned(), |x| with_error(x, error))
 }
 
 /// A part with its error in per cent: two digits behind the point, fewer where the error counts before them.
-fn percent_with_error(x: f64, error: Option<f64>) -> String {
+pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
     match error.map(|error| 100.0 * error) {
         Some(error) if error > ROUNDING * 100.0 * x.abs() => {
             format!("{} %", with_error(100.0 * x, Some(error.max(0.01))))

@@ -1,14 +1,15 @@
 //! What materials and interfaces bear: utilisations of the load steps, and limit loads.
 
 use super::by_step::{Row, by_step, place};
-use super::render;
+use super::{Table, Worded};
 use crate::body::HalfSpace;
 use crate::output::number::{number, with_error};
 use crate::reading::{Criterion, Utilisation};
 use crate::run::{At, Limit, Limits, StepRecord};
 
-/// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any.
-pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
+/// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any. What
+/// residual stress alone breaks is told where the half-space is known.
+pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>) -> Option<Worded> {
     let last = steps.iter().rev().find(|step| !step.strength.is_empty())?;
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
@@ -17,12 +18,13 @@ pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace) -> Option<Stri
         Row { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Row> = governing.into_iter().map(row).collect();
-    Some(format!("{}\n\n{}", in_words(steps, half_space)?, by_step("utilisation", steps, &rows)?))
+    Some(Worded { words: in_words(steps, half_space)?, table: by_step("utilisation", steps, &rows)? })
 }
 
 /// What fails first as far as the load steps tell, else what comes nearest at any. The load at which it does lies between them.
-fn in_words(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
-    if let Some(criterion) = Criterion::all(half_space).into_iter().find(|own| own.at_rest(half_space) >= 1.0) {
+fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>) -> Option<String> {
+    let at_rest = |body| Criterion::all(body).into_iter().find(|own| own.at_rest(body) >= 1.0);
+    if let Some(criterion) = half_space.and_then(at_rest) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
@@ -43,7 +45,7 @@ fn in_words(steps: &[StepRecord], half_space: &HalfSpace) -> Option<String> {
 }
 
 /// The limit loads, the first of them first.
-pub fn limits(limits: &Limits) -> String {
+pub fn limits(limits: &Limits) -> Worded {
     let row = |limit: &&Limit| {
         let (pressure, place) = match limit.at {
             At::Rest => ("0".to_owned(), "by residual stress alone".to_owned()),
@@ -59,6 +61,7 @@ pub fn limits(limits: &Limits) -> String {
         };
         vec![limit.criterion.to_string(), pressure, place]
     };
-    let rows: Vec<Vec<String>> = limits.ordered().iter().map(row).collect();
-    format!("{limits}\n\n{}", render(&["criterion", "mean pressure", "place (x, y, z)"], &rows, 1))
+    let rows = limits.ordered().iter().map(row).collect();
+    let table = Table::new(&["criterion", "mean pressure", "place (x, y, z)"], rows, 1);
+    Worded { words: limits.to_string(), table }
 }

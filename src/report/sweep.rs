@@ -1,0 +1,187 @@
+//! The part of a sweep.
+
+use super::ReportError;
+use super::asked::asked;
+use super::figures::{Named, figures};
+use super::finished::{Finished, Swept};
+use super::markup::{Markup, tag, with};
+use super::page::{Part, case_to_copy, section, version, warnings};
+use super::run::{by, title};
+use super::table::table;
+use super::units::Units;
+use crate::output::number;
+use crate::output::table::Table;
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+const PICTURES: [Named; 1] =
+    [("sweep", "Curves of the results over the values of the sweep", "The results over the values of the sweep.")];
+/// Rows of the table that are shown.
+const ROWS: usize = 300;
+/// Scalars that are shown beside the keys; the table's file has them all.
+const SCALARS: [&str; 7] = [
+    "mean_pressure",
+    "penetration",
+    "contact_fraction",
+    "max_pressure",
+    "stress_max_tau1_value",
+    "stress_max_tension_value",
+    "stress_max_mises_value",
+];
+
+#[derive(Deserialize)]
+struct Keys {
+    keys: Vec<Key>,
+    combinations: usize,
+    failed: usize,
+    not_converged: usize,
+    seconds: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct Key {
+    key: String,
+    values: Vec<Value>,
+}
+
+/// The part of `sweep.json` and `sweep.csv`.
+pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportError> {
+    let file = &swept.file;
+    let refused = |name: &str, reason: String| {
+        let version = version(file).map(str::to_owned);
+        ReportError::Version { path: finished.folder.join(name), version, reason }
+    };
+    let own = Keys::deserialize(file).map_err(|error| refused("sweep.json", error.to_string()))?;
+    let rows = Rows::read(&swept.table).map_err(|reason| refused("sweep.csv", reason))?;
+    let done = own.combinations.saturating_sub(own.failed + own.not_converged);
+    let sentence = format!(
+        "{done} of {} combinations are solved{}{}.",
+        own.combinations,
+        told(own.not_converged, "not converged"),
+        told(own.failed, "failed")
+    );
+    let values = own.keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), listed(&key.values)]);
+    let head = ["key", "values", "which"].map(str::to_owned).to_vec();
+    let keys = Table { head, rows: values.collect(), words: 1 };
+    let mut sections = vec![
+        section(
+            "answer",
+            "Answer",
+            vec![
+                with("p", &[("class", if own.failed + own.not_converged > 0 { "answer doubt" } else { "answer" })], sentence),
+                table("Keys of the case and their values", &keys),
+                rows.reasons(),
+            ],
+        ),
+        section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
+        section("rows", "Combinations", vec![rows.shown(&own.keys)]),
+        section("warnings", "Warnings", vec![warnings(file)]),
+    ];
+    if let Some(text) = &swept.case {
+        let case: Option<Value> = toml::from_str(text).ok();
+        if let Some(case) = case {
+            let units = Units::of(&serde_json::json!({ "case": case }));
+            let words = tag("p", "The case of which the sweep changes the keys above:");
+            let asked = vec![words, asked(&case), tag("p", units.sentence())];
+            sections.insert(1, section("asked", "What was asked", asked));
+        }
+    }
+    let time = own.seconds.map(|seconds| tag("p", format!("{seconds:.2} s.")));
+    sections.push(section("time", "Time and version", time.into_iter().chain([by(file)]).collect()));
+    if let Some(text) = &swept.case {
+        sections.push(section("case", "Case", vec![case_to_copy(text, "sweep")]));
+    }
+    Ok(Part { name: "sweep", kind: "Sweep", title: title(file), sections })
+}
+
+fn told(count: usize, what: &str) -> String {
+    if count == 0 { String::new() } else { format!(", {count} {what}") }
+}
+
+/// A list of values; of a long one its ends.
+fn listed(values: &[Value]) -> String {
+    let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    let texts: Vec<String> = values.iter().map(text).collect();
+    match &texts[..] {
+        [first, second, .., last] if texts.len() > 12 => format!("{first}, {second}, … {last}"),
+        _ => texts.join(", "),
+    }
+}
+
+/// The table of a sweep.
+struct Rows<'a> {
+    names: Vec<String>,
+    rows: Vec<Vec<&'a str>>,
+}
+
+impl<'a> Rows<'a> {
+    fn read(text: &'a str) -> Result<Self, String> {
+        let mut lines = text.lines();
+        let names: Vec<String> =
+            lines.next().unwrap_or_default().split(',').map(|name| name.trim().replace('.', "_")).collect();
+        for wanted in ["combination", "status", "step"] {
+            if !names.iter().any(|name| name == wanted) {
+                return Err(format!("it has no column {wanted}"));
+            }
+        }
+        let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+        match (2..).zip(&rows).find(|(_, row)| row.len() != names.len()) {
+            Some((line, row)) => Err(format!("line {line} has {} cells, the head {}", row.len(), names.len())),
+            None => Ok(Self { names, rows }),
+        }
+    }
+
+    fn column(&self, name: &str) -> Option<usize> {
+        self.names.iter().position(|own| own == name)
+    }
+
+    /// Why combinations are not solved, with their numbers; empty where all are.
+    fn reasons(&self) -> Markup {
+        let [combination, status, reason] = ["combination", "status", "reason"].map(|name| self.column(name));
+        let cell = |row: &[&str], column: Option<usize>| column.map_or(String::new(), |index| row[index].trim().to_owned());
+        let mut reasons: BTreeMap<(String, String), Vec<String>> = BTreeMap::new();
+        for row in self.rows.iter().filter(|row| cell(row, status) != "done") {
+            let of = reasons.entry((cell(row, status).replace('_', " "), cell(row, reason))).or_default();
+            let number = cell(row, combination);
+            if of.last() != Some(&number) {
+                of.push(number);
+            }
+        }
+        if reasons.is_empty() {
+            return Markup::default();
+        }
+        let row = |((status, reason), numbers): (&(String, String), &Vec<String>)| {
+            let numbers: Vec<Value> = numbers.iter().map(|number| Value::from(number.as_str())).collect();
+            let reason = if reason.is_empty() { "–" } else { reason };
+            vec![status.clone(), reason.to_owned(), listed(&numbers), numbers.len().to_string()]
+        };
+        let head = ["status", "reason", "combinations", "how many"].map(str::to_owned).to_vec();
+        table("Combinations that are not solved, and why", &Table { head, rows: reasons.iter().map(row).collect(), words: 3 })
+    }
+
+    /// The first rows with the keys and the main scalars, and what is left out.
+    fn shown(&self, keys: &[Key]) -> Markup {
+        let keys = keys.iter().map(|key| key.key.replace('.', "_"));
+        let shares = self.names.iter().filter(|name| name.starts_with("levels_") && name.ends_with("_load_share"));
+        let names = ["combination".to_owned()].into_iter().chain(keys).chain(["status", "step"].map(str::to_owned));
+        let names = names.chain(SCALARS.map(str::to_owned)).chain(shares.cloned());
+        let columns: Vec<usize> = names.filter_map(|name| self.column(&name)).collect();
+        let cell = |row: &[&str], column: usize| {
+            let text = row[column].trim();
+            match text.parse::<f64>() {
+                // What counts stays a count.
+                Ok(x) if text.contains(['.', 'e']) => number(x),
+                _ if text.is_empty() => "–".to_owned(),
+                _ => text.replace('_', " "),
+            }
+        };
+        let rows = self.rows.iter().take(ROWS);
+        let rows = rows.map(|row| columns.iter().map(|&column| cell(row, column)).collect()).collect();
+        let head = columns.iter().map(|&column| self.names[column].replace('_', " ")).collect();
+        let shown = table("One row a combination and load step", &Table { head, rows, words: 0 });
+        let more = self.rows.len().saturating_sub(ROWS);
+        let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
+        vec![shown, tag("p", format!("{more} {} columns stand in sweep.csv.", self.names.len()))].into()
+    }
+}
