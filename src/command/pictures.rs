@@ -15,8 +15,8 @@ pub struct PictureOptions {
     /// Draw no pictures
     #[arg(long, conflicts_with = "pictures")]
     no_pictures: bool,
-    /// Format of the pictures: png, svg, or both
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = format, default_value = "png")]
+    /// Formats of the pictures: png, svg, or both
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = format, default_value = "png,svg")]
     pictures: Vec<Format>,
 }
 

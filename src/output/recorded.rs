@@ -263,20 +263,17 @@ fn record(keys: StepKeys) -> StepRecord {
     }
 }
 
-const STOPS: [Stop; 6] = [
-    Stop::Converged,
-    Stop::Stalled,
-    Stop::IterationLimit,
-    Stop::NoContact,
-    Stop::Unresolved,
-    Stop::BeyondFullContact,
-];
+const STOPS: [Stop; 6] =
+    [Stop::Converged, Stop::Stalled, Stop::IterationLimit, Stop::NoContact, Stop::Unresolved, Stop::BeyondFullContact];
 
 fn route(name: &str, trials: usize) -> Route {
-    let named =
-        [Route::Outer, Route::Baseline, Route::WithoutContinuation, Route::BaselineAfterStall, Route::LoadSearch {
-            trials,
-        }];
+    let named = [
+        Route::Outer,
+        Route::Baseline,
+        Route::WithoutContinuation,
+        Route::BaselineAfterStall,
+        Route::LoadSearch { trials },
+    ];
     named.into_iter().find(|route| route.name() == name).unwrap_or(Route::Direct)
 }
 

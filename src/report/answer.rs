@@ -1,6 +1,6 @@
 //! The answer of a run: its last load step with contact in a sentence, and its numbers with their errors.
 
-use super::markup::{Markup, tag, with};
+use super::markup::{Markup, numbers, tag, with};
 use super::table::pairs;
 use super::units::Units;
 use crate::output::table::{finite, percent_with_error};
@@ -32,20 +32,20 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         "Nothing touches: there is no load.".to_owned()
     };
     let mut rows: Vec<(&str, Markup)> = vec![
-        ("mean pressure", mean.into()),
-        ("penetration", penetration.into()),
-        ("part of the surface in contact", fraction.into()),
-        ("peak pressure", peak.into()),
+        ("mean pressure", numbers(&mean)),
+        ("penetration", numbers(&penetration)),
+        ("part of the surface in contact", numbers(&fraction)),
+        ("peak pressure", numbers(&peak)),
     ];
     let shares = reading.levels.iter().map(|level| {
         let share = percent_with_error(level.load_share, level.errors.load_share);
-        tag("li", format!("level {}: {share}", level.level))
+        tag("li", numbers(&format!("level {}: {share}", level.level)))
     });
     if reading.levels.len() > 1 {
         rows.push(("share of the load", with("ul", &[("class", "plain")], shares.collect::<Markup>())));
     }
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
-    vec![with("p", &[("class", "answer")], sentence), pairs(&step_of, &rows)].into()
+    vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()
 }
 
 /// The level with the largest pressure, where there are several.

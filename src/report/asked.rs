@@ -2,6 +2,7 @@
 
 use super::markup::{Markup, tag};
 use super::table::{pairs, table};
+use crate::output::number;
 use crate::output::table::Table;
 use serde_json::{Map, Value};
 
@@ -28,6 +29,9 @@ const NAMES: [(&str, &str); 19] = [
     ("young", "Young’s modulus"),
 ];
 
+/// Keys of a list of which the columns come first.
+const FRONT: [&str; 4] = ["thickness", "shear_ratio", "young", "graded"];
+
 /// What these sections of a case say is shown each by itself or is of no matter for the result.
 const APART: [&str; 6] = ["title", "levels", "layers", "substrate", "localized", "units"];
 
@@ -42,7 +46,7 @@ pub(super) fn asked(case: &Value) -> Markup {
     let body: Vec<Value> = layers.iter().cloned().chain([case["substrate"].clone()]).collect();
     let name = |number: usize| {
         let own = if number > layers.len() { "substrate".to_owned() } else { format!("layer {number}") };
-        format!("{number} ({own})")
+        format!("{number}\u{a0}({own})").replace("layer ", "layer\u{a0}")
     };
     parts.push(items("The body, from the surface down", "material", &body, name));
     let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
@@ -75,12 +79,14 @@ fn sentence(case: &Value) -> String {
 
 /// Tables of a list as one: a row each, a column for every key that any has.
 fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> String) -> Markup {
+    let known = |key: &str| FRONT.iter().position(|own| *own == key).unwrap_or(FRONT.len());
     let mut keys: Vec<&String> = Vec::new();
     for key in items.iter().filter_map(Value::as_object).flat_map(Map::keys) {
         if !keys.contains(&key) {
             keys.push(key);
         }
     }
+    keys.sort_by_key(|key| known(key));
     let row = |(number, item): (usize, &Value)| {
         let cells = keys.iter().map(|key| item.get(key).map_or("–".to_owned(), text));
         [name(number)].into_iter().chain(cells).collect()
@@ -91,9 +97,16 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
 
 /// The keys of a section with their values.
 fn entries(section: &str, value: &Value) -> Vec<(String, String)> {
-    let prefix = |key: &str| if matches!(section, "stress" | "friction") { format!("{section}: {key}") } else { key.to_owned() };
+    let prefix =
+        |key: &str| if matches!(section, "stress" | "friction") { format!("{section}: {key}") } else { key.to_owned() };
     match value {
-        Value::Object(keys) => keys.iter().map(|(key, value)| (prefix(&named(key)), text(value))).collect(),
+        Value::Object(keys) => {
+            let entry = |(key, value): (&String, &Value)| {
+                let text = if key == "points" { text(value).replace(", ", " × ") } else { text(value) };
+                (prefix(&named(key)), text)
+            };
+            keys.iter().map(entry).collect()
+        }
         other => vec![(named(section), text(other))],
     }
 }
@@ -114,6 +127,7 @@ fn text(value: &Value) -> String {
         Value::Null => "–".to_owned(),
         Value::Number(number) if number.is_f64() => plain(number.as_f64().unwrap_or(f64::NAN)),
         Value::Number(number) => number.to_string(),
+        Value::Array(items) if items.is_empty() => "none".to_owned(),
         Value::Array(items) if items.len() > SHOWN => {
             let ends = [items.first(), items.last()].map(|item| item.map_or(String::new(), text));
             format!("{} values from {} to {}", items.len(), ends[0], ends[1])
@@ -121,15 +135,26 @@ fn text(value: &Value) -> String {
         Value::Array(items) => {
             let nested = items.iter().any(Value::is_array);
             let texts: Vec<String> = items.iter().map(text).collect();
-            if nested { texts.iter().map(|text| format!("({text})")).collect::<Vec<_>>().join(" ") } else { texts.join(", ") }
+            if nested {
+                texts.iter().map(|text| format!("({text})")).collect::<Vec<_>>().join(" ")
+            } else {
+                texts.join(", ")
+            }
         }
         Value::Object(keys) => {
-            keys.iter().map(|(key, value)| format!("{} {}", named(key), text(value))).collect::<Vec<_>>().join(", ")
+            let inner = |value: &Value| if value.is_array() { format!("({})", text(value)) } else { text(value) };
+            keys.iter().map(|(key, value)| format!("{} {}", named(key), inner(value))).collect::<Vec<_>>().join(", ")
         }
     }
 }
 
-/// A number as it was given: 2e-7 for 0.0000002.
+/// A number as it was given, 2e-7 for 0.0000002, or where that is long five digits of it.
 fn plain(x: f64) -> String {
-    if x == 0.0 || (1e-3..1e6).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
+    if x.to_string().len() > 9 && x.abs() < 1e6 && x.abs() >= 1e-3 {
+        number(x)
+    } else if x == 0.0 || (1e-3..1e6).contains(&x.abs()) {
+        x.to_string()
+    } else {
+        format!("{x:e}")
+    }
 }

@@ -6,13 +6,14 @@ use super::asked::asked;
 use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
-use super::markup::{tag, with};
+use super::markup::{numbers, tag, with};
 use super::page::{Part, case_to_copy, section, version, warnings};
 use super::resolution::{resolution, upper};
 use super::run::{by, title};
 use super::table::table;
 use super::units::Units;
-use crate::output::{limits_of, table as tables};
+use crate::output::{limits_of, table as tables, with_error};
+use crate::run::{At, Limits};
 use serde_json::Value;
 
 const PICTURES: [Named; 2] = [
@@ -42,7 +43,11 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
             "Answer",
             vec![
                 doubts(&limits.steps),
-                with("p", &[("class", "answer")], upper(&told.words)),
+                with(
+                    "p",
+                    &[("class", "answer")],
+                    numbers(&first(&limits, &units).unwrap_or_else(|| upper(&told.words))),
+                ),
                 table("Limit loads; ± is the estimated error of the grid", &told.table),
             ],
         ),
@@ -62,4 +67,12 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     sections.push(section("time", "Version", vec![by(file)]));
     sections.push(section("case", "Case", vec![case_to_copy(&crate::case::written(case), "limit")]));
     Ok(Part { name: "limit", kind: "Limit loads", title: title(file), sections })
+}
+
+/// What fails first with its error, where a load makes it.
+fn first(limits: &Limits, units: &Units) -> Option<String> {
+    let first = limits.first()?;
+    let At::Load { mean_pressure, error, .. } = first.at else { return None };
+    let load = units.of_pressure(&with_error(mean_pressure, error));
+    Some(format!("First: {} at the mean pressure {load}.", first.criterion))
 }

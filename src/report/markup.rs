@@ -44,6 +44,11 @@ impl FromIterator<Markup> for Markup {
     }
 }
 
+/// A text whose numbers stay with their errors and units on one line.
+pub(super) fn numbers(text: &str) -> Markup {
+    text.replace(" ± ", "\u{a0}±\u{a0}").replace(" %", "\u{a0}%").replace(" = ", "\u{a0}=\u{a0}").as_str().into()
+}
+
 /// An element.
 pub(super) fn tag(name: &str, content: impl Into<Markup>) -> Markup {
     with(name, &[], content)
@@ -68,8 +73,8 @@ fn opening(name: &str, attributes: &[(&str, &str)]) -> String {
 
 /// Elements that end a line of the file.
 const BLOCKS: [&str; 16] = [
-    "head", "body", "header", "main", "article", "section", "footer", "h1", "h2", "h3", "p", "table", "tr", "figure", "ul",
-    "pre",
+    "head", "body", "header", "main", "article", "section", "footer", "h1", "h2", "h3", "p", "table", "tr", "figure",
+    "ul", "pre",
 ];
 
 /// A text as it may stand between tags and within quotes. What no page can show, is shown as such.

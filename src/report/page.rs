@@ -52,7 +52,8 @@ pub fn page(folder: &Path) -> Result<String, ReportError> {
 }
 
 fn written(parts: &[Part]) -> String {
-    let mut titles: Vec<&str> = parts.iter().map(|part| part.title.as_str()).filter(|title| !title.is_empty()).collect();
+    let mut titles: Vec<&str> =
+        parts.iter().map(|part| part.title.as_str()).filter(|title| !title.is_empty()).collect();
     titles.dedup();
     let heading = if titles.is_empty() { "Periodic contact".to_owned() } else { titles.join("; ") };
     let kinds = parts.iter().map(|part| part.kind).collect::<Vec<_>>().join(", ");
@@ -62,10 +63,13 @@ fn written(parts: &[Part]) -> String {
         void("meta", &[("name", "generator"), ("content", concat!("percoat ", env!("CARGO_PKG_VERSION")))]),
         void("meta", &[("name", "color-scheme"), ("content", "light dark")]),
         // Nothing is loaded and nothing runs, whatever stands in a result.
-        void("meta", &[
-            ("http-equiv", "Content-Security-Policy"),
-            ("content", "default-src 'none'; img-src data:; style-src 'unsafe-inline'"),
-        ]),
+        void(
+            "meta",
+            &[
+                ("http-equiv", "Content-Security-Policy"),
+                ("content", "default-src 'none'; img-src data:; style-src 'unsafe-inline'"),
+            ],
+        ),
         tag("title", format!("{heading} – percoat")),
         tag("style", Markup::own(include_str!("style.css"))),
     ];
@@ -98,7 +102,11 @@ fn article(part: &Part, several: bool) -> Markup {
     let sections = part.sections.iter().filter(|section| !section.content.is_empty()).map(|section| {
         let anchor = format!("{}-{}", part.name, section.name);
         let class = format!("section {}", section.name);
-        with("section", &[("id", &anchor), ("class", &class)], vec![tag(level, section.heading), section.content.clone()])
+        with(
+            "section",
+            &[("id", &anchor), ("class", &class)],
+            vec![tag(level, section.heading), section.content.clone()],
+        )
     });
     tag("article", [heading].into_iter().chain(sections).collect::<Markup>())
 }
@@ -120,6 +128,10 @@ pub(super) fn warnings(file: &Value) -> Markup {
 /// The case in full, with what to do with it.
 pub(super) fn case_to_copy(text: &str, command: &str) -> Markup {
     let hint = format!("To compute it again, save this as case.toml and type percoat {command} case.toml.");
-    let hint = if command == "sweep" { hint.replace("case.toml.", "case.toml with the values above after --set.") } else { hint };
+    let hint = if command == "sweep" {
+        hint.replace("case.toml.", "case.toml with the values above after --set.")
+    } else {
+        hint
+    };
     vec![tag("p", hint), with("pre", &[("tabindex", "0"), ("aria-label", "The case")], tag("code", text))].into()
 }

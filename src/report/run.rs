@@ -6,9 +6,9 @@ use super::asked::asked;
 use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
-use super::markup::{Markup, tag};
+use super::markup::{Markup, tag, with};
 use super::page::{Part, case_to_copy, section, version, warnings};
-use super::resolution::resolution;
+use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::Units;
 use crate::case::{Case, Source};
@@ -61,23 +61,36 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     let source = Source { name: "case.toml".to_owned(), text: text.clone(), folder: finished.folder.clone() };
     let read = Case::read(&source, &[]).ok();
 
+    let taken = tables::utilisations(&steps, read.as_ref().map(Case::half_space));
+    let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
     let mut sections = vec![
-        section("answer", "Answer", vec![doubts(&steps), answer(&steps, &units)]),
+        section("answer", "Answer", vec![doubts(&steps), fails.unwrap_or_default(), answer(&steps, &units)]),
         section("asked", "What was asked", vec![asked(case), tag("p", units.sentence())]),
         section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
-        section("steps", "Load steps", vec![table("Load steps; ± is the estimated error of the grid", &tables::steps(&steps))]),
+        section(
+            "steps",
+            "Load steps",
+            vec![table("Load steps; ± is the estimated error of the grid", &tables::steps(&steps))],
+        ),
     ];
     if let Some(largest) = tables::largest_stresses(&steps) {
-        sections.push(section("stresses", "Largest stresses", vec![table("Largest stresses and their places", &largest)]));
+        sections.push(section(
+            "stresses",
+            "Largest stresses",
+            vec![table("Largest stresses and their places", &largest)],
+        ));
     }
-    if let Some(taken) = tables::utilisations(&steps, read.as_ref().map(Case::half_space)) {
-        let words = tag("p", super::resolution::upper(&taken.words));
+    if let Some(taken) = &taken {
         let caption = "Utilisations: 1 is where the material or interface fails";
-        sections.push(section("strengths", "Strengths", vec![words, table(caption, &taken.table)]));
+        sections.push(section("strengths", "Strengths", vec![table(caption, &taken.table)]));
     }
     sections.push(section("warnings", "Warnings", vec![warnings(file)]));
     sections.push(section("resolution", "Resolution", vec![resolution(&steps, file["accuracy"].as_f64())]));
-    sections.push(section("certificate", "Certificate", vec![certificate(&steps, case["solver"]["tolerance"].as_f64())]));
+    sections.push(section(
+        "certificate",
+        "Certificate",
+        vec![certificate(&steps, case["solver"]["tolerance"].as_f64())],
+    ));
     let timing = timing_of(file).map_err(unreadable())?;
     let timing = timing.map(|timing| tag("p", format!("Seconds: {}.", tables::timing(&timing))));
     sections.push(section("time", "Time and version", timing.into_iter().chain([by(file)]).collect()));
@@ -87,7 +100,11 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
 
 /// Which version has computed it.
 pub(super) fn by(file: &Value) -> Markup {
-    tag("p", version(file).map_or("By a version that does not name itself.".to_owned(), |own| format!("Computed by percoat {own}.")))
+    tag(
+        "p",
+        version(file)
+            .map_or("By a version that does not name itself.".to_owned(), |own| format!("Computed by percoat {own}.")),
+    )
 }
 
 /// The title of a result's case.

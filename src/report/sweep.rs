@@ -9,25 +9,26 @@ use super::page::{Part, case_to_copy, section, version, warnings};
 use super::run::{by, title};
 use super::table::table;
 use super::units::Units;
+use crate::case::{Case, Source};
 use crate::output::number;
-use crate::output::table::Table;
+use crate::output::table::{Table, percent_with_error};
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 const PICTURES: [Named; 1] =
     [("sweep", "Curves of the results over the values of the sweep", "The results over the values of the sweep.")];
 /// Rows of the table that are shown.
 const ROWS: usize = 300;
-/// Scalars that are shown beside the keys; the table's file has them all.
-const SCALARS: [&str; 7] = [
-    "mean_pressure",
-    "penetration",
-    "contact_fraction",
-    "max_pressure",
-    "stress_max_tau1_value",
-    "stress_max_tension_value",
-    "stress_max_mises_value",
+/// Scalars that are shown beside the keys, as the command line calls them; the table's file has them all.
+const SCALARS: [(&str, &str); 7] = [
+    ("mean_pressure", "mean pressure"),
+    ("penetration", "penetration"),
+    ("contact_fraction", "contact"),
+    ("max_pressure", "peak pressure"),
+    ("stress_max_tau1_value", "largest τ₁"),
+    ("stress_max_tension_value", "largest tension"),
+    ("stress_max_mises_value", "largest von Mises"),
 ];
 
 #[derive(Deserialize)]
@@ -69,7 +70,11 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
             "answer",
             "Answer",
             vec![
-                with("p", &[("class", if own.failed + own.not_converged > 0 { "answer doubt" } else { "answer" })], sentence),
+                with(
+                    "p",
+                    &[("class", if own.failed + own.not_converged > 0 { "answer doubt" } else { "answer" })],
+                    sentence,
+                ),
                 table("Keys of the case and their values", &keys),
                 rows.reasons(),
             ],
@@ -79,9 +84,11 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
         section("warnings", "Warnings", vec![warnings(file)]),
     ];
     if let Some(text) = &swept.case {
-        let case: Option<Value> = toml::from_str(text).ok();
-        if let Some(case) = case {
-            let units = Units::of(&serde_json::json!({ "case": case }));
+        // A topography that has moved away cannot be read; its case is then told in the order of the alphabet.
+        let source = Source { name: "case.toml".to_owned(), text: text.clone(), folder: finished.folder.clone() };
+        let case = Case::read(&source, &[]).map(|case| json!(case));
+        if let Some(case) = case.ok().or_else(|| toml::from_str(text).ok()) {
+            let units = Units::of(&json!({ "case": case }));
             let words = tag("p", "The case of which the sweep changes the keys above:");
             let asked = vec![words, asked(&case), tag("p", units.sentence())];
             sections.insert(1, section("asked", "What was asked", asked));
@@ -139,7 +146,8 @@ impl<'a> Rows<'a> {
     /// Why combinations are not solved, with their numbers; empty where all are.
     fn reasons(&self) -> Markup {
         let [combination, status, reason] = ["combination", "status", "reason"].map(|name| self.column(name));
-        let cell = |row: &[&str], column: Option<usize>| column.map_or(String::new(), |index| row[index].trim().to_owned());
+        let cell =
+            |row: &[&str], column: Option<usize>| column.map_or(String::new(), |index| row[index].trim().to_owned());
         let mut reasons: BTreeMap<(String, String), Vec<String>> = BTreeMap::new();
         for row in self.rows.iter().filter(|row| cell(row, status) != "done") {
             let of = reasons.entry((cell(row, status).replace('_', " "), cell(row, reason))).or_default();
@@ -157,28 +165,40 @@ impl<'a> Rows<'a> {
             vec![status.clone(), reason.to_owned(), listed(&numbers), numbers.len().to_string()]
         };
         let head = ["status", "reason", "combinations", "how many"].map(str::to_owned).to_vec();
-        table("Combinations that are not solved, and why", &Table { head, rows: reasons.iter().map(row).collect(), words: 3 })
+        table(
+            "Combinations that are not solved, and why",
+            &Table { head, rows: reasons.iter().map(row).collect(), words: 3 },
+        )
     }
 
     /// The first rows with the keys and the main scalars, and what is left out.
     fn shown(&self, keys: &[Key]) -> Markup {
-        let keys = keys.iter().map(|key| key.key.replace('.', "_"));
-        let shares = self.names.iter().filter(|name| name.starts_with("levels_") && name.ends_with("_load_share"));
-        let names = ["combination".to_owned()].into_iter().chain(keys).chain(["status", "step"].map(str::to_owned));
-        let names = names.chain(SCALARS.map(str::to_owned)).chain(shares.cloned());
-        let columns: Vec<usize> = names.filter_map(|name| self.column(&name)).collect();
+        let own = |name: &str| (name.to_owned(), name.to_owned());
+        let mut named = vec![own("combination")];
+        named.extend(keys.iter().map(|key| (key.key.replace('.', "_"), key.key.clone())));
+        named.extend(["status", "step"].map(own));
+        named.extend(SCALARS.map(|(name, words)| (name.to_owned(), words.to_owned())));
+        named.extend(self.names.iter().filter_map(|name| {
+            let level = name.strip_prefix("levels_")?.strip_suffix("_load_share")?;
+            level.parse::<usize>().ok()?;
+            Some((name.clone(), format!("share {level}")))
+        }));
+        let columns: Vec<(usize, String)> =
+            named.into_iter().filter_map(|(name, words)| Some((self.column(&name)?, words))).collect();
+        let given = |name: &str| keys.iter().any(|key| key.key.replace('.', "_") == name);
         let cell = |row: &[&str], column: usize| {
-            let text = row[column].trim();
+            let (text, name) = (row[column].trim(), self.names[column].as_str());
             match text.parse::<f64>() {
-                // What counts stays a count.
-                Ok(x) if text.contains(['.', 'e']) => number(x),
+                Ok(x) if name.ends_with("_share") || name == "contact_fraction" => percent_with_error(x, None),
+                // Values stand as they were given, what counts stays a count.
+                Ok(x) if !given(name) && text.contains(['.', 'e']) => number(x),
                 _ if text.is_empty() => "–".to_owned(),
                 _ => text.replace('_', " "),
             }
         };
         let rows = self.rows.iter().take(ROWS);
-        let rows = rows.map(|row| columns.iter().map(|&column| cell(row, column)).collect()).collect();
-        let head = columns.iter().map(|&column| self.names[column].replace('_', " ")).collect();
+        let rows = rows.map(|row| columns.iter().map(|(column, _)| cell(row, *column)).collect()).collect();
+        let head = columns.into_iter().map(|(_, words)| words).collect();
         let shown = table("One row a combination and load step", &Table { head, rows, words: 0 });
         let more = self.rows.len().saturating_sub(ROWS);
         let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
