@@ -11,7 +11,7 @@ use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection,
 };
-use super::{grid, keys, lattice, layers, levels, magnitude, overrides, solver};
+use super::{grading, grid, keys, lattice, layers, levels, magnitude, overrides, solver};
 use crate::body::HalfSpace;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
 use crate::numeric::array::field;
@@ -167,13 +167,19 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     // Both were checked key by key.
     let counterbody = counterbody
         .map_err(|error| Refusal::new(lattice_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
-    let layer_sections = root.sections("layers", layers::MOST)?;
+    let layer_sections = root.sections("layers", grading::MOST)?;
     let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
     let substrate_section = root.required_section("substrate", "[substrate]\nyoung = 1.0\npoisson = 0.3")?;
     let substrate = SubstrateSection::read(&substrate_section)?;
     let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
 
-    magnitude::layers(&half_space, &layer_sections, counterbody.cell())?;
+    // One a layer of the half-space: the section where it stands.
+    let places: Vec<&TableAt<'_>> = layers
+        .iter()
+        .zip(&layer_sections)
+        .flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()))
+        .collect();
+    magnitude::layers(&half_space, &places, counterbody.cell())?;
 
     let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
     let file_points = counterbody.topography().map(Topography::points);
@@ -186,7 +192,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let own = FrictionSection::read(&section)?;
-        problem = own.slide(&section, &layer_sections, (problem, settings), solver_section.as_ref())?;
+        problem = own.slide(&section, &places, (problem, settings), solver_section.as_ref())?;
         friction = Some(own);
     }
     Ok(Case {

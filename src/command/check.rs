@@ -5,7 +5,7 @@ use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::terminal::{self, tell};
 use percoat::case::resources::{Job, Needs, bytes, needs};
-use percoat::case::{Case, Room, foreseen, plausibility};
+use percoat::case::{Case, Room, foreseen, plausibility, sublayer_error};
 use percoat::output::number;
 use percoat::reading::first_touches;
 use percoat::run::{Sampling, balanced_points};
@@ -22,6 +22,7 @@ pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
     let mut out = terminal::out();
     let title = if case.title.is_empty() { &name } else { &case.title };
     writeln!(out, "{title}\n\n{}\n\n{}\n", case.counterbody(), case.half_space())?;
+    write_sublayers(&mut out, &case)?;
     match case.grid {
         Sampling::Points(points) => {
             writeln!(out, "{}", Grid::new(case.counterbody().cell(), points).map_err(Failure::refused)?)?;
@@ -41,6 +42,23 @@ pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
         tell!("warning: {doubt}");
     }
     Ok(Ending::Done)
+}
+
+/// Which materials the layers of the case are, and how well the graded ones are laid out; nothing where none is graded.
+fn write_sublayers(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
+    let Some(error) = sublayer_error(case) else { return Ok(()) };
+    let mut material = 1;
+    for (number, layer) in (1..).zip(&case.layers) {
+        let count = layer.sublayers();
+        let last = material + count - 1;
+        match count {
+            1 => writeln!(out, "layer {number}: material {material}")?,
+            _ => writeln!(out, "layer {number}: materials {material} to {last}, {count} sublayers from its upper face down")?,
+        }
+        material += count;
+    }
+    writeln!(out, "surface compliance: error by the sublayers about {error:.1e}\n")?;
+    Ok(())
 }
 
 /// Memory and disk that solving the case takes on its finest grid, with pictures and without.

@@ -45,8 +45,12 @@ pub(super) fn asked(case: &Value) -> Markup {
     let layers = list("layers");
     let body: Vec<Value> = layers.iter().cloned().chain([case["substrate"].clone()]).collect();
     let name = |number: usize| {
-        let own = if number > layers.len() { "substrate".to_owned() } else { format!("layer {number}") };
-        format!("{number}\u{a0}({own})").replace("layer ", "layer\u{a0}")
+        let own = if number > layers.len() { "substrate".to_owned() } else { format!("layer\u{a0}{number}") };
+        let above: usize = layers.iter().take(number - 1).map(sublayers).sum();
+        match layers.get(number - 1).map_or(1, sublayers) {
+            1 => format!("{}\u{a0}({own})", above + 1),
+            several => format!("{} to {} ({own})", above + 1, above + several),
+        }
     };
     parts.push(items("The body, from the surface down", "material", &body, name));
     let sections = case.as_object().into_iter().flatten().filter(|(key, _)| !APART.contains(&key.as_str()));
@@ -54,6 +58,11 @@ pub(super) fn asked(case: &Value) -> Markup {
     let rows: Vec<(&str, Markup)> = rows.iter().map(|(name, text)| (name.as_str(), text.as_str().into())).collect();
     parts.push(pairs("Cell, load, grid and what else was asked", &rows));
     parts.into()
+}
+
+/// Number of materials that a layer is laid out as.
+fn sublayers(layer: &Value) -> usize {
+    layer["graded"]["sublayers"].as_u64().and_then(|count| usize::try_from(count).ok()).unwrap_or(1)
 }
 
 /// Counterbody and body in a sentence.
