@@ -141,7 +141,8 @@ pub(super) fn is_zero(x: &f64) -> bool {
 impl Elasticity {
     fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         if let Some(graded) = section.optional("graded") {
-            let other = ["shear_ratio", "young", "poisson"].into_iter().find_map(|key| Some((key, section.optional(key)?)));
+            let other =
+                ["shear_ratio", "young", "poisson"].into_iter().find_map(|key| Some((key, section.optional(key)?)));
             return match other {
                 Some((key, value)) => Err(section.both(["graded", key], value.node.place)),
                 None => Ok(Self::Graded { graded: Grading::read(&graded)? }),

@@ -74,7 +74,8 @@ pub(super) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Ce
         if !RATIO.contains(&(shear / substrate)) {
             let what =
                 format!("the shear modulus {} is {} times the substrate's", plain(shear), short(shear / substrate));
-            let key = ["young", "graded"].into_iter().find(|key| section.optional(key).is_some()).unwrap_or("shear_ratio");
+            let key =
+                ["young", "graded"].into_iter().find(|key| section.optional(key).is_some()).unwrap_or("shear_ratio");
             return Err(refuse(key, what, "between 1e-12 and 1e12 times are carried; are both in one unit?"));
         }
         let thickness = layer.thickness();

@@ -68,7 +68,9 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
         }
     }
     let layers = case.layers.iter().enumerate();
-    all.extend(layers.map(|(number, layer): (usize, &LayerSection)| (format!("layers[{number}].thickness"), layer.thickness)));
+    all.extend(
+        layers.map(|(number, layer): (usize, &LayerSection)| (format!("layers[{number}].thickness"), layer.thickness)),
+    );
     let odd = all.into_iter().filter(|(_, length)| !(side / APART..=side * APART).contains(length));
     odd.map(|(key, length)| {
         format!(

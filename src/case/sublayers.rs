@@ -98,7 +98,8 @@ mod tests {
     #[test]
     fn what_is_told_of_the_error_is_the_error() {
         let keys = "young = [4.0, 1.0], poisson = [0.2, 0.3], law = \"exponential\"";
-        let (few, many) = (case(&format!("{{ {keys}, sublayers = 20 }}")), case(&format!("{{ {keys}, sublayers = 200 }}")));
+        let (few, many) =
+            (case(&format!("{{ {keys}, sublayers = 20 }}")), case(&format!("{{ {keys}, sublayers = 200 }}")));
         let told = sublayer_error(&few).unwrap();
         let true_error = difference(few.half_space(), many.half_space(), [TAU / 4.0, TAU * WAVES / 4.0]);
         // The largest of them stands where a wave is few sublayers long: there the order is less clean.

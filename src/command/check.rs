@@ -53,7 +53,10 @@ fn write_sublayers(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
         let last = material + count - 1;
         match count {
             1 => writeln!(out, "layer {number}: material {material}")?,
-            _ => writeln!(out, "layer {number}: materials {material} to {last}, {count} sublayers from its upper face down")?,
+            _ => writeln!(
+                out,
+                "layer {number}: materials {material} to {last}, {count} sublayers from its upper face down"
+            )?,
         }
         material += count;
     }

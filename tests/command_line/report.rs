@@ -99,18 +99,28 @@ fn the_page_of_a_run_holds_what_the_command_line_printed() {
     assert!(page.contains(&case), "the case can be copied as it was run");
 }
 
+const BOND: &str = r#"
+lattice = { kind = "square", period = 20.0 }
+levels = [{ shape = "sphere", radius = 50.0 }]
+layers = [{ thickness = 1.0, young = 400.0, poisson = 0.25, interface_strength = { shear = 1.0 } }]
+substrate = { young = 210.0, poisson = 0.3 }
+load = { mean_pressure = 0.07 }
+grid = { points = 48 }
+"#;
+
 #[test]
 fn the_page_of_a_limit_says_first_what_fails_first() {
     let desk = Desk::new();
-    let answer = desk.percoat(&["limit", "-o", "out", "--set", "grid.points=48"]);
+    desk.write("bond.toml", BOND);
+    let answer = desk.percoat(&["limit", "bond.toml", "-o", "out"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
     let page = words(&report(&desk, "out"));
-    let sentence = "First: yield of material 2 at the mean pressure 0.04";
+    let sentence = "First: delamination of interface 1 at the mean pressure 0.06";
     let (answer_at, asked_at) = (page.find(sentence).expect("the limit"), page.find("What was asked</h2>").unwrap());
     assert!(answer_at < asked_at && page[answer_at..asked_at].contains(" ± "));
     let (table, _) = answer.out.split_once("\n\n").map(|(_, rest)| rest).unwrap().split_once("loads solved").unwrap();
     let (first, table) = table.split_once("criterion").unwrap();
-    assert!(first.contains("first: yield of material 2"));
+    assert!(first.contains("first: delamination of interface 1"));
     assert!(cells(table).filter(|cell| cell.parse::<usize>().is_err()).all(|cell| page.contains(&format!(">{cell}<"))));
     assert_eq!(page.matches("data:image/svg+xml;base64,").count(), 2);
     assert!(page.contains("save this as case.toml and type percoat limit case.toml"));
