@@ -23,6 +23,7 @@ mod finished;
 mod limit;
 mod markup;
 mod page;
+mod part;
 mod resolution;
 mod run;
 mod seal;

@@ -1,36 +1,11 @@
-//! The page: its head, its parts and their sections.
+//! The page: its head, and its parts one after the other.
 
 use super::finished::Finished;
 use super::markup::{Markup, tag, void, with};
+use super::part::Part;
 use super::seal::sealed;
 use super::{ReportError, limit, run, sweep};
-use serde_json::Value;
 use std::path::Path;
-
-/// A result on the page.
-#[derive(Debug)]
-pub(super) struct Part {
-    /// What its anchors begin with.
-    pub name: &'static str,
-    /// What it is.
-    pub kind: &'static str,
-    /// The title of its case.
-    pub title: String,
-    pub sections: Vec<Section>,
-}
-
-/// A section of a part.
-#[derive(Debug)]
-pub(super) struct Section {
-    name: &'static str,
-    heading: &'static str,
-    content: Markup,
-}
-
-/// A section; without content it is left out.
-pub(super) fn section(name: &'static str, heading: &'static str, content: Vec<Markup>) -> Section {
-    Section { name, heading, content: content.into() }
-}
 
 /// The report of an output folder, a whole HTML file.
 ///
@@ -109,29 +84,4 @@ fn article(part: &Part, several: bool) -> Markup {
         )
     });
     tag("article", [heading].into_iter().chain(sections).collect::<Markup>())
-}
-
-/// The version that a result names.
-pub(super) fn version(file: &Value) -> Option<&str> {
-    file["percoat"].as_str()
-}
-
-/// The warnings of a result, or that there are none.
-pub(super) fn warnings(file: &Value) -> Markup {
-    let list: Vec<&str> = file["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
-    if list.is_empty() {
-        return tag("p", "None.");
-    }
-    with("ul", &[("class", "doubt")], list.into_iter().map(|warning| tag("li", warning)).collect::<Markup>())
-}
-
-/// The case in full, with what to do with it.
-pub(super) fn case_to_copy(text: &str, command: &str) -> Markup {
-    let hint = format!("To compute it again, save this as case.toml and type percoat {command} case.toml.");
-    let hint = if command == "sweep" {
-        hint.replace("case.toml.", "case.toml with the values above after --set.")
-    } else {
-        hint
-    };
-    vec![tag("p", hint), with("pre", &[("tabindex", "0"), ("aria-label", "The case")], tag("code", text))].into()
 }

@@ -1,6 +1,6 @@
 //! How finely a run was resolved, and what that leaves open.
 
-use super::markup::{Markup, tag};
+use super::markup::{Markup, tag, with};
 use super::table::pairs;
 use crate::numeric::search::largest;
 use crate::output::table::{largest_errors, solved};
@@ -34,10 +34,7 @@ pub(super) fn resolution(steps: &[StepRecord], change: Option<f64>) -> Markup {
     if !texts.is_empty() {
         let items: Markup = texts.into_iter().map(|text| tag("li", text)).collect();
         let few = tag("li", format!("below {FEW_SAMPLES} radii and peak pressures are rough"));
-        rows.push((
-            "samples along a contact radius",
-            super::markup::with("ul", &[("class", "plain")], vec![items, few]),
-        ));
+        rows.push(("samples along a contact radius", with("ul", &[("class", "plain")], vec![items, few])));
     }
     if let Some(change) = change {
         rows.push(("change from the next coarser grid", format!("{change:.1e}").into()));

@@ -6,8 +6,8 @@ use super::asked::asked;
 use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
-use super::markup::{Markup, tag, with};
-use super::page::{Part, case_to_copy, section, version, warnings};
+use super::markup::{tag, with};
+use super::part::{Part, by, case_to_copy, section, title, version, warnings};
 use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::Units;
@@ -96,18 +96,4 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     sections.push(section("time", "Time and version", timing.into_iter().chain([by(file)]).collect()));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "solve")]));
     Ok(Part { name: "run", kind: "Run", title: title(file), sections })
-}
-
-/// Which version has computed it.
-pub(super) fn by(file: &Value) -> Markup {
-    tag(
-        "p",
-        version(file)
-            .map_or("By a version that does not name itself.".to_owned(), |own| format!("Computed by percoat {own}.")),
-    )
-}
-
-/// The title of a result's case.
-pub(super) fn title(file: &Value) -> String {
-    file["title"].as_str().unwrap_or_default().to_owned()
 }

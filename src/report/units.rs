@@ -31,8 +31,8 @@ impl Units {
 
     /// What the tables are in.
     pub(super) fn sentence(&self) -> String {
-        let length = self.length.as_deref().map_or("the case's unit of length".to_owned(), |unit| format!("{unit}"));
-        let pressure = self.pressure.as_deref().map_or("the unit of E".to_owned(), |unit| format!("{unit}"));
+        let length = self.length.as_deref().unwrap_or("the case's unit of length");
+        let pressure = self.pressure.as_deref().unwrap_or("the unit of E");
         let force = match (&self.length, &self.pressure) {
             (Some(length), Some(pressure)) => format!("{pressure}·{length}²"),
             _ => "a pressure times an area of these units".to_owned(),
