@@ -21,7 +21,7 @@
 //!
 //! ```text
 //! numeric → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
-//! → units → case → output → sweep → picture → validation
+//! → units → case → output → sweep → picture → report → validation
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
@@ -30,7 +30,7 @@
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `units`, `case`, `output`, `sweep`, `picture` and the
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `units`, `case`, `output`, `sweep`, `picture`, `report` and the
 //! command line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! # Example
@@ -68,6 +68,8 @@ pub mod output;
 pub mod picture;
 pub mod problem;
 pub mod reading;
+#[cfg(feature = "cli")]
+pub mod report;
 pub mod run;
 pub mod spectral;
 pub mod stress;

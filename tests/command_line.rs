@@ -4,6 +4,8 @@
 
 #[path = "command_line/archive.rs"]
 mod archive;
+#[path = "command_line/browser.rs"]
+mod browser;
 #[path = "command_line/cases.rs"]
 mod cases;
 #[path = "command_line/compare.rs"]
@@ -30,6 +32,8 @@ mod program;
 mod readings;
 #[path = "command_line/refusals.rs"]
 mod refusals;
+#[path = "command_line/report.rs"]
+mod report;
 #[path = "command_line/solve.rs"]
 mod solve;
 #[path = "command_line/stress.rs"]

@@ -38,7 +38,7 @@ impl FrictionSection {
     pub(super) fn slide(
         &self,
         section: &TableAt<'_>,
-        layers: &[TableAt<'_>],
+        layers: &[&TableAt<'_>],
         (problem, settings): (Problem, Settings),
         solver: Option<&TableAt<'_>>,
     ) -> Result<Problem, Refusal> {

@@ -23,12 +23,14 @@ pub(super) struct Key {
     pub(super) kinds: &'static [&'static str],
     /// The other key in whose place it stands.
     pub(super) instead_of: Option<&'static str>,
+    /// Further keys that it excludes.
+    pub(super) and_of: &'static [&'static str],
     /// Keys of the table, or of each table of the list, that it holds or may hold.
     pub(super) holds: &'static Keys,
 }
 
 const fn key(name: &'static str, what: &'static str) -> Key {
-    Key { name, what, kinds: &[], instead_of: None, holds: &NONE }
+    Key { name, what, kinds: &[], instead_of: None, and_of: &[], holds: &NONE }
 }
 
 impl Key {
@@ -44,9 +46,14 @@ impl Key {
         Self { holds: keys, ..self }
     }
 
+    const fn and_of(self, others: &'static [&'static str]) -> Self {
+        Self { and_of: others, ..self }
+    }
+
     fn excludes(&self, other: &Self) -> bool {
         let kinds = !self.kinds.is_empty() && !other.kinds.is_empty() && self.kinds != other.kinds;
-        kinds || self.instead_of == Some(other.name) || other.instead_of == Some(self.name)
+        let one = |a: &Self, b: &Self| a.instead_of == Some(b.name) || a.and_of.contains(&b.name);
+        kinds || one(self, other) || one(other, self)
     }
 }
 
@@ -146,11 +153,23 @@ static LAYERS: Keys = Keys::new(&[
     key("shear_ratio", "χ = G/G_substrate"),
     key("young", "Young's modulus, a pressure").instead_of("shear_ratio"),
     key("poisson", "Poisson's ratio, between 0 and 0.5"),
+    key("graded", "moduli, `poisson` among them, that change with depth, the layer laid out as bonded sublayers")
+        .instead_of("young")
+        .and_of(&["shear_ratio", "poisson"])
+        .holds(&GRADED),
     key("interface", "the lower face: \"bonded\" (when not given), \"frictionless\" or a spring").holds(&SPRING),
     key("residual_stress", "equi-biaxial, a pressure, positive in tension; 0 when not given"),
     key("yield_strength", "what the stress of von Mises must not reach, a pressure"),
     key("tensile_strength", "what the largest principal stress must not reach, a pressure"),
     key("interface_strength", "what the lower face bears").holds(&INTERFACE_STRENGTH),
+]);
+
+static GRADED: Keys = Keys::new(&[
+    key("shear_ratio", "χ at the upper and the lower face, [upper, lower]"),
+    key("young", "Young's modulus at the upper and the lower face, [upper, lower]").instead_of("shear_ratio"),
+    key("poisson", "Poisson's ratio at the upper and the lower face, [upper, lower]; linear between them"),
+    key("law", "how the stiffness goes from one to the other, \"linear\" or \"exponential\"; linear without it"),
+    key("sublayers", "number of sublayers, each a material of its own in the outputs; 20 without it"),
 ]);
 
 static INTERFACE_STRENGTH: Keys = Keys::new(&[

@@ -4,24 +4,20 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
+use super::grading::{self, Grading};
 use super::magnitude;
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
 use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Strength};
-
-/// Most layers a case can have.
-pub(super) const MOST: usize = 200;
 
 /// One section of `[[layers]]`, from the surface down.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct LayerSection {
     /// Thickness h, a length.
     pub thickness: f64,
-    /// Shear ratio or Young's modulus.
+    /// Its moduli, the same everywhere or graded.
     #[serde(flatten)]
-    pub modulus: Modulus,
-    /// Poisson's ratio.
-    pub poisson: f64,
+    pub elasticity: Elasticity,
     /// How the lower face holds to what lies below.
     #[serde(serialize_with = "write_interface")]
     pub interface: Interface,
@@ -34,6 +30,25 @@ pub struct LayerSection {
     /// Strengths of the lower face.
     #[serde(skip_serializing_if = "InterfaceStrengthKeys::is_empty")]
     pub interface_strength: InterfaceStrengthKeys,
+}
+
+/// The moduli of a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Elasticity {
+    /// The same everywhere.
+    Uniform {
+        /// Shear ratio or Young's modulus.
+        #[serde(flatten)]
+        modulus: Modulus,
+        /// Poisson's ratio.
+        poisson: f64,
+    },
+    /// They change with depth.
+    Graded {
+        /// How.
+        graded: Grading,
+    },
 }
 
 /// Strengths of a material.
@@ -123,11 +138,30 @@ pub(super) fn is_zero(x: &f64) -> bool {
     *x == 0.0
 }
 
-impl Modulus {
-    pub(super) fn key(self) -> &'static str {
+impl Elasticity {
+    fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
+        if let Some(graded) = section.optional("graded") {
+            let other =
+                ["shear_ratio", "young", "poisson"].into_iter().find_map(|key| Some((key, section.optional(key)?)));
+            return match other {
+                Some((key, value)) => Err(section.both(["graded", key], value.node.place)),
+                None => Ok(Self::Graded { graded: Grading::read(&graded)? }),
+            };
+        }
+        let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure)";
+        let modulus = match section.one_of(["shear_ratio", "young"], what)? {
+            (0, ratio) => Modulus::ShearRatio(magnitude::size(&ratio)?),
+            (_, young) => Modulus::Young(magnitude::size(&young)?),
+        };
+        Ok(Self::Uniform { modulus, poisson: poisson(section)? })
+    }
+
+    /// The key of its stiffness.
+    fn key(self) -> &'static str {
         match self {
-            Self::ShearRatio(_) => "shear_ratio",
-            Self::Young(_) => "young",
+            Self::Uniform { modulus: Modulus::ShearRatio(_), .. } => "shear_ratio",
+            Self::Uniform { modulus: Modulus::Young(_), .. } => "young",
+            Self::Graded { .. } => "graded",
         }
     }
 }
@@ -136,20 +170,14 @@ impl LayerSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
         let thickness = magnitude::size(&section.required("thickness")?)?;
-        let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure)";
-        let modulus = match section.one_of(["shear_ratio", "young"], what)? {
-            (0, ratio) => Modulus::ShearRatio(magnitude::size(&ratio)?),
-            (_, young) => Modulus::Young(magnitude::size(&young)?),
-        };
-        let poisson = poisson(section)?;
+        let elasticity = Elasticity::read(section)?;
         let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |value| interface(&value))?;
         let residual_stress = section.optional("residual_stress").map_or(Ok(0.0), |value| magnitude::place(&value))?;
         let interface_strength =
             section.optional("interface_strength").map(|value| InterfaceStrengthKeys::read(&value));
         Ok(Self {
             thickness,
-            modulus,
-            poisson,
+            elasticity,
             interface,
             residual_stress,
             strength: StrengthKeys::read(section)?,
@@ -157,14 +185,39 @@ impl LayerSection {
         })
     }
 
-    fn build(&self, substrate: Material) -> Result<Layer, MaterialError> {
-        let material = match self.modulus {
-            Modulus::ShearRatio(ratio) => Material::from_shear(ratio * substrate.shear(), self.poisson),
-            Modulus::Young(young) => Material::from_young(young, self.poisson),
-        }?;
-        Layer::new(material, self.thickness, self.interface)?
-            .with_residual_stress(self.residual_stress)?
-            .with_strengths(self.strength.strength(), self.interface_strength.strength())
+    /// How it is graded, if it is.
+    pub fn grading(&self) -> Option<Grading> {
+        if let Elasticity::Graded { graded } = self.elasticity { Some(graded) } else { None }
+    }
+
+    /// Number of homogeneous layers that it is laid out as.
+    pub fn sublayers(&self) -> usize {
+        self.grading().map_or(1, |graded| graded.sublayers)
+    }
+
+    /// It, or its sublayers from the upper one down, bonded to each other; its lower face is that of the last.
+    fn build(&self, substrate: Material) -> Result<Vec<Layer>, MaterialError> {
+        let materials: Vec<Material> = match self.elasticity {
+            Elasticity::Uniform { modulus: Modulus::ShearRatio(ratio), poisson } => {
+                vec![Material::from_shear(ratio * substrate.shear(), poisson)?]
+            }
+            Elasticity::Uniform { modulus: Modulus::Young(young), poisson } => {
+                vec![Material::from_young(young, poisson)?]
+            }
+            Elasticity::Graded { graded } => graded.materials(substrate).collect::<Result<_, _>>()?,
+        };
+        let count = materials.len();
+        let layer = |(index, material): (usize, Material)| {
+            let (interface, strength) = if index + 1 == count {
+                (self.interface, self.interface_strength.strength())
+            } else {
+                (Interface::Bonded, InterfaceStrength::default())
+            };
+            Layer::new(material, self.thickness / count as f64, interface)?
+                .with_residual_stress(self.residual_stress)?
+                .with_strengths(self.strength.strength(), strength)
+        };
+        materials.into_iter().enumerate().map(layer).collect()
     }
 }
 
@@ -189,14 +242,28 @@ pub(super) fn build(
     };
     let base = Material::from_young(substrate.young, substrate.poisson)
         .map_err(|error| refuse(substrate_section, "young", error))?;
-    let built: Result<Vec<Layer>, Refusal> = layers
+    grading::count(&layers.iter().map(LayerSection::sublayers).collect::<Vec<_>>(), layer_sections)?;
+    let built: Result<Vec<Vec<Layer>>, Refusal> = layers
         .iter()
         .zip(layer_sections)
-        .map(|(layer, section)| layer.build(base).map_err(|error| refuse(section, layer.modulus.key(), error)))
+        .map(|(layer, section)| layer.build(base).map_err(|error| refuse(section, layer.elasticity.key(), error)))
         .collect();
-    HalfSpace::new(built?, base)
+    HalfSpace::new(built?.concat(), base)
         .with_substrate_strength(substrate.strength.strength())
         .map_err(|error| refuse(substrate_section, "yield_strength", error))
+}
+
+/// The half-space with twice the sublayers in graded layers.
+pub(super) fn refined(layers: &[LayerSection], substrate: &SubstrateSection) -> Option<HalfSpace> {
+    let base = Material::from_young(substrate.young, substrate.poisson).ok()?;
+    let finer = |layer: &LayerSection| match layer.elasticity {
+        Elasticity::Graded { graded } => {
+            let graded = graded.of(2 * graded.sublayers);
+            LayerSection { elasticity: Elasticity::Graded { graded }, ..*layer }.build(base).ok()
+        }
+        Elasticity::Uniform { .. } => layer.build(base).ok(),
+    };
+    Some(HalfSpace::new(layers.iter().map(finer).collect::<Option<Vec<_>>>()?.concat(), base))
 }
 
 fn poisson(section: &TableAt<'_>) -> Result<f64, Refusal> {

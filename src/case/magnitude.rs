@@ -62,7 +62,7 @@ pub(super) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
 }
 
 /// Layers and their interfaces beside the cell and the substrate.
-pub(super) fn layers(half_space: &HalfSpace, sections: &[TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
+pub(super) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let side = cell.reduced().longer_side();
     let substrate = half_space.substrate().shear();
     for (layer, section) in half_space.layers().iter().zip(sections) {
@@ -74,7 +74,8 @@ pub(super) fn layers(half_space: &HalfSpace, sections: &[TableAt<'_>], cell: Cel
         if !RATIO.contains(&(shear / substrate)) {
             let what =
                 format!("the shear modulus {} is {} times the substrate's", plain(shear), short(shear / substrate));
-            let key = if section.optional("young").is_some() { "young" } else { "shear_ratio" };
+            let key =
+                ["young", "graded"].into_iter().find(|key| section.optional(key).is_some()).unwrap_or("shear_ratio");
             return Err(refuse(key, what, "between 1e-12 and 1e12 times are carried; are both in one unit?"));
         }
         let thickness = layer.thickness();

@@ -11,7 +11,7 @@ use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection, UnitsSection,
 };
-use super::{grid, keys, lattice, layers, levels, magnitude, overrides, solver};
+use super::{grading, grid, keys, lattice, layers, levels, magnitude, overrides, solver};
 use crate::body::HalfSpace;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
 use crate::numeric::array::field;
@@ -73,8 +73,7 @@ impl Case {
 
     /// The case as TOML, complete with its defaults; it reads back equal.
     pub fn to_toml(&self) -> String {
-        let text = toml::to_string(self).expect("keys are strings, integers come from TOML, absent values are skipped");
-        text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
+        written(self)
     }
 
     /// What is pressed into what.
@@ -108,6 +107,12 @@ impl Case {
             stress: self.stress.as_ref().map(|stress| stress.request(self.counterbody())),
         }
     }
+}
+
+/// A case as TOML: one that has been read, or what a result says of it.
+pub(crate) fn written(case: &impl Serialize) -> String {
+    let text = toml::to_string(case).expect("keys are strings, integers come from TOML, absent values are skipped");
+    text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
 }
 
 /// A line `key = value` with the numbers of the value as a person would write them: 2e-7 for 0.0000002.
@@ -172,13 +177,19 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     // Both were checked key by key.
     let counterbody = counterbody
         .map_err(|error| Refusal::new(lattice_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
-    let layer_sections = root.sections("layers", layers::MOST)?;
+    let layer_sections = root.sections("layers", grading::MOST)?;
     let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
     let substrate_section = root.required_section("substrate", "[substrate]\nyoung = 1.0\npoisson = 0.3")?;
     let substrate = SubstrateSection::read(&substrate_section)?;
     let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
 
-    magnitude::layers(&half_space, &layer_sections, counterbody.cell())?;
+    // One a layer of the half-space: the section where it stands.
+    let places: Vec<&TableAt<'_>> = layers
+        .iter()
+        .zip(&layer_sections)
+        .flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()))
+        .collect();
+    magnitude::layers(&half_space, &places, counterbody.cell())?;
 
     let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
     let file_points = counterbody.topography().map(Topography::points);
@@ -191,7 +202,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let own = FrictionSection::read(&section)?;
-        problem = own.slide(&section, &layer_sections, (problem, settings), solver_section.as_ref())?;
+        problem = own.slide(&section, &places, (problem, settings), solver_section.as_ref())?;
         friction = Some(own);
     }
     Ok(Case {

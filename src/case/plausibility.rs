@@ -1,6 +1,6 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
-use super::{Case, LoadSection};
+use super::{Case, LayerSection, LoadSection, sublayers};
 use crate::body::{HalfSpace, Interface, Layer, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
@@ -15,6 +15,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(&case.load, case.half_space()).into_iter().collect();
     doubts.extend(lengths(case, cell));
+    doubts.extend(sublayers::doubt(case));
     if counterbody.indenters().is_some() {
         doubts.extend(heights(counterbody.levels(), cell));
     }
@@ -66,8 +67,10 @@ fn lengths(case: &Case, cell: Cell) -> Vec<String> {
             Shape::Power { .. } | Shape::Cone { .. } => {}
         }
     }
-    let layers = case.half_space().layers().iter().enumerate();
-    all.extend(layers.map(|(number, layer)| (format!("layers[{number}].thickness"), layer.thickness())));
+    let layers = case.layers.iter().enumerate();
+    all.extend(
+        layers.map(|(number, layer): (usize, &LayerSection)| (format!("layers[{number}].thickness"), layer.thickness)),
+    );
     let odd = all.into_iter().filter(|(_, length)| !(side / APART..=side * APART).contains(length));
     odd.map(|(key, length)| {
         format!(

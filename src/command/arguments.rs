@@ -97,6 +97,19 @@ pub enum Command {
         #[command(flatten)]
         saying: Saying,
     },
+    /// Make one HTML page of a finished run, sweep or limit: it opens without network, on a phone and in print
+    #[command(after_help = help::REPORT)]
+    Report {
+        /// Output folder of the run
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+        /// File to write [default: DIR/report.html]
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+        /// Print nothing but errors
+        #[arg(short, long)]
+        quiet: bool,
+    },
     /// Response of the layered half-space to a harmonic pressure or shear traction cos(qx), as JSON lines
     #[command(after_help = help::KERNEL)]
     Kernel {

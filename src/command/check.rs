@@ -5,7 +5,7 @@ use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::terminal::{self, tell};
 use percoat::case::resources::{Job, Needs, bytes, needs};
-use percoat::case::{Case, Room, foreseen, plausibility};
+use percoat::case::{Case, Room, foreseen, plausibility, sublayer_error};
 use percoat::output::number;
 use percoat::reading::first_touches;
 use percoat::run::{Sampling, balanced_points};
@@ -26,6 +26,7 @@ pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
     if let Some(names) = units(&case.units()) {
         writeln!(out, "{names}")?;
     }
+    write_sublayers(&mut out, &case)?;
     match case.grid {
         Sampling::Points(points) => {
             writeln!(out, "{}", Grid::new(case.counterbody().cell(), points).map_err(Failure::refused)?)?;
@@ -54,6 +55,26 @@ fn units(units: &Units) -> Option<String> {
         [named("lengths", units.length()), named("pressures", units.pressure()), named("forces", &units.force())];
     let names: Vec<String> = names.into_iter().flatten().collect();
     (!names.is_empty()).then(|| format!("units: {}", names.join(", ")))
+}
+
+/// Which materials the layers of the case are, and how well the graded ones are laid out; nothing where none is graded.
+fn write_sublayers(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
+    let Some(error) = sublayer_error(case) else { return Ok(()) };
+    let mut material = 1;
+    for (number, layer) in (1..).zip(&case.layers) {
+        let count = layer.sublayers();
+        let last = material + count - 1;
+        match count {
+            1 => writeln!(out, "layer {number}: material {material}")?,
+            _ => writeln!(
+                out,
+                "layer {number}: materials {material} to {last}, {count} sublayers from its upper face down"
+            )?,
+        }
+        material += count;
+    }
+    writeln!(out, "surface compliance: error by the sublayers about {error:.1e}\n")?;
+    Ok(())
 }
 
 /// Memory and disk that solving the case takes on its finest grid, with pictures and without.

@@ -46,6 +46,12 @@ help!(
     "merge a/out b/out -o out/whole"
 );
 help!(
+    REPORT,
+    "0 done; 2 refused, nothing written; 4 input or output failed",
+    "report out/fig2" => "into out/fig2/report.html",
+    "report out/mine -o mine.html"
+);
+help!(
     KERNEL,
     "0 done; 2 refused; 4 input or output failed",
     "kernel mine.toml --wavenumber 1,10,100",

@@ -17,6 +17,7 @@ mod options;
 mod pictures;
 mod plan;
 mod progress;
+mod report;
 mod shown;
 mod solve;
 mod sweep;
@@ -51,6 +52,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         Command::Merge { folders, output, pictures, saying } => {
             merge::run(folders, output.as_deref(), pictures, saying)
         }
+        Command::Report { folder, output, quiet } => report::run(folder, output.as_deref(), *quiet),
         Command::Kernel { case, wavenumber, depth, traction, changes } => {
             kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
         }

@@ -16,7 +16,7 @@ pub struct PictureOptions {
     #[arg(long, conflicts_with = "pictures")]
     no_pictures: bool,
     /// Formats of the pictures: png, svg, pdf or several
-    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = format, default_value = "png")]
+    #[arg(long, value_name = "FORMAT,…", value_delimiter = ',', value_parser = format, default_value = "png,svg")]
     pictures: Vec<Format>,
 }
 

@@ -85,7 +85,7 @@ fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), F
     if let Some(largest) = table::largest_stresses(steps, &units) {
         writeln!(out, "\n{largest}\n")?;
     }
-    if let Some(strength) = table::utilisations(steps, case.problem().half_space(), &units) {
+    if let Some(strength) = table::utilisations(steps, Some(case.problem().half_space()), &units) {
         writeln!(out, "\n{strength}\n")?;
     }
     if let Some(errors) = table::largest_errors(steps) {

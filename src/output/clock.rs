@@ -1,6 +1,6 @@
 //! Where the time of a run goes.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// What a run is busy with.
@@ -17,7 +17,7 @@ pub enum Phase {
 }
 
 /// Wall time of a run by what it was busy with, seconds. The phases follow one another: their sum is the whole.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Timing {
     /// See [`Phase::Setup`].
     pub setup: f64,

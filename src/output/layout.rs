@@ -1,7 +1,7 @@
 //! What stands where in an output folder, and whose it is.
 
 use super::OutputError;
-use super::manifest::{Standing, Writer};
+use super::manifest::{Manifest, Standing, Writer};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,17 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
         Writer::Compare => own(folder, "compare"),
         Writer::Limit => own(folder, "limit"),
         Writer::Validate => own(folder, "validate"),
+        Writer::Report => own(folder, "report"),
     }
+}
+
+/// Whether a file of a folder is as percoat wrote it there. In a folder without a list, as copies are, every file is.
+///
+/// # Errors
+/// When the file cannot be read.
+pub fn is_of_folder(folder: &Path, name: &str) -> io::Result<bool> {
+    let list = own(folder, "written.json");
+    Ok(!list.is_file() || Manifest::read(&list).standing(folder, name)? == Standing::Written)
 }
 
 /// Why a name is not percoat's, if it is somebody else's.

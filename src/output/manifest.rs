@@ -23,11 +23,25 @@ pub enum Writer {
     Validate,
     /// `percoat sweep`, and `percoat merge`.
     Sweep,
+    /// `percoat report`.
+    Report,
 }
 
 impl Writer {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate, Self::Sweep];
+    pub const ALL: [Self; 6] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate, Self::Sweep, Self::Report];
+
+    /// Whose files go when this one's result is replaced: its own, and the report, which shows the old one.
+    pub(super) fn takes_along(self) -> &'static [Self] {
+        match self {
+            Self::Solve => &[Self::Solve, Self::Report],
+            Self::Compare => &[Self::Compare, Self::Report],
+            Self::Limit => &[Self::Limit, Self::Report],
+            Self::Validate => &[Self::Validate],
+            Self::Sweep => &[Self::Sweep, Self::Report],
+            Self::Report => &[Self::Report],
+        }
+    }
 }
 
 /// The list of files, by name.
@@ -100,6 +114,11 @@ impl Manifest {
         others.percoat = Self::empty().percoat;
         others.files.retain(|name, file| file.by != writer || !scope.contains(name));
         others
+    }
+
+    /// Whether it has a file of that name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.files.contains_key(name)
     }
 
     /// Adds a file.

@@ -49,7 +49,9 @@ impl<'a> Publication<'a> {
     /// Nothing is decided if that fails.
     pub(super) fn decide(&self, planned: &[String], scope: &Scope) -> Result<(), FolderError> {
         let old = Manifest::read(&self.list());
-        let mut new = old.without(self.writer, scope);
+        let others = self.writer.takes_along().iter().filter(|writer| **writer != self.writer);
+        let mut new =
+            others.fold(old.without(self.writer, scope), |list, &writer| list.without(writer, &Scope::default()));
         for name in planned {
             let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
             if !gathered.is_file() {
@@ -93,6 +95,7 @@ impl<'a> Publication<'a> {
             Writer::Limit => "retired-limit",
             Writer::Validate => "retired-validate",
             Writer::Sweep => "retired-sweep",
+            Writer::Report => "retired-report",
         };
         own(self.folder, name)
     }
@@ -119,8 +122,8 @@ impl<'a> Publication<'a> {
             }
             actions.push(Action::Place(name.to_owned()));
         }
-        let kept: Vec<&str> = new.names(self.writer).collect();
-        for name in old.names(self.writer).filter(|name| !kept.contains(name)) {
+        let earlier = self.writer.takes_along().iter().flat_map(|&writer| old.names(writer));
+        for name in earlier.filter(|name| !new.has(name)) {
             // What its owner has changed in the meantime stays.
             if self.standing(&old, name)? == Standing::Written {
                 actions.push(Action::Remove(name.to_owned()));

@@ -42,7 +42,7 @@ mod text;
 mod tiling;
 mod touches;
 mod utilisations;
-mod vector;
+pub(crate) mod vector;
 
 pub use axis::{Axis, Scale};
 pub use canvas::Canvas;

@@ -112,7 +112,7 @@ fn escaped(text: &str) -> String {
 }
 
 /// Base64 of RFC 4648.
-fn base64(bytes: &[u8]) -> String {
+pub(crate) fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(4 * bytes.len().div_ceil(3));
     for group in bytes.chunks(3) {

@@ -24,7 +24,7 @@
 /// in 95 % of others is shown in `validation/discretisation`. What is prescribed has no error, the peak under a tip is
 /// infinite and has none either.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Errors {
     /// Of the mean pressure.
     pub mean_pressure: Option<f64>,
@@ -38,7 +38,7 @@ pub struct Errors {
 
 /// Estimated errors of the scalars of a level.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LevelErrors {
     /// Of the force on one indenter.
     pub load: Option<f64>,

@@ -26,7 +26,7 @@ fn list<'a>(value: &'a Value, pointer: &str) -> &'a Vec<Value> {
 fn both_solutions_stand_side_by_side_in_a_file_and_a_picture() {
     let desk = Desk::new();
     let folder = compare(&desk, "both", &[]);
-    assert_eq!(folder.names(), BTreeSet::from(["compare.json".to_owned(), "comparison.png".to_owned()]));
+    assert_eq!(folder.names(), ["compare.json", "comparison.png", "comparison.svg"].map(str::to_owned).into());
     let file = read(&folder);
     assert_eq!(file["percoat"], env!("CARGO_PKG_VERSION"));
     assert_eq!((&file["rule"], &file["other_rule"]["rule"]), (&"load-balanced".into(), &"area-balanced".into()));

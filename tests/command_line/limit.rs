@@ -14,7 +14,7 @@ fn limit(desk: &Desk, arguments: &[&str]) -> (Value, String) {
 fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
     let desk = Desk::new();
     let (limits, out) = limit(&desk, &["--set", "grid.points=96"]);
-    let names = ["limit-section.png", "limit.csv", "limit.json", "limit.png"];
+    let names = ["limit-section.png", "limit-section.svg", "limit.csv", "limit.json", "limit.png", "limit.svg"];
     let files = fs::read_dir(desk.path("out")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
     files.sort();

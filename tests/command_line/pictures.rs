@@ -19,10 +19,10 @@ fn named(ending: &str) -> BTreeSet<String> {
 }
 
 #[test]
-fn a_run_leaves_png_pictures_one_or_two_columns_wide_without_being_asked() {
+fn a_run_leaves_pictures_one_or_two_columns_wide_in_both_formats_without_being_asked() {
     let desk = Desk::new();
     let folder = desk.solve("run", &ARGUMENTS);
-    assert_eq!(pictures(&folder), named("png"));
+    assert_eq!(pictures(&folder), &named("png") | &named("svg"));
     for (name, columns) in PICTURES {
         let picture = folder.bytes(&format!("{name}.png"));
         assert_eq!(&picture[..8], b"\x89PNG\r\n\x1a\n", "{name}");

@@ -1,6 +1,6 @@
 //! Quantities with their places over the load steps, a row each.
 
-use super::{DETAILED, in_unit, render};
+use super::{DETAILED, Table, in_unit};
 use crate::output::number::number;
 use crate::run::StepRecord;
 use crate::units::{Prefixed, Unit, Units};
@@ -17,7 +17,7 @@ pub(super) struct Row {
 
 /// Quantities of one unit, a few steps side by side, or the last of many; the places are those in the last. `None` where
 /// no step has any.
-pub(super) fn by_step(head: &str, unit: &Unit, units: &Units, steps: &[StepRecord], rows: &[Row]) -> Option<String> {
+pub(super) fn by_step(head: &str, unit: &Unit, units: &Units, steps: &[StepRecord], rows: &[Row]) -> Option<Table> {
     let last = (0..steps.len()).rev().find(|&step| rows.iter().any(|row| row.found[step].is_some()))?;
     let shown = if steps.len() <= DETAILED { 0..steps.len() } else { last..last + 1 };
     let pressures = steps[shown.clone()].iter().map(|step| step.reading.mean_pressure);
@@ -33,7 +33,7 @@ pub(super) fn by_step(head: &str, unit: &Unit, units: &Units, steps: &[StepRecor
         let place = row.found[last].map_or("–".to_owned(), |(_, _, position)| place(&length, position));
         [row.name.clone()].into_iter().chain(values).chain([place]).collect()
     };
-    Some(render(&header, &rows.iter().map(line).collect::<Vec<Vec<String>>>(), 1))
+    Some(Table::new(&header, rows.iter().map(line).collect(), 1))
 }
 
 /// What is no number is not infinite.

@@ -1,5 +1,6 @@
 //! The largest stresses of the load steps, by material and interface.
 
+use super::Table;
 use super::by_step::{Row, by_step};
 use crate::reading::StressReading;
 use crate::run::StepRecord;
@@ -7,7 +8,7 @@ use crate::stress::Peak;
 use crate::units::Units;
 
 /// One row a quantity; `None` where no step has stresses.
-pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<String> {
+pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
     let any = steps.iter().find_map(|step| step.stress.as_ref())?;
     let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
         let of = |step: &StepRecord| peak(step.stress.as_ref()?).map(|peak| (peak.value, peak.error, peak.position));

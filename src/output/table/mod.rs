@@ -4,10 +4,12 @@ mod by_step;
 mod comparison;
 mod largest;
 mod strength;
+mod text;
 
 pub use comparison::{differences, readings, stresses};
 pub use largest::largest_stresses;
 pub use strength::{limits, utilisations};
+pub use text::{Table, Worded};
 
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
@@ -15,7 +17,6 @@ use crate::numeric::search::largest;
 use crate::reading::Reading;
 use crate::run::StepRecord;
 use crate::units::{Prefixed, Units};
-use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
 
 /// Relative errors up to this are rounding.
 const NOTHING: f64 = 1e-12;
@@ -24,7 +25,7 @@ const NOTHING: f64 = 1e-12;
 pub const DETAILED: usize = 6;
 
 /// The load steps as a table: in detail for a few steps, one row a step for many.
-pub fn steps(steps: &[StepRecord], units: &Units) -> String {
+pub fn steps(steps: &[StepRecord], units: &Units) -> Table {
     let levels = steps.first().map_or(0, |step| step.reading.levels.len());
     if steps.len() <= DETAILED && levels > 0 { detailed(steps, units) } else { compact(steps, levels, units) }
 }
@@ -38,7 +39,7 @@ fn units_of_loads(steps: &[StepRecord], units: &Units) -> [Prefixed; 2] {
     ]
 }
 
-fn detailed(steps: &[StepRecord], units: &Units) -> String {
+fn detailed(steps: &[StepRecord], units: &Units) -> Table {
     let levels = || steps.iter().flat_map(|step| &step.reading.levels);
     let [mean, penetration] = units_of_loads(steps, units);
     let load = units.force().suited(levels().map(|level| level.load));
@@ -89,10 +90,10 @@ fn detailed(steps: &[StepRecord], units: &Units) -> String {
             lead = [const { String::new() }; 3];
         }
     }
-    render(&header, &rows, 0)
+    Table::new(&header, rows, 0)
 }
 
-fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> String {
+fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     let readings = || steps.iter().map(|step| &step.reading);
     let [mean, penetration] = units_of_loads(steps, units);
     let pressure = units.pressure().suited(readings().filter_map(Reading::finite_peak));
@@ -115,24 +116,12 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> String {
         }
         row
     };
-    render(&header, &readings().map(row).collect::<Vec<Vec<String>>>(), 0)
+    Table::new(&header, readings().map(row).collect(), 0)
 }
 
 /// A table under a rule, whose first `words` columns are aligned left, the others right.
 pub fn render(header: &[impl ToString], rows: &[Vec<String>], words: usize) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
-    table.set_header(header.iter().map(ToString::to_string));
-    table.add_rows(rows);
-    for (index, column) in table.column_iter_mut().enumerate() {
-        column.set_cell_alignment(if index < words { CellAlignment::Left } else { CellAlignment::Right });
-    }
-    let text = table.trim_fmt();
-    let width = text.lines().map(|line| line.chars().count()).max().unwrap_or(0);
-    let mut lines: Vec<&str> = text.lines().collect();
-    let rule = "─".repeat(width);
-    lines.insert(1.min(lines.len()), &rule);
-    lines.join("\n")
+    Table::new(header, rows.to_vec(), words).to_string()
 }
 
 /// Two decimals; what rounds to zero has no sign.
@@ -152,7 +141,7 @@ fn in_unit(unit: &Prefixed, x: f64, error: Option<f64>) -> String {
 }
 
 /// A part with its error in per cent: two digits behind the point, fewer where the error counts before them.
-fn percent_with_error(x: f64, error: Option<f64>) -> String {
+pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
     match error.map(|error| 100.0 * error) {
         Some(error) if error > ROUNDING * 100.0 * x.abs() => {
             format!("{} %", with_error(100.0 * x, Some(error.max(0.01))))

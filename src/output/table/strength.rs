@@ -1,15 +1,16 @@
 //! What materials and interfaces bear: utilisations of the load steps, and limit loads.
 
 use super::by_step::{Row, by_step, place};
-use super::{in_unit, render};
+use super::{Table, Worded, in_unit};
 use crate::body::HalfSpace;
 use crate::output::number::number;
 use crate::reading::{Criterion, Utilisation};
 use crate::run::{At, Limit, Limits, StepRecord};
 use crate::units::{Unit, Units};
 
-/// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any.
-pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace, units: &Units) -> Option<String> {
+/// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any. What
+/// residual stress alone breaks is told where the half-space is known.
+pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<Worded> {
     let last = steps.iter().rev().find(|step| !step.strength.is_empty())?;
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
@@ -18,16 +19,14 @@ pub fn utilisations(steps: &[StepRecord], half_space: &HalfSpace, units: &Units)
         Row { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Row> = governing.into_iter().map(row).collect();
-    Some(format!(
-        "{}\n\n{}",
-        in_words(steps, half_space, units)?,
-        by_step("utilisation", &Unit::None, units, steps, &rows)?
-    ))
+    let table = by_step("utilisation", &Unit::None, units, steps, &rows)?;
+    Some(Worded { words: in_words(steps, half_space, units)?, table })
 }
 
 /// What fails first as far as the load steps tell, else what comes nearest at any. The load at which it does lies between them.
-fn in_words(steps: &[StepRecord], half_space: &HalfSpace, units: &Units) -> Option<String> {
-    if let Some(criterion) = Criterion::all(half_space).into_iter().find(|own| own.at_rest(half_space) >= 1.0) {
+fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<String> {
+    let at_rest = |body| Criterion::all(body).into_iter().find(|own| own.at_rest(body) >= 1.0);
+    if let Some(criterion) = half_space.and_then(at_rest) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
@@ -49,7 +48,7 @@ fn in_words(steps: &[StepRecord], half_space: &HalfSpace, units: &Units) -> Opti
 }
 
 /// The limit loads, the first of them first.
-pub fn limits(limits: &Limits, units: &Units) -> String {
+pub fn limits(limits: &Limits, units: &Units) -> Worded {
     let pressures = limits.limits.iter().map(|limit| match limit.at {
         At::Never { up_to, .. } => up_to,
         _ => limit.mean_pressure(),
@@ -73,8 +72,8 @@ pub fn limits(limits: &Limits, units: &Units) -> String {
         };
         vec![limit.criterion.to_string(), pressure, place]
     };
-    let rows: Vec<Vec<String>> = limits.ordered().iter().map(row).collect();
+    let rows = limits.ordered().iter().map(row).collect();
     let header = ["criterion".to_owned(), pressure.headed("mean pressure"), length.headed("place (x, y, z)")];
     let words = limits.in_words(|x| units.pressure().told(x, number));
-    format!("{words}\n\n{}", render(&header, &rows, 1))
+    Worded { words, table: Table::new(&header, rows, 1) }
 }

@@ -19,7 +19,7 @@ use std::fmt;
 
 /// Bounds on the error of a pressure, all dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Certificate {
     /// Σ p (g − min g) over ½⟨p, Cp⟩ (min(0, min g) under displacement control): bound on the elastic energy of the error
     /// over that of p, and without coupled friction on the relative excess of energy.
@@ -29,6 +29,13 @@ pub struct Certificate {
     /// Deviation of what was prescribed: |mean p − p̄|/p̄ under load control, |Σp(w+f)/Σp − δ|/δ under displacement
     /// control.
     pub load: f64,
+}
+
+impl Certificate {
+    /// Largest energy gap of a converged solution, over the tolerance.
+    pub const ENERGY_GAP: f64 = 20.0;
+    /// Deepest penetration outside contact of a converged solution, over the tolerance.
+    pub const PENETRATION: f64 = 10.0;
 }
 
 impl fmt::Display for Certificate {

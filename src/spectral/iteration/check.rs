@@ -13,11 +13,6 @@ use fearless_simd::prelude::*;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Largest energy gap of a converged solution, over the tolerance.
-const ENERGY_GAP: f64 = 20.0;
-/// Deepest penetration outside contact of a converged solution, over the tolerance.
-const PENETRATION: f64 = 10.0;
-
 /// How the iterate stands, from one convolution.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Check {
@@ -131,7 +126,8 @@ impl Check {
 
     /// What must fall below the tolerance.
     fn criteria(&self) -> [f64; 3] {
-        [self.residual, self.certificate.energy_gap / ENERGY_GAP, self.certificate.penetration / PENETRATION]
+        let Certificate { energy_gap, penetration, .. } = self.certificate;
+        [self.residual, energy_gap / Certificate::ENERGY_GAP, penetration / Certificate::PENETRATION]
     }
 }
 

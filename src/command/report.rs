@@ -1,0 +1,72 @@
+//! `percoat report`: a finished result as one HTML page.
+
+use super::ending::{Ending, Failure};
+use super::interruption;
+use super::terminal;
+use percoat::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
+use percoat::report::{self, ReportError};
+use std::fs;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// Name of the page in the folder of the result.
+const NAME: &str = "report.html";
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        match error {
+            ReportError::Input { path, error } => Self::Input { path, error },
+            refused => Self::refused(refused),
+        }
+    }
+}
+
+pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, Failure> {
+    let file = output.map_or_else(|| folder.join(NAME), Path::to_path_buf);
+    // Nothing is made in a folder without a result.
+    let page = report::page(folder)?;
+    let own = owned(&file)?;
+    match file.file_name().and_then(|name| name.to_str()).filter(|_| is_in(&file, folder)) {
+        Some(name) => publish(folder, name, own)?,
+        None => {
+            file.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), make_folder)?;
+            write_text(&file, &page)?;
+        }
+    }
+    if !quiet {
+        writeln!(terminal::out(), "written to {}", file.display())?;
+    }
+    Ok(Ending::Done)
+}
+
+/// Writes the page beside its result, in the place of the one before.
+fn publish(folder: &Path, name: &str, own: bool) -> Result<(), Failure> {
+    let names = vec![name.to_owned()];
+    let adopted = if own { names.clone() } else { Vec::new() };
+    // Pages of other names stay.
+    let scope = Scope { within: name.to_owned(), except: Vec::new() };
+    let claim = RunFolder::claim(folder, Plan { names, adopted, scope, ..Plan::new(Writer::Report) })?;
+    // No run writes there now: what is read belongs together.
+    write_text(&claim.staging().join(name), &report::page(folder)?)?;
+    Ok(interruption::publish(claim, folder, true)?)
+}
+
+/// Whether an earlier page stands there that may be replaced; anything else is refused.
+fn owned(file: &Path) -> Result<bool, Failure> {
+    match report::is_own(file) {
+        Ok(true) => Ok(true),
+        Ok(false) => Err(Failure::Refused(format!(
+            "{} is not a report that percoat wrote, or was changed since: choose another file with -o, or move it away",
+            file.display()
+        ))),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(Failure::Input { path: file.to_owned(), error }),
+    }
+}
+
+/// Whether the file stands, or would stand, in the folder itself.
+fn is_in(file: &Path, folder: &Path) -> bool {
+    let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let real = |path: &Path| -> Option<PathBuf> { fs::canonicalize(path).ok() };
+    real(parent).is_some_and(|parent| Some(parent) == real(folder))
+}

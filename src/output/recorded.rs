@@ -1,0 +1,345 @@
+//! What `summary.json` and `limit.json` say, read back as the records they were written from.
+//!
+//! A number that is not finite is null in JSON: it comes back as infinite where the file calls it singular, as no number
+//! elsewhere. What the files do not hold (boundaries, what a reading says of its own errors) stays empty.
+
+use super::Timing;
+use crate::reading::{Criterion, Errors, LevelErrors, LevelReading, Reading, StressReading, Utilisation};
+use crate::run::{At, Limit, Limits, StepRecord};
+use crate::spectral::{Certificate, Report, Route, Stop};
+use crate::stress::Peak;
+use crate::stress::maxima::{Carried, Extremes};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+/// Why a result cannot be read back: what is missing or of another kind.
+#[derive(Debug, thiserror::Error)]
+#[error("{what}: {reason}")]
+pub struct Unreadable {
+    what: String,
+    reason: String,
+}
+
+fn read<T: DeserializeOwned>(what: &str, value: &Value) -> Result<T, Unreadable> {
+    T::deserialize(value).map_err(|error| Unreadable { what: what.to_owned(), reason: error.to_string() })
+}
+
+/// The load steps under `steps`.
+///
+/// # Errors
+/// [`Unreadable`] with the first step that is not as this version writes it.
+pub fn steps_of(file: &Value) -> Result<Vec<StepRecord>, Unreadable> {
+    let steps: Vec<Value> = read("`steps`", &file["steps"])?;
+    (1..)
+        .zip(&steps)
+        .map(|(number, step): (usize, _)| Ok(record(read::<StepKeys>(&format!("step {number}"), step)?)))
+        .collect()
+}
+
+/// Where the time of a run went; `None` where the file does not say.
+///
+/// # Errors
+/// [`Unreadable`] when it says so in another way.
+pub fn timing_of(file: &Value) -> Result<Option<Timing>, Unreadable> {
+    file.get("timing").map(|timing| read("`timing`", timing)).transpose()
+}
+
+/// The limit loads of `limit.json`, without what is shown of the first and how a refinement ended.
+///
+/// # Errors
+/// [`Unreadable`] with what is not as this version writes it.
+pub fn limits_of(file: &Value) -> Result<Limits, Unreadable> {
+    let keys: LimitsKeys = read("limit loads", file)?;
+    let limits = keys.limits.iter().map(|limit| {
+        let criterion = criterion(limit.criterion.as_str(), limit.material, limit.interface);
+        let at = limit.at();
+        criterion.zip(at).map(|(criterion, at)| Limit { criterion, at }).ok_or_else(|| Unreadable {
+            what: format!("the limit of {}", limit.criterion),
+            reason: format!("reached {:?} is not known with these keys", limit.reached),
+        })
+    });
+    Ok(Limits {
+        limits: limits.collect::<Result<_, _>>()?,
+        steps: steps_of(file)?,
+        shown: None,
+        complete: keys.complete_contact.unwrap_or(f64::INFINITY),
+        change: keys.change,
+        end: None,
+        warnings: keys.warnings,
+    })
+}
+
+#[derive(Deserialize)]
+struct LimitsKeys {
+    warnings: Vec<String>,
+    complete_contact: Option<f64>,
+    change: Option<f64>,
+    limits: Vec<LimitKeys>,
+}
+
+#[derive(Deserialize)]
+struct LimitKeys {
+    criterion: String,
+    material: Option<usize>,
+    interface: Option<usize>,
+    mean_pressure: Option<f64>,
+    error: Option<f64>,
+    x: Option<f64>,
+    y: Option<f64>,
+    z: Option<f64>,
+    reached: String,
+    below: Option<f64>,
+    up_to: Option<f64>,
+    utilisation: Option<f64>,
+    utilisation_at: Option<f64>,
+}
+
+impl LimitKeys {
+    fn at(&self) -> Option<At> {
+        let position = || Some([self.x?, self.y?, self.z?]);
+        Some(match (self.reached.as_str(), self.below, self.up_to) {
+            (_, Some(mean_pressure), _) => {
+                At::Below { mean_pressure, utilisation: self.utilisation?, position: position()? }
+            }
+            (_, _, Some(up_to)) => At::Never { up_to, utilisation: self.utilisation?, at: self.utilisation_at? },
+            ("by residual stress alone", ..) => At::Rest,
+            ("under a tip however small the load", ..) => At::Tip { position: position()? },
+            ("under load", ..) => {
+                At::Load { mean_pressure: self.mean_pressure?, error: self.error, position: position()? }
+            }
+            _ => return None,
+        })
+    }
+}
+
+fn criterion(name: &str, material: Option<usize>, interface: Option<usize>) -> Option<Criterion> {
+    Some(match name {
+        "yield" => Criterion::Yield { material: material? },
+        "cracking" => Criterion::Cracking { material: material? },
+        "delamination" => Criterion::Delamination { interface: interface? },
+        _ => return None,
+    })
+}
+
+#[derive(Deserialize)]
+struct StepKeys {
+    mean_pressure: Option<f64>,
+    penetration: Option<f64>,
+    contact_fraction: Option<f64>,
+    max_pressure: Option<f64>,
+    errors: Errors,
+    stop_reason: String,
+    route: String,
+    trials: usize,
+    iterations: usize,
+    convolutions: f64,
+    residual: Option<f64>,
+    certificate: Certificate,
+    points: [usize; 2],
+    contact_spots: usize,
+    spot_resolution: f64,
+    levels: Vec<LevelKeys>,
+    friction: Option<Sliding>,
+    stress: Option<StressKeys>,
+    #[serde(default)]
+    strength: Vec<UtilisationKeys>,
+    seconds: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct Sliding {
+    outer_iterations: usize,
+}
+
+#[derive(Deserialize)]
+struct LevelKeys {
+    level: usize,
+    load: Option<f64>,
+    load_share: Option<f64>,
+    max_pressure: Option<f64>,
+    singular: bool,
+    contact_area: Option<f64>,
+    contact_radius: Option<f64>,
+    ring: bool,
+    radius_inner: Option<f64>,
+    radius_outer: Option<f64>,
+    radius_min: Option<f64>,
+    radius_max: Option<f64>,
+    centre: [Option<f64>; 2],
+    merged: bool,
+    resolution: f64,
+    errors: LevelErrors,
+}
+
+#[derive(Deserialize)]
+struct StressKeys {
+    materials: Vec<ExtremesKeys>,
+    faces: Vec<ExtremesKeys>,
+    interfaces: Vec<CarriedKeys>,
+    surface_error: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct ExtremesKeys {
+    max_tau1: PeakKeys,
+    max_tension: PeakKeys,
+    max_mises: PeakKeys,
+}
+
+#[derive(Deserialize)]
+struct CarriedKeys {
+    interface: usize,
+    max_normal: PeakKeys,
+    max_shear: PeakKeys,
+}
+
+#[derive(Deserialize)]
+struct PeakKeys {
+    value: Option<f64>,
+    error: Option<f64>,
+    singular: bool,
+    x: f64,
+    y: f64,
+    z: f64,
+    material: usize,
+    direction: [Option<f64>; 3],
+}
+
+#[derive(Deserialize)]
+struct UtilisationKeys {
+    criterion: String,
+    material: Option<usize>,
+    interface: Option<usize>,
+    utilisation: Option<f64>,
+    singular: bool,
+    error: Option<f64>,
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+/// A number, infinite, or none.
+fn value(x: Option<f64>, singular: bool) -> f64 {
+    x.unwrap_or(if singular { f64::INFINITY } else { f64::NAN })
+}
+
+fn plain(x: Option<f64>) -> f64 {
+    value(x, false)
+}
+
+fn record(keys: StepKeys) -> StepRecord {
+    // "not a number" is what a record says itself of numbers that are none.
+    let stop = STOPS.into_iter().find(|stop| stop.to_string() == keys.stop_reason).unwrap_or(Stop::Stalled);
+    let levels: Vec<LevelReading> = keys.levels.into_iter().map(level).collect();
+    let singular = levels.iter().any(|level| level.singular);
+    StepRecord {
+        reading: Reading {
+            mean_pressure: plain(keys.mean_pressure),
+            penetration: plain(keys.penetration),
+            contact_fraction: plain(keys.contact_fraction),
+            contact_fraction_uncertainty: 0.0,
+            max_pressure: value(keys.max_pressure, singular),
+            contact_spots: keys.contact_spots,
+            spot_resolution: keys.spot_resolution,
+            levels,
+            boundaries: Vec::new(),
+            errors: keys.errors,
+        },
+        report: Report {
+            stop,
+            route: route(&keys.route, keys.trials),
+            iterations: keys.iterations,
+            outer: keys.friction.as_ref().map_or(0, |sliding| sliding.outer_iterations),
+            residual: plain(keys.residual),
+        },
+        certificate: keys.certificate,
+        slides: keys.friction.is_some(),
+        convolutions: keys.convolutions,
+        points: keys.points,
+        stress: keys.stress.map(stress),
+        strength: keys.strength.into_iter().filter_map(utilisation).collect(),
+        seconds: keys.seconds,
+    }
+}
+
+const STOPS: [Stop; 6] =
+    [Stop::Converged, Stop::Stalled, Stop::IterationLimit, Stop::NoContact, Stop::Unresolved, Stop::BeyondFullContact];
+
+fn route(name: &str, trials: usize) -> Route {
+    let named = [
+        Route::Outer,
+        Route::Baseline,
+        Route::WithoutContinuation,
+        Route::BaselineAfterStall,
+        Route::LoadSearch { trials },
+    ];
+    named.into_iter().find(|route| route.name() == name).unwrap_or(Route::Direct)
+}
+
+fn level(keys: LevelKeys) -> LevelReading {
+    let LevelKeys { level, contact_radius, ring, radius_inner, radius_outer, radius_min, radius_max, .. } = keys;
+    let [x, y] = keys.centre;
+    LevelReading {
+        level,
+        load: plain(keys.load),
+        load_share: plain(keys.load_share),
+        max_pressure: value(keys.max_pressure, keys.singular),
+        singular: keys.singular,
+        contact_area: plain(keys.contact_area),
+        contact_radius,
+        ring,
+        radius_inner,
+        radius_outer,
+        radius_min,
+        radius_max,
+        centre: x.zip(y).map(|(x, y)| [x, y]),
+        merged: keys.merged,
+        resolution: keys.resolution,
+        uncertainty: Default::default(),
+        errors: keys.errors,
+    }
+}
+
+fn stress(keys: StressKeys) -> StressReading {
+    let all = |list: Vec<ExtremesKeys>| {
+        let one = |keys: ExtremesKeys| Extremes {
+            tau1: peak(&keys.max_tau1),
+            tension: peak(&keys.max_tension),
+            mises: peak(&keys.max_mises),
+        };
+        list.into_iter().map(one).collect()
+    };
+    let carried = |keys: CarriedKeys| Carried {
+        interface: keys.interface,
+        normal: peak(&keys.max_normal),
+        shear: peak(&keys.max_shear),
+        delamination: None,
+    };
+    StressReading {
+        materials: all(keys.materials),
+        faces: all(keys.faces),
+        interfaces: keys.interfaces.into_iter().map(carried).collect(),
+        surface_error: plain(keys.surface_error),
+    }
+}
+
+fn peak(keys: &PeakKeys) -> Peak {
+    Peak {
+        value: value(keys.value, keys.singular),
+        position: [keys.x, keys.y, keys.z],
+        material: keys.material,
+        direction: keys.direction.map(plain),
+        error: keys.error,
+    }
+}
+
+/// `None` for a criterion of a later version.
+fn utilisation(keys: UtilisationKeys) -> Option<Utilisation> {
+    Some(Utilisation {
+        criterion: criterion(&keys.criterion, keys.material, keys.interface)?,
+        value: value(keys.utilisation, keys.singular),
+        error: keys.error,
+        position: [keys.x, keys.y, keys.z],
+    })
+}

@@ -1,0 +1,70 @@
+//! The answer of a run: its last load step with contact in a sentence, and its numbers with their errors.
+
+use super::markup::{Markup, numbers, tag, with};
+use super::table::pairs;
+use super::units::told;
+use crate::output::table::percent_with_error;
+use crate::reading::LevelReading;
+use crate::run::StepRecord;
+use crate::units::Units;
+
+/// What stands first on the page.
+pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
+    let number = steps.iter().rposition(|step| step.reading.mean_pressure > 0.0).map_or(steps.len(), |index| index + 1);
+    let Some(step) = number.checked_sub(1).and_then(|index| steps.get(index)) else {
+        return tag("p", "No load step has been asked for.");
+    };
+    let reading = &step.reading;
+    let errors = &reading.errors;
+    let mean = told(units.pressure(), reading.mean_pressure, errors.mean_pressure);
+    let penetration = told(units.length(), reading.penetration, errors.penetration);
+    let fraction = percent_with_error(reading.contact_fraction, errors.contact_fraction);
+    let peak =
+        reading.finite_peak().map_or("singular".to_owned(), |peak| told(units.pressure(), peak, errors.max_pressure));
+    let sentence = if reading.mean_pressure > 0.0 {
+        let highest = highest(&reading.levels);
+        let under = highest.map_or(String::new(), |level| format!(" under level {}", level.level));
+        let peak = if reading.singular() { "is infinite".to_owned() } else { format!("is {peak}") };
+        format!(
+            "Under the mean pressure {mean} the penetration is {penetration}; {fraction} of the surface is in contact, and \
+             the largest pressure {peak}{under}."
+        )
+    } else {
+        "Nothing touches: there is no load.".to_owned()
+    };
+    let mut rows: Vec<(&str, Markup)> = vec![
+        ("mean pressure", numbers(&mean)),
+        ("penetration", numbers(&penetration)),
+        ("part of the surface in contact", numbers(&fraction)),
+        ("peak pressure", numbers(&peak)),
+    ];
+    let shares = reading.levels.iter().map(|level| {
+        let share = percent_with_error(level.load_share, level.errors.load_share);
+        tag("li", numbers(&format!("level {}: {share}", level.level)))
+    });
+    if reading.levels.len() > 1 {
+        rows.push(("share of the load", with("ul", &[("class", "plain")], shares.collect::<Markup>())));
+    }
+    let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
+    vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()
+}
+
+/// The level with the largest pressure, where there are several.
+fn highest(levels: &[LevelReading]) -> Option<&LevelReading> {
+    let loaded = levels.iter().filter(|level| level.load > 0.0 && levels.len() > 1);
+    loaded.max_by(|a, b| a.max_pressure.total_cmp(&b.max_pressure))
+}
+
+/// Says that not every step has converged; empty where all have.
+pub(super) fn doubts(steps: &[StepRecord]) -> Markup {
+    let failed = (1..).zip(steps).filter(|(_, step)| !step.converged());
+    let failed: Vec<String> = failed.map(|(number, step)| format!("{number} ({})", step.stop_reason())).collect();
+    if failed.is_empty() {
+        return Markup::default();
+    }
+    let text = format!(
+        "Not converged: load step {}. Its numbers are those of the last iterate; judge them by the certificate below.",
+        failed.join(", ")
+    );
+    with("p", &[("class", "doubt"), ("role", "note")], text)
+}

@@ -1,0 +1,83 @@
+//! What a folder holds of finished results.
+
+use super::ReportError;
+use crate::output::is_of_folder;
+use serde_json::Value;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+/// The results of a folder; one at least.
+#[derive(Debug)]
+pub(super) struct Finished {
+    pub folder: PathBuf,
+    /// `summary.json`.
+    pub run: Option<Value>,
+    /// `limit.json`.
+    pub limit: Option<Value>,
+    /// `sweep.json` with its table.
+    pub sweep: Option<Swept>,
+}
+
+/// A sweep.
+#[derive(Debug)]
+pub(super) struct Swept {
+    /// `sweep.json`.
+    pub file: Value,
+    /// `sweep.csv`.
+    pub table: String,
+}
+
+impl Finished {
+    /// Reads the files of a folder.
+    pub(super) fn read(folder: &Path) -> Result<Self, ReportError> {
+        if !folder.is_dir() {
+            return Err(ReportError::NoFolder(folder.to_owned()));
+        }
+        let sweep = match json(&folder.join("sweep.json"))? {
+            Some(file) => {
+                let path = folder.join("sweep.csv");
+                let table = fs::read_to_string(&path).map_err(ReportError::input(&path))?;
+                Some(Swept { file, table })
+            }
+            None => None,
+        };
+        let [run, limit] = ["summary.json", "limit.json"].map(|name| json(&folder.join(name)));
+        let finished = Self { folder: folder.to_owned(), run: run?, limit: limit?, sweep };
+        if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
+            let unfinished = folder.join("unfinished").is_dir();
+            return Err(ReportError::Nothing { folder: folder.to_owned(), unfinished });
+        }
+        Ok(finished)
+    }
+
+    /// The picture of a name with its kind of file, lines before pixels; `None` where the result has none.
+    pub(super) fn picture(&self, name: &str) -> Result<Option<(&'static str, Vec<u8>)>, ReportError> {
+        for (ending, kind) in [("svg", "image/svg+xml"), ("png", "image/png")] {
+            let file = format!("{name}.{ending}");
+            let path = self.folder.join(&file);
+            if path.is_file() && is_of_folder(&self.folder, &file).map_err(ReportError::input(&path))? {
+                return fs::read(&path).map(|bytes| Some((kind, bytes))).map_err(ReportError::input(&path));
+            }
+        }
+        Ok(None)
+    }
+}
+
+fn text(path: &Path) -> Result<Option<String>, ReportError> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(ReportError::input(path)(error)),
+    }
+}
+
+fn json(path: &Path) -> Result<Option<Value>, ReportError> {
+    let Some(text) = text(path)? else { return Ok(None) };
+    let value = serde_json::from_str(&text).map_err(|error| ReportError::Version {
+        path: path.to_owned(),
+        version: None,
+        reason: format!("it is not JSON ({error})"),
+    })?;
+    Ok(Some(value))
+}

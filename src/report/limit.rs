@@ -1,0 +1,79 @@
+//! The part of a search for limit loads.
+
+use super::ReportError;
+use super::answer::doubts;
+use super::asked::asked;
+use super::certificate::certificate;
+use super::figures::{Named, figures};
+use super::finished::Finished;
+use super::markup::{numbers, tag, with};
+use super::part::{Part, by, case_to_copy, section, title, version, warnings};
+use super::resolution::{resolution, upper};
+use super::table::table;
+use super::units::{case_of, measured_in, told, units_of};
+use crate::output::{limits_of, table as tables};
+use crate::run::{At, Limits};
+use crate::units::Units;
+use serde_json::Value;
+
+const PICTURES: [Named; 2] = [
+    (
+        "limit",
+        "Curves of the utilisation of each criterion over the mean pressure",
+        "Utilisation of each criterion over the mean pressure; it fails where it reaches 1.",
+    ),
+    (
+        "limit-section",
+        "Maps of stresses in a vertical cut under the place that fails first",
+        "Stresses in a vertical cut through the place that fails first, at its limit load; numbers: what is at or beyond its \
+         strength.",
+    ),
+];
+
+/// The part of `limit.json`.
+pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportError> {
+    let path = finished.folder.join("limit.json");
+    let case = &file["case"];
+    let limits = limits_of(file).map_err(ReportError::unreadable(&path, version(file)))?;
+    let text = crate::case::written(case);
+    let units = units_of(file, case_of(&text, &finished.folder).as_ref());
+    let found = tables::limits(&limits, &units);
+    let mut sections = vec![
+        section(
+            "answer",
+            "Answer",
+            vec![
+                doubts(&limits.steps),
+                with(
+                    "p",
+                    &[("class", "answer")],
+                    numbers(&first(&limits, &units).unwrap_or_else(|| upper(&found.words))),
+                ),
+                table("Limit loads; ± is the estimated error of the grid", &found.table),
+            ],
+        ),
+        section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
+        section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
+    ];
+    if !limits.steps.is_empty() {
+        let caption = "Loads that were solved in the search, by ascending mean pressure";
+        sections.push(section("loads", "Loads solved", vec![table(caption, &tables::steps(&limits.steps, &units))]));
+    }
+    sections.push(section("warnings", "Warnings", vec![warnings(file)]));
+    if !limits.steps.is_empty() {
+        sections.push(section("resolution", "Resolution", vec![resolution(&limits.steps, limits.change)]));
+        let tolerance = case["solver"]["tolerance"].as_f64();
+        sections.push(section("certificate", "Certificate", vec![certificate(&limits.steps, tolerance)]));
+    }
+    sections.push(section("time", "Version", vec![by(file)]));
+    sections.push(section("case", "Case", vec![case_to_copy(&text, "limit")]));
+    Ok(Part { name: "limit", kind: "Limit loads", title: title(file), sections })
+}
+
+/// What fails first with its error, where a load makes it.
+fn first(limits: &Limits, units: &Units) -> Option<String> {
+    let first = limits.first()?;
+    let At::Load { mean_pressure, error, .. } = first.at else { return None };
+    let load = told(units.pressure(), mean_pressure, error);
+    Some(format!("First: {} at the mean pressure {load}.", first.criterion))
+}

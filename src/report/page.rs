@@ -1,0 +1,87 @@
+//! The page: its head, and its parts one after the other.
+
+use super::finished::Finished;
+use super::markup::{Markup, tag, void, with};
+use super::part::Part;
+use super::seal::sealed;
+use super::{ReportError, limit, run, sweep};
+use std::path::Path;
+
+/// The report of an output folder, a whole HTML file.
+///
+/// # Errors
+/// [`ReportError`] where there is no finished result, or none that this version can read.
+pub fn page(folder: &Path) -> Result<String, ReportError> {
+    let finished = Finished::read(folder)?;
+    let mut parts = Vec::new();
+    if let Some(swept) = &finished.sweep {
+        parts.push(sweep::part(&finished, swept)?);
+    }
+    if let Some(file) = &finished.limit {
+        parts.push(limit::part(&finished, file)?);
+    }
+    if let Some(file) = &finished.run {
+        parts.push(run::part(&finished, file)?);
+    }
+    Ok(sealed(&written(&parts)))
+}
+
+fn written(parts: &[Part]) -> String {
+    let mut titles: Vec<&str> =
+        parts.iter().map(|part| part.title.as_str()).filter(|title| !title.is_empty()).collect();
+    titles.dedup();
+    let heading = if titles.is_empty() { "Periodic contact".to_owned() } else { titles.join("; ") };
+    let kinds = parts.iter().map(|part| part.kind).collect::<Vec<_>>().join(", ");
+    let head = vec![
+        void("meta", &[("charset", "utf-8")]),
+        void("meta", &[("name", "viewport"), ("content", "width=device-width, initial-scale=1")]),
+        void("meta", &[("name", "generator"), ("content", concat!("percoat ", env!("CARGO_PKG_VERSION")))]),
+        void("meta", &[("name", "color-scheme"), ("content", "light dark")]),
+        // Nothing is loaded and nothing runs, whatever stands in a result.
+        void(
+            "meta",
+            &[
+                ("http-equiv", "Content-Security-Policy"),
+                ("content", "default-src 'none'; img-src data:; style-src 'unsafe-inline'"),
+            ],
+        ),
+        tag("title", format!("{heading} – percoat")),
+        tag("style", Markup::own(include_str!("style.css"))),
+    ];
+    let header = vec![with("p", &[("class", "kind")], kinds), tag("h1", heading), contents(parts)];
+    let footer = format!("Written by percoat {} from the files of the output folder.", env!("CARGO_PKG_VERSION"));
+    let body = vec![
+        tag("header", header),
+        tag("main", parts.iter().map(|part| article(part, parts.len() > 1)).collect::<Markup>()),
+        tag("footer", tag("p", footer)),
+    ];
+    let page = with("html", &[("lang", "en")], vec![tag("head", head), tag("body", body)]);
+    format!("<!DOCTYPE html>\n{}\n", page.as_str())
+}
+
+/// Links to the sections.
+fn contents(parts: &[Part]) -> Markup {
+    let links = parts.iter().flat_map(|part| {
+        let several = parts.len() > 1;
+        part.sections.iter().filter(|section| !section.content.is_empty()).map(move |section| {
+            let text = if several { format!("{}: {}", part.kind, section.heading) } else { section.heading.to_owned() };
+            tag("li", with("a", &[("href", &format!("#{}-{}", part.name, section.name))], text))
+        })
+    });
+    with("nav", &[("aria-label", "Sections")], tag("ul", links.collect::<Markup>()))
+}
+
+fn article(part: &Part, several: bool) -> Markup {
+    let heading = if several { tag("h2", format!("{}: {}", part.kind, part.title)) } else { Markup::default() };
+    let level = if several { "h3" } else { "h2" };
+    let sections = part.sections.iter().filter(|section| !section.content.is_empty()).map(|section| {
+        let anchor = format!("{}-{}", part.name, section.name);
+        let class = format!("section {}", section.name);
+        with(
+            "section",
+            &[("id", &anchor), ("class", &class)],
+            vec![tag(level, section.heading), section.content.clone()],
+        )
+    });
+    tag("article", [heading].into_iter().chain(sections).collect::<Markup>())
+}

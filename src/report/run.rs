@@ -1,0 +1,98 @@
+//! The part of a run.
+
+use super::ReportError;
+use super::answer::{answer, doubts};
+use super::asked::asked;
+use super::certificate::certificate;
+use super::figures::{Named, figures};
+use super::finished::Finished;
+use super::markup::{tag, with};
+use super::part::{Part, by, case_to_copy, section, title, version, warnings};
+use super::resolution::{resolution, upper};
+use super::table::table;
+use super::units::{case_of, measured_in, units_of};
+use crate::case::Case;
+use crate::output::{steps_of, table as tables, timing_of};
+use serde_json::Value;
+
+const PICTURES: [Named; 6] = [
+    (
+        "pressure",
+        "Map of the contact pressure over several cells",
+        "Contact pressure over several cells, true to scale; white is no contact.",
+    ),
+    (
+        "contact",
+        "Contact spots by level, and the radius of their boundaries over the direction",
+        "Contact spots by level with their boundaries, and how far each boundary is from a circle; dashed: without the mutual \
+         effect of the indenters.",
+    ),
+    (
+        "profiles",
+        "Curves of the pressure through an indenter of each level",
+        "Pressure through each level along the line of its largest extent; dashed: the same indenter alone under the same load.",
+    ),
+    (
+        "curve",
+        "Curves of what the load steps say over the mean pressure",
+        "What the load steps say over the mean pressure.",
+    ),
+    (
+        "section",
+        "Maps of stresses in a vertical cut through coating and substrate",
+        "Stresses in a vertical cut, with the interfaces; crosses: the largest values.",
+    ),
+    (
+        "lines",
+        "Curves of stresses along the surface and both sides of each interface",
+        "The same stresses along the surface and both sides of each interface.",
+    ),
+];
+
+/// The part of `summary.json`.
+pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportError> {
+    let path = finished.folder.join("summary.json");
+    let case = &file["case"];
+    let unreadable = || ReportError::unreadable(&path, version(file));
+    let steps = steps_of(file).map_err(unreadable())?;
+    let text = crate::case::written(case);
+    // Without it the body is not known beyond its tables.
+    let read = case_of(&text, &finished.folder);
+    let units = units_of(file, read.as_ref());
+
+    let taken = tables::utilisations(&steps, read.as_ref().map(Case::half_space), &units);
+    let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
+    let mut sections = vec![
+        section("answer", "Answer", vec![doubts(&steps), fails.unwrap_or_default(), answer(&steps, &units)]),
+        section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
+        section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
+        section(
+            "steps",
+            "Load steps",
+            vec![table("Load steps; ± is the estimated error of the grid", &tables::steps(&steps, &units))],
+        ),
+    ];
+    if let Some(largest) = tables::largest_stresses(&steps, &units) {
+        sections.push(section(
+            "stresses",
+            "Largest stresses",
+            vec![table("Largest stresses and their places", &largest)],
+        ));
+    }
+    if let Some(taken) = &taken {
+        let caption = "Utilisations: 1 is where the material or interface fails";
+        sections.push(section("strengths", "Strengths", vec![table(caption, &taken.table)]));
+    }
+    sections.push(section("warnings", "Warnings", vec![warnings(file)]));
+    sections.push(section("resolution", "Resolution", vec![resolution(&steps, file["accuracy"].as_f64())]));
+    sections.push(section(
+        "certificate",
+        "Certificate",
+        vec![certificate(&steps, case["solver"]["tolerance"].as_f64())],
+    ));
+    let timing = timing_of(file).map_err(unreadable())?;
+    let timing = timing.map(|timing| tag("p", format!("Seconds: {}.", tables::timing(&timing))));
+    sections.push(section("time", "Time and version", timing.into_iter().chain([by(file)]).collect()));
+    sections.push(section("case", "Case", vec![case_to_copy(&text, "solve")]));
+    Ok(Part { name: "run", kind: "Run", title: title(file), sections })
+}

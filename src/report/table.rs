@@ -1,0 +1,42 @@
+//! Tables of a page: each scrolls by itself where it is wider than the paper.
+
+use super::markup::{Markup, numbers, tag, with};
+use crate::output::table::Table;
+
+/// Tables of more columns are printed in smaller letters.
+const MANY: usize = 9;
+
+/// A table with its caption.
+pub(super) fn table(caption: &str, table: &Table) -> Markup {
+    let head = |(index, name): (usize, &String)| {
+        with("th", &[("scope", "col"), ("class", class(index, table.words))], numbers(name))
+    };
+    let cell = |(index, text): (usize, &String)| with("td", &[("class", class(index, table.words))], numbers(text));
+    let row = |row: &Vec<String>| {
+        // Leading cells that are empty say what those above them do.
+        let name = if row.first().is_some_and(String::is_empty) { "follows" } else { "leads" };
+        with("tr", &[("class", name)], row.iter().enumerate().map(cell).collect::<Markup>())
+    };
+    let head = tag("tr", table.head.iter().enumerate().map(head).collect::<Markup>());
+    let body: Markup = table.rows.iter().map(row).collect();
+    let name = if table.head.len() > MANY { "many" } else { "few" };
+    scrolling(caption, name, vec![tag("caption", caption), tag("thead", head), tag("tbody", body)])
+}
+
+fn class(index: usize, words: usize) -> &'static str {
+    if index < words { "word" } else { "number" }
+}
+
+/// Names and what they are, row by row.
+pub(super) fn pairs(caption: &str, rows: &[(&str, Markup)]) -> Markup {
+    let row = |(name, value): &(&str, Markup)| {
+        tag("tr", vec![with("th", &[("scope", "row")], *name), with("td", &[("class", "word")], value.clone())])
+    };
+    scrolling(caption, "few", vec![tag("caption", caption), tag("tbody", rows.iter().map(row).collect::<Markup>())])
+}
+
+/// Reached by the keyboard too: what scrolls must be.
+fn scrolling(caption: &str, name: &str, content: Vec<Markup>) -> Markup {
+    let region = [("class", "scroll"), ("role", "region"), ("aria-label", caption), ("tabindex", "0")];
+    with("div", &region, with("table", &[("class", name)], content))
+}

@@ -1,0 +1,40 @@
+//! What the numbers of a result are measured in, in words.
+
+use crate::case::{Case, Source};
+use crate::output::with_error;
+use crate::units::{Unit, Units};
+use serde_json::Value;
+use std::path::Path;
+
+/// Those of a case, or where it cannot be read any more, those that a result names.
+pub(super) fn units_of(file: &Value, case: Option<&Case>) -> Units {
+    let name = |key: &str| file["units"][key].as_str();
+    case.map_or_else(|| Units::unknown().named(name("length"), name("pressure")), Case::units)
+}
+
+/// A case as it stands in a result. A topography that has moved away cannot be read.
+pub(super) fn case_of(text: &str, folder: &Path) -> Option<Case> {
+    let source = Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned() };
+    Case::read(&source, &[]).ok()
+}
+
+/// A number with its error and its unit: "0.5 ± 0.1 µm".
+pub(super) fn told(unit: &Unit, x: f64, error: Option<f64>) -> String {
+    let prefixed = unit.prefixed(x);
+    prefixed.behind(&with_error(prefixed.shown(x), error.map(|error| prefixed.shown(error))))
+}
+
+/// What the tables are in.
+pub(super) fn measured_in(units: &Units) -> String {
+    let name = |unit: &Unit, unknown: &str| match unit {
+        Unit::Relative(symbol) => format!("parts of {symbol}"),
+        unit => unit.name().unwrap_or_else(|| unknown.to_owned()),
+    };
+    let length = name(units.length(), "the case’s unit of length");
+    let pressure = name(units.pressure(), "the unit of E");
+    let force = name(&units.force(), "a pressure times an area of these units");
+    format!(
+        "Where nothing else is said, lengths are in {length}, pressures, stresses and moduli in {pressure}; the load on one \
+         indenter is a force, in {force}. z points into the body; stresses are positive in tension, pressures in compression."
+    )
+}

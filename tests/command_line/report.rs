@@ -1,0 +1,268 @@
+//! `percoat report`: a page that is whole, says what the command line says, and takes nothing from anybody.
+
+use crate::program::{Answer, Desk, Folder};
+use serde_json::Value;
+
+/// A small run without pictures.
+fn run(desk: &Desk, arguments: &[&str]) -> Answer {
+    desk.percoat(&[&["solve", "-o", "run", "--no-pictures", "--set", "grid.points=48"], arguments].concat())
+}
+
+fn report(desk: &Desk, folder: &str) -> String {
+    let answer = desk.percoat(&["report", folder]);
+    assert_eq!((answer.code, answer.err.as_str()), (0, ""));
+    assert_eq!(answer.out, format!("written to {folder}/report.html\n"));
+    let page = Folder(desk.path(folder)).text("report.html");
+    assert_well_formed(&page);
+    assert_alone(&page);
+    page
+}
+
+/// Elements without content, which have no end.
+const VOID: [&str; 2] = ["meta", "img"];
+
+/// Every element that is opened is closed, in order, and no two have one name.
+fn assert_well_formed(page: &str) {
+    let body = page.strip_prefix("<!DOCTYPE html>\n").expect("a document of HTML 5");
+    let (mut open, mut names): (Vec<&str>, Vec<&str>) = (Vec::new(), Vec::new());
+    for piece in body.split('<').skip(1).filter(|piece| !piece.starts_with("!--")) {
+        let (tag, _) = piece.split_once('>').expect("a tag ends");
+        match tag.strip_prefix('/') {
+            Some(name) => assert_eq!(open.pop(), Some(name)),
+            None => {
+                let name = tag.split_whitespace().next().unwrap();
+                assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
+                open.extend(Some(name).filter(|name| !VOID.contains(name)));
+                names.extend(tag.split_once(" id=\"").and_then(|(_, rest)| rest.split('"').next()));
+            }
+        }
+    }
+    assert!(open.is_empty(), "{open:?} stays open");
+    let mut unlike = names.clone();
+    unlike.sort_unstable();
+    unlike.dedup();
+    assert_eq!(unlike.len(), names.len(), "{names:?}");
+    for link in page.split("href=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
+        assert!(link.strip_prefix('#').is_some_and(|name| names.contains(&name)), "{link} leads nowhere");
+    }
+    for words in ["lang=\"en\"", "name=\"viewport\"", "<main>", "@media print", "prefers-color-scheme: dark"] {
+        assert!(page.contains(words), "no {words}");
+    }
+}
+
+/// It loads nothing and nothing in it runs.
+fn assert_alone(page: &str) {
+    for words in ["http://", "https://", "<script", "<link", "@import", "url(", " onload", "<iframe"] {
+        assert!(!page.contains(words), "{words}");
+    }
+    assert!(page.split(" src=\"").skip(1).all(|rest| rest.starts_with("data:image/")));
+}
+
+/// Cells of a table of the command line.
+fn cells(table: &str) -> impl Iterator<Item = String> {
+    let cells = table.lines().flat_map(|line| line.split("  ")).map(|cell| cell.trim().to_owned());
+    cells.filter(|cell| !cell.is_empty() && !cell.starts_with('─'))
+}
+
+/// A page in which nothing is tied to its neighbour.
+fn words(page: &str) -> String {
+    page.replace('\u{a0}', " ").replace("&#39;", "'")
+}
+
+#[test]
+fn the_page_of_a_run_holds_what_the_command_line_printed() {
+    let desk = Desk::new();
+    let arguments = ["solve", "-o", "run", "dlc-on-steel", "--set", "grid.points=48"];
+    let answer = desk.percoat(&[&arguments[..], &["--set", "load.mean_pressure=[0.05, 0.2]"]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = words(&report(&desk, "run"));
+    // Title, tables and sentences up to the line of times.
+    let (printed, _) = answer.out.split_once("estimated relative").expect("the last line but one");
+    let mut count = 0;
+    for cell in cells(printed).filter(|cell| !cell.contains("load steps converged") && !cell.starts_with("first: ")) {
+        assert!(page.contains(&format!(">{cell}<")), "\"{cell}\" does not stand on the page");
+        count += 1;
+    }
+    assert!(count > 100, "{count} cells");
+    let out = answer.out.lines().find_map(|line| line.strip_prefix("first: ")).expect("what fails first");
+    assert!(page.contains(&format!("First: {out}.")));
+    for warning in answer.err.lines().filter_map(|line| line.strip_prefix("warning: ")) {
+        assert!(page.contains(warning), "{warning}");
+    }
+    let images = ["pressure", "contact", "profiles", "curve", "section", "lines"];
+    assert_eq!(page.matches("data:image/svg+xml;base64,").count(), images.len());
+    assert!(images.iter().all(|name| page.contains(&format!("<figure id=\"{name}\""))));
+    for words in ["Energy gap", "times below", "48 × 48", "residual_stress = -2.0", "2 (layer 2)", "level 1"] {
+        assert!(page.contains(words), "no {words}");
+    }
+    let case = Folder(desk.path("run")).text("case.toml").replace('"', "&quot;");
+    assert!(page.contains(&case), "the case can be copied as it was run");
+}
+
+const BOND: &str = r#"
+lattice = { kind = "square", period = 20.0 }
+levels = [{ shape = "sphere", radius = 50.0 }]
+layers = [{ thickness = 1.0, young = 400.0, poisson = 0.25, interface_strength = { shear = 1.0 } }]
+substrate = { young = 210.0, poisson = 0.3 }
+load = { mean_pressure = 0.07 }
+grid = { points = 48 }
+"#;
+
+#[test]
+fn the_page_of_a_limit_says_first_what_fails_first() {
+    let desk = Desk::new();
+    desk.write("bond.toml", BOND);
+    let answer = desk.percoat(&["limit", "bond.toml", "-o", "out"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = words(&report(&desk, "out"));
+    let sentence = "First: delamination of interface 1 at the mean pressure 0.06";
+    let (answer_at, asked_at) = (page.find(sentence).expect("the limit"), page.find("What was asked</h2>").unwrap());
+    assert!(answer_at < asked_at && page[answer_at..asked_at].contains(" ± "));
+    let (table, _) = answer.out.split_once("\n\n").map(|(_, rest)| rest).unwrap().split_once("loads solved").unwrap();
+    let (first, table) = table.split_once("criterion").unwrap();
+    assert!(first.contains("first: delamination of interface 1"));
+    assert!(cells(table).filter(|cell| cell.parse::<usize>().is_err()).all(|cell| page.contains(&format!(">{cell}<"))));
+    assert_eq!(page.matches("data:image/svg+xml;base64,").count(), 2);
+    assert!(page.contains("save this as case.toml and type percoat limit case.toml"));
+}
+
+const SWEEP: &str = r#"{"percoat": "0.1.0", "title": "Thickness", "keys": [{"key": "layers.0.thickness", "values": [0.1, 0.2]}],
+"of": 2, "combinations": 2, "failed": 1, "not_converged": 0, "warnings": ["mind the gap"], "timing": {"wall": 1.5}}"#;
+
+#[test]
+fn the_page_of_a_sweep_counts_what_is_solved_and_says_why_the_rest_is_not() {
+    let desk = Desk::new();
+    assert_eq!(run(&desk, &[]).code, 0);
+    std::fs::create_dir(desk.path("sweep")).unwrap();
+    let mut asked: Value = serde_json::from_str(SWEEP).unwrap();
+    asked["case"] = Folder(desk.path("run")).text("case.toml").into();
+    desk.write("sweep/sweep.json", asked.to_string());
+    let head = "combination,layers_0_thickness,status,step,mean_pressure,contact_fraction,levels_1_load_share,reason\n";
+    let mut table = head.to_owned();
+    table += "1,0.1,done,1,0.06,0.25,0.5,\n2,0.2,failed,,,,,the <penetration> is too small\n";
+    desk.write("sweep/sweep.csv", &table);
+    let page = words(&report(&desk, "sweep"));
+    for words in [
+        "1 of 2 combinations are solved, 1 failed.",
+        ">0.060000<",
+        ">25.00 %<",
+        ">50.00 %<",
+        "mind the gap",
+        ">layers.0.thickness<",
+        "the &lt;penetration&gt; is too small",
+        "All 8 columns stand in sweep.csv.",
+        "shear_ratio = 2.0",
+    ] {
+        assert!(page.contains(words), "no {words}");
+    }
+    (3..500).for_each(|number| table += &format!("{number},0.1,done,1,0.06,0.25,0.5,\n"));
+    desk.write("sweep/sweep.csv", &table);
+    let page = report(&desk, "sweep");
+    assert!(page.contains("199 further rows and all 8 columns stand in sweep.csv."));
+    desk.write("sweep/sweep.csv", format!("{table}1,2\n"));
+    desk.percoat(&["report", "sweep"]).complains(2, &["sweep.csv", "line 501", "2 cells"]);
+}
+
+#[test]
+fn steps_that_are_not_converged_are_marked_at_the_top() {
+    let desk = Desk::new();
+    let answer = run(&desk, &["--set", "solver.max_iterations=2"]);
+    assert_eq!(answer.code, 3, "{}", answer.err);
+    let page = report(&desk, "run");
+    let doubt = page.find("Not converged: load step 1 (iteration limit)").expect("the doubt");
+    assert!(doubt < page.find("Under the mean pressure").unwrap() && page.contains("times above, not met"));
+}
+
+#[test]
+fn a_title_is_a_text_whatever_stands_in_it() {
+    let desk = Desk::new();
+    let title = "title=\"\"\"<script src='http:x'>alert(1)</script> & \"</title>\"\"\"\"";
+    assert_eq!(run(&desk, &["--set", title]).code, 0);
+    let page = report(&desk, "run");
+    let escaped = "&lt;script src=&#39;http:x&#39;&gt;alert(1)&lt;/script&gt; &amp; &quot;&lt;/title&gt;&quot;";
+    assert!(page.contains(&format!("<h1>{escaped}</h1>")));
+}
+
+#[test]
+fn where_nothing_is_finished_nothing_is_written() {
+    let desk = Desk::new();
+    desk.percoat(&["report", "nowhere"]).complains(2, &["nowhere is not a folder"]);
+    std::fs::create_dir_all(desk.path("begun/unfinished")).unwrap();
+    desk.percoat(&["report", "begun"]).complains(2, &["no finished result", "unfinished/", "run the command again"]);
+    std::fs::create_dir(desk.path("empty")).unwrap();
+    desk.percoat(&["report", "empty", "-o", "page.html"]).complains(2, &["no finished result", "percoat solve"]);
+    assert!(Folder(desk.path("empty")).all_names().is_empty() && !desk.path("page.html").exists());
+}
+
+#[test]
+fn files_of_another_version_are_refused_with_what_is_missing() {
+    let desk = Desk::new();
+    assert_eq!(run(&desk, &[]).code, 0);
+    let folder = Folder(desk.path("run"));
+    let mut summary: Value = folder.summary();
+    summary["percoat"] = "7.0.0".into();
+    summary["steps"][0]["levels"][1].as_object_mut().unwrap().remove("load_share");
+    summary["steps"][0]["levels"][1].as_object_mut().unwrap().remove("resolution");
+    desk.write("run/summary.json", summary.to_string());
+    let words = ["summary.json", "step 1", "resolution", "percoat 7.0.0", "compute it again"];
+    desk.percoat(&["report", "run"]).complains(2, &words);
+    desk.write("run/summary.json", "{");
+    desk.percoat(&["report", "run"]).complains(2, &["summary.json", "not JSON"]);
+    assert!(!folder.names().contains("report.html"));
+}
+
+#[test]
+fn a_file_of_somebody_else_is_not_replaced_and_an_earlier_report_is() {
+    let desk = Desk::new();
+    assert_eq!(run(&desk, &[]).code, 0);
+    let folder = Folder(desk.path("run"));
+    for name in ["run/report.html", "elsewhere.html"] {
+        desk.write(name, "mine");
+        desk.percoat(&["report", "run", "-o", name]).complains(2, &[name, "-o", "move it away"]);
+        assert_eq!(std::fs::read_to_string(desk.path(name)).unwrap(), "mine");
+        std::fs::remove_file(desk.path(name)).unwrap();
+    }
+    desk.percoat(&["report", "run", "-o", "run/summary.json"]).complains(2, &["summary.json"]);
+    desk.percoat(&["report", "run", "-o", "run"]).complains(2, &["run is not a report"]);
+    let first = report(&desk, "run");
+    assert_eq!(report(&desk, "run"), first, "an earlier one of the same result is the same");
+    for _ in 0..2 {
+        assert_eq!(desk.percoat(&["report", "run", "-q", "-o", "new/page.html"]).code, 0);
+    }
+    assert_eq!(std::fs::read_to_string(desk.path("new/page.html")).unwrap(), first);
+    assert!(Folder(desk.path("new")).all_names() == ["page.html".to_owned()].into(), "nothing else is made there");
+    desk.write("run/report.html", first.replace("0.06", "0.07"));
+    desk.percoat(&["report", "run"]).complains(2, &["report.html", "changed since"]);
+    // A page beside it, under another name.
+    assert_eq!(desk.percoat(&["report", "run", "-o", "run/page.html"]).code, 0);
+    assert_eq!(folder.text("page.html"), first);
+    // A copy without percoat's list is a finished result too, and its page is known by its content.
+    std::fs::remove_dir_all(desk.path("run/.percoat")).unwrap();
+    desk.write("run/report.html", &first);
+    assert_eq!(report(&desk, "run"), first);
+}
+
+#[test]
+fn a_report_goes_with_the_result_that_it_shows_and_stays_where_its_owner_has_changed_it() {
+    let desk = Desk::new();
+    let folder = Folder(desk.path("run"));
+    let solve = || run(&desk, &["--set", "load.mean_pressure=0.02"]).code;
+    assert_eq!(solve(), 0);
+    report(&desk, "run");
+    assert_eq!(run(&desk, &["--set", "load.mean_pressure=[]"]).code, 2);
+    assert!(folder.names().contains("report.html"), "a run that is refused takes nothing");
+    assert_eq!(solve(), 0);
+    assert!(!folder.names().contains("report.html"), "it would show numbers of a result that is gone");
+    let page = report(&desk, "run");
+    desk.write("run/report.html", page.replace("</h1>", " – for Monday</h1>"));
+    assert_eq!(solve(), 0);
+    assert!(folder.text("report.html").contains("for Monday"));
+}
+
+#[test]
+fn a_picture_of_somebody_else_is_not_taken_for_one_of_the_run() {
+    let desk = Desk::new();
+    assert_eq!(run(&desk, &[]).code, 0);
+    desk.write("run/pressure.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
+    assert!(!report(&desk, "run").contains("<figure"));
+}
