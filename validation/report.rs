@@ -6,7 +6,7 @@
 
 use super::{Check, Evidence, Outcome, Study, StudyError};
 use crate::numeric::number::number;
-use crate::output::table;
+use crate::output::table::Table;
 use std::collections::BTreeMap;
 
 /// Columns of a row; Markdown leaves out the first one.
@@ -53,7 +53,7 @@ impl Report {
     /// All checks as one table.
     pub fn table(&self) -> String {
         let rows: Vec<Vec<String>> = self.results.iter().flat_map(|(study, result)| rows(study, result)).collect();
-        table::render(&COLUMNS, &rows, 2)
+        Table::new(&COLUMNS, rows, 2).to_string()
     }
 
     /// Rows of the paper's table of statements, study by study.

@@ -87,7 +87,9 @@ pub fn run(
         if loads.len() > 1 {
             writeln!(out, "the last of {} load steps", loads.len())?;
         }
-        writeln!(out, "\n{}\n\n{}\n", table::readings(&comparison, &case.units()), table::differences(&comparison))?;
+        let width = terminal::width();
+        let readings = table::readings(&comparison, &case.units()).fitted(width);
+        writeln!(out, "\n{readings}\n\n{}\n", table::differences(&comparison).fitted(width))?;
         if let Some(text) = table::stresses(&comparison, &case.units()) {
             writeln!(out, "{text}")?;
         }

@@ -109,7 +109,7 @@ pub fn run(
         if !case.title.is_empty() {
             writeln!(out, "{}\n", case.title)?;
         }
-        writeln!(out, "{}\n", table::limits(&limits, &case.units()))?;
+        writeln!(out, "{}\n", table::limits(&limits, &case.units()).fitted(terminal::width()))?;
         if let Some(change) = limits.change {
             writeln!(out, "change from the next coarser grid: {change:.1e}")?;
         }

@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_line_says_what_goes_on_and_how_long_it_takes() {
-        let ago = |seconds| Instant::now().checked_sub(Duration::from_millis(1000 * seconds + 500)).unwrap();
+        let ago = |seconds: u64| Instant::now().checked_sub(Duration::from_millis(1000 * seconds + 500)).unwrap();
         let state = State {
             unit: "step",
             done: 4,

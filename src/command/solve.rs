@@ -80,13 +80,13 @@ fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), F
     if !case.title.is_empty() {
         writeln!(out, "{}", case.title)?;
     }
-    let units = case.units();
-    writeln!(out, "\n{}\n\n{}", table::steps(steps, &units), table::solved(steps))?;
+    let (units, width) = (case.units(), terminal::width());
+    writeln!(out, "\n{}\n\n{}", table::steps(steps, &units).fitted(width), table::solved(steps))?;
     if let Some(largest) = table::largest_stresses(steps, &units) {
-        writeln!(out, "\n{largest}\n")?;
+        writeln!(out, "\n{}\n", largest.fitted(width))?;
     }
     if let Some(strength) = table::utilisations(steps, Some(case.problem().half_space()), &units) {
-        writeln!(out, "\n{strength}\n")?;
+        writeln!(out, "\n{}\n", strength.fitted(width))?;
     }
     if let Some(errors) = table::largest_errors(steps) {
         writeln!(out, "{errors}")?;

@@ -57,6 +57,12 @@ pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     }
 }
 
+/// Letters in a line of standard output; where it is no terminal, 80.
+pub fn width() -> usize {
+    let size = terminal_size::terminal_size_of(io::stdout());
+    size.map_or(80, |(terminal_size::Width(width), _)| usize::from(width))
+}
+
 /// Says what a reader should know before trusting the numbers.
 pub fn warn(warnings: &[String], quiet: bool) {
     if !quiet {

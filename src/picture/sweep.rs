@@ -45,11 +45,13 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
     Some(plots(&(words.join("; ") + "."), &charts))
 }
 
+/// Where a number of a result stands.
+type Place = Box<dyn Fn(&Value) -> Option<f64> + Sync>;
+
 /// A number of a result.
 struct Number {
     quantity: Quantity,
-    /// Where it stands.
-    value: Box<dyn Fn(&Value) -> Option<f64> + Sync>,
+    value: Place,
 }
 
 impl Number {
@@ -223,11 +225,9 @@ struct Cells {
 impl Cells {
     fn new(values: &[f64]) -> Self {
         let scale = scale(values);
-        let (there, back): (fn(f64) -> f64, fn(f64) -> f64) = match scale {
-            Scale::Log => (f64::ln, f64::exp),
-            _ => (|x| x, |x| x),
-        };
-        let spread: Vec<f64> = values.iter().map(|&value| there(value)).collect();
+        let is_log = scale == Scale::Log;
+        let back = |place: f64| if is_log { place.exp() } else { place };
+        let spread: Vec<f64> = values.iter().map(|&value| if is_log { value.ln() } else { value }).collect();
         let inner = spread.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         let (n, half) = (spread.len(), |a: usize, b: usize| 0.5 * (spread[b] - spread[a]));
         let (first, last) = (spread[0] - half(0, 1), spread[n - 1] + half(n - 2, n - 1));

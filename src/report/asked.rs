@@ -100,8 +100,8 @@ fn items(caption: &str, lead: &str, items: &[Value], name: impl Fn(usize) -> Str
         let cells = keys.iter().map(|key| item.get(key).map_or("–".to_owned(), text));
         [name(number)].into_iter().chain(cells).collect()
     };
-    let head = [lead.to_owned()].into_iter().chain(keys.iter().map(|key| named(key))).collect();
-    table(caption, &Table { head, rows: (1..).zip(items).map(row).collect(), words: 1 })
+    let head: Vec<String> = [lead.to_owned()].into_iter().chain(keys.iter().map(|key| named(key))).collect();
+    table(caption, &Table::new(&head, (1..).zip(items).map(row).collect(), 1))
 }
 
 /// The keys of a section with their values.

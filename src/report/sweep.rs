@@ -65,7 +65,7 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
     );
     let values = own.keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), listed(&key.values)]);
     let head = ["key", "values", "which"].map(str::to_owned).to_vec();
-    let keys = Table { head, rows: values.collect(), words: 1 };
+    let keys = Table::new(&head, values.collect(), 1);
     let mut sections = vec![
         section(
             "answer",
@@ -166,10 +166,7 @@ impl<'a> Rows<'a> {
             vec![status.clone(), reason.to_owned(), listed(&numbers), numbers.len().to_string()]
         };
         let head = ["status", "reason", "combinations", "how many"].map(str::to_owned).to_vec();
-        table(
-            "Combinations that are not solved, and why",
-            &Table { head, rows: reasons.iter().map(row).collect(), words: 3 },
-        )
+        table("Combinations that are not solved, and why", &Table::new(&head, reasons.iter().map(row).collect(), 3))
     }
 
     /// The first rows with the keys and the main scalars, and what is left out.
@@ -199,8 +196,8 @@ impl<'a> Rows<'a> {
         };
         let rows = self.rows.iter().take(ROWS);
         let rows = rows.map(|row| columns.iter().map(|(column, _)| cell(row, *column)).collect()).collect();
-        let head = columns.into_iter().map(|(_, words)| words).collect();
-        let shown = table("One row a combination and load step", &Table { head, rows, words: 0 });
+        let head: Vec<String> = columns.into_iter().map(|(_, words)| words).collect();
+        let shown = table("One row a combination and load step", &Table::new(&head, rows, 0));
         let more = self.rows.len().saturating_sub(ROWS);
         let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
         vec![shown, tag("p", format!("{more} {} columns stand in sweep.csv.", self.names.len()))].into()

@@ -1,12 +1,12 @@
 //! The tables of `percoat compare`.
 
-use super::{percent, render};
+use super::{Table, percent};
 use crate::comparison::{Answer, CircleComparison, Comparison, Deviation};
 use crate::output::number;
 use crate::units::{Prefixed, Units};
 
 /// Both solutions level by level, one block for the spectral one and for each circle.
-pub fn readings(comparison: &Comparison, units: &Units) -> String {
+pub fn readings(comparison: &Comparison, units: &Units) -> Table {
     let spectral = Answer::from(&comparison.spectral.reading);
     let answers = || std::iter::once(&spectral).chain(comparison.circles.iter().map(|circle| &circle.answer));
     let levels = || answers().flat_map(|answer| &answer.levels);
@@ -50,7 +50,7 @@ pub fn readings(comparison: &Comparison, units: &Units) -> String {
             lead = [const { String::new() }; 3];
         }
     }
-    render(&header, &rows, 0)
+    Table::new(&header, rows, 0).keyed(&[0, 1, 3])
 }
 
 /// How many indenters a circle has, where they act on each other.
@@ -59,7 +59,7 @@ fn inside(comparison: &Comparison, circle: &CircleComparison) -> String {
 }
 
 /// Differences from the spectral solution circle by circle, for the rules, and what the meshes contribute.
-pub fn differences(comparison: &Comparison) -> String {
+pub fn differences(comparison: &Comparison) -> Table {
     let header =
         ["largest difference", "inside", "penetration", "load on one", "share", "peak pressure", "contact radius"];
     let row = |name: String, inside: String, deviation: &Deviation| {
@@ -79,7 +79,7 @@ pub fn differences(comparison: &Comparison) -> String {
         rows.push(row("half the elements".to_owned(), last.indenters.to_string(), &last.mesh_error));
     }
     rows.push(row("half the grid".to_owned(), String::new(), &comparison.grid_error));
-    render(&header, &rows, 0)
+    Table::new(&header, rows, 0).keyed(&[0, 1])
 }
 
 /// How far the stresses agree, in a line; `None` where none are compared.

@@ -90,7 +90,7 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
             lead = [const { String::new() }; 3];
         }
     }
-    Table::new(&header, rows, 0)
+    Table::new(&header, rows, 0).keyed(&[0, 3])
 }
 
 fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
@@ -117,11 +117,6 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
         row
     };
     Table::new(&header, readings().map(row).collect(), 0)
-}
-
-/// A table under a rule, whose first `words` columns are aligned left, the others right.
-pub fn render(header: &[impl ToString], rows: &[Vec<String>], words: usize) -> String {
-    Table::new(header, rows.to_vec(), words).to_string()
 }
 
 /// Two decimals; what rounds to zero has no sign.

@@ -12,6 +12,8 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
     /// Number of first columns that are words, aligned left; the others are aligned right.
     pub words: usize,
+    /// Columns that say what a row is about: they stand in every part of a table that is too wide to stand in one.
+    pub keys: Vec<usize>,
 }
 
 /// A table, and in words what it comes to.
@@ -24,8 +26,52 @@ pub struct Worded {
 }
 
 impl Table {
-    pub(super) fn new(head: &[impl ToString], rows: Vec<Vec<String>>, words: usize) -> Self {
-        Self { head: head.iter().map(ToString::to_string).collect(), rows, words }
+    /// Texts in rows under a head, of which the first columns are words.
+    pub fn new(head: &[impl ToString], rows: Vec<Vec<String>>, words: usize) -> Self {
+        Self { head: head.iter().map(ToString::to_string).collect(), rows, words, keys: vec![0] }
+    }
+
+    /// With other columns that say what a row is about.
+    pub(super) fn keyed(self, keys: &[usize]) -> Self {
+        Self { keys: keys.to_vec(), ..self }
+    }
+
+    /// As it prints itself, in as many parts one below the other as it takes to fit into so many columns of letters. A
+    /// part has one column beside the keys at least.
+    pub fn fitted(&self, width: usize) -> String {
+        /// Blanks around a cell.
+        const BLANKS: usize = 2;
+        let cells = |index: usize| self.rows.iter().map(move |row| &row[index]).chain([&self.head[index]]);
+        let wide = |index: &usize| cells(*index).map(|cell| cell.chars().count()).max().unwrap_or(0) + BLANKS;
+        // The last blank is not printed.
+        let fits = |columns: &[usize]| columns.iter().map(wide).sum::<usize>() <= width + 1;
+        let mut parts: Vec<Vec<usize>> = vec![self.keys.clone()];
+        for index in (0..self.head.len()).filter(|index| !self.keys.contains(index)) {
+            let own = parts.last_mut().expect("there is a part from the beginning");
+            own.push(index);
+            if !fits(own) && own.len() > self.keys.len() + 1 {
+                own.pop();
+                parts.push([&self.keys[..], &[index]].concat());
+            }
+        }
+        if parts.len() == 1 {
+            return self.to_string();
+        }
+        parts.iter().map(|columns| self.part(columns).to_string()).collect::<Vec<_>>().join("\n\n")
+    }
+
+    /// Some of its columns; words come first.
+    fn part(&self, columns: &[usize]) -> Self {
+        let pick = |row: &Vec<String>| columns.iter().map(|&index| row[index].clone()).collect();
+        let words = columns.iter().take_while(|index| **index < self.words).count();
+        Self { head: pick(&self.head), rows: self.rows.iter().map(pick).collect(), words, keys: Vec::new() }
+    }
+}
+
+impl Worded {
+    /// The words, and the table as it [fits](Table::fitted).
+    pub fn fitted(&self, width: usize) -> String {
+        format!("{}\n\n{}", self.words, self.table.fitted(width))
     }
 }
 
@@ -51,5 +97,39 @@ impl fmt::Display for Table {
         let rule = "─".repeat(width);
         lines.insert(1.min(lines.len()), &rule);
         f.write_str(&lines.join("\n"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let rows = vec![
+            vec!["a".into(), "1".into(), "22222".into(), "3".into()],
+            vec!["".into(), "4".into(), "5".into(), "6".into()],
+        ];
+        Table::new(&["name", "one", "two", "three"], rows, 1)
+    }
+
+    #[test]
+    fn a_table_that_fits_stands_in_one_part_and_a_wider_one_in_several_with_their_keys() {
+        let whole = table().to_string();
+        assert_eq!(
+            whole,
+            " name  one    two  three\n────────────────────────\n a       1  22222      3\n         4      5      6"
+        );
+        let widest = |text: &str| text.lines().map(|line| line.chars().count()).max().unwrap();
+        for width in 0..40 {
+            let fitted = table().fitted(width);
+            assert_eq!(fitted == whole, width >= widest(&whole), "{width}");
+            // Two columns at least, however narrow.
+            assert!(widest(&fitted) <= width.max(13), "{width}:\n{fitted}");
+            for cell in ["one", "22222", "three", "6"] {
+                assert_eq!(fitted.matches(cell).count(), 1, "{width}: {cell}");
+            }
+        }
+        assert_eq!(table().fitted(20).matches("name").count(), 2);
+        assert_eq!(table().keyed(&[0, 2]).fitted(20).matches("22222").count(), 2);
     }
 }
