@@ -56,8 +56,12 @@ impl Axis {
     }
 
     /// The unit of its numbers over a range.
-    pub(super) fn unit(&self, range: [f64; 2]) -> Prefixed {
-        self.label.unit(range, self.scale)
+    pub(super) fn unit(&self, [first, last]: [f64; 2]) -> Prefixed {
+        self.label.unit(match self.scale {
+            // Numbers on both sides of the middle read well.
+            Scale::Log => (first * last).abs().sqrt(),
+            Scale::Linear | Scale::Degrees => first.abs().max(last.abs()),
+        })
     }
 
     /// Ticks of a range with at most `most` numbers, these in the axis' unit.
@@ -237,7 +241,7 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     let spread = |factors: &'static [u8]| {
         let mut values = all(factors).map(|(_, _, x)| x);
         let first = values.next().unwrap_or(low);
-        (values.last().unwrap_or(first) / first).ln() > 0.5 * (high / low).ln()
+        (values.next_back().unwrap_or(first) / first).ln() > 0.5 * (high / low).ln()
     };
     let fits = |factors: &&'static [u8]| (2..=most).contains(&all(factors).count()) && spread(factors);
     let Some(factors) = choices.into_iter().find(fits) else {

@@ -8,6 +8,7 @@ use super::number::short;
 use super::quantity::Quantity;
 use super::sheet::{HAIR, LABELS, NUMBERS};
 use super::text;
+use crate::units::Prefixed;
 
 /// What colours stand for.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,8 +83,12 @@ impl Bar {
         most.into_iter().find(fits).unwrap_or_else(|| self.ticks_of(2).apart(span))
     }
 
+    fn unit(&self) -> Prefixed {
+        self.label.unit(self.span[0].abs().max(self.span[1].abs()))
+    }
+
     fn ticks_of(&self, most: usize) -> Ticks {
-        let unit = self.label.unit(self.span, Scale::Linear);
+        let unit = self.unit();
         let [low, high] = self.span.map(|end| unit.shown(end));
         if !self.apart {
             return ticks([low, high], Scale::Linear, most).in_unit(&unit);
@@ -132,7 +137,7 @@ impl Bar {
             canvas.text(&factor, [x, top - 3.0], Anchor::Left, NUMBERS, Colour::BLACK);
         }
         let right = x + BAR + 4.0 + self.widest() + 1.35 * LABELS;
-        let label = self.label.label(&self.label.unit(self.span, Scale::Linear));
+        let label = self.label.label(&self.unit());
         canvas.upward(&label, [right, top + 0.5 * height], LABELS, Colour::BLACK);
     }
 }

@@ -1,6 +1,5 @@
 //! A quantity as an axis or a caption names it: words, symbol and unit.
 
-use super::axis::Scale;
 use super::number::short;
 use crate::units::{Prefixed, Unit, Units};
 
@@ -13,13 +12,9 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// The unit for numbers over a range.
-    pub(super) fn unit(&self, [first, last]: [f64; 2], scale: Scale) -> Prefixed {
-        match scale {
-            // Numbers on both sides of the middle read well.
-            Scale::Log => self.unit.prefixed((first * last).abs().sqrt()),
-            Scale::Linear | Scale::Degrees => self.unit.suited([first, last]),
-        }
+    /// The unit for numbers of a size.
+    pub(super) fn unit(&self, size: f64) -> Prefixed {
+        self.unit.prefixed(size)
     }
 
     /// The text with a unit.
@@ -111,23 +106,16 @@ mod tests {
     #[test]
     fn axes_have_the_prefix_with_which_their_numbers_read_well() {
         let si = units(2.0).named(Some("m"), Some("Pa"));
-        let named = |quantity: &Quantity, range: [f64; 2], scale: Scale| {
-            let unit = quantity.unit(range, scale);
-            (plain(&quantity.label(&unit)), unit.shown(range[1]))
+        let named = |quantity: Quantity, size: f64| {
+            let unit = quantity.unit(size);
+            (plain(&quantity.label(&unit)), unit.shown(size))
         };
-        let (length, pressure) = (si.length_of("contact radius", "a"), si.pressure_of("", "p"));
-        assert_eq!(named(&length, [0.0, 20e-6], Scale::Linear).0, "contact radius a (µm)");
-        let (label, most) = named(&pressure, [1e5, 1e10], Scale::Log);
-        assert!(label == "p (MPa)" && (most - 1e4).abs() < 1e-6, "{label} {most}");
-        assert_eq!(named(&units(1.0).pressure_of("pressure", "p"), [0.0, 1e-9], Scale::Linear).0, "pressure p/E");
-        assert_eq!(
-            named(&units(2.0).pressure_of("pressure", "p"), [0.0, 1e9], Scale::Linear).0,
-            "pressure p (unit of E)"
-        );
-        assert_eq!(
-            named(&units(2.0).named(None, Some("psi")).pressure_of("", "p"), [0.0, 1e9], Scale::Log).0,
-            "p (psi)"
-        );
+        assert_eq!(named(si.length_of("contact radius", "a"), 20e-6).0, "contact radius a (µm)");
+        let (label, shown) = named(si.pressure_of("", "p"), 3e7);
+        assert!(label == "p (MPa)" && (shown - 30.0).abs() < 1e-9, "{label} {shown}");
+        assert_eq!(named(units(1.0).pressure_of("pressure", "p"), 1e-9).0, "pressure p/E");
+        assert_eq!(named(units(2.0).pressure_of("pressure", "p"), 1e9).0, "pressure p (unit of E)");
+        assert_eq!(named(units(2.0).named(None, Some("psi")).pressure_of("", "p"), 1e9).0, "p (psi)");
     }
 
     #[test]

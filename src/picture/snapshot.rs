@@ -145,16 +145,12 @@ fn many_layers(half_space: &HalfSpace, units: &Units) -> String {
     if residual != [0.0] {
         parts.push(to(units.pressure_equals("σᵣ", &residual)));
     }
-    let kinds: [(&str, fn(&Interface) -> bool); 2] = [
-        ("frictionless", |own| matches!(own, Interface::Frictionless)),
-        ("spring", |own| matches!(own, Interface::Spring { .. })),
-    ];
-    for (name, is) in kinds {
+    let interfaces = |name: &str, is: fn(&Interface) -> bool| {
         let count = layers.iter().filter(|layer| is(&layer.interface())).count();
-        if count > 0 {
-            parts.push(format!("{count} {name} interface{}", if count > 1 { "s" } else { "" }));
-        }
-    }
+        (count > 0).then(|| format!("{count} {name} interface{}", if count > 1 { "s" } else { "" }))
+    };
+    parts.extend(interfaces("frictionless", |own| matches!(own, Interface::Frictionless)));
+    parts.extend(interfaces("spring", |own| matches!(own, Interface::Spring { .. })));
     parts.join(", ")
 }
 
