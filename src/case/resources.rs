@@ -46,8 +46,8 @@ const CURVES: u64 = 8 * MEBIBYTE;
 const COMPARED: u64 = 12 * MEBIBYTE;
 /// `compare.json` with many levels and circles.
 const COMPARISON: u64 = MEBIBYTE;
-/// A picture on disk.
-const PICTURE: u64 = MEBIBYTE / 5;
+/// A picture on disk, in both formats.
+const PICTURE: u64 = 3 * MEBIBYTE / 10;
 
 /// What is done with a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

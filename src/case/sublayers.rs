@@ -121,6 +121,21 @@ mod tests {
     }
 
     #[test]
+    fn a_grading_drives_out_the_moduli_it_stands_for_and_is_refused_beside_them() {
+        let read = |set: &str| Case::read(&super::super::embedded::source("fig2").unwrap(), &[set.to_owned()]);
+        let case = read("layers.0.graded={ young = [2, 1], poisson = [0.2, 0.3], sublayers = 4 }").unwrap();
+        assert_eq!(case.half_space().layers().len(), 4);
+        let refused = |set: &str| read(set).unwrap_err().to_string();
+        assert!(refused("layers.0.graded={ young = 2, poisson = [0.2, 0.3] }").contains("upper and the lower face"));
+        assert!(refused("layers.0.graded={ young = [2, 1], poisson = [0.2, 0.3], sublayers = 201 }").contains("200"));
+        let both =
+            "layers=[{ thickness = 1, young = 2, poisson = 0.3, graded = { young = [2, 1], poisson = [0.2, 0.3] } }]";
+        assert!(refused(both).contains("exclude each other"));
+        let layer = "{ thickness = 1, graded = { young = [2, 1], poisson = [0.2, 0.3], sublayers = 150 } }";
+        assert!(refused(&format!("layers=[{layer}, {layer}]")).contains("at most 200 layers and sublayers, not 300"));
+    }
+
+    #[test]
     fn a_graded_layer_is_written_as_it_was_read() {
         let own = case("{ shear_ratio = [3, 1], poisson = [0.2, 0.4], sublayers = 3 }");
         let source = Source { name: "case.toml".to_owned(), text: own.to_toml(), folder: std::path::PathBuf::new() };

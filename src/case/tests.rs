@@ -32,7 +32,9 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     std::fs::write(folder.path().join("surface.npy"), file).unwrap();
     let other = RICH.replace("mean_pressure =", "penetration =").replace("points = [24, 36]", "accuracy = 1e-3");
     let surface = "lattice = { kind = \"square\", period = 1 }\nsurface = { heights = \"surface.npy\" }\n\
-                   substrate = { young = 1, poisson = 0.3 }\nload = { mean_pressure = 1e-3 }\ngrid = { points = 2 }\n";
+                   substrate = { young = 1, poisson = 0.3 }\nload = { mean_pressure = 1e-3 }\ngrid = { points = 2 }\n\
+                   layers = [{ thickness = 1, graded = { shear_ratio = [2, 1], poisson = [0.2, 0.3], law = \"linear\" } },\n\
+                   { thickness = 1, graded = { young = [2, 1], poisson = [0.2, 0.3], sublayers = 2 } }]\n";
     let mut found = BTreeSet::new();
     for text in embedded::all().iter().map(|(_, text)| *text).chain([RICH, &other, surface]) {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
