@@ -219,7 +219,6 @@ pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
     };
     let [n1, n2] = points;
     let advice = match largest_points(case, points, room, job) {
-        _ if case.surface.is_some() => "resample the topography, or use a larger machine".to_owned(),
         Some([m1, m2]) if m1 * m2 < n1 * n2 => format!("the largest grid that fits is grid.points = [{m1}, {m2}]"),
         _ if matches!(job, Job::Compare { .. }) => "no grid fits: ask for fewer localized.elements".to_owned(),
         _ if case.stress.as_ref().is_some_and(|stress| stress.volume.is_some()) => {
