@@ -70,6 +70,9 @@ pub enum Command {
     Check {
         /// Case file, or the name of an embedded case
         case: PathBuf,
+        /// Folder for the power spectrum of a surface, as picture and table [default: none is written]
+        #[arg(short, long, value_name = "DIR")]
+        output: Option<PathBuf>,
         #[command(flatten)]
         changes: Changes,
         #[command(flatten)]

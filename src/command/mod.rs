@@ -13,6 +13,7 @@ mod limit;
 mod options;
 mod pictures;
 mod plan;
+mod roughness;
 mod shown;
 mod solve;
 mod terminal;
@@ -41,7 +42,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         Command::Kernel { case, wavenumber, depth, traction, changes } => {
             kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
         }
-        Command::Check { case, changes, .. } => check::run(case, &changes.set),
+        Command::Check { case, output, changes, .. } => check::run(case, output.as_deref(), &changes.set),
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
         #[cfg(feature = "validate")]
         Command::Validate { study, expect, studies, .. } => validate::run(study.as_deref(), expect.as_deref(), studies),

@@ -8,6 +8,9 @@ use percoat::output::{Plan, Writer};
 pub fn may_write(case: &Case, steps: usize, pictures: &PictureOptions) -> Plan {
     let mut names = ["case.toml", "contact.npz", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
     let mut drawn = vec!["pressure", "contact", "profiles"];
+    if case.surface.is_some() {
+        names.push("histograms.csv".to_owned());
+    }
     if let Some(stress) = &case.stress {
         names.push("stress.npz".to_owned());
         if stress.volume.is_some() {

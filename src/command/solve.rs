@@ -13,7 +13,7 @@ use indicatif::ProgressBar;
 use percoat::case::resources::Job;
 use percoat::case::{Case, plausibility};
 use percoat::output::summary::{curve, summary};
-use percoat::output::{Clock, Recording, RunFolder, table, write_text};
+use percoat::output::{Clock, Recording, RunFolder, histograms, table, write_text};
 use percoat::picture::Snapshot;
 use percoat::run::StepRecord;
 use std::io::Write;
@@ -48,6 +48,9 @@ pub fn run(case: Option<&Path>, pictures: &PictureOptions, common: &Common) -> R
     let summary = summary(&case, &warnings, outcome.change, steps, timing);
     write_text(&claim.staging().join("summary.json"), &summary)?;
     write_text(&claim.staging().join("curve.csv"), &curve(steps))?;
+    if let Some(histograms) = histograms(steps) {
+        write_text(&claim.staging().join("histograms.csv"), &histograms)?;
+    }
     interruption::publish(claim, &folder, common.quiet)?;
     if !common.quiet {
         print(&case, steps, outcome.change)?;

@@ -15,6 +15,8 @@ use std::path::{Component, Path};
 pub enum Writer {
     /// `percoat solve`.
     Solve,
+    /// `percoat check`.
+    Check,
     /// `percoat compare`.
     Compare,
     /// `percoat limit`.
@@ -25,7 +27,7 @@ pub enum Writer {
 
 impl Writer {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate];
+    pub const ALL: [Self; 5] = [Self::Solve, Self::Check, Self::Compare, Self::Limit, Self::Validate];
 }
 
 /// The list of files, by name.

@@ -8,6 +8,7 @@
 //! - Its stresses under a line ([`Section`](crate::stress::Section)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - Localized against spectral: [`comparison`](comparison()).
+//! - A topography before anything is solved: [`spectrum`](spectrum()).
 
 mod axis;
 mod bar;
@@ -31,6 +32,7 @@ mod rows;
 mod section;
 mod sheet;
 mod snapshot;
+mod spectrum;
 mod text;
 mod tiling;
 mod units;
@@ -50,5 +52,6 @@ pub use pressure::pressure;
 pub use profiles::profiles;
 pub use section::section;
 pub use snapshot::Snapshot;
+pub use spectrum::spectrum;
 pub use units::Units;
 pub use utilisations::utilisations;

@@ -89,9 +89,10 @@ pub(super) fn read(path: &Path, written: &ValueAt<'_>, treatment: Treatment) -> 
         let refusal = Refusal::new(written.node.place, message, fault.label);
         fault.help.into_iter().fold(refusal, Refusal::help)
     };
-    let (Heights { points, values }, period) = heights(path, written)?.map_err(refuse)?;
-    let mut heights = field(points, values);
-    heights.iter_mut().for_each(|height| *height *= treatment.scale);
+    let (Heights { points, mut values }, period) = heights(path, written)?.map_err(refuse)?;
+    values.iter_mut().for_each(|height| *height *= treatment.scale);
+    let Heights { values, .. } = Heights::new(points, values).map_err(refuse)?;
+    let heights = field(points, values);
     let heights = match treatment {
         Treatment { window: Some(window), level, .. } => tapered(heights, window, level),
         Treatment { level: true, .. } => levelled(heights),

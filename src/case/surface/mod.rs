@@ -189,6 +189,10 @@ fn cell(
         })?,
     };
     let [l1, l2] = sides;
+    if let Some(side) = sides.iter().find(|side| !magnitude::CARRIED.contains(*side)) {
+        let message = format!("`surface`: a side of the cell is {side}; it must be between 1e-60 and 1e60");
+        return Err(Refusal::new(section.place, message, "no cell"));
+    }
     let lattice = match l1 == l2 {
         true => LatticeSection::Square { period: l1 },
         false => LatticeSection::Oblique { a1: [l1, 0.0], a2: [0.0, l2] },

@@ -12,6 +12,9 @@ use super::fault::{Fault, Heights, MOST, fits};
 /// Bytes of the longest head that is read; that of a plain array has 118.
 const LONGEST: usize = 1 << 16;
 
+/// The bytes of a value as a number.
+type Decode = fn(&[u8]) -> f64;
+
 /// What the head of a file says.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Head {
@@ -61,7 +64,7 @@ impl Head {
     }
 
     /// Bytes of a value, and what they are as a number; `None` for a type that is no real number.
-    fn decode(&self) -> Option<(usize, fn(&[u8]) -> f64)> {
+    fn decode(&self) -> Option<(usize, Decode)> {
         macro_rules! number {
             ($type:ty, $read:ident) => {
                 (size_of::<$type>(), |bytes: &[u8]| <$type>::$read(bytes.try_into().expect("as many as it has")) as f64)

@@ -14,6 +14,6 @@ mod window;
 pub use border::{JUMP, border_jumps};
 pub use plane::levelled;
 pub use self_affine::{Rms, SelfAffine, SelfAffineError};
-pub use spectrum::{Ring, Spectrum};
+pub use spectrum::{Radial, Spectrum};
 pub use statistics::Statistics;
 pub use window::{Window, tapered};

@@ -141,6 +141,15 @@ impl SelfAffine {
         Ok(band)
     }
 
+    /// C over the wavenumber on a cell, length⁴.
+    ///
+    /// # Errors
+    /// [`SelfAffineError`].
+    pub fn density(&self, cell: Cell) -> Result<impl Fn(f64) -> f64, SelfAffineError> {
+        let (own, scale) = (*self, self.power(cell)? * cell.area() / (TAU * TAU));
+        Ok(move |q| scale * own.shape(q))
+    }
+
     /// √⟨|∇h|²⟩ of the whole surface on a cell.
     ///
     /// # Errors
@@ -266,7 +275,7 @@ mod tests {
     #[test]
     fn the_density_falls_as_the_hurst_exponent_says_from_the_roll_off_on() {
         let cell = Cell::square(1.0).unwrap();
-        let rings = surface(Rms::Slope(0.1)).spectrum(cell, [64, 64]).unwrap().rings();
+        let rings = surface(Rms::Slope(0.1)).spectrum(cell, [64, 64]).unwrap().radial();
         let inside = |[long, short]: [f64; 2]| {
             let band = rings.iter().filter(move |ring| (TAU / long..TAU / short).contains(&(ring.wavenumber)));
             band.map(|ring| (ring.wavenumber.ln(), ring.density.ln())).collect::<Vec<_>>()

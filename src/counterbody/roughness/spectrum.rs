@@ -26,7 +26,7 @@ pub struct Spectrum {
 
 /// Waves of about one wavenumber.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ring {
+pub struct Radial {
     /// Mean wavenumber q, 1/length.
     pub wavenumber: f64,
     /// Mean of C over them, length⁴.
@@ -67,7 +67,7 @@ impl Spectrum {
     }
 
     /// C averaged over rings of wavevectors, sixteen to a decade, up to where the grid holds all directions.
-    pub fn rings(&self) -> Vec<Ring> {
+    pub fn radial(&self) -> Vec<Radial> {
         let (least, most) = (self.grid.least_wavenumber(), self.grid.least_aliased());
         let ring = |q: f64| (RINGS * (q / least).log10() + 0.5).floor().max(0.0) as usize;
         let mut sums = vec![[0.0; 3]; ring(most) + 1];
@@ -77,7 +77,9 @@ impl Spectrum {
         }
         let scale = self.grid.cell().area() / (TAU * TAU);
         let found = sums.into_iter().filter(|[_, _, waves]| *waves > 0.0);
-        found.map(|[q, square, waves]| Ring { wavenumber: q / waves, density: scale * square / waves, waves }).collect()
+        found
+            .map(|[q, square, waves]| Radial { wavenumber: q / waves, density: scale * square / waves, waves })
+            .collect()
     }
 
     /// The surface on another grid of its cell: the same sum of waves where that is as fine, without the waves that it
@@ -231,7 +233,7 @@ mod tests {
             };
             assert!((spectrum.rms_height() / sum(&|_| 1.0) - 1.0).abs() < 1e-13);
             assert!((spectrum.rms_slope() / sum(&|k| wavenumber(k).powi(2)) - 1.0).abs() < 1e-13);
-            let rings = spectrum.rings();
+            let rings = spectrum.radial();
             let power: f64 = rings.iter().map(|ring| ring.density * ring.waves).sum();
             let held = |k: &[i32; 2]| wavenumber(*k) <= Grid::new(cell, [12, 14]).unwrap().least_aliased();
             let expected: f64 = WAVES[1..].iter().filter(|(k, ..)| held(k)).map(|(_, a, _)| 0.5 * a * a).sum();
