@@ -7,7 +7,7 @@ use super::Source;
 /// Name of the case that runs when none is given.
 pub const DEFAULT: &str = "fig2";
 
-const CASES: [(&str, &str); 12] = [
+const CASES: [(&str, &str); 13] = [
     ("dlc-on-steel", include_str!("../../cases/dlc-on-steel.toml")),
     ("fig2", include_str!("../../cases/fig2.toml")),
     ("fig3a", include_str!("../../cases/fig3a.toml")),
@@ -19,6 +19,7 @@ const CASES: [(&str, &str); 12] = [
     ("fig7", include_str!("../../cases/fig7.toml")),
     ("polymer-on-steel", include_str!("../../cases/polymer-on-steel.toml")),
     ("ring", include_str!("../../cases/ring.toml")),
+    ("rough", include_str!("../../cases/rough.toml")),
     ("tin-on-steel", include_str!("../../cases/tin-on-steel.toml")),
 ];
 

@@ -13,22 +13,20 @@ const POINTS: usize = 512;
 /// Points along a cell vector that are allowed.
 const ALLOWED: RangeInclusive<usize> = 4..=32768;
 
-/// Read the section `[grid]`; a surface from a `file` brings its own points.
+/// Read the section `[grid]`; a surface from a `file` brings its own points, which may have any factors.
 pub(super) fn read(section: Option<&TableAt<'_>>, file: Option<[usize; 2]>) -> Result<Sampling, Refusal> {
     let default = file.unwrap_or([POINTS; 2]);
     let Some(section) = section else { return Ok(Sampling::Points(default)) };
     section.only()?;
     match (section.optional("points"), section.optional("accuracy"), file) {
         (Some(_), Some(accuracy), _) => Err(section.both(["points", "accuracy"], accuracy.node.place)),
-        (None, Some(accuracy), Some(_)) => {
-            let message = "`grid.accuracy` has no place beside [surface]: its grid is that of the file";
-            Err(Refusal::new(accuracy.node.place, message, "not used here").help("remove it"))
-        }
-        (None, Some(accuracy), None) => {
+        (None, Some(accuracy), _) => {
             accuracy.number((Bound::Excluded(0.0), Bound::Included(0.1))).map(Sampling::Accuracy)
         }
-        (Some(points), None, Some(file)) => same_as(&points, file),
-        (Some(points), None, None) => each(&points, transformable).map(Sampling::Points),
+        (Some(points), None, file) => match each(&points, |value| value.integer(1..=usize::MAX)) {
+            Ok(points) if Some(points) == file => Ok(Sampling::Points(points)),
+            _ => each(&points, transformable).map(Sampling::Points),
+        },
         (None, None, _) => Ok(Sampling::Points(default)),
     }
 }
@@ -44,15 +42,6 @@ fn each(value: &ValueAt<'_>, read: fn(&ValueAt<'_>) -> Result<usize, Refusal>) -
         },
         _ => Err(value.refuse(WANTED)),
     }
-}
-
-fn same_as(value: &ValueAt<'_>, file: [usize; 2]) -> Result<Sampling, Refusal> {
-    let points = each(value, |value| value.integer(1..=usize::MAX))?;
-    if points == file {
-        return Ok(Sampling::Points(points));
-    }
-    let [n1, n2] = file;
-    Err(value.refuse(format!("[{n1}, {n2}], the shape of the surface's file")).help("remove it, or resample the file"))
 }
 
 /// A number of points whose transform is fast: made of the factors 2, 3, 5 and 7.

@@ -146,7 +146,26 @@ static LEVELS: Keys = Keys {
     ],
 };
 
-static SURFACE: Keys = Keys::new(&[key("heights", "the path of a NumPy file, relative to the case file")]);
+static SURFACE: Keys = Keys::new(&[
+    key("heights", "the path of a file, relative to the case file: `.npy`, `.csv`, `.txt`, `.dat` or `.xyz`"),
+    key("scale", "factor of its heights, negative to turn them over; 1 when not given"),
+    key("unit", "the unit of its heights, such as \"nm\"; needs `units.length`"),
+    key("period", "lengths of the whole file along a₁ and a₂, L or [L1, L2], in place of [lattice]"),
+    key("pixel", "the distance of its samples, d or [d1, d2]").instead_of("period"),
+    key("level", "whether its mean plane is taken away; false when not given"),
+    key("window", "tapers its border: true, \"tukey\" or \"hann\"; false when not given"),
+    key("random", "a self-affine surface").instead_of("heights").holds(&RANDOM),
+]);
+
+static RANDOM: Keys = Keys::new(&[
+    key("hurst", "the Hurst exponent, between 0 and 1"),
+    key("shortest", "the shortest wavelength, a length"),
+    key("longest", "the longest wavelength; that of the cell when not given"),
+    key("rolloff", "the wavelength above which the spectrum is constant; `longest` when not given"),
+    key("rms_slope", "root mean square of the slope"),
+    key("rms_height", "root mean square of the heights, a length").instead_of("rms_slope"),
+    key("seed", "which of all such surfaces, an integer; 0 when not given"),
+]);
 
 static LAYERS: Keys = Keys::new(&[
     key("thickness", "the thickness of the layer, a length"),

@@ -148,7 +148,7 @@ pub(super) fn grid(
     let place = points.map_or(lattice.place, |value| value.node.place);
     let what = format!("samples stand {} apart along a₁ and {} along a₂", short(first), short(second));
     let advice = match file {
-        Some(_) => "resample the file",
+        Some(_) => "give each vector its own points = [n1, n2], others than the file's",
         None => "give each vector its own points = [n1, n2]",
     };
     Err(Refusal::new(place, format!("`grid.points`: {what}"), format!("{n1} × {n2} points"))

@@ -6,7 +6,7 @@ use super::error::{CaseError, Refusal};
 use super::node::Table;
 use super::place::Place;
 use super::reader::TableAt;
-use super::surface::Heights;
+use super::surface::{self, Around};
 use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection, UnitsSection,
@@ -14,7 +14,6 @@ use super::{
 use super::{grading, grid, keys, lattice, layers, levels, magnitude, overrides, solver};
 use crate::body::HalfSpace;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
-use crate::numeric::array::field;
 use crate::problem::Problem;
 use crate::run::{Run, Sampling};
 use crate::spectral::Settings;
@@ -58,6 +57,9 @@ pub struct Case {
     pub stress: Option<StressSection>,
     /// Circles of the localized method.
     pub localized: LocalizedSection,
+    /// What its surface makes doubtful, a sentence each.
+    #[serde(skip)]
+    surface_doubts: Vec<String>,
     #[serde(skip)]
     problem: Arc<Problem>,
 }
@@ -97,6 +99,11 @@ impl Case {
         Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure))
     }
 
+    /// What was found doubtful when its surface was read, a sentence each.
+    pub(super) fn surface_doubts(&self) -> &[String] {
+        &self.surface_doubts
+    }
+
     /// What `percoat solve` does.
     pub fn run(&self) -> Run {
         Run {
@@ -132,6 +139,9 @@ fn readable(line: &str) -> String {
     format!("{key} = {}", numbers.collect::<String>())
 }
 
+/// What is written where the section is missing.
+const LATTICE: &str = "[lattice]\nkind = \"hexagonal\"\nperiod = 1.0";
+
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let mut root = Table::parse(&source.text)?;
     for (number, text) in (1..).zip(overrides) {
@@ -146,37 +156,44 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         None => String::new(),
     };
 
-    let lattice_section = root.required_section("lattice", "[lattice]\nkind = \"hexagonal\"\nperiod = 1.0")?;
-    let lattice = LatticeSection::read(&lattice_section)?;
     let level_sections = root.sections("levels", levels::MOST)?;
     let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read).collect::<Result<_, _>>()?;
-    let surface = match (&level_sections[..], root.section("surface")?) {
-        ([], Some(section)) => Some(SurfaceSection::read(&section, &source.folder)?),
+    let surface_section = match (&level_sections[..], root.section("surface")?) {
+        ([], Some(section)) => Some(section),
         ([_, ..], None) => None,
         ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.place)),
         ([], None) => {
+            root.required_section("lattice", LATTICE)?;
             let refusal = Refusal::new(root.place, "the case has neither [[levels]] nor [surface]", "none up to here");
             let example = "[[levels]]\nshape = \"paraboloid\"\nradius = 0.8\nheight = 0.0";
             return Err(refusal.help(format!("add a level, for example\n{example}")));
         }
     };
-    let (surface, counterbody) = match surface {
-        Some((section, Heights { points, values })) => {
-            let cell = lattice::build_cell(&lattice, &lattice_section)?;
-            let topography = Topography::new(cell, field(points, values));
-            (Some(section), topography.map(Counterbody::from))
+    // Where the cell is said to be what it is: a surface may say it itself.
+    let cell_section = match (&surface_section, root.section("lattice")?) {
+        (Some(surface), None) => surface.clone(),
+        _ => root.required_section("lattice", LATTICE)?,
+    };
+    let (lattice, surface, counterbody) = match &surface_section {
+        Some(section) => {
+            let [lattice, grid] = ["lattice", "grid"].map(|key| root.section(key));
+            let around = Around { folder: &source.folder, lattice: lattice?, grid: grid?, length: length_unit(&root)? };
+            let read = surface::read(section, &around)?;
+            let counterbody = Counterbody::from(read.topography);
+            (read.lattice, Some((read.section, read.sampling, read.doubts)), Ok(counterbody))
         }
         None => {
+            let lattice_section = LatticeSection::read(&cell_section)?;
             let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
-            let lattice = lattice::build(&lattice, &lattice_section, &levels, &level_sections)?;
+            let lattice = lattice::build(&lattice_section, &cell_section, &levels, &level_sections)?;
             let built: Vec<Level> = built.collect::<Result<_, _>>()?;
             magnitude::profiles(&built, &level_sections, lattice.cell())?;
-            (None, Indenters::new(lattice, built).map(Counterbody::from))
+            (lattice_section, None, Indenters::new(lattice, built).map(Counterbody::from))
         }
     };
     // Both were checked key by key.
     let counterbody = counterbody
-        .map_err(|error| Refusal::new(lattice_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
+        .map_err(|error| Refusal::new(cell_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
     let layer_sections = root.sections("layers", grading::MOST)?;
     let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
     let substrate_section = root.required_section("substrate", "[substrate]\nyoung = 1.0\npoisson = 0.3")?;
@@ -194,8 +211,11 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
     let file_points = counterbody.topography().map(Topography::points);
     let grid_section = root.section("grid")?;
-    let sampling = grid::read(grid_section.as_ref(), file_points)?;
-    magnitude::grid(sampling, file_points, grid_section.as_ref(), &lattice_section, counterbody.cell())?;
+    let (surface, sampling, surface_doubts) = match surface {
+        Some((section, sampling, doubts)) => (Some(section), sampling, doubts),
+        None => (None, grid::read(grid_section.as_ref(), None)?, Vec::new()),
+    };
+    magnitude::grid(sampling, file_points, grid_section.as_ref(), &cell_section, counterbody.cell())?;
     let solver_section = root.section("solver")?;
     let settings = solver::read(solver_section.as_ref())?;
     let mut problem = Problem::new(counterbody, half_space);
@@ -222,6 +242,14 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         layers,
         substrate,
         load,
+        surface_doubts,
         problem: Arc::new(problem),
     })
+}
+
+/// `units.length`, where the case names its units.
+fn length_unit<'a>(root: &TableAt<'a>) -> Result<Option<&'a str>, Refusal> {
+    let Some(units) = root.optional("units") else { return Ok(None) };
+    let length = units.table("write it as a section, [units]")?.optional("length");
+    length.map(|length| length.text("a unit of length, such as \"µm\"")).transpose()
 }

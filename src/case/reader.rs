@@ -12,7 +12,7 @@ use super::place::Place;
 pub(super) const POSITIVE: (Bound<f64>, Bound<f64>) = (Bound::Excluded(0.0), Bound::Unbounded);
 
 /// A table of the case with its keys and its path (empty for the whole case).
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct TableAt<'a> {
     table: &'a Table,
     keys: &'static Keys,

@@ -6,6 +6,7 @@
 
 use super::{Case, Room, StressSection};
 use crate::body::HalfSpace;
+use crate::counterbody::Topography;
 use crate::friction::Friction;
 use crate::localized::Setup;
 use crate::numeric::fourier::fast_points;
@@ -90,7 +91,7 @@ impl Needs {
 /// What a job on `case` takes on a grid of `points`.
 pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let samples = points[0] as u64 * points[1] as u64;
-    let heights = case.surface.as_ref().map_or(0, |_| 8 * samples);
+    let heights = of_heights(case, samples);
     let coupled = case.problem().friction().is_some_and(Friction::couples);
     let Memory { kept, working } = Memory::of(points, case.solver.method, coupled);
     // A fall-back to the baseline takes more, and less than reading.
@@ -101,6 +102,13 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
     };
     Needs { memory: needs.memory + needs.memory / 10, ..needs }
+}
+
+/// Heights of a topography; where grids are refined, those of its file, with their waves on the way to another grid.
+fn of_heights(case: &Case, samples: u64) -> u64 {
+    let Some([n1, n2]) = case.counterbody().topography().map(Topography::points) else { return 0 };
+    let resampled = if matches!(case.grid, Sampling::Accuracy(_)) { 32 * (n1 * n2) as u64 } else { 0 };
+    8 * samples + resampled
 }
 
 fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
@@ -219,7 +227,6 @@ pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
     };
     let [n1, n2] = points;
     let advice = match largest_points(case, points, room, job) {
-        _ if case.surface.is_some() => "resample the topography, or use a larger machine".to_owned(),
         Some([m1, m2]) if m1 * m2 < n1 * n2 => format!("the largest grid that fits is grid.points = [{m1}, {m2}]"),
         _ if matches!(job, Job::Compare { .. }) => "no grid fits: ask for fewer localized.elements".to_owned(),
         _ if case.stress.as_ref().is_some_and(|stress| stress.volume.is_some()) => {

@@ -31,16 +31,31 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     let file = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &[0; 32]].concat();
     std::fs::write(folder.path().join("surface.npy"), file).unwrap();
     let other = RICH.replace("mean_pressure =", "penetration =").replace("points = [24, 36]", "accuracy = 1e-3");
-    let surface = "lattice = { kind = \"square\", period = 1 }\nsurface = { heights = \"surface.npy\" }\n\
-                   substrate = { young = 1, poisson = 0.3 }\nload = { mean_pressure = 1e-3 }\ngrid = { points = 2 }\n\
-                   layers = [{ thickness = 1, graded = { shear_ratio = [2, 1], poisson = [0.2, 0.3], law = \"linear\" } },\n\
-                   { thickness = 1, graded = { young = [2, 1], poisson = [0.2, 0.3], sublayers = 2 } }]\n";
+    let graded = "layers = [{ thickness = 1, graded = { shear_ratio = [2, 1], poisson = [0.2, 0.3], law = \"linear\" } },\n\
+                  { thickness = 1, graded = { young = [2, 1], poisson = [0.2, 0.3], sublayers = 2 } }]\n";
+    let surface = |own: &str| {
+        format!(
+            "surface = {{ {own} }}\nsubstrate = {{ young = 1, poisson = 0.3 }}\nload = {{ mean_pressure = 1e-3 }}\ngrid = {{ points = 8 }}\n{graded}"
+        )
+    };
+    let random = "hurst = 0.8, shortest = 0.25, longest = 1, rolloff = 0.5, seed = 1";
+    let surfaces = [
+        "heights = \"surface.npy\", scale = 2, period = 1, level = true, window = true".to_owned(),
+        "heights = \"surface.npy\", pixel = 0.5".to_owned(),
+        format!("period = 1, random = {{ {random}, rms_slope = 0.1 }}"),
+        format!("period = 1, random = {{ {random}, rms_height = 0.1 }}"),
+    ]
+    .map(|own| surface(&own));
     let mut found = BTreeSet::new();
-    for text in embedded::all().iter().map(|(_, text)| *text).chain([RICH, &other, surface]) {
+    for text in
+        embedded::all().iter().map(|(_, text)| *text).chain([RICH, &other]).chain(surfaces.iter().map(String::as_str))
+    {
         let source = Source { folder: folder.path().to_owned(), ..source(text) };
         Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"));
         collect(&node::Value::Table(node::Table::parse(text).unwrap()), "", &mut found);
     }
+    // A unit needs one to be converted to.
+    found.insert("surface.unit".to_owned());
     let tables = keys::CASE.tables("");
     let named = |(path, keys): &(String, &'static keys::Keys)| {
         keys.all.iter().map(|key| join(path, key.name)).collect::<Vec<_>>()

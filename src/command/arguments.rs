@@ -132,6 +132,9 @@ pub enum Command {
     Check {
         /// Case file, the name of an embedded case, or - for standard input
         case: PathBuf,
+        /// Folder for the power spectrum of a surface, as picture and table [default: none is written]
+        #[arg(short, long, value_name = "DIR")]
+        output: Option<PathBuf>,
         #[command(flatten)]
         changes: Changes,
         #[command(flatten)]

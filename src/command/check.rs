@@ -3,6 +3,7 @@
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
+use super::roughness;
 use super::terminal::{self, tell};
 use percoat::case::resources::{Job, Needs, bytes, needs};
 use percoat::case::{Case, Room, foreseen, plausibility, sublayer_error};
@@ -15,7 +16,7 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 
-pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
+pub fn run(path: &Path, output: Option<&Path>, set: &[String]) -> Result<Ending, Failure> {
     let (case, name) = read_case(Some(path), set)?;
     let job = Job::Solve { pictures: true };
     let Allowed { room, .. } = Allowed::new(&case, &Path::new("out").join(&name), job)?;
@@ -42,6 +43,7 @@ pub fn run(path: &Path, set: &[String]) -> Result<Ending, Failure> {
         count => writeln!(out, "load: {name} {first} … {last}, {count} steps")?,
     }
     let touches = write_touches(&mut out, &case, grids[0])?;
+    roughness::check(&mut out, &case, output)?;
     for doubt in [plausibility::of_case(&case), foreseen(&case, &touches)].concat() {
         tell!("warning: {doubt}");
     }

@@ -18,6 +18,7 @@ mod pictures;
 mod plan;
 mod progress;
 mod report;
+mod roughness;
 mod shown;
 mod solve;
 mod sweep;
@@ -56,7 +57,7 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         Command::Kernel { case, wavenumber, depth, traction, changes } => {
             kernel::run(case.as_deref(), wavenumber, depth, *traction, &changes.set)
         }
-        Command::Check { case, changes, .. } => check::run(case, &changes.set),
+        Command::Check { case, output, changes, .. } => check::run(case, output.as_deref(), &changes.set),
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
         #[cfg(feature = "validate")]
         Command::Validate { list: true, study, .. } => validate::list(study.as_deref()),

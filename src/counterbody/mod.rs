@@ -3,6 +3,7 @@
 mod error;
 mod indenter;
 mod indenters;
+pub mod roughness;
 mod surface;
 mod topography;
 

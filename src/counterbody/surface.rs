@@ -5,7 +5,7 @@
 //! radius, so of the periodic images of an indenter only the nearest one counts.
 
 use super::{Counterbody, Indenters, Site};
-use crate::lattice::{Grid, Interpolation, LatticeError, Reduced, resample};
+use crate::lattice::{Grid, LatticeError, Reduced};
 use crate::numeric::array::{field, samples};
 use crate::numeric::sums;
 use ndarray::{Array2, ArrayView2};
@@ -26,8 +26,8 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// The counterbody on a grid of its cell with `points` = [N₁, N₂]: exact for indenters, interpolated between the
-    /// samples of a topography.
+    /// The counterbody on a grid of its cell with `points` = [N₁, N₂]: exact for indenters, [resampled](super::Topography::depths)
+    /// for a topography.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
@@ -36,9 +36,8 @@ impl Surface {
         Ok(match counterbody {
             Counterbody::Indenters(indenters) => of_indenters(indenters, grid),
             Counterbody::Topography(topography) => {
-                let interpolation = Interpolation::on(grid.cell());
-                let gap = resample(&topography.depths(), topography.points(), points, interpolation);
-                Self { grid, initial_gap: field(points, gap), owner: None, ties: Vec::new(), sites: Vec::new() }
+                let initial_gap = topography.depths(points)?;
+                Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
             }
         })
     }

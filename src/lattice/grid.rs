@@ -123,6 +123,29 @@ impl Grid {
         self.zone.tied_wavevectors(component, tolerance)
     }
 
+    /// The waves that the component (k₁, k₂) stands for, each an equal part of it: its shortest aliases, as multiples of
+    /// b₁, b₂.
+    pub(crate) fn aliases(&self, component: [usize; 2]) -> Vec<[i32; 2]> {
+        let [n1, n2] = self.points();
+        let [k1, k2] = component;
+        // Where no two are tied in a rectangular cell, they are those of each axis.
+        if self.cell().is_rectangular() && 2 * k1 != n1 && 2 * k2 != n2 {
+            let signed = |k: usize, n: usize| if 2 * k < n { k as i32 } else { k as i32 - n as i32 };
+            return vec![[signed(k1, n1), signed(k2, n2)]];
+        }
+        self.tied_wavevectors(component, TIE).into_iter().map(|(index, _)| index).collect()
+    }
+
+    /// Whether no alias of a wave is shorter.
+    pub(crate) fn holds(&self, wavevector: [f64; 2]) -> bool {
+        !self.zone.on_border(wavevector, -BORDER)
+    }
+
+    /// Whether all aliases of a wave are longer, so that the grid tells it from all others.
+    pub(crate) fn resolves(&self, wavevector: [f64; 2]) -> bool {
+        !self.zone.on_border(wavevector, BORDER)
+    }
+
     /// The plane waves it holds; found when they are first asked for, and kept.
     pub(crate) fn waves(&self) -> &Arc<Waves> {
         self.waves.get_or_init(|| Arc::new(Waves::new(&self.zone)))

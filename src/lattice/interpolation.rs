@@ -41,12 +41,8 @@ impl Interpolation {
     }
 }
 
-/// Periodic interpolation of a field from one grid of a cell to another; exact where samples coincide.
-pub fn resample(field: &[f64], from: [usize; 2], to: [usize; 2], interpolation: Interpolation) -> Vec<f64> {
-    resampled(field, from, to, interpolation, |value| value)
-}
-
-/// The same, and a function of every value.
+/// Periodic interpolation of a field from one grid of a cell to another, and a function of every value; exact where
+/// samples coincide.
 pub(crate) fn resampled(
     field: &[f64],
     from: [usize; 2],
@@ -81,9 +77,9 @@ mod tests {
     fn resampling_keeps_common_samples_and_constants() {
         let field: Vec<f64> = (0..24).map(|i| f64::from(i * i % 7)).collect();
         for interpolation in [Interpolation::Bilinear, Interpolation::AcrossDiagonal, Interpolation::AlongDiagonal] {
-            let finer = resample(&field, [4, 6], [8, 12], interpolation);
+            let finer = resampled(&field, [4, 6], [8, 12], interpolation, |x| x);
             assert!((0..24).all(|i| finer[(2 * (i / 6)) * 12 + 2 * (i % 6)] == field[i]));
-            let constant = resample(&[2.5; 24], [4, 6], [7, 5], interpolation);
+            let constant = resampled(&[2.5; 24], [4, 6], [7, 5], interpolation, |x| x);
             assert!(constant.iter().all(|&x| (x - 2.5).abs() < 1e-15));
         }
     }

@@ -12,5 +12,5 @@ mod zone;
 pub use cell::{Cell, Reduced};
 pub use error::LatticeError;
 pub use grid::{Grid, NotOnGrid};
-pub(crate) use interpolation::{Interpolation, resample, resampled};
+pub(crate) use interpolation::{Interpolation, resampled};
 pub use sites::Lattice;

@@ -32,7 +32,9 @@ pub(super) fn remove_gathered(folder: &Path, writer: Writer, also: &dyn Fn(&str)
     match writer {
         Writer::Solve | Writer::Sweep => remove_own(folder, also),
         // They gather where percoat keeps what is its own.
-        Writer::Compare | Writer::Limit | Writer::Validate | Writer::Report => remove_folder(folder).map(|()| true),
+        Writer::Check | Writer::Compare | Writer::Limit | Writer::Validate | Writer::Report => {
+            remove_folder(folder).map(|()| true)
+        }
     }
 }
 

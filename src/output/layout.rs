@@ -50,6 +50,7 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
         Writer::Solve => folder.join("unfinished"),
         Writer::Sweep => folder.join("unfinished-sweep"),
         // Here nothing stands that is worth a look before all of it is there.
+        Writer::Check => own(folder, "check"),
         Writer::Compare => own(folder, "compare"),
         Writer::Limit => own(folder, "limit"),
         Writer::Validate => own(folder, "validate"),

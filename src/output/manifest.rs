@@ -15,6 +15,8 @@ use std::path::{Component, Path};
 pub enum Writer {
     /// `percoat solve`.
     Solve,
+    /// `percoat check`.
+    Check,
     /// `percoat compare`.
     Compare,
     /// `percoat limit`.
@@ -29,12 +31,14 @@ pub enum Writer {
 
 impl Writer {
     /// All of them.
-    pub const ALL: [Self; 6] = [Self::Solve, Self::Compare, Self::Limit, Self::Validate, Self::Sweep, Self::Report];
+    pub const ALL: [Self; 7] =
+        [Self::Solve, Self::Check, Self::Compare, Self::Limit, Self::Validate, Self::Sweep, Self::Report];
 
     /// Whose files go when this one's result is replaced: its own, and the report, which shows the old one.
     pub(super) fn takes_along(self) -> &'static [Self] {
         match self {
             Self::Solve => &[Self::Solve, Self::Report],
+            Self::Check => &[Self::Check],
             Self::Compare => &[Self::Compare, Self::Report],
             Self::Limit => &[Self::Limit, Self::Report],
             Self::Validate => &[Self::Validate],

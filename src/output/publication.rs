@@ -91,6 +91,7 @@ impl<'a> Publication<'a> {
     fn retired(&self) -> PathBuf {
         let name = match self.writer {
             Writer::Solve => "retired",
+            Writer::Check => "retired-check",
             Writer::Compare => "retired-compare",
             Writer::Limit => "retired-limit",
             Writer::Validate => "retired-validate",

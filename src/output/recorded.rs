@@ -4,7 +4,7 @@
 //! elsewhere. What the files do not hold (boundaries, what a reading says of its own errors) stays empty.
 
 use super::Timing;
-use crate::reading::{Criterion, Errors, LevelErrors, LevelReading, Reading, StressReading, Utilisation};
+use crate::reading::{Criterion, Errors, LevelErrors, LevelReading, Reading, RoughReading, StressReading, Utilisation};
 use crate::run::{At, Limit, Limits, StepRecord};
 use crate::spectral::{Certificate, Report, Route, Stop};
 use crate::stress::Peak;
@@ -145,6 +145,7 @@ struct StepKeys {
     #[serde(default)]
     strength: Vec<UtilisationKeys>,
     seconds: Option<f64>,
+    rough: Option<RoughReading>,
 }
 
 #[derive(Deserialize)]
@@ -257,6 +258,7 @@ fn record(keys: StepKeys) -> StepRecord {
         slides: keys.friction.is_some(),
         convolutions: keys.convolutions,
         points: keys.points,
+        rough: keys.rough,
         stress: keys.stress.map(stress),
         strength: keys.strength.into_iter().filter_map(utilisation).collect(),
         seconds: keys.seconds,

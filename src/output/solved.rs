@@ -1,6 +1,7 @@
 //! What a solved case leaves beside its pictures.
 
 use super::folder::Plan;
+use super::histograms::histograms;
 use super::manifest::Writer;
 use super::summary::{curve, summary};
 use super::{OutputError, Timing, write_text};
@@ -11,6 +12,9 @@ use std::path::Path;
 /// The files of a case with so many load steps, with their fields or without; pictures come besides.
 pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
     let mut names = ["case.toml", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
+    if case.surface.is_some() {
+        names.push("histograms.csv".to_owned());
+    }
     if fields {
         names.push("contact.npz".to_owned());
         if let Some(stress) = &case.stress {
@@ -36,5 +40,9 @@ pub fn write_scalars(
 ) -> Result<(), OutputError> {
     let summary = summary(case, warnings, outcome.change, &outcome.steps, timing);
     write_text(&folder.join("summary.json"), &summary)?;
-    write_text(&folder.join("curve.csv"), &curve(&outcome.steps))
+    write_text(&folder.join("curve.csv"), &curve(&outcome.steps))?;
+    match histograms(&outcome.steps) {
+        Some(histograms) => write_text(&folder.join("histograms.csv"), &histograms),
+        None => Ok(()),
+    }
 }

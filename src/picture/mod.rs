@@ -9,6 +9,7 @@
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
 //! - The rows of a sweep: [`sweep`](sweep()): curves over a key, maps over two.
 //! - Localized against spectral: [`comparison`](comparison()).
+//! - A topography before anything is solved: [`spectrum`](spectrum()).
 
 mod axis;
 mod bar;
@@ -37,6 +38,7 @@ mod rows;
 mod section;
 mod sheet;
 mod snapshot;
+mod spectrum;
 mod sweep;
 mod text;
 mod tiling;
@@ -58,5 +60,6 @@ pub use profiles::profiles;
 pub use quantity::Quantity;
 pub use section::section;
 pub use snapshot::Snapshot;
+pub use spectrum::spectrum;
 pub use sweep::sweep;
 pub use utilisations::utilisations;

@@ -1,4 +1,4 @@
-//! The contact pressure over the surface, true to scale, several cells side by side (Fig. 2a).
+//! The contact pressure over the surface, true to scale: several cells side by side (Fig. 2a), one of a topography.
 
 use super::axis::Axis;
 use super::bar::Bar;
@@ -7,11 +7,12 @@ use super::colour::Colour;
 use super::map::{Fill, Map, Over};
 use super::sheet::sheet;
 use super::snapshot::{Snapshot, is_oblique};
-use super::tiling::{Window, images, window};
+use super::tiling::{Window, images, window, window_of_one};
 
 /// The picture; white is where there is no contact.
 pub fn pressure(snapshot: &Snapshot) -> Canvas {
-    let window = window(snapshot.step.grid().cell());
+    let cell = snapshot.step.grid().cell();
+    let window = if snapshot.levels() == 0 { window_of_one(cell) } else { window(cell) };
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
@@ -25,6 +26,7 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     over.extend(sliding_arrow(snapshot));
     let map = Map { title: String::new(), x, y, aspect: aspect(window), fill: Fill::Values(bar, &value), over };
     let what = match snapshot.levels() {
+        0 if cell.is_rectangular() => "White: no contact; one unit cell.",
         0 => "White: no contact; dashed: the unit cell.",
         _ => "Numbers are levels; white: no contact; dashed: the unit cell.",
     };

@@ -21,6 +21,17 @@ pub fn window(cell: Cell) -> Window {
     [0, 1].map(|k| [middle[k] - half[k], middle[k] + half[k]])
 }
 
+/// A window of one cell: the rectangle around it.
+pub fn window_of_one(cell: Cell) -> Window {
+    let [[x1, y1], [x2, y2]] = cell.vectors();
+    [bounds(x1, x2), bounds(y1, y2)]
+}
+
+/// Least and largest coordinate of a cell's corners.
+fn bounds(one: f64, other: f64) -> [f64; 2] {
+    [one.min(0.0) + other.min(0.0), one.max(0.0) + other.max(0.0)]
+}
+
 /// All places in the window that are equivalent to the place given in fractions of a₁, a₂.
 pub fn images(cell: Cell, place: [f64; 2], [[x0, x1], [y0, y1]]: Window) -> Vec<[f64; 2]> {
     let middle = [0.5 * (x0 + x1), 0.5 * (y0 + y1)];
@@ -111,6 +122,14 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_window_of_one_cell_is_that_cell_where_it_is_a_rectangle() {
+        let window = |a1, a2| window_of_one(Cell::new(a1, a2).unwrap());
+        assert_eq!(window([2.0, 0.0], [0.0, 3.0]), [[0.0, 2.0], [0.0, 3.0]]);
+        assert_eq!(window([0.0, 2.0], [-3.0, 0.0]), [[-3.0, 0.0], [0.0, 2.0]]);
+        assert_eq!(window([2.0, 0.0], [1.0, 1.5]), [[0.0, 3.0], [0.0, 1.5]]);
     }
 
     #[test]

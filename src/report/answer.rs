@@ -4,6 +4,7 @@ use super::markup::{Markup, numbers, tag, with};
 use super::table::pairs;
 use super::units::told;
 use crate::output::table::percent_with_error;
+use crate::output::with_error;
 use crate::reading::LevelReading;
 use crate::run::StepRecord;
 use crate::units::Units;
@@ -44,6 +45,16 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
     });
     if reading.levels.len() > 1 {
         rows.push(("share of the load", with("ul", &[("class", "plain")], shares.collect::<Markup>())));
+    }
+    if let Some(rough) = &step.rough {
+        let stiffness = rough.stiffness.map(|stiffness| with_error(stiffness, rough.stiffness_error));
+        rows.push((
+            "counted, corrected by the perimeter",
+            numbers(&percent_with_error(rough.corrected_fraction, None)),
+        ));
+        rows.push(("contact spots in the cell", rough.spots.count.to_string().into()));
+        rows.push(("mean gap", numbers(&told(units.length(), rough.mean_gap, None))));
+        rows.extend(stiffness.map(|text| ("stiffness dp̄/dδ, a pressure per length", numbers(&text))));
     }
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());
     vec![with("p", &[("class", "answer")], numbers(&sentence)), pairs(&step_of, &rows)].into()

@@ -114,7 +114,7 @@ impl Run {
     /// [`RunError`]; what the recorder heard of until then stands.
     pub fn solve<R: Recorder>(&self, recorder: &mut R) -> Result<Outcome, RunError<R::Error>> {
         self.checked()?;
-        let (steps, last, points, change, end) = match self.sampling {
+        let (mut steps, last, points, change, end) = match self.sampling {
             Sampling::Points(points) => {
                 let (steps, last) = self.on_grid(points, recorder)?;
                 (steps, last, points, None, None)
@@ -136,6 +136,7 @@ impl Run {
                 }
             }
         };
+        StepRecord::add_stiffness(&mut steps);
         let warnings = warnings::warnings(&self.problem, &steps, end, change);
         Ok(Outcome { steps, last, points, change, end, warnings })
     }

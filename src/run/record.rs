@@ -1,7 +1,7 @@
 //! Every scalar of a load step, as `summary.json` has them.
 
 use crate::body::HalfSpace;
-use crate::reading::{Criterion, Reading, StressReading, Utilisation};
+use crate::reading::{Criterion, Reading, RoughReading, StressReading, Utilisation, stiffness};
 use crate::spectral::{Certificate, Report, Step, Stop};
 
 /// What stays of a load step beside its fields.
@@ -19,6 +19,8 @@ pub struct StepRecord {
     pub convolutions: f64,
     /// Grid points along a₁ and a₂.
     pub points: [usize; 2],
+    /// What is read of the contact of a topography.
+    pub rough: Option<RoughReading>,
     /// Largest stresses, where stresses are asked for and there is contact.
     pub stress: Option<StressReading>,
     /// What each criterion with a strength takes up, where there is contact.
@@ -39,9 +41,21 @@ impl StepRecord {
             slides: step.problem().friction().is_some(),
             convolutions,
             points: step.grid().points(),
+            rough: RoughReading::of(step.finest()),
             stress: None,
             strength: Vec::new(),
             seconds: None,
+        }
+    }
+
+    /// Adds to the steps of a path on a topography what only all of them tell: its stiffness.
+    pub(super) fn add_stiffness(steps: &mut [Self]) {
+        let path: Vec<[f64; 2]> =
+            steps.iter().map(|step| [step.reading.mean_pressure, step.reading.penetration]).collect();
+        for (step, found) in steps.iter_mut().zip(stiffness(&path)) {
+            if let (Some(rough), Some([value, error])) = (&mut step.rough, found) {
+                (rough.stiffness, rough.stiffness_error) = (Some(value), Some(error));
+            }
         }
     }
 
@@ -101,7 +115,7 @@ impl serde::Serialize for StepRecord {
         use crate::spectral::Route;
         use serde::ser::SerializeStruct;
         let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 24)?;
+        let mut keys = serializer.serialize_struct("step", 25)?;
         keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
         keys.serialize_field("penetration", &reading.penetration)?;
         // Eq. (8): δ is measured from the mean plane of the deformed surface.
@@ -123,6 +137,10 @@ impl serde::Serialize for StepRecord {
         keys.serialize_field("contact_spots", &reading.contact_spots)?;
         keys.serialize_field("spot_resolution", &reading.spot_resolution)?;
         keys.serialize_field("levels", &reading.levels)?;
+        match &self.rough {
+            Some(rough) => keys.serialize_field("rough", rough)?,
+            None => keys.skip_field("rough")?,
+        }
         if self.slides {
             let outer_iterations = report.outer;
             keys.serialize_field("friction", &Sliding { outer_iterations, residual: report.residual })?;

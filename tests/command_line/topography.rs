@@ -1,6 +1,6 @@
-//! `[surface]`: a topography from a NumPy file through the command line.
+//! `[surface]`: topographies from a file and from a seed through the command line.
 
-use crate::program::{Desk, Folder, assert_close};
+use crate::program::{Desk, Folder, assert_close, number};
 use npyz::WriterBuilder;
 use std::f64::consts::TAU;
 
@@ -63,4 +63,69 @@ fn a_topography_is_pressed_where_it_is_high() {
     }
     assert!(pressure.values.contains(&0.0), "contact is partial");
     assert!(folder.steps()[0]["levels"].as_array().unwrap().is_empty(), "a topography has no levels");
+}
+
+const ROUGH: [&str; 6] =
+    ["--set", "grid.points=64", "--set", "surface.random.shortest=2.5", "--set", "load.mean_pressure=[0.05,0.1,0.2]"];
+
+#[test]
+fn a_rough_contact_has_its_area_spots_gap_stiffness_and_histograms() {
+    let desk = Desk::new();
+    let folder = desk.solve("rough", &[&["rough"], &ROUGH[..]].concat());
+    let steps = folder.steps();
+    let mut contact = folder.contact();
+    let gap = contact.field("gap");
+    let samples = 64 * 64;
+    for (k, step) in steps.iter().enumerate() {
+        let rough = |key: &str| number(step, &format!("/rough/{key}"));
+        let (counted, corrected) = (rough("counted_fraction"), rough("corrected_fraction"));
+        assert!(0.0 < corrected && corrected < counted && counted < 1.0);
+        let mean = gap.values[k * samples..][..samples].iter().map(|gap| gap.max(0.0)).sum::<f64>() / samples as f64;
+        assert_close(rough("mean_gap"), mean, 1e-6);
+        assert!(rough("stiffness") > 0.0 && rough("stiffness_error") < 0.2 * rough("stiffness"));
+        assert_eq!(rough("spots/count"), number(step, "/contact_spots"));
+    }
+    let text = folder.text("histograms.csv");
+    let mut sums = [0.0; 2];
+    for line in text.lines().skip(1).filter(|line| line.starts_with("2,")) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let part =
+            cells[5].parse::<f64>().unwrap() * (cells[3].parse::<f64>().unwrap() - cells[2].parse::<f64>().unwrap());
+        match cells[1] {
+            "pressure" => sums[0] += part,
+            "gap" => sums[1] += part,
+            other => assert_eq!(other, "spot_area"),
+        }
+    }
+    assert_close(sums[0], number(&steps[1], "/rough/counted_fraction"), 1e-12);
+    assert_close(sums[0] + sums[1], 1.0, 1e-12);
+    assert!(!folder.text("curve.csv").lines().next().unwrap().contains("histogram"));
+}
+
+#[test]
+fn check_describes_a_surface_and_writes_its_spectrum_where_it_is_asked_to() {
+    let desk = Desk::new();
+    let asked = [&["check", "rough"], &ROUGH[..]].concat();
+    let answer = desk.percoat(&asked);
+    assert!(answer.code == 0 && desk.names().is_empty(), "{} {:?}", answer.err, desk.names());
+    assert!(answer.out.contains("rms slope 0.020000") && answer.out.contains("kurtosis"), "{}", answer.out);
+    for _ in 0..2 {
+        let answer = desk.percoat(&[&asked[..], &["-o", "spectrum"]].concat());
+        assert!(answer.code == 0 && answer.out.contains("written to spectrum"), "{}", answer.err);
+        let table = std::fs::read_to_string(desk.path("spectrum/spectrum.csv")).unwrap();
+        assert!(table.starts_with("wavenumber,density,waves\n") && table.lines().count() > 10);
+        assert!(std::fs::read(desk.path("spectrum/spectrum.png")).unwrap().starts_with(b"\x89PNG"));
+    }
+    desk.write("spectrum/spectrum.csv", "mine");
+    desk.percoat(&[&asked[..], &["-o", "spectrum"]].concat()).complains(2, &["was changed since percoat wrote it"]);
+    desk.percoat(&["check", "fig2", "-o", "some"]).complains(2, &["[surface]"]);
+}
+
+#[test]
+fn check_draws_which_index_runs_where() {
+    let desk = Desk::new();
+    desk.write("surface.csv", "0,0,0\n0,1,0\n0,0,0\n");
+    desk.write("waves.toml", CASE.replace("surface.npy", "surface.csv"));
+    let answer = desk.percoat(&["check", "waves.toml"]);
+    assert!(answer.code == 0 && answer.out.contains("i: along a₁; the lines of a text file"), "{}", answer.err);
 }

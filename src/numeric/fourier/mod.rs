@@ -3,13 +3,15 @@
 //! - `butterflies`: short ones, of eight series in the lanes of vectors;
 //! - `columns`: of complex columns, forth and back, without reordering between;
 //! - `rows`: of real rows, by the same steps;
-//! - `nonuniform`: sums of waves of any frequency at equally spaced points.
+//! - `nonuniform`: sums of waves of any frequency at equally spaced points;
+//! - `field`: whole fields of any size by the library, done once.
 //!
 //! A field is transformed by groups of eight rows, then by tiles of eight columns, which are lines of eight real and eight
 //! imaginary parts, one line a row.
 
 mod butterflies;
 mod columns;
+pub mod field;
 mod nonuniform;
 mod rows;
 

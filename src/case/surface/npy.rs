@@ -1,4 +1,5 @@
-//! NumPy's `.npy` files as `numpy.save` writes them: two axes of 64-bit floats.
+//! NumPy's `.npy` files as `numpy.save` writes them: two axes of floats or integers, in either order of the bytes and of
+//! the axes.
 //!
 //! The head is a Python dictionary behind a magic word, a version and its length:
 //! `{'descr': '<f8', 'fortran_order': False, 'shape': (64, 48), }`. It is read by hand, since it may hold anything: a
@@ -6,23 +7,28 @@
 
 use std::io::{self, Read};
 
+use super::fault::{Fault, Heights, MOST, fits};
+
 /// Bytes of the longest head that is read; that of a plain array has 118.
 const LONGEST: usize = 1 << 16;
 
+/// The bytes of a value as a number.
+type Decode = fn(&[u8]) -> f64;
+
 /// What the head of a file says.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Head {
+struct Head {
     /// Type of the values as written, such as `'<f8'` with its quotes.
-    pub(super) kind: String,
+    kind: String,
     /// Whether the first axis is the fastest.
-    pub(super) fortran: bool,
+    fortran: bool,
     /// Lengths of the axes.
-    pub(super) shape: Vec<u64>,
+    shape: Vec<u64>,
 }
 
 impl Head {
     /// Read the head; the reader then stands before the values.
-    pub(super) fn read(reader: &mut impl Read) -> io::Result<Self> {
+    fn read(reader: &mut impl Read) -> io::Result<Self> {
         let mut magic = [0; 8];
         reader.read_exact(&mut magic)?;
         let [.., major, _] = magic;
@@ -57,14 +63,77 @@ impl Head {
         Some(Self { kind: kind?, fortran: fortran?, shape: shape? })
     }
 
-    /// The next 8 bytes as a value; `None` when the type is not a 64-bit float.
-    pub(super) fn decode(&self) -> Option<fn([u8; 8]) -> f64> {
-        match self.kind.trim_matches(['\'', '"']) {
-            "<f8" => Some(f64::from_le_bytes),
-            ">f8" => Some(f64::from_be_bytes),
-            _ => None,
+    /// Bytes of a value, and what they are as a number; `None` for a type that is no real number.
+    fn decode(&self) -> Option<(usize, Decode)> {
+        macro_rules! number {
+            ($type:ty, $read:ident) => {
+                (size_of::<$type>(), |bytes: &[u8]| <$type>::$read(bytes.try_into().expect("as many as it has")) as f64)
+            };
+        }
+        Some(match self.kind.trim_matches(['\'', '"']) {
+            "<f8" => number!(f64, from_le_bytes),
+            ">f8" => number!(f64, from_be_bytes),
+            "<f4" => number!(f32, from_le_bytes),
+            ">f4" => number!(f32, from_be_bytes),
+            "|i1" | "<i1" | ">i1" => number!(i8, from_le_bytes),
+            "|u1" | "<u1" | ">u1" => number!(u8, from_le_bytes),
+            "<i2" => number!(i16, from_le_bytes),
+            ">i2" => number!(i16, from_be_bytes),
+            "<u2" => number!(u16, from_le_bytes),
+            ">u2" => number!(u16, from_be_bytes),
+            "<i4" => number!(i32, from_le_bytes),
+            ">i4" => number!(i32, from_be_bytes),
+            "<u4" => number!(u32, from_le_bytes),
+            ">u4" => number!(u32, from_be_bytes),
+            "<i8" => number!(i64, from_le_bytes),
+            ">i8" => number!(i64, from_be_bytes),
+            "<u8" => number!(u64, from_le_bytes),
+            ">u8" => number!(u64, from_be_bytes),
+            _ => return None,
+        })
+    }
+}
+
+const WANTED: &str = "needed: heights of shape (n1, n2) and type float64, float32 or an integer, written by numpy.save";
+
+/// Read a file of `bytes` bytes.
+pub(super) fn read(mut reader: impl Read, bytes: u64) -> Result<Heights, Fault> {
+    read_heights(&mut reader, bytes).map_err(|fault| if fault.help.is_none() { fault.help(WANTED) } else { fault })
+}
+
+fn read_heights(reader: &mut impl Read, bytes: u64) -> Result<Heights, Fault> {
+    let head = Head::read(reader).map_err(|error| Fault::new(format!("is not a NumPy file: {error}"), "this file"))?;
+    let sizes: Vec<String> = head.shape.iter().map(u64::to_string).collect();
+    let shape = format!("shape ({})", sizes.join(", "));
+    let most = MOST as u64;
+    let points = match head.shape[..] {
+        [n1, n2] if (2..=most).contains(&n1) && (2..=most).contains(&n2) => [n1 as usize, n2 as usize],
+        _ => {
+            let what = format!("holds an array of {shape}; n1 and n2 must lie between 2 and {MOST}");
+            return Err(Fault::new(what, shape));
+        }
+    };
+    let kind = format!("type {}", head.kind);
+    let Some((size, number)) = head.decode() else {
+        return Err(Fault::new(format!("holds values of {kind}"), kind));
+    };
+    let [n1, n2] = points;
+    let truncated = || Fault::new(format!("ends before its {n1} × {n2} values"), "truncated");
+    if bytes < (size * n1 * n2) as u64 {
+        return Err(truncated());
+    }
+    // In the order of the grid, and a line as stored.
+    fits(8 * (n1 * n2) as u64)?;
+    let mut values = vec![0.0; n1 * n2];
+    let [lines, along] = if head.fortran { [n2, n1] } else { [n1, n2] };
+    let mut stored = vec![0; size * along];
+    for line in 0..lines {
+        reader.read_exact(&mut stored).map_err(|_| truncated())?;
+        for (k, value) in stored.chunks_exact(size).map(number).enumerate() {
+            values[if head.fortran { k * n2 + line } else { line * n2 + k }] = value;
         }
     }
+    Heights::new(points, values)
 }
 
 /// The parts between commas that stand in no brackets.
@@ -106,7 +175,7 @@ mod tests {
         }
         let record = "{'descr': [('a', '<f8'), ('b', '<i4')], 'fortran_order': True, 'shape': (5,)}";
         let head = read(1, record).unwrap();
-        assert_eq!((head.fortran, &head.shape[..], head.decode().is_none()), (true, &[5][..], true));
+        assert!(head.fortran && head.shape == [5] && head.decode().is_none());
     }
 
     #[test]

@@ -1,0 +1,259 @@
+//! `[surface]`: one period of any topography, from a file or a seed.
+//!
+//! `file` reads one of the formats (`npy`, `text`, `xyz`; `fault` says what is wrong with any) in its `unit`, `random` has
+//! the keys of a generated surface. Which index runs where is drawn in [`ORIENTATION`].
+
+mod fault;
+mod file;
+mod npy;
+mod random;
+mod text;
+mod unit;
+mod xyz;
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::error::Refusal;
+use super::grid;
+use super::lattice::{LatticeSection, build_cell};
+use super::magnitude;
+use super::node::Value;
+use super::reader::{TableAt, ValueAt};
+use crate::counterbody::Topography;
+use crate::counterbody::roughness::{Spectrum, Window};
+use crate::lattice::Cell;
+use crate::numeric::number::number;
+use crate::run::Sampling;
+use fault::fits;
+use file::{FromFile, Treatment};
+use ndarray::Array2;
+
+pub use random::{RandomSection, RmsKey};
+
+/// Which index of `heights[i, j]` runs where.
+pub const ORIENTATION: &str = "\
+   a₂ ↑  [0, n₂−1]  …  [n₁−1, n₂−1]    heights[i, j], larger = nearer to the body
+      │      ⋮               ⋮         i: along a₁; the lines of a text file
+      │    [0, 0]   …    [n₁−1, 0]     j: along a₂; the numbers of a line
+      └──────────────────────→ a₁      an image with its first row on top: image[::-1].T";
+
+/// The section `[surface]`, with its unit in `scale` and its period in [`LatticeSection`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+#[non_exhaustive]
+pub enum SurfaceSection {
+    /// Heights from a file.
+    File {
+        /// Its path, absolute, so that a copy of the case still finds it.
+        heights: String,
+        /// Factor of its heights.
+        scale: f64,
+        /// Whether its mean plane is taken away.
+        level: bool,
+        /// How its border is tapered, if it is.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        window: Option<Window>,
+    },
+    /// Heights from a seed.
+    Random {
+        /// The section `[surface.random]`.
+        random: RandomSection,
+    },
+}
+
+impl SurfaceSection {
+    /// What a generated surface is; `None` of one from a file.
+    pub fn random(&self) -> Option<&RandomSection> {
+        match self {
+            Self::Random { random } => Some(random),
+            Self::File { .. } => None,
+        }
+    }
+}
+
+/// What a topography is read with.
+#[derive(Debug)]
+pub(super) struct Around<'a> {
+    /// That of the case file.
+    pub(super) folder: &'a Path,
+    pub(super) lattice: Option<TableAt<'a>>,
+    pub(super) grid: Option<TableAt<'a>>,
+    /// `units.length`, if it is there.
+    pub(super) length: Option<&'a str>,
+}
+
+/// A topography of a case.
+#[derive(Debug)]
+pub(super) struct Read {
+    pub(super) section: SurfaceSection,
+    pub(super) lattice: LatticeSection,
+    pub(super) topography: Topography,
+    pub(super) sampling: Sampling,
+    pub(super) doubts: Vec<String>,
+}
+
+/// A larger loss of rms slope than this is worth a warning: under light loads the area of contact is lost with it.
+const LOSS: f64 = 0.01;
+
+/// Read the section and its file, or generate its surface.
+pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
+    section.only()?;
+    match section.one_of(["heights", "random"], "`heights`, the path of a file, or a section [surface.random]")? {
+        (0, heights) => from_file(section, &heights, around),
+        (_, random) => from_seed(section, &random, around),
+    }
+}
+
+fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
+    let path = around.folder.join(heights.text("the path of a file")?);
+    let path = std::path::absolute(&path).unwrap_or(path);
+    let treatment = Treatment::read(section, around.length)?;
+    let FromFile { heights: stored, period: own, doubt } = file::read(&path, heights, treatment)?;
+    let points: [usize; 2] = stored.dim().into();
+    let (lattice, cell) = cell(section, around, points, own)?;
+    let sampling = grid::read(around.grid.as_ref(), Some(points))?;
+    let (on_grid, lost) = match sampling {
+        Sampling::Points(wanted) if wanted != points => resampled(heights, cell, stored, wanted)?,
+        _ => (stored, None),
+    };
+    let Treatment { scale, level, window, .. } = treatment;
+    Ok(Read {
+        section: SurfaceSection::File { heights: path.to_string_lossy().into_owned(), scale, level, window },
+        lattice,
+        topography: topography(section, cell, on_grid)?,
+        sampling,
+        doubts: doubt.into_iter().chain(lost).collect(),
+    })
+}
+
+fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
+    if let Some(value) = ["scale", "unit", "pixel", "level", "window"].iter().find_map(|key| section.optional(key)) {
+        let message = format!("`{}` has no place beside `surface.random`: it belongs to a file's heights", value.path);
+        return Err(Refusal::new(value.node.place, message, "not used here").help("remove it"));
+    }
+    let (lattice, cell) = cell(section, around, [1, 1], None)?;
+    let table = random.table("write it as a section, [surface.random]")?;
+    let own = RandomSection::read(&table, cell)?;
+    let surface = own.surface();
+    let sampling = grid::read(around.grid.as_ref(), None)?;
+    let refuse = |error: String| Refusal::new(table.place, format!("`surface.random`: {error}"), "no such surface");
+    let points = match sampling {
+        Sampling::Points(points) => points,
+        Sampling::Accuracy(_) => surface.resolving_points(cell).map_err(|error| refuse(error.to_string()))?,
+    };
+    room(&table, points)?;
+    let (spectrum, whole) = surface
+        .spectrum(cell, points)
+        .and_then(|spectrum| Ok((spectrum, surface.rms_slope(cell)?)))
+        .map_err(|error| refuse(error.to_string()))?;
+    let lost = loss([spectrum.rms_slope(), whole], points);
+    Ok(Read {
+        section: SurfaceSection::Random { random: own },
+        lattice,
+        topography: topography(section, cell, spectrum.into_heights())?,
+        sampling,
+        doubts: lost.into_iter().collect(),
+    })
+}
+
+/// The cell: `[lattice]`, or what the section or its file says of the period.
+fn cell(
+    section: &TableAt<'_>,
+    around: &Around<'_>,
+    points: [usize; 2],
+    own: Option<[f64; 2]>,
+) -> Result<(LatticeSection, Cell), Refusal> {
+    let [period, pixel] = ["period", "pixel"].map(|key| section.optional(key));
+    let sides = match (&around.lattice, period, pixel) {
+        (None, Some(_), Some(pixel)) => return Err(section.both(["period", "pixel"], pixel.node.place)),
+        (Some(_), Some(value), _) | (Some(_), None, Some(value)) => {
+            let message = format!("`{}` and [lattice] exclude each other: both say how large the cell is", value.path);
+            return Err(Refusal::new(value.node.place, message, "the cell is known"));
+        }
+        (Some(table), None, None) => {
+            let lattice = LatticeSection::read(table)?;
+            return Ok((lattice, build_cell(&lattice, table)?));
+        }
+        (None, Some(period), None) => sides(&period)?,
+        (None, None, Some(pixel)) => {
+            let [d1, d2] = sides(&pixel)?;
+            [d1 * points[0] as f64, d2 * points[1] as f64]
+        }
+        (None, None, None) => own.ok_or_else(|| {
+            Refusal::new(section.place, "`surface.period` is missing, and so is [lattice]", "how large is the cell?").help(
+                "add period = L or [L1, L2], the lengths of the whole file along a₁ and a₂; or pixel = d, the distance of \
+                 its samples; or a section [lattice]",
+            )
+        })?,
+    };
+    let [l1, l2] = sides;
+    if let Some(side) = sides.iter().find(|side| !magnitude::CARRIED.contains(*side)) {
+        let message = format!("`surface`: a side of the cell is {side}; it must be between 1e-60 and 1e60");
+        return Err(Refusal::new(section.place, message, "no cell"));
+    }
+    let lattice = match l1 == l2 {
+        true => LatticeSection::Square { period: l1 },
+        false => LatticeSection::Oblique { a1: [l1, 0.0], a2: [0.0, l2] },
+    };
+    Ok((lattice, build_cell(&lattice, section)?))
+}
+
+/// A length for both directions, or one for each.
+fn sides(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
+    const WANTED: &str = "a length greater than 0 or two of them, [L1, L2]";
+    match &value.node.value {
+        Value::List(_) => match &value.list(WANTED, WANTED)?[..] {
+            [one, other] => Ok([magnitude::size(one)?, magnitude::size(other)?]),
+            _ => Err(value.refuse(WANTED)),
+        },
+        _ => magnitude::size(value).map(|side| [side; 2]),
+    }
+}
+
+/// Heights of a file on another grid, and what of their slope that grid cannot hold.
+fn resampled(
+    value: &ValueAt<'_>,
+    cell: Cell,
+    heights: Array2<f64>,
+    points: [usize; 2],
+) -> Result<(Array2<f64>, Option<String>), Refusal> {
+    let refuse = |what: String| Refusal::new(value.node.place, format!("`{}`: {what}", value.path), "resampled");
+    let needed = 24 * (heights.len() + points[0] * points[1]) as u64;
+    fits(needed).map_err(|fault| refuse(format!("resampling {}", fault.what)).help("choose fewer grid.points"))?;
+    let spectrum = Spectrum::of(cell, heights.view()).map_err(|error| refuse(error.to_string()))?;
+    drop(heights);
+    let on_grid = spectrum.resampled(points).map_err(|error| refuse(error.to_string()))?;
+    let held = Spectrum::of(cell, on_grid.view()).map_err(|error| refuse(error.to_string()))?;
+    let lost = loss([held.rms_slope(), spectrum.rms_slope()], points);
+    Ok((on_grid, lost))
+}
+
+/// Refuses a generated surface for which there is no memory.
+fn room(section: &TableAt<'_>, [n1, n2]: [usize; 2]) -> Result<(), Refusal> {
+    fits(24 * (n1 * n2) as u64).map_err(|fault| {
+        let message = format!("`surface.random`: on {n1} × {n2} samples it {}", fault.what);
+        Refusal::new(section.place, message, fault.label()).help("choose fewer grid.points")
+    })
+}
+
+fn topography(section: &TableAt<'_>, cell: Cell, heights: Array2<f64>) -> Result<Topography, Refusal> {
+    Topography::new(cell, heights)
+        .map_err(|error| Refusal::new(section.place, format!("`surface`: {error}"), "no topography"))
+}
+
+/// That a grid of `points` holds the first rms slope of the second.
+fn loss([held, whole]: [f64; 2], [n1, n2]: [usize; 2]) -> Option<String> {
+    (held < (1.0 - LOSS) * whole).then(|| {
+        format!(
+            "grid.points = [{n1}, {n2}] holds an rms slope of {} of the surface's {}: waves shorter than two samples are \
+             left out, and the true area of contact is smaller and the pressure higher by about as much; raise grid.points",
+            number(held),
+            number(whole)
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+//! The plane that fits a surface best.
+//!
+//! Σ w₁(i) w₂(j) (h_ij − c − c₁ s_i − c₂ t_j)² least, s and t counted from the middle in parts of the length. Weights that
+//! are even about the middle make 1, s and t orthogonal: c = Σwh/Σw, c₁ = Σwsh/Σws², c₂ = Σwth/Σwt².
+
+use ndarray::{Array2, ArrayView2};
+
+/// A plane over the samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Plane {
+    /// Height in the middle, a length.
+    pub mean: f64,
+    /// Rise over the whole length along a₁ and a₂, lengths.
+    pub slopes: [f64; 2],
+    /// Samples it lies over.
+    pub points: [usize; 2],
+}
+
+/// Place of sample k of n from the middle, in parts of the length.
+fn place(k: usize, n: usize) -> f64 {
+    (k as f64 - 0.5 * (n as f64 - 1.0)) / n as f64
+}
+
+impl Plane {
+    /// The best one by weights along a₁ and a₂ that are even about the middle.
+    pub fn fit(heights: ArrayView2<'_, f64>, weights: &[Vec<f64>; 2]) -> Self {
+        let (n1, n2) = heights.dim();
+        // Moments of the rows, then of all.
+        let mut sums = [0.0; 3];
+        for (i, row) in heights.rows().into_iter().enumerate() {
+            let (mut plain, mut across) = (0.0, 0.0);
+            for (j, height) in row.iter().enumerate() {
+                plain += weights[1][j] * height;
+                across += weights[1][j] * height * place(j, n2);
+            }
+            let weight = weights[0][i];
+            sums = [sums[0] + weight * plain, sums[1] + weight * plain * place(i, n1), sums[2] + weight * across];
+        }
+        let total = weights.each_ref().map(|weights| weights.iter().sum::<f64>());
+        let square = |k: usize, n: usize| -> f64 {
+            weights[k].iter().enumerate().map(|(index, weight)| weight * place(index, n).powi(2)).sum()
+        };
+        let slope = |sum: f64, square: f64, other: f64| if square > 0.0 { sum / (square * other) } else { 0.0 };
+        let slopes = [slope(sums[1], square(0, n1), total[1]), slope(sums[2], square(1, n2), total[0])];
+        Self { mean: sums[0] / (total[0] * total[1]), slopes, points: [n1, n2] }
+    }
+
+    /// Its height at a sample, a length.
+    pub fn at(&self, [i, j]: [usize; 2]) -> f64 {
+        let [n1, n2] = self.points;
+        self.mean + self.slopes[0] * place(i, n1) + self.slopes[1] * place(j, n2)
+    }
+}
+
+/// Heights without the plane that fits them best.
+pub fn levelled(mut heights: Array2<f64>) -> Array2<f64> {
+    let (n1, n2) = heights.dim();
+    let plane = Plane::fit(heights.view(), &[vec![1.0; n1], vec![1.0; n2]]);
+    for ((i, j), height) in heights.indexed_iter_mut() {
+        *height -= plane.at([i, j]);
+    }
+    heights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::least_squares;
+
+    #[test]
+    fn the_plane_is_that_of_the_normal_equations() {
+        let height = |i: usize, j: usize| 2.0 + 0.3 * i as f64 - 0.7 * j as f64 + ((i * i + 3 * j) % 7) as f64;
+        let heights = Array2::from_shape_fn((9, 6), |(i, j)| height(i, j));
+        let rows = (0..54).map(|k| (vec![1.0, (k / 6) as f64, (k % 6) as f64], height(k / 6, k % 6)));
+        let c = least_squares::fit(3, rows).unwrap();
+        for ((i, j), rest) in levelled(heights).indexed_iter() {
+            let expected = height(i, j) - c[0] - c[1] * i as f64 - c[2] * j as f64;
+            assert!((rest - expected).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_plane_is_flat_afterwards() {
+        let plane = Array2::from_shape_fn((5, 8), |(i, j)| 3.0 + 0.1 * i as f64 - 2.0 * j as f64);
+        assert!(levelled(plane).iter().all(|height| height.abs() < 1e-14));
+    }
+}

@@ -1,0 +1,92 @@
+//! Transforms of whole fields of any size, for what is done once and before anything is solved.
+//!
+//! X_{k₁k₂} = (1/N₁N₂) Σ x_{j₁j₂} e^{−2πi(k₁j₁/N₁ + k₂j₂/N₂)} for 0 ≤ k₁ < N₁ and 0 ≤ k₂ ≤ N₂/2: of a real field the others
+//! are conjugates of these.
+
+use ndarray::{Array2, ArrayView2};
+use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftDirection, FftPlanner};
+use std::sync::Arc;
+
+const ZERO: Complex<f64> = Complex::new(0.0, 0.0);
+
+/// Components of a field in standard layout, shape (N₁, N₂/2 + 1).
+pub fn components(field: ArrayView2<'_, f64>) -> Array2<Complex<f64>> {
+    let (n1, n2) = field.dim();
+    let plan = RealFftPlanner::new().plan_fft_forward(n2);
+    let half = n2 / 2 + 1;
+    let mut values = Array2::from_elem((n1, half), ZERO);
+    let rows = values.as_slice_mut().expect("made row by row").par_chunks_mut(half);
+    let samples = field.as_standard_layout();
+    let samples = samples.as_slice().expect("in standard layout").par_chunks(n2);
+    rows.zip(samples).for_each_init(
+        || (plan.make_input_vec(), plan.make_scratch_vec()),
+        |(input, scratch), (row, samples)| {
+            input.copy_from_slice(samples);
+            plan.process_with_scratch(input, row, scratch).expect("lengths were planned");
+        },
+    );
+    let scale = 1.0 / (n1 * n2) as f64;
+    let mut values = columns(values, FftDirection::Forward);
+    values.as_slice_mut().expect("in standard layout").par_iter_mut().for_each(|x| *x *= scale);
+    values
+}
+
+/// The field of `n2` samples along a₂ with these components; of those that are their own conjugates the real part counts.
+pub fn field(components: Array2<Complex<f64>>, n2: usize) -> Array2<f64> {
+    let plan = RealFftPlanner::new().plan_fft_inverse(n2);
+    let mut values = columns(components, FftDirection::Inverse);
+    let (n1, half) = values.dim();
+    let mut field = Array2::zeros((n1, n2));
+    let rows = values.as_slice_mut().expect("made row by row").par_chunks_mut(half);
+    let samples = field.as_slice_mut().expect("made row by row").par_chunks_mut(n2);
+    rows.zip(samples).for_each_init(
+        || plan.make_scratch_vec(),
+        |scratch, (row, samples)| {
+            row[0].im = 0.0;
+            if n2.is_multiple_of(2) {
+                row[half - 1].im = 0.0;
+            }
+            plan.process_with_scratch(row, samples, scratch).expect("lengths were planned");
+        },
+    );
+    field
+}
+
+/// Every column transformed, in standard layout again.
+fn columns(values: Array2<Complex<f64>>, direction: FftDirection) -> Array2<Complex<f64>> {
+    let plan: Arc<dyn Fft<f64>> = FftPlanner::new().plan_fft(values.nrows(), direction);
+    let mut turned = values.reversed_axes().as_standard_layout().into_owned();
+    let columns = turned.as_slice_mut().expect("in standard layout").par_chunks_mut(plan.len());
+    columns.for_each_init(
+        || vec![ZERO; plan.get_inplace_scratch_len()],
+        |scratch, column| plan.process_with_scratch(column, scratch),
+    );
+    turned.reversed_axes().as_standard_layout().into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn components_are_the_direct_sums_and_lead_back() {
+        for (n1, n2) in [(6, 8), (5, 7), (11, 4), (1, 3)] {
+            let x = Array2::from_shape_fn((n1, n2), |(i, j)| ((7 * i + 3 * j * j) % 11) as f64 - 4.0);
+            let found = components(x.view());
+            for ((k1, k2), value) in found.indexed_iter() {
+                let mut sum = ZERO;
+                for ((i, j), &x) in x.indexed_iter() {
+                    let turns = (k1 * i) as f64 / n1 as f64 + (k2 * j) as f64 / n2 as f64;
+                    sum += Complex::from_polar(x / (n1 * n2) as f64, -TAU * turns);
+                }
+                assert!((sum - value).norm() < 1e-14, "{n1} × {n2}, ({k1}, {k2})");
+            }
+            let back = field(found, n2);
+            assert!((&back - &x).iter().all(|d| d.abs() < 1e-13));
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! The power spectrum of a topography, averaged over all directions.
+
+use super::axis::Axis;
+use super::canvas::Canvas;
+use super::chart::{Chart, plots};
+use super::curve::{Curve, Ink, Style};
+use super::snapshot::caption;
+use crate::counterbody::roughness::{SelfAffine, Spectrum, Statistics};
+use crate::numeric::number::number;
+use crate::problem::Problem;
+use crate::units::{Unit, Units};
+use std::f64::consts::TAU;
+
+/// The picture; `None` for indenters and for a flat surface. `random`: what a generated one was asked to be.
+pub fn spectrum(title: &str, problem: &Problem, units: &Units, random: Option<&SelfAffine>) -> Option<Canvas> {
+    let topography = problem.counterbody().topography()?;
+    let own = Spectrum::of(topography.cell(), topography.heights()).ok()?;
+    let rings: Vec<[f64; 2]> = own.radial().iter().map(|ring| [ring.wavenumber, ring.density]).collect();
+    let most = rings.iter().map(|[_, density]| *density).fold(0.0, f64::max);
+    // What rounding leaves where there are no waves is no spectrum.
+    let rings: Vec<[f64; 2]> = rings.into_iter().filter(|[_, density]| *density > 1e-20 * most).collect();
+    let least = rings.iter().map(|[_, density]| *density).reduce(f64::min)?;
+    let curve = |label: &str, points, style, colour: usize| {
+        let (label, colour) = (label.to_owned(), Ink::from(colour));
+        Curve { label, points, style, colour }
+    };
+    let mut curves = Vec::new();
+    if let Some((surface, density)) = random.and_then(|own| Some((own, own.density(topography.cell()).ok()?))) {
+        let ends = [surface.longest, surface.shortest].map(|length| TAU / length);
+        let at = |k: u32| ends[0] * (ends[1] / ends[0]).powf(f64::from(k) / 200.0);
+        let asked = (0..=200).map(|k| [at(k), density(at(k))]).collect();
+        curves.push(curve("asked for", asked, Style::Line, 2));
+        let cuts =
+            [("longest and shortest wave", &[surface.longest, surface.shortest][..]), ("roll-off", &[surface.rolloff])];
+        for ((name, lengths), style) in cuts.into_iter().zip([Style::Dotted, Style::Dashed]) {
+            let line = |length: &f64| [[TAU / length, 0.3 * least], [TAU / length, 3.0 * most], [f64::NAN; 2]];
+            curves.push(curve(name, lengths.iter().flat_map(line).collect(), style, 0));
+        }
+    }
+    curves.push(curve("surface on the grid", rings, Style::Markers, 1));
+    let chart = Chart {
+        title: String::new(),
+        x: Axis::log(in_lengths("wavenumber q", units, |unit| format!("1/{unit}"))),
+        y: Axis::log(in_lengths("power spectral density C", units, |unit| format!("{unit}⁴")))
+            .from_to(0.3 * least, 3.0 * most),
+        curves,
+    };
+    let statistics = Statistics::of(topography.heights());
+    let [n1, n2] = topography.points();
+    let more = [
+        units.length().told(statistics.rms_height, |x| format!("rms\u{a0}height\u{a0}{}", number(x))),
+        format!("rms\u{a0}slope\u{a0}{}", number(own.rms_slope())),
+        format!("{n1}\u{a0}×\u{a0}{n2} samples"),
+    ];
+    let what = "C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean square of the heights.";
+    Some(plots(&format!("{} {what}", caption(title, problem, units, &more)), &[chart]))
+}
+
+/// A quantity in a power of the unit of length, such as "1/µm" or "µm⁴"; `of` writes the unit.
+fn in_lengths(words: &str, units: &Units, of: impl Fn(&str) -> String) -> String {
+    let unit = match units.length() {
+        Unit::Relative(symbol) => symbol.clone(),
+        length => length.name().unwrap_or_else(|| "unit\u{a0}of\u{a0}length".to_owned()),
+    };
+    format!("{words}\u{a0}({})", of(&unit))
+}

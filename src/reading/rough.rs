@@ -1,0 +1,270 @@
+//! What is read of the contact of a topography, beside what is read of any contact: counted and corrected area, spots, gap
+//! and stiffness.
+//!
+//! **Area.** Of N samples n are in contact, and E pairs of neighbours along the grid's lines are one of them. Counting takes
+//! every sample at the border for whole, and overestimates: V. A. Yastrebov, G. Anciaux & J.-F. Molinari (Tribol. Int. 114
+//! (2017) 161–171) take off (π − 1 + ln 2)/24 · S_d Δx with the perimeter S_d along the edges of the samples, of which every
+//! pair has one: S_d Δx is E samples, whatever the cell's shape, and
+//!
+//! A/A₀ = (n − (π − 1 + ln 2)/24 · E)/N.
+//!
+//! [`Reading::contact_fraction`](super::Reading::contact_fraction) reads the border between the samples instead, from p² and
+//! g^{2/3}; where spots have fewer than some ten samples across it has no more to read than counting has, and the corrected
+//! fraction is another estimate of the same.
+//!
+//! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū.
+
+use super::histogram::Histogram;
+use crate::lattice::Grid;
+use crate::lattice::components::components;
+use crate::numeric::sums;
+use crate::spectral::Contact;
+use std::f64::consts::{LN_2, PI};
+
+/// (π − 1 + ln 2)/24.
+const PART: f64 = (PI - 1.0 + LN_2) / 24.0;
+
+/// Scalars and distributions of the contact of a topography.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RoughReading {
+    /// Samples in contact over all.
+    pub counted_fraction: f64,
+    /// The same corrected by the perimeter.
+    pub corrected_fraction: f64,
+    /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length.
+    pub perimeter_density: f64,
+    /// Contact spots, by their counted areas.
+    pub spots: SpotSizes,
+    /// Mean gap over the cell, contact counted as none: a length.
+    pub mean_gap: f64,
+    /// dp̄/dδ, pressure per length, where other load steps tell it.
+    pub stiffness: Option<f64>,
+    /// Its estimated error.
+    pub stiffness_error: Option<f64>,
+    /// Of pressure and gap over the samples, and of the areas of spots.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub histograms: Vec<Histogram>,
+}
+
+/// Sizes of the contact spots; areas are counted, lengths squared. 0 without contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct SpotSizes {
+    /// How many there are in the cell.
+    pub count: usize,
+    /// Spots per area of the surface, 1/length².
+    pub density: f64,
+    /// Their mean area.
+    pub mean_area: f64,
+    /// Half of them are smaller.
+    pub median_area: f64,
+    /// The area up to which, from the smallest on, spots carry half of the load.
+    pub half_load_area: f64,
+    /// Area of the largest.
+    pub largest_area: f64,
+    /// Whether one reaches across the cell to an image of itself.
+    pub percolates: bool,
+}
+
+impl RoughReading {
+    /// Of a contact; `None` for indenters.
+    pub fn of(contact: &Contact) -> Option<Self> {
+        contact.problem().counterbody().topography()?;
+        let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
+        let total = grid.len() as f64;
+        let (counted, pairs) = (pressure.iter().filter(|p| **p > 0.0).count(), borders(grid, pressure));
+        let (spots, areas) = spots(grid, pressure);
+        let touching = pressure.iter().copied().filter(|p| *p > 0.0);
+        let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
+        let corrected = counted as f64 - PART * pairs.iter().sum::<usize>() as f64;
+        Some(Self {
+            counted_fraction: counted as f64 / total,
+            corrected_fraction: corrected.max(0.0) / total,
+            perimeter_density: perimeter(grid, pairs) / grid.cell().area(),
+            spots,
+            mean_gap: sums::of(grid.len(), |k| if pressure[k] > 0.0 { [0.0] } else { [gap[k].max(0.0)] })[0] / total,
+            stiffness: None,
+            stiffness_error: None,
+            histograms: vec![
+                Histogram::even("pressure", touching, grid.len()),
+                Histogram::even("gap", open, grid.len()),
+                Histogram::by_decades("spot_area", areas.iter().copied()),
+            ],
+        })
+    }
+}
+
+/// Pairs of neighbours along a₁ and along a₂ of which one is in contact.
+fn borders(grid: &Grid, pressure: &[f64]) -> [usize; 2] {
+    let [n1, n2] = grid.points();
+    let touches = |i: usize, j: usize| pressure[i % n1 * n2 + j % n2] > 0.0;
+    let mut pairs = [0, 0];
+    for (i, j) in (0..n1).flat_map(|i| (0..n2).map(move |j| (i, j))) {
+        let here = touches(i, j);
+        pairs[0] += usize::from(touches(i + 1, j) != here);
+        pairs[1] += usize::from(touches(i, j + 1) != here);
+    }
+    pairs
+}
+
+/// Length of the edges between such pairs: neighbours along a₁ share one along a₂.
+fn perimeter(grid: &Grid, pairs: [usize; 2]) -> f64 {
+    let [along, across] = grid.steps().map(|[x, y]| x.hypot(y));
+    pairs[0] as f64 * across + pairs[1] as f64 * along
+}
+
+/// Sizes of the spots, and their areas, ascending.
+fn spots(grid: &Grid, pressure: &[f64]) -> (SpotSizes, Vec<f64>) {
+    let found = components(grid, |index| pressure[index] > 0.0);
+    let mut sizes: Vec<(usize, f64)> =
+        found.iter().map(|spot| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum())).collect();
+    sizes.sort_by_key(|(size, _)| *size);
+    let areas: Vec<f64> = sizes.iter().map(|(size, _)| *size as f64 * grid.sample_area()).collect();
+    let [Some(&largest_area), Some(&median_area)] = [areas.last(), areas.get(areas.len() / 2)] else {
+        return (SpotSizes::default(), areas);
+    };
+    let mut rest: f64 = 0.5 * sizes.iter().map(|(_, load)| load).sum::<f64>();
+    let middle = sizes.iter().position(|(_, load)| {
+        rest -= load;
+        rest <= 0.0
+    });
+    let sizes = SpotSizes {
+        count: areas.len(),
+        density: areas.len() as f64 / grid.cell().area(),
+        mean_area: areas.iter().sum::<f64>() / areas.len() as f64,
+        median_area,
+        half_load_area: middle.map_or(largest_area, |middle| areas[middle]),
+        largest_area,
+        percolates: found.iter().any(|spot| spot.wraps),
+    };
+    (sizes, areas)
+}
+
+/// dp̄/dδ at each of several load steps [p̄, δ], and its estimated error; `None` where they do not tell it.
+///
+/// The pressure of rough surfaces grows nearly as e^{δ/u₀}, so that δ is a smooth function of ln p̄: its derivative is that of
+/// the polynomial through the nearest four steps (fewer, where there are fewer), and dp̄/dδ = p̄/(dδ/d ln p̄). The error is the
+/// difference from one step less. It holds for the steps as they are: what the grid leaves open of δ is smaller.
+pub fn stiffness(steps: &[[f64; 2]]) -> Vec<Option<[f64; 2]>> {
+    let at = |index: usize| {
+        let [pressure, _] = steps[index];
+        let x = pressure.ln();
+        // The step itself first, then the nearest ones of other loads.
+        let mut near: Vec<[f64; 2]> = Vec::new();
+        let mut others: Vec<[f64; 2]> =
+            steps.iter().filter(|[p, _]| *p > 0.0 && p.is_finite()).map(|[p, depth]| [p.ln(), *depth]).collect();
+        others.sort_by(|a, b| (a[0] - x).abs().total_cmp(&(b[0] - x).abs()));
+        for step in others {
+            if near.len() < MOST && near.iter().all(|own| (own[0] - step[0]).abs() > 1e-9) {
+                near.push(step);
+            }
+        }
+        let of = |count: usize| (count >= 2).then(|| pressure / derivative(&near[..count], x));
+        let value = of(near.len()).filter(|value| pressure > 0.0 && value.is_finite() && *value > 0.0)?;
+        let error = of(near.len() - 1).map_or(value, |other| (value - other).abs());
+        Some([value, error])
+    };
+    (0..steps.len()).map(at).collect()
+}
+
+/// Most steps whose polynomial is taken.
+const MOST: usize = 4;
+
+/// Derivative at `x` of the polynomial through the points.
+fn derivative(points: &[[f64; 2]], x: f64) -> f64 {
+    let term = |k: usize| -> f64 {
+        let [own, value] = points[k];
+        let others = || points.iter().enumerate().filter(move |(other, _)| *other != k);
+        // Of Lagrange's product, one factor after the other differentiated.
+        let slope: f64 = others()
+            .map(|(skipped, _)| {
+                others().map(|(j, [at, _])| if j == skipped { 1.0 } else { x - at } / (own - at)).product::<f64>()
+            })
+            .sum();
+        value * slope
+    };
+    (0..points.len()).map(term).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Cell;
+
+    /// Discs whose centres lie anywhere between samples: the corrected area is that of samples counted wherever a disc
+    /// reaches into them, which is what the formula is derived for.
+    #[test]
+    fn the_correction_takes_off_what_counting_of_touched_samples_adds() {
+        let n = 64;
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [n, n]).unwrap();
+        let (radius, mut errors) = (0.23, [0.0; 2]);
+        for shift in 0..16 {
+            let centre = [0.5 + 0.0041 * f64::from(shift), 0.5 - 0.0067 * f64::from(shift)];
+            let pressure: Vec<f64> = (0..grid.len())
+                .map(|index| {
+                    let [s, t] = grid.fractions(index);
+                    let (x, y) = (s - centre[0], t - centre[1]);
+                    f64::from(u8::from(x * x + y * y < radius * radius))
+                })
+                .collect();
+            let counted = pressure.iter().sum::<f64>();
+            let pairs: usize = borders(&grid, &pressure).iter().sum();
+            // Samples along the border over the diameter: 8 R in all, along either direction.
+            assert!((pairs as f64 / (8.0 * radius * n as f64) - 1.0).abs() < 0.05);
+            let exact = PI * radius * radius * (n * n) as f64;
+            errors[0] += (counted - exact) / exact / 16.0;
+            errors[1] += PART * pairs as f64 / exact / 16.0;
+        }
+        // Samples whose middle is inside are right on the average: the contact problem counts others too.
+        assert!(errors[0].abs() < 0.003 && errors[1] > 0.01, "{errors:?}");
+        let perimeter = perimeter(&grid, borders(&grid, &vec![1.0; n * n]));
+        assert_eq!(perimeter, 0.0);
+    }
+
+    #[test]
+    fn sizes_are_those_of_the_spots() {
+        let grid = Grid::new(Cell::square(2.0).unwrap(), [8, 8]).unwrap();
+        let mut pressure = [0.0; 64];
+        assert_eq!(spots(&grid, &pressure).0, SpotSizes::default());
+        pressure[0] = 9.0;
+        pressure[16..18].fill(1.0);
+        pressure[36..40].fill(0.5);
+        let (sizes, areas) = spots(&grid, &pressure);
+        let sample = 4.0 / 64.0;
+        assert_eq!(areas, [sample, 2.0 * sample, 4.0 * sample]);
+        assert_eq!((sizes.count, sizes.density, sizes.percolates), (3, 0.75, false));
+        assert_eq!((sizes.median_area, sizes.largest_area, sizes.half_load_area), (areas[1], areas[2], areas[0]));
+        pressure[24..32].fill(1.0);
+        assert!(spots(&grid, &pressure).0.percolates);
+        assert_eq!(
+            borders(&grid, &{
+                let mut one = [0.0; 64];
+                one[9] = 1.0;
+                one
+            }),
+            [2, 2]
+        );
+    }
+
+    /// p = e^{δ/u₀} has p/u₀, and p = δ^{3/2} has (3/2) δ^{1/2}.
+    #[test]
+    fn stiffness_is_the_derivative_and_its_error_holds() {
+        let depths: Vec<f64> = (1..=7).map(|k| 0.1 * f64::from(k)).collect();
+        let exponential: Vec<[f64; 2]> = depths.iter().map(|d| [(d / 0.2).exp(), *d]).collect();
+        for (found, [p, _]) in stiffness(&exponential).iter().zip(&exponential) {
+            let [value, error] = found.unwrap();
+            assert!((value / (p / 0.2) - 1.0).abs() < 1e-10 && error < 1e-10 * value);
+        }
+        let loads = (0..7).map(|k| 1e-3 * 2f64.powi(k));
+        let hertz: Vec<[f64; 2]> = loads.map(|p| [p, p.powf(2.0 / 3.0)]).collect();
+        for (found, [_, depth]) in stiffness(&hertz).iter().zip(&hertz) {
+            let ([value, error], exact) = (found.unwrap(), 1.5 * depth.sqrt());
+            assert!((value - exact).abs() < error && error < 0.12 * exact, "{value} ± {error}, {exact}");
+        }
+        assert_eq!(stiffness(&[[0.1, 0.2]]), [None]);
+        assert_eq!(stiffness(&[[0.0, 0.0], [0.1, 0.2]]), [None, None]);
+        let [value, error] = stiffness(&hertz[..2])[0].unwrap();
+        assert_eq!(value, error, "of two steps nothing tells the error");
+    }
+}

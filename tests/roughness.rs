@@ -1,0 +1,95 @@
+//! What is read of rough contacts, held against finer grids and closed forms.
+
+use ndarray::Array2;
+use percoat::counterbody::roughness::{Rms, SelfAffine};
+use percoat::reading::{RoughReading, stiffness};
+use percoat::{Cell, HalfSpace, Load, Material, Problem, Reading, Settings, Solver, Topography};
+use std::f64::consts::PI;
+
+fn bare() -> HalfSpace {
+    HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap())
+}
+
+fn solved(topography: Topography, load: Load) -> (RoughReading, Reading) {
+    let points = topography.points();
+    let step = Solver::new(Problem::new(topography, bare()), points, Settings::default()).unwrap().solve(load);
+    assert!(step.report.stop.solved(), "{}", step.report);
+    (RoughReading::of(step.finest()).expect("a topography"), step.reading())
+}
+
+fn rough(points: usize, seed: u64) -> Topography {
+    let rms = Rms::Slope(0.1);
+    let surface = SelfAffine { hurst: 0.8, longest: 1.0, rolloff: 0.5, shortest: 0.0625, rms, seed };
+    let cell = Cell::square(1.0).unwrap();
+    Topography::new(cell, surface.heights(cell, [points; 2]).unwrap()).unwrap()
+}
+
+/// The same surface on finer and finer grids. Counting converges as the spacing, from above: the limit is extrapolated
+/// from the two finest grids.
+#[test]
+fn the_corrected_area_is_nearer_to_that_of_finer_grids_than_the_counted_one() {
+    let grids = [48, 64, 96, 128, 256];
+    let mut errors = [[0.0f64; 3]; 3];
+    for (seed, pressure) in [(1, 2e-3), (1, 1e-2), (2, 5e-3), (3, 2e-2)] {
+        let all = grids.map(|n| solved(rough(n, seed), Load::MeanPressure(pressure)));
+        let [.., coarser, finest] = all.each_ref().map(|(rough, _)| rough.counted_fraction);
+        let limit = 2.0 * finest - coarser;
+        for (k, (n, (rough, reading))) in grids.iter().zip(&all).enumerate() {
+            let found = [rough.counted_fraction, rough.corrected_fraction, reading.contact_fraction];
+            let relative = found.map(|fraction| fraction / limit - 1.0);
+            println!(
+                "seed {seed}, p {pressure}, {n}: {relative:+.4?} of {limit:.5}, resolution {:.1}",
+                reading.spot_resolution
+            );
+            if k < 3 {
+                (0..3).for_each(|which| errors[k][which] += relative[which].abs() / 4.0);
+            }
+        }
+    }
+    println!("{errors:.4?}");
+    for [counted, corrected, _] in errors {
+        assert!(corrected < 0.5 * counted, "{errors:?}");
+    }
+}
+
+/// A sphere's contact, of Hertz' area πa² where it is small against the cell.
+#[test]
+fn the_corrected_area_of_a_sphere_is_that_of_hertz() {
+    let cell = Cell::square(1.0).unwrap();
+    for (n, radius) in [(64, 0.11), (96, 0.11), (128, 0.13)] {
+        let mut errors = [0.0; 3];
+        for shift in 0..4 {
+            let centre = [0.5 + 0.0031 * f64::from(shift), 0.5 - 0.0047 * f64::from(shift)];
+            let place = |k: usize, axis: usize| k as f64 / n as f64 - centre[axis];
+            let height = |(i, j)| -0.5 * (place(i, 0).powi(2) + place(j, 1).powi(2));
+            let surface = Topography::new(cell, Array2::from_shape_fn([n; 2], height)).unwrap();
+            // P = 4/3 E* a³/R, with R and E* one, and the cell's area too.
+            let (rough, reading) = solved(surface, Load::MeanPressure(4.0 / 3.0 * radius * radius * radius));
+            let fine = reading.contact_fraction / (PI * radius * radius);
+            let exact = PI * radius * radius;
+            let found = [rough.counted_fraction, rough.corrected_fraction, reading.contact_fraction];
+            (0..3).for_each(|k| errors[k] += (found[k] / exact - 1.0) / 4.0);
+            println!("{n} {radius} {shift}: {:+.4?} {fine}", found.map(|found| found / exact - 1.0));
+        }
+        println!("{n} {radius}: {errors:+.4?}");
+    }
+}
+
+/// dp̄/dδ of a path of a few loads, against that between loads a thousandth apart.
+#[test]
+fn the_stiffness_of_a_path_is_that_of_two_loads_close_together() {
+    let surface = rough(64, 1);
+    let mut solver = Solver::new(Problem::new(surface, bare()), [64; 2], Settings::default()).unwrap();
+    let mut at = |pressure: f64| {
+        let step = solver.solve(Load::MeanPressure(pressure));
+        [pressure, step.penetration()]
+    };
+    let path: Vec<[f64; 2]> = (0..6).map(|k| at(1e-3 * 2f64.powi(k))).collect();
+    for (found, [pressure, _]) in stiffness(&path).into_iter().zip(&path) {
+        let [value, error] = found.unwrap();
+        let [low, high] = [0.9995, 1.0005].map(|part| at(part * pressure));
+        let exact = (high[0] - low[0]) / (high[1] - low[1]);
+        println!("{pressure}: {value} ± {error}, {exact}");
+        assert!((value - exact).abs() < error && error < 0.1 * exact, "{pressure}: {value} ± {error}, {exact}");
+    }
+}
