@@ -99,7 +99,7 @@ fn the_page_of_a_run_holds_what_the_command_line_printed() {
     assert!(page.contains(&case), "the case can be copied as it was run");
 }
 
-const BOND: &str = r#"
+const BOND: &str = r#"title = "Spheres on a bond"
 lattice = { kind = "square", period = 20.0 }
 levels = [{ shape = "sphere", radius = 50.0 }]
 layers = [{ thickness = 1.0, young = 400.0, poisson = 0.25, interface_strength = { shear = 1.0 } }]
