@@ -47,7 +47,7 @@ mod volume;
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
 pub use folder::{Plan, RunFolder};
-pub use layout::{FolderError, is_of_folder};
+pub use layout::{FolderError, is_beside};
 pub use limit::limit_json;
 pub(crate) use manifest::checksum;
 pub use manifest::{Scope, Writer};

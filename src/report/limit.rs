@@ -51,7 +51,7 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
             ],
         ),
         section("asked", "What was asked", vec![asked(case), tag("p", units.sentence())]),
-        section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
+        section("pictures", "Pictures", vec![figures(finished, "limit.json", &PICTURES)?]),
     ];
     if !limits.steps.is_empty() {
         let caption = "Loads that were solved in the search, by ascending mean pressure";
