@@ -58,13 +58,14 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
     }
 }
 
-/// Whether a file of a folder is as percoat wrote it there. In a folder without a list, as copies are, every file is.
+/// Whether a file of a folder is as percoat wrote it there beside its `result`. Where no list has the result, as in a copy,
+/// every file is.
 ///
 /// # Errors
 /// When the file cannot be read.
-pub fn is_of_folder(folder: &Path, name: &str) -> io::Result<bool> {
-    let list = own(folder, "written.json");
-    Ok(!list.is_file() || Manifest::read(&list).standing(folder, name)? == Standing::Written)
+pub fn is_beside(result: &str, folder: &Path, name: &str) -> io::Result<bool> {
+    let list = Manifest::read(&own(folder, "written.json"));
+    Ok(!list.has(result) || list.standing(folder, name)? == Standing::Written)
 }
 
 /// Why a name is not percoat's, if it is somebody else's.

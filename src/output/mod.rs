@@ -51,7 +51,7 @@ pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
 pub use folder::{Plan, RunFolder};
 pub use histograms::histograms;
-pub use layout::{FolderError, SWEEP_LOG, is_of_folder};
+pub use layout::{FolderError, SWEEP_LOG, is_beside};
 pub use limit::{limit_json, limits_json};
 pub use manifest::{Scope, Writer, checksum};
 pub use number::number;

@@ -9,10 +9,10 @@ use crate::picture::vector::base64;
 /// What a picture is called, what it shows to those who do not see it, and what stands under it.
 pub(super) type Named = (&'static str, &'static str, &'static str);
 
-/// The pictures of these names that the folder has; empty without any.
-pub(super) fn figures(finished: &Finished, names: &[Named]) -> Result<Markup, ReportError> {
+/// The pictures of these names that the folder has of a result; empty without any.
+pub(super) fn figures(finished: &Finished, result: &str, names: &[Named]) -> Result<Markup, ReportError> {
     let figure = |&(name, alt, caption): &Named| {
-        let picture = finished.picture(name)?;
+        let picture = finished.picture(result, name)?;
         Ok(picture.map(|(kind, bytes)| {
             let source = format!("data:{kind};base64,{}", base64(&bytes));
             let image = void("img", &[("src", &source), ("alt", alt)]);

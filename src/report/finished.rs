@@ -1,7 +1,7 @@
 //! What a folder holds of finished results.
 
 use super::ReportError;
-use crate::output::is_of_folder;
+use crate::output::is_beside;
 use serde_json::Value;
 use std::fs;
 use std::io::ErrorKind;
@@ -51,12 +51,12 @@ impl Finished {
         Ok(finished)
     }
 
-    /// The picture of a name with its kind of file, lines before pixels; `None` where the result has none.
-    pub(super) fn picture(&self, name: &str) -> Result<Option<(&'static str, Vec<u8>)>, ReportError> {
+    /// The picture of a name beside a result, with its kind of file, lines before pixels; `None` where the result has none.
+    pub(super) fn picture(&self, result: &str, name: &str) -> Result<Option<(&'static str, Vec<u8>)>, ReportError> {
         for (ending, kind) in [("svg", "image/svg+xml"), ("png", "image/png")] {
             let file = format!("{name}.{ending}");
             let path = self.folder.join(&file);
-            if path.is_file() && is_of_folder(&self.folder, &file).map_err(ReportError::input(&path))? {
+            if path.is_file() && is_beside(result, &self.folder, &file).map_err(ReportError::input(&path))? {
                 return fs::read(&path).map(|bytes| Some((kind, bytes))).map_err(ReportError::input(&path));
             }
         }

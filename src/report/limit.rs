@@ -53,7 +53,7 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
             ],
         ),
         section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
-        section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
+        section("pictures", "Pictures", vec![figures(finished, "limit.json", &PICTURES)?]),
     ];
     if !limits.steps.is_empty() {
         let caption = "Loads that were solved in the search, by ascending mean pressure";

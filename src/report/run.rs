@@ -65,7 +65,7 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     let mut sections = vec![
         section("answer", "Answer", vec![doubts(&steps), fails.unwrap_or_default(), answer(&steps, &units)]),
         section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
-        section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
+        section("pictures", "Pictures", vec![figures(finished, "summary.json", &PICTURES)?]),
         section(
             "steps",
             "Load steps",

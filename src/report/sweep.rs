@@ -80,7 +80,7 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
                 rows.reasons(),
             ],
         ),
-        section("pictures", "Pictures", vec![figures(finished, &PICTURES)?]),
+        section("pictures", "Pictures", vec![figures(finished, "sweep.json", &PICTURES)?]),
         section("rows", "Combinations", vec![rows.shown(&own.keys)]),
         section("warnings", "Warnings", vec![warnings(file)]),
     ];
