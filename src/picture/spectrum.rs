@@ -4,23 +4,19 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Style};
-use super::snapshot::caption;
-use super::units::Units;
+use crate::counterbody::Topography;
 use crate::counterbody::roughness::{SelfAffine, Spectrum, Statistics};
 use crate::numeric::number::number;
-use crate::problem::Problem;
 use std::f64::consts::TAU;
 
-/// The picture; `None` for indenters and for a flat surface. `random`: what a generated one was asked to be.
-pub fn spectrum(title: &str, problem: &Problem, random: Option<&SelfAffine>) -> Option<Canvas> {
-    let topography = problem.counterbody().topography()?;
+/// The picture; `None` for a flat surface. `random`: what a generated one was asked to be.
+pub fn spectrum(title: &str, topography: &Topography, random: Option<&SelfAffine>) -> Option<Canvas> {
     let own = Spectrum::of(topography.cell(), topography.heights()).ok()?;
     let rings: Vec<[f64; 2]> = own.radial().iter().map(|ring| [ring.wavenumber, ring.density]).collect();
     let most = rings.iter().map(|[_, density]| *density).fold(0.0, f64::max);
     // What rounding leaves where there are no waves is no spectrum.
     let rings: Vec<[f64; 2]> = rings.into_iter().filter(|[_, density]| *density > 1e-20 * most).collect();
     let least = rings.iter().map(|[_, density]| *density).reduce(f64::min)?;
-    let units = Units::of(problem);
     let curve = |label: &str, points, style, colour| Curve { label: label.to_owned(), points, style, colour };
     let mut curves = Vec::new();
     if let Some((surface, density)) = random.and_then(|own| Some((own, own.density(topography.cell()).ok()?))) {
@@ -38,22 +34,18 @@ pub fn spectrum(title: &str, problem: &Problem, random: Option<&SelfAffine>) -> 
     curves.push(curve("surface on the grid", rings, Style::Markers, 1));
     let chart = Chart {
         title: String::new(),
-        x: Axis::log(per_length(&units.length("wavenumber", "q"))),
-        y: Axis::log("power spectral density C (length⁴)").from_to(0.3 * least, 3.0 * most),
+        x: Axis::log("wavenumber q (1/unit\u{a0}of\u{a0}length)"),
+        y: Axis::log("power spectral density C (unit\u{a0}of\u{a0}length⁴)").from_to(0.3 * least, 3.0 * most),
         curves,
     };
     let statistics = Statistics::of(topography.heights());
     let [n1, n2] = topography.points();
-    let more = [
-        format!("rms\u{a0}height\u{a0}{}", number(statistics.rms_height)),
-        format!("rms\u{a0}slope\u{a0}{}", number(own.rms_slope())),
-        format!("{n1}\u{a0}×\u{a0}{n2} samples"),
-    ];
-    let what = "C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean square of the heights.";
-    Some(plots(&format!("{} {what}", caption(title, problem, &more)), &[chart]))
-}
-
-/// A label of a length as one of its inverse.
-fn per_length(label: &str) -> String {
-    label.replace("(unit\u{a0}of\u{a0}length)", "(1/unit\u{a0}of\u{a0}length)")
+    let caption = format!(
+        "{}rms height {}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the \
+         mean square of the heights.",
+        if title.is_empty() { String::new() } else { format!("{title}. ") },
+        number(statistics.rms_height),
+        number(own.rms_slope())
+    );
+    Some(plots(&caption, &[chart]))
 }
