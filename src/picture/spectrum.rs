@@ -41,7 +41,7 @@ pub fn spectrum(title: &str, topography: &Topography, random: Option<&SelfAffine
     let statistics = Statistics::of(topography.heights());
     let [n1, n2] = topography.points();
     let caption = format!(
-        "{}rms height {}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the \
+        "{}Rms height {}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the \
          mean square of the heights.",
         if title.is_empty() { String::new() } else { format!("{title}. ") },
         number(statistics.rms_height),
