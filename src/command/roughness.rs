@@ -42,7 +42,7 @@ pub fn check(out: &mut impl Write, case: &Case, output: Option<&Path>) -> Result
     let names = ["spectrum.png", "spectrum.csv"].map(str::to_owned).to_vec();
     let claim = RunFolder::claim(folder, Plan { names, ..Plan::new(Writer::Check) })?;
     write_text(&claim.staging().join("spectrum.csv"), &table(&spectrum.radial()))?;
-    if let Some(canvas) = picture::spectrum(&case.title, case.problem(), &case.units(), random.as_ref()) {
+    if let Some(canvas) = picture::spectrum(&case.title, topography, &case.units(), random.as_ref()) {
         canvas.write(&claim.staging(), "spectrum", Format::Png)?;
     }
     interruption::publish(claim, folder, false)?;

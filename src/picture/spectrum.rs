@@ -4,16 +4,14 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Ink, Style};
-use super::snapshot::caption;
+use crate::counterbody::Topography;
 use crate::counterbody::roughness::{SelfAffine, Spectrum, Statistics};
 use crate::numeric::number::number;
-use crate::problem::Problem;
 use crate::units::{Unit, Units};
 use std::f64::consts::TAU;
 
-/// The picture; `None` for indenters and for a flat surface. `random`: what a generated one was asked to be.
-pub fn spectrum(title: &str, problem: &Problem, units: &Units, random: Option<&SelfAffine>) -> Option<Canvas> {
-    let topography = problem.counterbody().topography()?;
+/// The picture; `None` for a flat surface. `random`: what a generated one was asked to be.
+pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Option<&SelfAffine>) -> Option<Canvas> {
     let own = Spectrum::of(topography.cell(), topography.heights()).ok()?;
     let rings: Vec<[f64; 2]> = own.radial().iter().map(|ring| [ring.wavenumber, ring.density]).collect();
     let most = rings.iter().map(|[_, density]| *density).fold(0.0, f64::max);
@@ -47,13 +45,14 @@ pub fn spectrum(title: &str, problem: &Problem, units: &Units, random: Option<&S
     };
     let statistics = Statistics::of(topography.heights());
     let [n1, n2] = topography.points();
-    let more = [
-        units.length().told(statistics.rms_height, |x| format!("rms\u{a0}height\u{a0}{}", number(x))),
-        format!("rms\u{a0}slope\u{a0}{}", number(own.rms_slope())),
-        format!("{n1}\u{a0}×\u{a0}{n2} samples"),
-    ];
-    let what = "C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean square of the heights.";
-    Some(plots(&format!("{} {what}", caption(title, problem, units, &more)), &[chart]))
+    let caption = format!(
+        "{}{}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean \
+         square of the heights.",
+        if title.is_empty() { String::new() } else { format!("{title}. ") },
+        units.length().told(statistics.rms_height, |x| format!("Rms height {}", number(x))),
+        number(own.rms_slope())
+    );
+    Some(plots(&caption, &[chart]))
 }
 
 /// A quantity in a power of the unit of length, such as "1/µm" or "µm⁴"; `of` writes the unit.

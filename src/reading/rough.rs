@@ -144,80 +144,71 @@ fn spots(grid: &Grid, pressure: &[f64]) -> (SpotSizes, Vec<f64>) {
 /// dp̄/dδ at each of several load steps [p̄, δ], and its estimated error; `None` where they do not tell it.
 ///
 /// The pressure of rough surfaces grows nearly as e^{δ/u₀}, so that δ is a smooth function of ln p̄: its derivative is that of
-/// the polynomial through the nearest four steps (fewer, where there are fewer), and dp̄/dδ = p̄/(dδ/d ln p̄). The error is the
-/// difference from one step less. It holds for the steps as they are: what the grid leaves open of δ is smaller.
+/// the parabola through a step and its neighbours, and dp̄/dδ = p̄/(dδ/d ln p̄). Between two steps the derivative takes the
+/// secant's value somewhere: the error is the largest distance from the secants of the intervals up to two steps away, at an
+/// end of the path twice that from the last one at least.
 pub fn stiffness(steps: &[[f64; 2]]) -> Vec<Option<[f64; 2]>> {
-    let at = |index: usize| {
-        let [pressure, _] = steps[index];
-        let x = pressure.ln();
-        // The step itself first, then the nearest ones of other loads.
-        let mut near: Vec<[f64; 2]> = Vec::new();
-        let mut others: Vec<[f64; 2]> =
-            steps.iter().filter(|[p, _]| *p > 0.0 && p.is_finite()).map(|[p, depth]| [p.ln(), *depth]).collect();
-        others.sort_by(|a, b| (a[0] - x).abs().total_cmp(&(b[0] - x).abs()));
-        for step in others {
-            if near.len() < MOST && near.iter().all(|own| (own[0] - step[0]).abs() > 1e-9) {
-                near.push(step);
-            }
-        }
-        let of = |count: usize| (count >= 2).then(|| pressure / derivative(&near[..count], x));
-        let value = of(near.len()).filter(|value| pressure > 0.0 && value.is_finite() && *value > 0.0)?;
-        let error = of(near.len() - 1).map_or(value, |other| (value - other).abs());
+    let mut path: Vec<[f64; 2]> =
+        steps.iter().filter(|[p, _]| *p > 0.0 && p.is_finite()).map(|[p, depth]| [p.ln(), *depth]).collect();
+    path.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    path.dedup_by(|next, own| next[0] - own[0] < APART);
+    let lengths: Vec<f64> = path.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
+    let secants: Vec<f64> =
+        path.windows(2).zip(&lengths).map(|(pair, length)| (pair[1][1] - pair[0][1]) / length).collect();
+    let at = |&[pressure, _]: &[f64; 2]| {
+        let index = path.iter().position(|[x, _]| (x - pressure.ln()).abs() < APART).filter(|_| pressure > 0.0)?;
+        // The interval at the step, and the next one: at an end of the path both on one side.
+        let [own, next] = match index {
+            _ if secants.is_empty() => return None,
+            _ if secants.len() == 1 => [0, 0],
+            0 => [0, 1],
+            last if last == secants.len() => [last - 1, last - 2],
+            inner => [inner - 1, inner],
+        };
+        let is_end = index == 0 || index == secants.len();
+        let (near, far) = (lengths[own], lengths[next]);
+        let rise = (secants[next] - secants[own]) * near / (near + far);
+        let derivative = secants[own] + if is_end { -rise } else { rise };
+        let value = Some(pressure / derivative).filter(|value| value.is_finite() && *value > 0.0)?;
+        let distance = |secant: &f64| (value - pressure / secant).abs();
+        let around = secants[index.saturating_sub(2)..].iter().take(index.min(2) + 2).map(distance).fold(0.0, f64::max);
+        let error = match is_end {
+            _ if secants.len() == 1 => value,
+            true => around.max(2.0 * distance(&secants[own])),
+            false => around,
+        };
         Some([value, error])
     };
-    (0..steps.len()).map(at).collect()
+    steps.iter().map(at).collect()
 }
 
-/// Most steps whose polynomial is taken.
-const MOST: usize = 4;
-
-/// Derivative at `x` of the polynomial through the points.
-fn derivative(points: &[[f64; 2]], x: f64) -> f64 {
-    let term = |k: usize| -> f64 {
-        let [own, value] = points[k];
-        let others = || points.iter().enumerate().filter(move |(other, _)| *other != k);
-        // Of Lagrange's product, one factor after the other differentiated.
-        let slope: f64 = others()
-            .map(|(skipped, _)| {
-                others().map(|(j, [at, _])| if j == skipped { 1.0 } else { x - at } / (own - at)).product::<f64>()
-            })
-            .sum();
-        value * slope
-    };
-    (0..points.len()).map(term).sum()
-}
+/// Steps whose ln p̄ differ by less are one.
+const APART: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lattice::Cell;
 
-    /// Discs whose centres lie anywhere between samples: the corrected area is that of samples counted wherever a disc
-    /// reaches into them, which is what the formula is derived for.
+    /// Discs whose centres lie anywhere between samples. How well the correction does on contacts is shown in
+    /// `tests/roughness.rs`.
     #[test]
-    fn the_correction_takes_off_what_counting_of_touched_samples_adds() {
+    fn the_border_of_a_disc_has_eight_radii_of_edges() {
         let n = 64;
         let grid = Grid::new(Cell::square(1.0).unwrap(), [n, n]).unwrap();
-        let (radius, mut errors) = (0.23, [0.0; 2]);
+        let radius = 0.23;
         for shift in 0..16 {
             let centre = [0.5 + 0.0041 * f64::from(shift), 0.5 - 0.0067 * f64::from(shift)];
-            let pressure: Vec<f64> = (0..grid.len())
-                .map(|index| {
-                    let [s, t] = grid.fractions(index);
-                    let (x, y) = (s - centre[0], t - centre[1]);
-                    f64::from(u8::from(x * x + y * y < radius * radius))
-                })
-                .collect();
-            let counted = pressure.iter().sum::<f64>();
-            let pairs: usize = borders(&grid, &pressure).iter().sum();
-            // Samples along the border over the diameter: 8 R in all, along either direction.
-            assert!((pairs as f64 / (8.0 * radius * n as f64) - 1.0).abs() < 0.05);
-            let exact = PI * radius * radius * (n * n) as f64;
-            errors[0] += (counted - exact) / exact / 16.0;
-            errors[1] += PART * pairs as f64 / exact / 16.0;
+            let inside = |index: usize| {
+                let [s, t] = grid.fractions(index);
+                let (x, y) = (s - centre[0], t - centre[1]);
+                f64::from(u8::from(x * x + y * y < radius * radius))
+            };
+            let pressure: Vec<f64> = (0..grid.len()).map(inside).collect();
+            let found = perimeter(&grid, borders(&grid, &pressure));
+            // An edge more or less at each of four ends.
+            assert!((found - 8.0 * radius).abs() < 4.1 / n as f64, "{found}");
         }
-        // Samples whose middle is inside are right on the average: the contact problem counts others too.
-        assert!(errors[0].abs() < 0.003 && errors[1] > 0.01, "{errors:?}");
         let perimeter = perimeter(&grid, borders(&grid, &vec![1.0; n * n]));
         assert_eq!(perimeter, 0.0);
     }
@@ -256,11 +247,12 @@ mod tests {
             let [value, error] = found.unwrap();
             assert!((value / (p / 0.2) - 1.0).abs() < 1e-10 && error < 1e-10 * value);
         }
-        let loads = (0..7).map(|k| 1e-3 * 2f64.powi(k));
-        let hertz: Vec<[f64; 2]> = loads.map(|p| [p, p.powf(2.0 / 3.0)]).collect();
+        // In any order, and one of them twice.
+        let loads = [4, 0, 3, 1, 5, 2, 2].map(|k| 1e-3 * 1.5f64.powi(k));
+        let hertz = loads.map(|p| [p, p.powf(2.0 / 3.0)]);
         for (found, [_, depth]) in stiffness(&hertz).iter().zip(&hertz) {
             let ([value, error], exact) = (found.unwrap(), 1.5 * depth.sqrt());
-            assert!((value - exact).abs() < error && error < 0.12 * exact, "{value} ± {error}, {exact}");
+            assert!((value - exact).abs() < error && error < exact, "{value} ± {error}, {exact}");
         }
         assert_eq!(stiffness(&[[0.1, 0.2]]), [None]);
         assert_eq!(stiffness(&[[0.0, 0.0], [0.1, 0.2]]), [None, None]);

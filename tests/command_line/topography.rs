@@ -127,5 +127,5 @@ fn check_draws_which_index_runs_where() {
     desk.write("surface.csv", "0,0,0\n0,1,0\n0,0,0\n");
     desk.write("waves.toml", CASE.replace("surface.npy", "surface.csv"));
     let answer = desk.percoat(&["check", "waves.toml"]);
-    assert!(answer.code == 0 && answer.out.contains("i: along a₁; the lines of a text file"), "{}", answer.err);
+    assert!(answer.code == 0 && answer.out.contains("\n   a₂ ↑"), "{}", answer.err);
 }

@@ -157,6 +157,11 @@ fn a_grid_that_cannot_hold_the_slope_is_doubted() {
         plausibility::of_case(&case).join("\n")
     };
     assert!(doubts(12).is_empty(), "{}", doubts(12));
+    // What alternates from sample to sample is there on a finer grid too.
+    let alternating: Vec<f64> = (0..256).map(|k| if k / 16 % 2 == 0 { 1e-3 } else { -1e-3 }).collect();
+    write(folder.path(), &[16, 16], Order::C, &alternating);
+    assert!(doubts(48).is_empty(), "{}", doubts(48));
+    write(folder.path(), &[16, 16], Order::C, &fine);
     assert!(doubts(8).contains("of the surface's 0.022214"), "{}", doubts(8));
 }
 
