@@ -4,6 +4,7 @@
 //! the sum of the shortest waves through them, h(**x**) = h̄ + Σ ĥ_**q** e^{i**q**·**x**} over the first Brillouin zone of the
 //! samples; on another grid it is that sum ([`Spectrum::resampled`]).
 
+mod band;
 mod border;
 mod plane;
 mod self_affine;

@@ -8,6 +8,7 @@
 //! wave's multiples (κ₁, κ₂) of **b**₁ and **b**₂ alone. So the surface does not depend on the grid, the spectrum of every seed
 //! is the same, and the rms value asked for is that of the very surface, all its waves counted.
 
+use super::band::{Band, ON};
 use super::spectrum::{Spectrum, WaveSum};
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::fourier::fast_points;
@@ -16,8 +17,6 @@ use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Wavenumbers closer to a cut-off than this, relatively, are on it.
-const ON: f64 = 1e-9;
 /// Most waves along a cell vector, either way: a grid of 32768 points holds them.
 const MOST: f64 = 16_383.0;
 /// Most waves of all that are looked at.
@@ -190,32 +189,6 @@ impl SelfAffine {
     }
 }
 
-/// One of each pair ±**q** of a cell's waves up to a wavenumber: κ₂ > 0, or κ₂ = 0 and κ₁ > 0.
-struct Band {
-    reciprocal: [[f64; 2]; 2],
-    /// Largest |κ₁| and |κ₂|: κᵢ = **q**·**a**ᵢ/2π.
-    most: [i32; 2],
-}
-
-impl Band {
-    fn new(cell: Cell, high: f64) -> Self {
-        let most = cell.vectors().map(|[x, y]| (high * x.hypot(y) / TAU * (1.0 + ON)) as i32);
-        Self { reciprocal: cell.reciprocal(), most }
-    }
-
-    fn rows(&self) -> std::ops::RangeInclusive<i32> {
-        0..=self.most[1]
-    }
-
-    /// Waves of one κ₂, each with its wavevector; those of a corner are beyond the wavenumber.
-    fn waves(&self, k2: i32) -> impl Iterator<Item = ([i32; 2], [f64; 2])> + '_ {
-        let [b1, b2] = self.reciprocal;
-        let first = if k2 == 0 { 1 } else { -self.most[0] };
-        let at = move |k1: i32| [0, 1].map(|c| f64::from(k1) * b1[c] + f64::from(k2) * b2[c]);
-        (first..=self.most[0]).map(move |k1| ([k1, k2], at(k1)))
-    }
-}
-
 /// A number between 0 and 1 that belongs to a seed and a wave: SplitMix64 of each in turn (G. Steele, D. Lea & C. Flood,
 /// OOPSLA 2014).
 fn part(seed: u64, [k1, k2]: [i32; 2]) -> f64 {
@@ -289,7 +262,6 @@ mod tests {
         assert!(rings.iter().filter(|ring| ring.wavenumber > TAU / 0.06).all(|ring| ring.density == 0.0));
     }
 
-    /// Computed by NumPy from the same numbers.
     #[test]
     fn phases_are_those_of_the_published_generator() {
         // The first outputs of SplitMix64 from the state 0 and 1, as published.
