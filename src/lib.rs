@@ -33,6 +33,8 @@
 //! Nothing of these reads a file or prints. Behind the feature `cli`: `units`, `case`, `output`, `sweep`, `picture`, `report` and the
 //! command line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
+//! [`theory`] leads from the equations of the paper to what is solved.
+//!
 //! # Example
 //!
 //! ```
@@ -75,6 +77,8 @@ pub mod spectral;
 pub mod stress;
 #[cfg(feature = "cli")]
 pub mod sweep;
+#[doc = include_str!("theory.md")]
+pub mod theory {}
 #[cfg(feature = "cli")]
 pub mod units;
 #[cfg(feature = "validate")]
