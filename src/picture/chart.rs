@@ -102,6 +102,10 @@ impl<'a> Plot<'a> {
             }
             taken.extend(run.first());
         }
+        let [top, height] = [frame.corner[1], frame.size[1]];
+        for (x, _) in frame.marks(&self.chart.x) {
+            taken.extend((0..=60).map(|k| [x, top + height * f64::from(k) / 60.0]));
+        }
         taken
     }
 }

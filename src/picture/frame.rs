@@ -165,7 +165,7 @@ impl Frame {
     }
 
     /// Places of the marks of the horizontal axis within the plot.
-    fn marks<'a>(&self, axis: &'a Axis) -> Vec<(f64, &'a str)> {
+    pub fn marks<'a>(&self, axis: &'a Axis) -> Vec<(f64, &'a str)> {
         let (left, right, y) = (self.corner[0], self.corner[0] + self.size[0], self.ranges[1][0]);
         let places = axis.marks.iter().filter_map(|(x, word)| Some((self.place([*x, y])?[0], word.as_str())));
         let mut places: Vec<(f64, &str)> = places.filter(|(x, _)| (left..=right).contains(x)).collect();
