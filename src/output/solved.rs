@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// The files of a case with so many load steps, with their fields or without; pictures come besides.
 pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
-    let mut names = ["case.toml", "curve.csv", "summary.json"].map(str::to_owned).to_vec();
+    let mut names = vec!["case.toml".to_owned()];
     if case.surface.is_some() {
         names.push("histograms.csv".to_owned());
     }
@@ -24,6 +24,7 @@ pub fn solved_plan(case: &Case, steps: usize, fields: bool) -> Plan {
             }
         }
     }
+    names.extend(["curve.csv", "summary.json"].map(str::to_owned));
     Plan { names, case: Some(case.to_toml()), ..Plan::new(Writer::Solve) }
 }
 

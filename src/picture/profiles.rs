@@ -101,7 +101,10 @@ fn smooth(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let turn = PI * f64::from(k) / f64::from(POINTS);
         if hole > 0.0 { 0.5 - 0.5 * turn.cos() } else { (0.5 * turn).sin() }
     };
-    (0..=POINTS).map(|k| at(hole + (edge - hole) * part(k))).collect()
+    let mut line: Vec<[f64; 2]> = (0..=POINTS).map(|k| at(hole + (edge - hole) * part(k))).collect();
+    // Rounding has no part in how the pressure ends.
+    line[POINTS as usize] = points[points.len() - 1];
+    line
 }
 
 impl Snapshot {

@@ -219,13 +219,13 @@ fn the_curve_has_a_row_a_step_and_a_column_a_scalar() {
     }
 }
 
-/// Every scalar of a step with its dotted name, items of lists counted from 1.
+/// Every scalar of a step with its name, items of lists counted from 1.
 fn scalars(value: &Value, name: &str) -> Vec<(String, Value)> {
-    let dotted = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}.{key}") };
+    let joined = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}_{key}") };
     match value {
-        Value::Object(map) => map.iter().flat_map(|(key, value)| scalars(value, &dotted(key))).collect(),
+        Value::Object(map) => map.iter().flat_map(|(key, value)| scalars(value, &joined(key))).collect(),
         Value::Array(items) => {
-            (1..).zip(items).flat_map(|(item, value): (usize, _)| scalars(value, &dotted(&item.to_string()))).collect()
+            (1..).zip(items).flat_map(|(item, value): (usize, _)| scalars(value, &joined(&item.to_string()))).collect()
         }
         scalar => vec![(name.to_owned(), scalar.clone())],
     }

@@ -46,7 +46,11 @@ fn a_solved_case_with_strengths_says_what_governs() {
     let desk = Desk::new();
     let answer = desk.percoat(&["solve", "dlc-on-steel", "-o", "out", "--no-pictures", "--set", "grid.points=96"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
-    assert!(answer.out.contains("\nfirst: yield of material 2 between p̄ = 0.020000 and 0.050397\n"), "{}", answer.out);
+    assert!(
+        answer.out.contains("\nfirst: yield of material 2 between p̄ = 0.020000\u{a0}GPa and 0.050397\u{a0}GPa\n"),
+        "{}",
+        answer.out
+    );
     let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&text).unwrap();
     let step = summary["steps"].as_array().unwrap().last().unwrap();

@@ -77,14 +77,15 @@ fn the_page_of_a_run_holds_what_the_command_line_printed() {
     assert_eq!(answer.code, 0, "{}", answer.err);
     let page = words(&report(&desk, "run"));
     // Title, tables and sentences up to the line of times.
-    let (printed, _) = answer.out.split_once("estimated relative").expect("the last line but one");
+    let out = words(&answer.out);
+    let (printed, _) = out.split_once("estimated relative").expect("the last line but one");
     let mut count = 0;
     for cell in cells(printed).filter(|cell| !cell.contains("load steps converged") && !cell.starts_with("first: ")) {
         assert!(page.contains(&format!(">{cell}<")), "\"{cell}\" does not stand on the page");
         count += 1;
     }
     assert!(count > 100, "{count} cells");
-    let out = answer.out.lines().find_map(|line| line.strip_prefix("first: ")).expect("what fails first");
+    let out = out.lines().find_map(|line| line.strip_prefix("first: ")).expect("what fails first");
     assert!(page.contains(&format!("First: {out}.")));
     for warning in answer.err.lines().filter_map(|line| line.strip_prefix("warning: ")) {
         assert!(page.contains(warning), "{warning}");
