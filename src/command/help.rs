@@ -33,8 +33,8 @@ help!(
     SWEEP,
     "0 done; 2 refused, nothing written; 3 a combination failed or did\nnot converge, the table says why; 4 input or output failed; 130 interrupted",
     "sweep fig2 --set layers.0.thickness=0.1:1:9:log --set grid.points=128",
-    "sweep mine.toml --set layers.0.young=2,5 --set layers.0.thickness=1:2:5",
-    "sweep mine.toml --zip --set levels.0.radius=1,2 --set load.penetration=1,2",
+    "sweep a.toml --set layers.0.young=2,5 --set layers.0.thickness=1:2:5",
+    "sweep a.toml --zip --set levels.0.radius=1,2 --set load.penetration=3,4",
     "sweep mine.toml --table settings.csv --resume",
     "sweep mine.toml --set friction.coefficient=0:0.5:6 --limit",
     "sweep mine.toml --set layers.0.thickness=0.1:1:50 --shard 3/8"
@@ -73,7 +73,7 @@ help!(
 #[cfg(feature = "validate")]
 help!(
     VALIDATE,
-    "0 every check holds; 1 one fails; 2 refused, nothing written; 4 input\nor output failed; 130 interrupted",
+    "0 every check holds; 1 one fails; 2 refused, nothing written;\n4 input or output failed; 130 interrupted",
     "validate --list",
     "validate hertz",
     "validate --expect validation/REPORT.md"

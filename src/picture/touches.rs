@@ -24,7 +24,7 @@ pub fn touches(problem: &Problem, steps: &[StepRecord]) -> Vec<(usize, f64)> {
         let zero = line.map_or(0.5 * (before + p), |[next, further]| {
             (x - own * (next - x) / (further - own)).max(0.0).powf(power.recip())
         });
-        (before > 0.0 || level > 1).then_some(zero.clamp(before, p))
+        (before <= p && (before > 0.0 || level > 1)).then(|| zero.clamp(before, p))
     };
     levels.filter_map(|(level, number)| Some((number, touch(level.shape().exponent(), number)?))).collect()
 }
