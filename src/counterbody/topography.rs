@@ -58,10 +58,7 @@ impl Topography {
             let [every1, every2] = [0, 1].map(|axis| own[axis] / points[axis]);
             Array2::from_shape_fn(points, |(i, j)| self.heights[[every1 * i, every2 * j]])
         } else {
-            // What all have in common has no waves, not even those of rounding.
-            let common = self.heights[[0, 0]];
-            let rest = self.heights.mapv(|height| height - common);
-            Spectrum::of(self.cell, rest.view())?.resampled(points)?.mapv_into(|height| height + common)
+            Spectrum::of(self.cell, self.heights.view())?.resampled(points)?
         };
         // Between its samples the surface may rise above them.
         let all = self.heights.iter().chain(&on_grid);

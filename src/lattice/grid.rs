@@ -136,6 +136,11 @@ impl Grid {
         self.tied_wavevectors(component, TIE).into_iter().map(|(index, _)| index).collect()
     }
 
+    /// How many waves the component (k₁, k₂) stands for: its shortest aliases.
+    pub(crate) fn tied(&self, component: [usize; 2]) -> usize {
+        if self.resolves(self.wavevector(component)) { 1 } else { self.aliases(component).len() }
+    }
+
     /// Whether no alias of a wave is shorter.
     pub(crate) fn holds(&self, wavevector: [f64; 2]) -> bool {
         !self.zone.on_border(wavevector, -BORDER)

@@ -16,7 +16,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 /// Curves in a chart, at most.
-const CURVES: usize = 7;
+const CURVES: usize = 6;
 /// Maps in a picture, at most.
 const MAPS: usize = 4;
 /// Values of a key from which on two of them make a map.

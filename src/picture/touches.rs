@@ -9,10 +9,12 @@ use crate::run::StepRecord;
 
 /// Mean pressure of first touch of each level that first carries load between two steps, with the level.
 pub fn touches(problem: &Problem, steps: &[StepRecord]) -> Vec<(usize, f64)> {
-    let mut steps: Vec<&StepRecord> = steps.iter().collect();
+    let finite = |step: &&StepRecord| step.reading.mean_pressure.is_finite();
+    let mut steps: Vec<&StepRecord> = steps.iter().filter(finite).collect();
     steps.sort_by(|a, b| a.reading.mean_pressure.total_cmp(&b.reading.mean_pressure));
-    let levels = problem.counterbody().levels().iter().zip(1..);
-    let touch = |exponent: f64, level: usize| {
+    let levels = problem.counterbody().levels();
+    let highest = levels.iter().map(|level| level.height()).fold(f64::NEG_INFINITY, f64::max);
+    let touch = |exponent: f64, is_highest: bool, level: usize| {
         let load = |step: &StepRecord| step.reading.levels.get(level - 1).map_or(0.0, |own| own.load);
         let first = steps.iter().position(|step| load(step) > 0.0).filter(|&first| first > 0)?;
         // What touches from the beginning has no load of first touch.
@@ -24,9 +26,13 @@ pub fn touches(problem: &Problem, steps: &[StepRecord]) -> Vec<(usize, f64)> {
         let zero = line.map_or(0.5 * (before + p), |[next, further]| {
             (x - own * (next - x) / (further - own)).max(0.0).powf(power.recip())
         });
-        (before <= p && (before > 0.0 || level > 1)).then(|| zero.clamp(before, p))
+        (before > 0.0 || !is_highest).then(|| zero.clamp(before, p))
     };
-    levels.filter_map(|(level, number)| Some((number, touch(level.shape().exponent(), number)?))).collect()
+    let marks = levels.iter().zip(1..).filter_map(|(level, number)| {
+        let is_highest = level.height() >= highest;
+        Some((number, touch(level.shape().exponent(), is_highest, number)?))
+    });
+    marks.collect()
 }
 
 #[cfg(test)]

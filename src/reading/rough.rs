@@ -177,7 +177,7 @@ pub fn stiffness(steps: &[[f64; 2]]) -> Vec<Option<[f64; 2]>> {
             true => around.max(2.0 * distance(&secants[own])),
             false => around,
         };
-        Some([value, error])
+        Some([value, error]).filter(|[_, error]| error.is_finite())
     };
     steps.iter().map(at).collect()
 }

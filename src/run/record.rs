@@ -50,8 +50,12 @@ impl StepRecord {
 
     /// Adds to the steps of a path on a topography what only all of them tell: its stiffness.
     pub(super) fn add_stiffness(steps: &mut [Self]) {
-        let path: Vec<[f64; 2]> =
-            steps.iter().map(|step| [step.reading.mean_pressure, step.reading.penetration]).collect();
+        // What has not converged has no place on the path.
+        let place = |step: &Self| match step.converged() {
+            true => [step.reading.mean_pressure, step.reading.penetration],
+            false => [f64::NAN; 2],
+        };
+        let path: Vec<[f64; 2]> = steps.iter().map(place).collect();
         for (step, found) in steps.iter_mut().zip(stiffness(&path)) {
             if let (Some(rough), Some([value, error])) = (&mut step.rough, found) {
                 (rough.stiffness, rough.stiffness_error) = (Some(value), Some(error));

@@ -219,17 +219,13 @@ fn resampled(
     points: [usize; 2],
 ) -> Result<(Array2<f64>, Option<String>), Refusal> {
     let refuse = |what: String| Refusal::new(value.node.place, format!("`{}`: {what}", value.path), "resampled");
-    let own: [usize; 2] = heights.dim().into();
     let needed = 24 * (heights.len() + points[0] * points[1]) as u64;
     fits(needed).map_err(|fault| refuse(format!("resampling {}", fault.what)).help("choose fewer grid.points"))?;
     let spectrum = Spectrum::of(cell, heights.view()).map_err(|error| refuse(error.to_string()))?;
     drop(heights);
     let on_grid = spectrum.resampled(points).map_err(|error| refuse(error.to_string()))?;
     let held = Spectrum::of(cell, on_grid.view()).map_err(|error| refuse(error.to_string()))?;
-    // On a finer grid the waves on the border of the file's zone are two halves each, and nothing is lost.
-    let is_coarser = (0..2).any(|axis| points[axis] < own[axis]);
-    let lost = loss([held.rms_slope(), spectrum.rms_slope()], points).filter(|_| is_coarser);
-    Ok((on_grid, lost))
+    Ok((on_grid, loss([held.rms_slope(), spectrum.rms_slope()], points)))
 }
 
 /// Refuses a generated surface for which there is no memory.

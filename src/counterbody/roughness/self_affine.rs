@@ -70,6 +70,17 @@ pub enum SelfAffineError {
         "the cell is {0:.0} times as long as the shortest wavelength: no grid of at most 32768 points along a side holds it"
     )]
     TooFine(f64),
+    /// More waves than are looked at.
+    #[error("the cell has {0:.0} × {1:.0} waves down to the shortest wavelength, too many: make the band narrower or the cell smaller")]
+    TooMany(f64, f64),
+    /// A value is not allowed.
+    #[error("{name} = {value}: the Hurst exponent must lie between 0 and 1, the rms value and the wavelengths must be positive and finite")]
+    Value {
+        /// Which.
+        name: &'static str,
+        /// What it is.
+        value: f64,
+    },
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] LatticeError),
@@ -130,12 +141,28 @@ impl SelfAffine {
         Ok(points)
     }
 
+    /// Refuses values for which there is no surface on any cell.
+    fn check(&self) -> Result<(), SelfAffineError> {
+        let rms = match self.rms {
+            Rms::Slope(rms) | Rms::Height(rms) => rms,
+        };
+        let sizes = [("longest", self.longest), ("rolloff", self.rolloff), ("shortest", self.shortest), ("rms", rms)];
+        let is_wrong = |value: f64| !(value > 0.0 && value.is_finite());
+        let wrong = sizes.into_iter().find(|(_, value)| is_wrong(*value));
+        let hurst = (!(0.0..=1.0).contains(&self.hurst)).then_some(("hurst", self.hurst));
+        wrong.or(hurst).map_or(Ok(()), |(name, value)| Err(SelfAffineError::Value { name, value }))
+    }
+
     /// All waves that may be in its band.
     fn band(&self, cell: Cell) -> Result<Band, SelfAffineError> {
+        self.check()?;
         let band = Band::new(cell, TAU / self.shortest * (1.0 + ON));
         let [k1, k2] = band.most.map(f64::from);
-        if k1.max(k2) > MOST || (2.0 * k1 + 1.0) * (k2 + 1.0) > MOST_IN_ALL {
+        if k1.max(k2) > MOST {
             return Err(SelfAffineError::TooFine(k1.max(k2)));
+        }
+        if (2.0 * k1 + 1.0) * (k2 + 1.0) > MOST_IN_ALL {
+            return Err(SelfAffineError::TooMany(2.0 * k1 + 1.0, 2.0 * k2 + 1.0));
         }
         Ok(band)
     }

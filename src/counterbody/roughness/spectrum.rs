@@ -5,7 +5,8 @@
 //!
 //! h_rms² = Σ |ĥ_**q**|² = ∫ C d²q,  h′_rms² = ⟨|∇h|²⟩ = Σ q² |ĥ_**q**|²
 //!
-//! (T. D. B. Jacobs, T. Junge & L. Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017) 013001, C^{2D} in their Eq. 6).
+//! (B. N. J. Persson et al., J. Phys.: Condens. Matter 17 (2005) R1; C^{2D} of T. D. B. Jacobs, T. Junge & L. Pastewka, Surf.
+//! Topogr.: Metrol. Prop. 5 (2017) 013001 is 4π² times it).
 
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::fourier::field;
@@ -20,6 +21,8 @@ const RINGS: f64 = 16.0;
 #[derive(Debug, Clone)]
 pub struct Spectrum {
     grid: Grid,
+    /// A height that all have in common, a length: what it has no waves, not even those of rounding.
+    common: f64,
     /// ĥ of the components (k₁, k₂), k₂ ≤ N₂/2, lengths.
     components: Array2<Complex<f64>>,
 }
@@ -42,18 +45,21 @@ impl Spectrum {
     /// [`LatticeError`] when there are none.
     pub fn of(cell: Cell, heights: ArrayView2<'_, f64>) -> Result<Self, LatticeError> {
         let grid = Grid::new(cell, heights.dim().into())?;
-        Ok(Self { grid, components: field::components(heights) })
+        let common = heights.first().copied().unwrap_or(0.0);
+        let components = field::components(heights.mapv(|height| height - common).view());
+        Ok(Self { grid, common, components })
     }
 
     /// Of components (k₁, k₂), k₂ ≤ N₂/2, on a grid.
     pub(super) fn new(grid: Grid, components: Array2<Complex<f64>>) -> Self {
-        Self { grid, components }
+        Self { grid, common: 0.0, components }
     }
 
     /// The heights at the samples of its own grid, lengths, axis 0 along a₁, axis 1 along a₂.
     pub fn into_heights(self) -> Array2<f64> {
         let [_, n2] = self.grid.points();
-        field::field(self.components, n2)
+        let common = self.common;
+        field::field(self.components, n2).mapv_into(|height| height + common)
     }
 
     /// Root mean square of the slope, √⟨|∇h|²⟩.
@@ -107,15 +113,18 @@ impl Spectrum {
                 }
             }
         }
-        Ok(sum.field())
+        Ok(sum.field().mapv_into(|height| height + self.common))
     }
 
-    /// Of every component but the mean: its wavenumber, |ĥ|² of it and its conjugate, and how many waves they are.
+    /// Of every component but the mean: its wavenumber, Σ |ĥ|² of the waves that it and its conjugate stand for, and how
+    /// many they are.
     fn squares(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let [_, n2] = self.grid.points();
         self.components.indexed_iter().skip(1).map(move |((k1, k2), value)| {
-            let waves = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
-            (self.grid.wavenumber([k1, k2]), waves * value.norm_sqr(), waves)
+            let own = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
+            // Equal parts of a component have less of its square together than it has.
+            let tied = self.grid.tied([k1, k2]) as f64;
+            (self.grid.wavenumber([k1, k2]), own * value.norm_sqr() / tied, own * tied)
         })
     }
 }
