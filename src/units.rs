@@ -118,7 +118,9 @@ impl Unit {
         match self {
             Self::None | Self::Relative(_) => None,
             Self::Named(name) => Some(name.clone()),
-            Self::Si { base, exponent } => Some(si(base, *exponent)),
+            Self::Si { base, exponent } if exponent.abs() <= 12 => Some(si(base, *exponent)),
+            // No prefix goes so far.
+            Self::Si { base, exponent } => Some(format!("1e{exponent}\u{a0}{base}")),
         }
     }
 

@@ -5,6 +5,7 @@ use super::terminal::{self, tell};
 use percoat::case::CaseError;
 use percoat::output::{FolderError, OutputError};
 use percoat::run::RunError;
+use percoat::sweep::StudyError;
 use std::convert::Infallible;
 use std::fmt;
 use std::path::PathBuf;
@@ -68,6 +69,15 @@ impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failu
             // Its own words say more than that the run cannot be recorded.
             RunError::Recorder(error) => error.into(),
             refused => Self::refused(refused),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Case(error) => Self::Case(error),
+            StudyError::Refused(why) => Self::Refused(why),
         }
     }
 }

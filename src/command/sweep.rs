@@ -107,7 +107,7 @@ pub fn run(
     let saved = |done: usize| Saved::Combinations { done, of: count, folder: staging.clone() };
     *interruption::hold() = saved(rows.len());
     let progress = Progress::new("combination", count, rows.len(), common);
-    let mut refreshed = Instant::now();
+    let (mut refreshed, mut pause) = (Instant::now(), REFRESH);
     study.run(&known, |row| -> Result<(), Failure> {
         // A signal waits until the row is whole.
         let mut hold = interruption::hold();
@@ -120,9 +120,11 @@ pub fn run(
         progress.say(format!("{} {}", row.named(), row.status.name()));
         progress.advance();
         rows.push(row);
-        if refreshed.elapsed() > REFRESH {
+        if refreshed.elapsed() > pause {
+            let began = Instant::now();
             write_text(&staging.join("sweep.csv"), &sweep::table(&rows))?;
-            refreshed = Instant::now();
+            // A long table is made less often: rows do not wait for it.
+            (refreshed, pause) = (Instant::now(), REFRESH.max(20 * began.elapsed()));
         }
         Ok(())
     })?;
@@ -207,6 +209,7 @@ pub fn print(rows: &[Row], description: &Value, folder: &Path, saying: &Saying) 
     let seconds = description["timing"]["wall"].as_f64().unwrap_or_default();
     writeln!(out, "{words}; {seconds:.2} s; written to {}", folder.display())?;
     drop(out);
+    tell_warnings(rows);
     let unsettled: Vec<&Row> = rows.iter().filter(|row| row.status != Status::Done).collect();
     for row in unsettled.iter().take(TOLD) {
         tell!("warning: {}: {}", row.named(), row.reason.as_deref().unwrap_or("not converged"));
@@ -215,6 +218,23 @@ pub fn print(rows: &[Row], description: &Value, folder: &Path, saying: &Saying) 
         tell!("warning: and {} more, see the column `reason` of sweep.csv", unsettled.len() - TOLD);
     }
     Ok(())
+}
+
+/// Each warning once, with the number of combinations that have it.
+fn tell_warnings(rows: &[Row]) {
+    /// Warnings told.
+    const TOLD: usize = 5;
+    let mut counted: Vec<(&str, usize)> = Vec::new();
+    for warning in rows.iter().flat_map(|row| &row.warnings) {
+        match counted.iter_mut().find(|(own, _)| own == warning) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((warning, 1)),
+        }
+    }
+    counted.iter().take(TOLD).for_each(|(warning, count)| tell!("warning: {warning} ({count} of {})", rows.len()));
+    if counted.len() > TOLD {
+        tell!("warning: and {} more, see the column `warnings` of sweep.csv", counted.len() - TOLD);
+    }
 }
 
 /// Whether everything is as it should be.

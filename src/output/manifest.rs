@@ -39,7 +39,7 @@ impl Writer {
         match self {
             Self::Solve => &[Self::Solve, Self::Report],
             Self::Check => &[Self::Check],
-            Self::Compare => &[Self::Compare, Self::Report],
+            Self::Compare => &[Self::Compare],
             Self::Limit => &[Self::Limit, Self::Report],
             Self::Validate => &[Self::Validate],
             Self::Sweep => &[Self::Sweep, Self::Report],

@@ -111,8 +111,11 @@ fn entries(section: &str, value: &Value) -> Vec<(String, String)> {
     match value {
         Value::Object(keys) => {
             let entry = |(key, value): (&String, &Value)| {
-                let text = if key == "points" { text(value).replace(", ", " × ") } else { text(value) };
-                (prefix(&named(key)), text)
+                match key.as_str() {
+                    "points" if section == "grid" => (named(key), text(value).replace(", ", " × ")),
+                    "points" => (prefix("single points"), text(value)),
+                    key => (prefix(&named(key)), text(value)),
+                }
             };
             keys.iter().map(entry).collect()
         }

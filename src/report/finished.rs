@@ -45,7 +45,7 @@ impl Finished {
         let [run, limit] = ["summary.json", "limit.json"].map(|name| json(&folder.join(name)));
         let finished = Self { folder: folder.to_owned(), run: run?, limit: limit?, sweep };
         if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
-            let unfinished = folder.join("unfinished").is_dir();
+            let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| folder.join(name).is_dir());
             return Err(ReportError::Nothing { folder: folder.to_owned(), unfinished });
         }
         Ok(finished)

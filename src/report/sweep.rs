@@ -36,6 +36,7 @@ const SCALARS: [(&str, &str); 10] = [
 #[derive(Deserialize)]
 struct Keys {
     keys: Vec<Key>,
+    of: usize,
     combinations: usize,
     failed: usize,
     not_converged: usize,
@@ -58,10 +59,11 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
     let rows = Rows::read(&swept.table).map_err(|reason| refused("sweep.csv", reason))?;
     let done = own.combinations.saturating_sub(own.failed + own.not_converged);
     let sentence = format!(
-        "{done} of {} combinations are solved{}{}.",
-        own.combinations,
+        "{done} of {} combinations are solved{}{}{}.",
+        own.of,
         told(own.not_converged, "not converged"),
-        told(own.failed, "failed")
+        told(own.failed, "failed"),
+        told(own.of.saturating_sub(own.combinations), "not among them: a part of the sweep")
     );
     let values = own.keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), listed(&key.values)]);
     let head = ["key", "values", "which"].map(str::to_owned).to_vec();
@@ -191,7 +193,8 @@ impl<'a> Rows<'a> {
                 // Values stand as they were given, what counts stays a count.
                 Ok(x) if !given(name) && text.contains(['.', 'e']) => number(x),
                 _ if text.is_empty() => "–".to_owned(),
-                _ => text.replace('_', " "),
+                _ if name == "status" => text.replace('_', " "),
+                _ => text.to_owned(),
             }
         };
         let rows = self.rows.iter().take(ROWS);

@@ -83,5 +83,5 @@ pub(super) fn keep(case: &Case, folder: &Path, fits: Fits<'_>) -> Result<Ended, 
     let warnings = [outcome.warnings.clone(), plausibility::of_case(case)].concat();
     write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;
     claim.publish()?;
-    Ok(Ended::solved(&outcome))
+    Ok(Ended::solved(&outcome, case))
 }

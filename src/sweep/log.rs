@@ -58,8 +58,11 @@ fn line(row: &Row) -> String {
 /// # Errors
 /// When it cannot be read, or a whole line is none of a log.
 pub fn read(path: &Path) -> io::Result<Vec<Row>> {
-    let text = std::fs::read_to_string(path)?;
-    let whole = text.split_inclusive('\n').filter(|line| line.ends_with('\n'));
+    let mut bytes = std::fs::read(path)?;
+    // Whatever a kill or a full disk left of one more line, perhaps part of a letter.
+    bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
+    let text = String::from_utf8(bytes).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
+    let whole = text.lines();
     let row = |(number, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
             let reason = format!("{}, line {number} is none of a sweep: {error}", path.display());
@@ -93,7 +96,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut log = Log::begin(folder.path(), &[row(1)]).unwrap();
         log.add(&row(2)).unwrap();
-        log.file.as_mut().unwrap().write_all(b"{\"combination\": 3, \"sett").unwrap();
+        // Killed within a letter.
+        log.file.as_mut().unwrap().write_all(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
         let path = folder.path().join(LOG);
         assert_eq!(read(&path).unwrap(), [row(1), row(2)]);
         // Going on cuts it off.

@@ -20,5 +20,5 @@ pub use axis::{Axis, AxisError};
 pub use combinations::{Combination, Combinations, CombinationsError, Group, column};
 pub use log::{Log, read};
 pub use row::{Row, Status};
-pub use study::{Study, Task};
+pub use study::{Study, StudyError, Task};
 pub use table::{description, join, table};

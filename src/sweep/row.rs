@@ -1,5 +1,6 @@
 //! What is known of a combination when it is done.
 
+use crate::case::{Case, plausibility};
 use crate::output::columns::{Cells, plain, scalars};
 use crate::run::{Limits, Outcome, StepRecord};
 use serde::{Deserialize, Serialize};
@@ -66,7 +67,7 @@ impl Ended {
         Self { status: Status::Failed, reason: Some(reason.into()), warnings: Vec::new(), results: Vec::new() }
     }
 
-    pub(super) fn solved(outcome: &Outcome) -> Self {
+    pub(super) fn solved(outcome: &Outcome, case: &Case) -> Self {
         let stopped = outcome.steps.iter().find(|step| !step.converged()).map(StepRecord::stop_reason);
         let inaccurate =
             || outcome.end.filter(|_| !outcome.is_accurate()).map(|end| format!("accuracy not reached: {end}"));
@@ -77,12 +78,12 @@ impl Ended {
             step.as_object_mut().and_then(|step| step.shift_remove("seconds"));
             step
         });
-        Self::with(reason, outcome.warnings.clone(), results.collect())
+        Self::with(reason, [&outcome.warnings[..], &plausibility::of_case(case)].concat(), results.collect())
     }
 
-    pub(super) fn limited(limits: &Limits, results: Value) -> Self {
+    pub(super) fn limited(limits: &Limits, results: Value, case: &Case) -> Self {
         let reason = (!limits.converged()).then(|| "a load or the accuracy did not converge".to_owned());
-        Self::with(reason, limits.warnings.clone(), vec![results])
+        Self::with(reason, [&limits.warnings[..], &plausibility::of_case(case)].concat(), vec![results])
     }
 
     fn with(reason: Option<String>, warnings: Vec<String>, results: Vec<Value>) -> Self {
@@ -107,6 +108,7 @@ impl Row {
             cells.push(cell("status", self.status.name().to_owned()));
             cells.push(cell("step", step.map_or(String::new(), |step| step.to_string())));
             cells.extend(scalars(results));
+            cells.push(cell("warnings", plain(&self.warnings.join("; "))));
             cells.push(cell("reason", plain(self.reason.as_deref().unwrap_or(""))));
             cells
         };

@@ -8,7 +8,7 @@ use crate::case::resources::{Job, needs, refusal};
 use crate::case::{Case, CaseError, Room, Source};
 use crate::output;
 use crate::run::Sampling;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -17,6 +17,17 @@ use std::time::Instant;
 /// Samples of the largest grid of which several combinations are solved at once, each by one thread. On larger ones all
 /// threads work on one combination after another: what several have in memory no longer fits the caches.
 const SMALL: usize = 256 * 256;
+
+/// Why no combination can be solved.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// Its case is refused.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// What it asks for is.
+    #[error("{0}")]
+    Refused(String),
+}
 
 /// What is done with every combination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,18 +67,19 @@ impl<'a> Study<'a> {
     /// Reads the case of every combination. Those that are refused are rows like any other, unless all are.
     ///
     /// # Errors
-    /// [`CaseError`] of the first combination, when every case is refused.
+    /// [`StudyError`] of the first combination, when every one is refused.
     pub fn new(
         source: &'a Source,
         fixed: &'a [String],
         combinations: &'a Combinations,
         task: Task,
         room: Room,
-    ) -> Result<Self, CaseError> {
+    ) -> Result<Self, StudyError> {
         let mut study = Self { source, fixed, combinations, task, room, fields: None, planned: Vec::new() };
         let mut first = None;
         for (index, combination) in combinations.all.iter().enumerate() {
-            let planned = match study.case(combination) {
+            let case = study.case(combination).map_err(StudyError::from);
+            let planned = match case.and_then(|case| study.check(&case).map(|()| case)) {
                 Ok(case) => {
                     let points = match case.grid {
                         Sampling::Points(points) => Some(points),
@@ -130,14 +142,25 @@ impl<'a> Study<'a> {
     /// # Errors
     /// Those of `done`.
     pub fn run<E>(&self, known: &[Row], mut done: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
-        let is_known =
-            |planned: &&Planned| known.iter().any(|row| row.combination == self.combinations.all[planned.index].number);
+        let numbers: HashSet<usize> = known.iter().map(|row| row.combination).collect();
+        let is_known = |planned: &&Planned| numbers.contains(&self.combinations.all[planned.index].number);
         let pending = self.planned.iter().filter(|planned| !is_known(planned));
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());
         let share = Room { memory: self.room.memory / workers as u64, ..self.room };
         workers::each(&small, workers, |planned| self.row(planned, share), &mut done)?;
         workers::each(&large, 1, |planned| self.row(planned, self.room), &mut done)
+    }
+
+    /// Refuses what cannot be solved before it is tried.
+    fn check(&self, case: &Case) -> Result<(), StudyError> {
+        let run = case.run();
+        let possible = match self.task {
+            Task::Solve => run.check(),
+            Task::Limit => run.check_limits(),
+        };
+        possible.map_err(|error| StudyError::Refused(error.to_string()))?;
+        refusal(case, self.room, self.job()).map_or(Ok(()), |why| Err(StudyError::Refused(why)))
     }
 
     fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
@@ -187,11 +210,11 @@ impl<'a> Study<'a> {
                 keep(&case, &folder, fits).unwrap_or_else(|error| Ended::failed(error.to_string()))
             }
             (Task::Solve, None) => match case.run().solve(&mut fits) {
-                Ok(outcome) => Ended::solved(&outcome),
+                Ok(outcome) => Ended::solved(&outcome, &case),
                 Err(error) => Ended::failed(error.to_string()),
             },
             (Task::Limit, _) => match case.run().limits(&mut fits) {
-                Ok(limits) => Ended::limited(&limits, output::limits_json(&limits)),
+                Ok(limits) => Ended::limited(&limits, output::limits_json(&limits), &case),
                 Err(error) => Ended::failed(error.to_string()),
             },
         }
