@@ -7,7 +7,7 @@ use super::pictures::PictureOptions;
 use super::sweep;
 use super::terminal::{self, tell};
 use percoat::output::{RunFolder, SWEEP_LOG};
-use percoat::sweep::{Row, description, join, read};
+use percoat::sweep::{Asked, Row, description, join, read};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,7 @@ pub fn run(
     let parts = folders.iter().map(|folder| part(folder)).collect::<Result<Vec<_>, _>>()?;
     let first = &parts[0].0;
     let same = |key: &str| parts.iter().zip(folders).find(|((own, _), _)| own[key] != first[key]);
-    for key in ["case", "task", "of"] {
+    for key in ["fingerprint", "case", "task", "of", "percoat"] {
         if let Some((_, other)) = same(key) {
             return Err(Failure::refused(format!(
                 "{} and {} are not parts of one sweep: `{key}` in their sweep.json differs",
@@ -35,9 +35,11 @@ pub fn run(
     let claim = RunFolder::claim(&folder, sweep::plan(pictures))?;
     terminal::tell_aside(claim.set_aside(), saying.quiet);
     let text = |key: &str| first[key].as_str().unwrap_or_default();
-    let of = first["of"].as_u64().unwrap_or_default() as usize;
     let seconds: f64 = parts.iter().filter_map(|(own, _)| own["timing"]["wall"].as_f64()).sum();
-    let description = description(text("title"), text("case"), text("task"), of, &rows, seconds);
+    let of = first["of"].as_u64().unwrap_or_default() as usize;
+    let asked =
+        Asked { title: text("title"), case: text("case"), task: text("task"), fingerprint: text("fingerprint"), of };
+    let description = description(asked, &rows, seconds);
     sweep::finish(claim, &folder, &rows, &description, pictures, saying.quiet)?;
     sweep::print(&rows, &description, &folder, saying)?;
     if rows.len() < of {
@@ -50,13 +52,30 @@ pub fn run(
 /// The description and the rows of a part, finished or not.
 fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
     let unfinished = folder.join("unfinished-sweep");
-    let place = if folder.join("sweep.json").is_file() { folder } else { &unfinished };
-    let path = place.join("sweep.json");
-    if !path.is_file() {
-        return Err(Failure::refused(format!(
+    match (read_part(folder)?, read_part(&unfinished)?) {
+        (Some((finished, _)), Some((begun, _))) if finished["fingerprint"] != begun["fingerprint"] => {
+            Err(Failure::refused(format!(
+                "{} holds a finished sweep and an unfinished one of another: finish this with --resume, or move one away",
+                folder.display()
+            )))
+        }
+        (Some((description, rows)), Some((_, more))) => {
+            let rows = join([&rows, &more].into_iter()).map_err(Failure::refused)?;
+            Ok((description, rows))
+        }
+        (Some(own), None) | (None, Some(own)) => Ok(own),
+        (None, None) => Err(Failure::refused(format!(
             "{} holds no sweep: give the folders that `percoat sweep --shard` wrote",
             folder.display()
-        )));
+        ))),
+    }
+}
+
+/// Those in a place, if it has any.
+fn read_part(place: &Path) -> Result<Option<(Value, Vec<Row>)>, Failure> {
+    let path = place.join("sweep.json");
+    if !path.is_file() {
+        return Ok(None);
     }
     let text = std::fs::read_to_string(&path).map_err(|error| Failure::Input { path: path.clone(), error })?;
     let description = serde_json::from_str(&text)
@@ -65,15 +84,16 @@ fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
     // A part that was killed before its first combination has no log.
     let rows =
         if log.is_file() { read(&log).map_err(|error| Failure::Input { path: log, error })? } else { Vec::new() };
-    Ok((description, rows))
+    Ok(Some((description, rows)))
 }
 
 /// The folder in which all parts stand.
 fn common_parent(folders: &[PathBuf]) -> Result<PathBuf, Failure> {
     let parents: Vec<Option<&Path>> = folders.iter().map(|folder| folder.parent()).collect();
     match parents[0] {
-        Some(parent) if parents.iter().all(|own| *own == parents[0]) && parent != Path::new("") => {
-            Ok(parent.to_owned())
+        // Names alone stand in the working folder.
+        Some(parent) if parents.iter().all(|own| *own == parents[0]) => {
+            Ok(if parent == Path::new("") { PathBuf::from(".") } else { parent.to_owned() })
         }
         _ => Err(Failure::refused("the parts stand in different folders: say with -o where the whole shall be")),
     }

@@ -11,7 +11,7 @@ use clap::Args;
 use percoat::case::{Case, Room, Source};
 use percoat::output::{Plan, RunFolder, SWEEP_LOG, Writer, write_text};
 use percoat::picture;
-use percoat::sweep::{self, Axis, Combinations, Group, Log, Row, Status, Study, Task};
+use percoat::sweep::{self, Asked, Axis, Combinations, Group, Log, Row, Status, Study, Task};
 use percoat::units::Units;
 use serde_json::Value;
 use std::io::Write;
@@ -70,7 +70,16 @@ pub fn run(
     let started = Instant::now();
     let (source, name) = read_source(Some(case))?;
     let (combinations, fixed) = combinations(options, set)?;
-    let of = combinations.all.len();
+    // Of what is common to all: it may be no case without what is varied.
+    let whole = Case::read(&source, &fixed).ok();
+    let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
+    let asked = Asked {
+        title: whole.as_ref().map_or("", |case| &case.title),
+        case: &text,
+        task: if options.limit { "limit" } else { "solve" },
+        fingerprint: &sweep::fingerprint(&text, &fixed, &combinations),
+        of: combinations.all.len(),
+    };
     let combinations = match options.shard {
         Some((part, of)) => combinations.shard(part, of),
         None => combinations,
@@ -84,23 +93,32 @@ pub fn run(
     let study = Study::new(&source, &fixed, &combinations, task, room)?;
     let study = if options.keep_fields { study.keeping_fields(&fields) } else { study };
     interruption::watch();
-    let claim = RunFolder::claim(&folder, Plan { resumes: options.resume, ..plan(pictures) })?;
+    let mut claim = RunFolder::claim(&folder, Plan { resumes: options.resume, ..plan(pictures) })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let mut rows = Vec::new();
     if options.resume {
-        rows = study.known(&earlier(&claim, &folder)?);
+        let earlier = earlier(&claim, &folder)?;
+        rows = study.known(&earlier);
+        let solved = earlier.iter().filter(|row| !row.results.is_empty()).count();
+        if rows.is_empty() && solved > 0 {
+            return Err(Failure::refused(format!(
+                "none of the {solved} combinations that are done in {} is of this sweep: the case, a --set, --limit, \
+                 --keep-fields, a surface or the version of percoat is another one; give the same command again, or leave \
+                 --resume out",
+                folder.display()
+            )));
+        }
+        // What cannot be used again is not lost.
+        if rows.len() < solved && claim.resumes() {
+            terminal::tell_aside(claim.begin_anew()?.as_deref(), common.quiet);
+        }
         if !common.quiet {
             tell!("note: {} of {} combinations are done already", rows.len(), combinations.all.len());
         }
     }
     let staging = claim.staging();
     let mut log = Log::begin(&staging, &rows)?;
-    // Of what is common to all: it may be no case without what is varied.
-    let whole = Case::read(&source, &fixed).ok();
-    let title = whole.as_ref().map_or("", |case| &case.title);
-    let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
-    let task = if options.limit { "limit" } else { "solve" };
-    let describe = |rows: &[Row]| sweep::description(title, &text, task, of, rows, started.elapsed().as_secs_f64());
+    let describe = |rows: &[Row]| sweep::description(asked, rows, started.elapsed().as_secs_f64());
     // For who merges a part that was killed.
     write_text(&staging.join("sweep.json"), &format!("{:#}\n", describe(&rows)))?;
     let (count, known) = (combinations.all.len(), rows.clone());

@@ -85,6 +85,17 @@ impl RunFolder {
         self.resumed
     }
 
+    /// Begins anew although this run was to go on: what an earlier one finished is moved aside; where to.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path that cannot be moved.
+    pub fn begin_anew(&mut self) -> Result<Option<PathBuf>, OutputError> {
+        self.resumed = false;
+        let aside = set_aside(&self.staging(), &self.folder)?;
+        self.make_staging()?;
+        Ok(aside)
+    }
+
     /// The writer's earlier files whose names begin like this stay as they are.
     pub fn keeps(&mut self, beginning: String) {
         self.plan.scope.except.push(beginning);

@@ -110,12 +110,10 @@ fn entries(section: &str, value: &Value) -> Vec<(String, String)> {
         |key: &str| if matches!(section, "stress" | "friction") { format!("{section}: {key}") } else { key.to_owned() };
     match value {
         Value::Object(keys) => {
-            let entry = |(key, value): (&String, &Value)| {
-                match key.as_str() {
-                    "points" if section == "grid" => (named(key), text(value).replace(", ", " × ")),
-                    "points" => (prefix("single points"), text(value)),
-                    key => (prefix(&named(key)), text(value)),
-                }
+            let entry = |(key, value): (&String, &Value)| match key.as_str() {
+                "points" if section == "grid" => (named(key), text(value).replace(", ", " × ")),
+                "points" => (prefix("single points"), text(value)),
+                key => (prefix(&named(key)), text(value)),
             };
             keys.iter().map(entry).collect()
         }

@@ -21,4 +21,4 @@ pub use combinations::{Combination, Combinations, CombinationsError, Group, colu
 pub use log::{Log, read};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError, Task};
-pub use table::{description, join, table};
+pub use table::{Asked, description, fingerprint, join, table};

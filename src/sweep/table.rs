@@ -1,6 +1,8 @@
 //! `sweep.csv` and `sweep.json`: the table of a sweep, and what was asked for.
 
+use super::combinations::Combinations;
 use super::row::{Row, Status};
+use crate::output::checksum;
 use crate::output::columns::{Cells, csv};
 use serde_json::{Value, json};
 use std::collections::btree_map::Entry;
@@ -36,9 +38,33 @@ pub fn join<'a>(parts: impl Iterator<Item = &'a Vec<Row>>) -> Result<Vec<Row>, S
     Ok(rows.into_values().collect())
 }
 
-/// What was asked for and how it ended; `case` is the common case as TOML, `of` the number of combinations of the whole
-/// sweep, of which these rows may be a part.
-pub fn description(title: &str, case: &str, task: &str, of: usize, rows: &[Row], seconds: f64) -> Value {
+/// What a whole sweep is, of which some rows may be a part.
+#[derive(Debug, Clone, Copy)]
+pub struct Asked<'a> {
+    /// Title of the case.
+    pub title: &'a str,
+    /// The common case as TOML.
+    pub case: &'a str,
+    /// `solve` or `limit`.
+    pub task: &'a str,
+    /// Of the case and of all that it sets: equal only for parts of one sweep.
+    pub fingerprint: &'a str,
+    /// Number of its combinations.
+    pub of: usize,
+}
+
+/// A fingerprint of the common case, what all combinations set, and every combination.
+pub fn fingerprint(case: &str, fixed: &[String], combinations: &Combinations) -> String {
+    let each = combinations.all.iter().flat_map(|own| &own.values);
+    let parts = [case].into_iter().chain(fixed.iter().chain(&combinations.keys).chain(each).map(String::as_str));
+    let text = parts.collect::<Vec<_>>().join("\n");
+    let (length, checksum) = checksum(&mut text.as_bytes()).expect("what is in memory can be read");
+    format!("{length:x}-{checksum:016x}")
+}
+
+/// What was asked for and how it ended.
+pub fn description(asked: Asked<'_>, rows: &[Row], seconds: f64) -> Value {
+    let Asked { title, case, task, fingerprint, of } = asked;
     let keys: Vec<&String> = rows.first().map_or(Vec::new(), |row| row.settings.iter().map(|(key, _)| key).collect());
     let values = |key: &String| -> Vec<&String> {
         let (mut seen, all) = (BTreeSet::new(), rows.iter().flat_map(|row| &row.settings));
@@ -52,6 +78,7 @@ pub fn description(title: &str, case: &str, task: &str, of: usize, rows: &[Row],
         "title": title,
         "task": task,
         "keys": keys.iter().map(|key| json!({"key": key, "values": values(key)})).collect::<Value>(),
+        "fingerprint": fingerprint,
         "of": of,
         "combinations": rows.len(),
         "done": count(Status::Done),

@@ -5,8 +5,20 @@ use serde_json::Value;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-const COMMANDS: [&str; 11] =
-    ["solve", "compare", "limit", "sweep", "merge", "kernel", "check", "cases", "validate", "completions", "man"];
+const COMMANDS: [&str; 12] = [
+    "solve",
+    "compare",
+    "limit",
+    "sweep",
+    "merge",
+    "report",
+    "kernel",
+    "check",
+    "cases",
+    "validate",
+    "completions",
+    "man",
+];
 
 #[test]
 fn every_help_has_an_example_and_the_exit_codes_and_fits_a_terminal() {

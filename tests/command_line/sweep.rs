@@ -117,13 +117,7 @@ fn what_can_be_no_sweep_is_refused_and_nothing_written() {
         (&["--set", "grid.points=16,32", "--shard", "4/3"], "1 ≤ I ≤ N"),
         (&["--set", "grid.points=16,32", "--limit"], "strength"),
     ] {
-        let answer = sweep(&desk, "out", arguments);
-        if arguments.contains(&"--limit") {
-            // Every row says so.
-            answer.complains(3, &[words]);
-            continue;
-        }
-        answer.complains(2, &[words]);
+        sweep(&desk, "out", arguments).complains(2, &[words]);
         assert!(!desk.path("out").exists(), "{arguments:?}");
     }
     fs::create_dir(desk.path("mine")).unwrap();
@@ -190,6 +184,25 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
 }
 
 #[test]
+fn what_cannot_be_used_again_is_not_lost() {
+    let desk = desk();
+    let done = |name: &str| fs::read_to_string(desk.path(name)).unwrap_or_default().lines().count();
+    let values = ["--set", "layers.0.thickness=0.1,0.2,0.3"];
+    assert_eq!(sweep(&desk, "out", &values).code, 0);
+    // As a sweep that was killed at its end leaves it.
+    fs::create_dir(desk.path("out/unfinished-sweep")).unwrap();
+    desk.write("out/unfinished-sweep/.percoat", "");
+    fs::copy(desk.path("out/sweep.jsonl"), desk.path("out/unfinished-sweep/sweep.jsonl")).unwrap();
+    let other = sweep(&desk, "out", &[&values[..], &["--set", "substrate.poisson=0.2", "--resume"]].concat());
+    other.complains(2, &["none of the 3 combinations", "--set", "--resume"]);
+    assert_eq!((done("out/unfinished-sweep/sweep.jsonl"), done("out/sweep.jsonl")), (3, 3));
+    let fewer = sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.2,0.4", "--resume"]);
+    assert_eq!(fewer.code, 0, "{}", fewer.err);
+    assert!(fewer.err.contains("interrupted-1") && fewer.err.contains("2 of 3 combinations"), "{}", fewer.err);
+    assert_eq!((done("out/interrupted-1/sweep.jsonl"), done("out/sweep.jsonl")), (3, 3));
+}
+
+#[test]
 fn parts_are_joined_to_the_table_of_the_whole() {
     let desk = desk();
     assert_eq!(sweep(&desk, "whole", &MANY).code, 0);
@@ -204,6 +217,10 @@ fn parts_are_joined_to_the_table_of_the_whole() {
     let [whole, parts] = ["whole", "parts"].map(|name| Folder(desk.path(name)));
     assert_eq!(whole.text("sweep.csv"), parts.text("sweep.csv"));
     assert_eq!(sweep(&desk, "other", &["--set", "grid.points=16,24"]).code, 0);
+    // As many combinations, other values.
+    let others = ["--set", "layers.0.thickness=0.05:0.6:10", "--set", "layers.0.poisson=0:0.5:6", "--shard", "2/3"];
+    assert_eq!(sweep(&desk, "changed", &others).code, 0);
+    merge(&["parts/shard-1", "changed", "-o", "both"]).complains(2, &["not parts of one sweep", "fingerprint"]);
     merge(&["parts/shard-1", "other"]).complains(2, &["not parts of one sweep"]);
     merge(&["parts/shard-1", "."]).complains(2, &["holds no sweep"]);
 }

@@ -71,10 +71,14 @@ pub enum SelfAffineError {
     )]
     TooFine(f64),
     /// More waves than are looked at.
-    #[error("the cell has {0:.0} × {1:.0} waves down to the shortest wavelength, too many: make the band narrower or the cell smaller")]
+    #[error(
+        "the cell has {0:.0} × {1:.0} waves down to the shortest wavelength, too many: make the band narrower or the cell smaller"
+    )]
     TooMany(f64, f64),
     /// A value is not allowed.
-    #[error("{name} = {value}: the Hurst exponent must lie between 0 and 1, the rms value and the wavelengths must be positive and finite")]
+    #[error(
+        "{name} = {value}: the Hurst exponent must lie between 0 and 1, the rms value and the wavelengths must be positive and finite"
+    )]
     Value {
         /// Which.
         name: &'static str,
