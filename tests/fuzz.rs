@@ -267,7 +267,7 @@ fn holds_together(case: &Case) {
         assert!(!text.is_empty() && !text.to_lowercase().contains("nan"), "{text}");
     }
     let grids = case.grid.grids(&cell).expect("a case that is refined has a grid");
-    for job in [Job::Solve { pictures: true }, Job::Compare { pictures: true }] {
+    for job in [Job::Solve { pictures: true, fields: true }, Job::Compare { pictures: true }] {
         let needs = resources::needs(case, grids[grids.len() - 1], job);
         assert!(needs.memory > 0 && resources::bytes(needs.memory).contains('B'));
         assert!(0 < needs.disk && needs.disk <= needs.disk_while_running);

@@ -53,10 +53,12 @@ const PICTURE: u64 = 3 * MEBIBYTE / 10;
 /// What is done with a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Job {
-    /// `percoat solve`, with its pictures or without.
+    /// `percoat solve`, with its pictures and fields or without.
     Solve {
-        /// Whether they are drawn.
+        /// Whether pictures are drawn.
         pictures: bool,
+        /// Whether fields are kept.
+        fields: bool,
     },
     /// `percoat limit`, with its pictures or without.
     Limit {
@@ -97,7 +99,7 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     // A fall-back to the baseline takes more, and less than reading.
     let (grids, working) = (kept as u64, working as u64);
     let needs = match job {
-        Job::Solve { pictures } => of_solving(case, samples, [grids, working, heights], pictures),
+        Job::Solve { pictures, fields } => of_solving(case, samples, [grids, working, heights], pictures, fields),
         Job::Limit { pictures } => of_limits(case, samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
     };
@@ -111,7 +113,7 @@ fn of_heights(case: &Case, samples: u64) -> u64 {
     8 * samples + resampled
 }
 
-fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool) -> Needs {
+fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pictures: bool, fields: bool) -> Needs {
     let steps = case.load.values().len() as u64;
     let (stress, written, volume) =
         case.stress.as_ref().map_or((0, 0, 0), |stress| of_stress(stress, case.half_space(), samples));
@@ -122,7 +124,8 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let drawn = if pictures { of_pictures(case) } else { 0 };
     let drawing = PROGRAM + KEPT * samples + heights + drawn;
     let summary = steps * 4096 * (1 + case.levels.len() as u64);
-    let fields = steps * 24 * samples + 20 * samples;
+    let (fields, written, volume) =
+        if fields { (steps * 24 * samples + 20 * samples, written, volume) } else { (0, 0, 0) };
     let pages = if pictures { PICTURE * (3 + 2 * u64::from(has_cut(case)) + u64::from(steps > 1)) } else { 0 };
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are all there.
@@ -254,7 +257,7 @@ mod tests {
     use super::super::embedded;
     use super::*;
 
-    const SOLVE: Job = Job::Solve { pictures: false };
+    const SOLVE: Job = Job::Solve { pictures: false, fields: true };
 
     fn case(overrides: &[&str]) -> Case {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
@@ -285,8 +288,8 @@ mod tests {
             (1024, &[AWRY], false, 161.3),
         ];
         for (points, overrides, pictures, peak) in measured {
-            let estimate =
-                needs(&case(overrides), [points; 2], Job::Solve { pictures }).memory as f64 / MEBIBYTE as f64;
+            let estimate = needs(&case(overrides), [points; 2], Job::Solve { pictures, fields: true }).memory as f64
+                / MEBIBYTE as f64;
             println!("{points} {overrides:?}: {peak} MiB, estimate {estimate:.1} ({:.3})", estimate / peak);
             assert!((peak..=1.25 * peak).contains(&estimate), "{points} {overrides:?}: {peak}, not {estimate:.1} MiB");
         }

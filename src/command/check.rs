@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 pub fn run(path: &Path, output: Option<&Path>, set: &[String]) -> Result<Ending, Failure> {
     let (case, name) = read_case(Some(path), set)?;
-    let job = Job::Solve { pictures: true };
+    let job = Job::Solve { pictures: true, fields: true };
     let Allowed { room, .. } = Allowed::new(&case, &Path::new("out").join(&name), job)?;
     case.run().check()?;
     let mut out = terminal::out();
@@ -81,14 +81,14 @@ fn write_sublayers(out: &mut impl Write, case: &Case) -> Result<(), Failure> {
 
 /// Memory and disk that solving the case takes on its finest grid, with pictures and without.
 fn write_needs(out: &mut impl Write, case: &Case, points: [usize; 2], room: Room) -> Result<(), Failure> {
-    let Needs { memory, disk, disk_while_running } = needs(case, points, Job::Solve { pictures: true });
+    let Needs { memory, disk, disk_while_running } = needs(case, points, Job::Solve { pictures: true, fields: true });
     let free = if room.disk == u64::MAX { String::new() } else { format!(", {} free", bytes(room.disk)) };
     let most = if matches!(case.grid, Sampling::Accuracy(_)) { "at most " } else { "" };
     writeln!(
         out,
         "memory: about {most}{} ({} without pictures), {} available",
         bytes(memory),
-        bytes(needs(case, points, Job::Solve { pictures: false }).memory),
+        bytes(needs(case, points, Job::Solve { pictures: false, fields: true }).memory),
         bytes(room.memory)
     )?;
     writeln!(out, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;

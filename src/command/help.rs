@@ -34,7 +34,7 @@ help!(
     "0 done; 2 refused, nothing written; 3 a combination failed or did\nnot converge, the table says why; 4 input or output failed; 130 interrupted",
     "sweep fig2 --set layers.0.thickness=0.1:1:9:log --set grid.points=128",
     "sweep a.toml --set layers.0.young=2,5 --set layers.0.thickness=1:2:5",
-    "sweep a.toml --zip --set levels.0.radius=1,2 --set load.penetration=3,4",
+    "sweep a.toml --zip --set levels.0.radius=1,2 --set layers.0.young=3,4",
     "sweep mine.toml --table settings.csv --resume",
     "sweep mine.toml --set friction.coefficient=0:0.5:6 --limit",
     "sweep mine.toml --set layers.0.thickness=0.1:1:50 --shard 3/8"

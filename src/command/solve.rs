@@ -39,7 +39,7 @@ pub fn run(
     let (case, name) = read_case(case, &changes.set)?;
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let run = case.run();
-    let job = Job::Solve { pictures: pictures.wanted() };
+    let job = Job::Solve { pictures: pictures.wanted(), fields: !options.no_fields };
     let allowed = Allowed::new(&case, &folder, job)?;
     run.check()?;
     interruption::watch();

@@ -173,7 +173,7 @@ impl<'a> Study<'a> {
 
     fn job(&self) -> Job {
         match self.task {
-            Task::Solve => Job::Solve { pictures: false },
+            Task::Solve => Job::Solve { pictures: false, fields: self.fields.is_some() },
             Task::Limit => Job::Limit { pictures: false },
         }
     }

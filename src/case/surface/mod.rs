@@ -117,13 +117,27 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
         Sampling::Points(wanted) if wanted != points => resampled(heights, cell, stored, wanted)?,
         _ => (stored, None),
     };
+    let squeezed = own.and_then(|own| squeezed(own, cell));
     let Treatment { scale, level, window, .. } = treatment;
     Ok(Read {
         section: SurfaceSection::File { heights: path.to_string_lossy().into_owned(), scale, level, window },
         lattice,
         topography: topography(section, cell, on_grid)?,
         sampling,
-        doubts: doubt.into_iter().chain(lost).collect(),
+        doubts: doubt.into_iter().chain(lost).chain(squeezed).collect(),
+    })
+}
+
+/// That the points of a file know of another period than the case says, by more than a hundredth.
+fn squeezed(own: [f64; 2], cell: Cell) -> Option<String> {
+    let sides = cell.vectors().map(|[x, y]| x.hypot(y));
+    let differs = (0..2).any(|axis| (own[axis] / sides[axis] - 1.0).abs() > 0.01);
+    differs.then(|| {
+        let [own, sides] = [own, sides].map(|sides| sides.map(number).join(" × "));
+        format!(
+            "the points of the surface's file lie on {own}, in the unit of its heights; the case makes that {sides}: \
+             leave [lattice], surface.period and surface.pixel out, or say the unit of the file"
+        )
     })
 }
 

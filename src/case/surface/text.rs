@@ -15,13 +15,20 @@ enum Separator {
 
 impl Separator {
     fn of(line: &str) -> Self {
-        let blanks = line.split_whitespace().count() > 1;
-        // "1,5 2,5": what a number follows directly, in a line with blanks, is a decimal comma.
-        let decimal = || line.split(',').skip(1).any(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+        // "1,5 2,5": where every word between blanks has a comma between digits at most, and no point, it is a decimal one.
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let is_decimal = |word: &&str| match word.split_once(',') {
+            None => true,
+            Some((whole, part)) => {
+                let digit = |c: char| c.is_ascii_digit();
+                whole.ends_with(digit) && part.starts_with(digit) && !part.contains(',') && !word.contains('.')
+            }
+        };
+        let is_apart_by_blanks = words.len() > 1 && words.iter().all(is_decimal);
         match line {
             _ if line.contains(';') => Self::Mark(';'),
             _ if line.contains('\t') => Self::Mark('\t'),
-            _ if line.contains(',') && !(blanks && decimal()) => Self::Mark(','),
+            _ if line.contains(',') && !is_apart_by_blanks => Self::Mark(','),
             _ => Self::Blanks,
         }
     }
@@ -105,6 +112,13 @@ mod tests {
         ] {
             assert_eq!(of(text), Ok(expected.clone()), "{text:?}");
         }
+    }
+
+    #[test]
+    fn numbers_between_commas_may_be_padded_with_blanks() {
+        let found = |text: &str| of(text).unwrap().values;
+        assert_eq!(found("   10,  200,30000\n    1,    2,    3\n"), [10.0, 200.0, 30000.0, 1.0, 2.0, 3.0]);
+        assert_eq!(found(" 123.40, 123.50,1234.50\n1,2,3\n")[..3], [123.4, 123.5, 1234.5]);
     }
 
     #[test]
