@@ -20,7 +20,7 @@ use percoat::run::StepRecord;
 use std::io::Write;
 use std::path::Path;
 
-/// What stays of a run, and whether it goes on with an earlier one.
+/// What stays of a run.
 #[derive(Debug, Args)]
 pub struct SolveOptions {
     /// Keep scalars alone: no contact.npz, stress.npz and volumes
