@@ -4,6 +4,7 @@
 //! surface above its highest apex. The indenter that gives the minimum owns the sample. Every profile grows with the
 //! radius, so of the periodic images of an indenter only the nearest one counts.
 
+use super::roughness::Spectrum;
 use super::{Counterbody, Indenters, Site};
 use crate::lattice::{Grid, LatticeError, Reduced};
 use crate::numeric::array::{field, samples};
@@ -40,6 +41,25 @@ impl Surface {
                 Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() }
             }
         })
+    }
+
+    /// The same counterbody on a coarser grid, from which a solution starts: every k-th sample of this one where the grid has a
+    /// whole fraction of them along either direction, so that heights stay what they are; else the waves that it holds.
+    ///
+    /// # Errors
+    /// [`LatticeError`] when a number of points is zero.
+    pub(crate) fn coarser(&self, counterbody: &Counterbody, points: [usize; 2]) -> Result<Self, LatticeError> {
+        if self.owner.is_some() {
+            return Self::new(counterbody, points);
+        }
+        let (grid, own) = (Arc::new(Grid::new(counterbody.cell(), points)?), self.grid.points());
+        let initial_gap = if (0..2).all(|axis| own[axis].is_multiple_of(points[axis])) {
+            let [every1, every2] = [0, 1].map(|axis| own[axis] / points[axis]);
+            Array2::from_shape_fn(points, |(i, j)| self.initial_gap[[every1 * i, every2 * j]])
+        } else {
+            Spectrum::of(counterbody.cell(), self.initial_gap())?.resampled(points)?
+        };
+        Ok(Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() })
     }
 
     /// The grid.

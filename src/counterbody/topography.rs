@@ -47,22 +47,17 @@ impl Topography {
         self.heights.dim().into()
     }
 
-    /// Depths below the highest sample on a grid of `points` = [N₁, N₂], lengths: every k-th sample where the grid has a
-    /// whole fraction of them along either direction, else the [sum of waves](Spectrum::resampled) through all.
+    /// Depths on a grid of `points` = [N₁, N₂] below its highest sample, lengths: of the [sum of waves](Spectrum::resampled)
+    /// through all samples, without those that the grid cannot hold.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
     pub fn depths(&self, points: [usize; 2]) -> Result<Array2<f64>, LatticeError> {
-        let own = self.points();
-        let on_grid = if (0..2).all(|axis| points[axis] > 0 && own[axis].is_multiple_of(points[axis])) {
-            let [every1, every2] = [0, 1].map(|axis| own[axis] / points[axis]);
-            Array2::from_shape_fn(points, |(i, j)| self.heights[[every1 * i, every2 * j]])
-        } else {
-            Spectrum::of(self.cell, self.heights.view())?.resampled(points)?
+        let on_grid = match points == self.points() {
+            true => self.heights.clone(),
+            false => Spectrum::of(self.cell, self.heights.view())?.resampled(points)?,
         };
-        // Between its samples the surface may rise above them.
-        let all = self.heights.iter().chain(&on_grid);
-        let highest = all.copied().fold(f64::NEG_INFINITY, f64::max);
+        let highest = on_grid.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         Ok(on_grid.mapv_into(|height| highest - height))
     }
 }
@@ -90,19 +85,28 @@ mod tests {
     }
 
     #[test]
-    fn a_coarser_grid_takes_every_kth_sample_and_a_finer_one_the_waves_between() {
+    fn other_grids_have_the_waves_between_the_samples_below_their_own_highest_one() {
         let wave = |i: usize, n: usize| (std::f64::consts::TAU * (i as f64 / n as f64 - 0.04)).cos();
-        let heights = Array2::from_shape_fn((12, 6), |(i, j)| wave(i, 12) + 0.2 * wave(j, 6));
-        let surface = Topography::new(Cell::hexagonal(1.0).unwrap(), heights.clone()).unwrap();
-        let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        assert!(
-            surface.depths([4, 3]).unwrap().indexed_iter().all(|((i, j), d)| *d == highest - heights[[3 * i, 2 * j]])
-        );
-        let finer = surface.depths([30, 18]).unwrap();
-        let expected = Array2::from_shape_fn((30, 18), |(i, j)| wave(i, 30) + 0.2 * wave(j, 18));
-        let apex = expected.iter().copied().fold(highest, f64::max);
-        assert!(finer.indexed_iter().all(|(at, d)| (d - (apex - expected[at])).abs() < 1e-14 && *d >= 0.0));
+        let on = |[n1, n2]: [usize; 2]| Array2::from_shape_fn([n1, n2], |(i, j)| wave(i, n1) + 0.2 * wave(j, n2));
+        let surface = Topography::new(Cell::hexagonal(1.0).unwrap(), on([12, 6])).unwrap();
+        for points in [[12, 6], [4, 3], [30, 18], [7, 5]] {
+            let (depths, expected) = (surface.depths(points).unwrap(), on(points));
+            let highest = expected.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            assert!(depths.indexed_iter().all(|(at, d)| (d - (highest - expected[at])).abs() < 1e-14), "{points:?}");
+        }
         assert!(surface.depths([0, 3]).is_err());
+    }
+
+    /// What a grid cannot hold is left out, whether or not it divides the samples.
+    #[test]
+    fn waves_too_short_for_a_grid_are_left_out_on_every_grid() {
+        let wave = |k: usize, i: usize, n: usize| (std::f64::consts::TAU * (k * i) as f64 / n as f64).cos();
+        let heights = Array2::from_shape_fn((24, 24), |(i, _)| wave(1, i, 24) + wave(7, i, 24));
+        let surface = Topography::new(Cell::square(1.0).unwrap(), heights).unwrap();
+        for n in [12, 10] {
+            let depths = surface.depths([n, n]).unwrap();
+            assert!(depths.indexed_iter().all(|((i, _), d)| (d - (1.0 - wave(1, i, n))).abs() < 1e-13), "{n}");
+        }
     }
 
     #[test]

@@ -64,17 +64,24 @@ impl Solver {
         let problem = problem.into();
         let transfer = TransferFunction::new(problem.half_space());
         let modulus = problem.half_space().surface_material().contact_modulus();
-        let nest = |points| -> Result<Nest, LatticeError> {
-            let surface = Surface::new(problem.counterbody(), points)?;
+        let nest = |surface: Surface| {
             let operator = match problem.friction() {
                 Some(friction) => Operator::sliding(surface.grid(), &transfer, friction),
                 None => Operator::new(surface.grid(), &transfer),
             };
             let unknowns = Unknowns::new(surface.grid().len());
             let largest_gap = surface.largest();
-            Ok(Nest { surface: Arc::new(surface), largest_gap, operator, unknowns, modulus })
+            Nest { surface: Arc::new(surface), largest_gap, operator, unknowns, modulus }
         };
-        let nests = nested_points(points, settings.method).into_iter().map(nest).collect::<Result<_, _>>()?;
+        let mut nests: Vec<Nest> = Vec::new();
+        for points in nested_points(points, settings.method) {
+            let counterbody = problem.counterbody();
+            let surface = match nests.last() {
+                None => Surface::new(counterbody, points)?,
+                Some(finer) => finer.surface.coarser(counterbody, points)?,
+            };
+            nests.push(nest(surface));
+        }
         Ok(Self { problem, settings, nests })
     }
 
