@@ -89,16 +89,18 @@ pub fn run(
         options.shard.map_or(folder.clone(), |(part, of)| folder.join(format!("shard-{part}-of-{of}")))
     });
     let (room, task) = (Room::on_this_machine(&folder), if options.limit { Task::Limit } else { Task::Solve });
-    let fields = folder.join("combinations");
     let study = Study::new(&source, &fixed, &combinations, task, room)?;
-    let study = if options.keep_fields { study.keeping_fields(&fields) } else { study };
+    let study = if options.keep_fields { study.keeping_fields() } else { study };
     interruption::watch();
-    let mut claim = RunFolder::claim(&folder, Plan { resumes: options.resume, ..plan(pictures) })?;
+    let mut planned = Plan { resumes: options.resume, ..plan(pictures) };
+    planned.names.extend(study.files());
+    let mut claim = RunFolder::claim(&folder, planned)?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let mut rows = Vec::new();
     if options.resume {
         let earlier = earlier(&claim, &folder)?;
-        rows = study.known(&earlier);
+        let mut from = if claim.resumes() { claim.staging() } else { folder.clone() };
+        rows = study.known(&earlier, &from);
         let solved = earlier.iter().filter(|row| !row.results.is_empty()).count();
         if rows.is_empty() && solved > 0 {
             return Err(Failure::refused(format!(
@@ -110,8 +112,11 @@ pub fn run(
         }
         // What cannot be used again is not lost.
         if rows.len() < solved && claim.resumes() {
-            terminal::tell_aside(claim.begin_anew()?.as_deref(), common.quiet);
+            let aside = claim.begin_anew()?;
+            terminal::tell_aside(aside.as_deref(), common.quiet);
+            from = aside.unwrap_or(from);
         }
+        study.take_over(&rows, &from, &claim.staging())?;
         if !common.quiet {
             tell!("note: {} of {} combinations are done already", rows.len(), combinations.all.len());
         }
@@ -126,7 +131,7 @@ pub fn run(
     *interruption::hold() = saved(rows.len());
     let progress = Progress::new("combination", count, rows.len(), common);
     let (mut refreshed, mut pause) = (Instant::now(), REFRESH);
-    study.run(&known, |row| -> Result<(), Failure> {
+    study.run(&known, &staging, |row| -> Result<(), Failure> {
         // A signal waits until the row is whole.
         let mut hold = interruption::hold();
         log.add(&row)?;

@@ -183,6 +183,14 @@ impl RunFolder {
     }
 }
 
+/// Gives up what percoat keeps for itself in a folder whose files become part of another result.
+///
+/// # Errors
+/// [`OutputError`] with the path.
+pub fn release(folder: &Path) -> Result<(), OutputError> {
+    remove_folder(&folder.join(OWN))
+}
+
 /// Whether steps have been finished where a result is gathered. A summary is one too: earlier versions of percoat wrote
 /// it after every step, and no log.
 fn has_steps(folder: &Path) -> bool {

@@ -2,7 +2,7 @@
 //! is neither published nor removed.
 
 use super::OutputError;
-use super::layout::{COARSER, MARK, SWEEP_LOG, remove_folder};
+use super::layout::{COARSER, COMBINATIONS, MARK, SWEEP_LOG, remove_folder};
 use super::manifest::Writer;
 use super::steps_log;
 use std::fs;
@@ -10,20 +10,26 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Files that steps leave before they are published.
-const STEPS: [&str; 6] = ["case.toml", steps_log::NAME, "summary.json", "curve.csv", "contact.npz", "stress.npz"];
+const STEPS: [&str; 7] =
+    ["case.toml", steps_log::NAME, "summary.json", "curve.csv", "histograms.csv", "contact.npz", "stress.npz"];
 /// Those that combinations leave.
-const COMBINATIONS: [&str; 3] = [SWEEP_LOG, "sweep.csv", "sweep.json"];
+const ROWS: [&str; 3] = [SWEEP_LOG, "sweep.csv", "sweep.json"];
 
 /// Whether fields of the steps wait in a folder of that name.
 pub(super) fn is_partial(name: &str) -> bool {
     name.ends_with(".partial")
 }
 
+/// Whether steps or combinations are gathered in a folder of that name.
+fn is_gathered(name: &str) -> bool {
+    name == COARSER || name == COMBINATIONS || name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
+}
+
 /// Whether a run leaves a file of that name before it publishes.
 fn is_of_steps(name: &str) -> bool {
     let is_volume = name.starts_with("stress.") && name.ends_with(".vts");
     let is_temporary = name.starts_with('.') && name.ends_with(".tmp");
-    STEPS.contains(&name) || COMBINATIONS.contains(&name) || is_volume || is_temporary
+    STEPS.contains(&name) || ROWS.contains(&name) || is_volume || is_temporary
 }
 
 /// Removes where a writer has gathered its result; `also` are further names of its files. What is somebody else's in the
@@ -55,7 +61,7 @@ pub(super) fn remove_own(folder: &Path, also: &dyn Fn(&str) -> bool) -> Result<b
         let (path, name) = (entry.path(), entry.file_name());
         let is_folder = entry.file_type().map_err(failed(&path))?.is_dir();
         gone &= match name.to_str() {
-            Some(COARSER) if is_folder => remove_own(&path, also)?,
+            Some(name) if is_folder && is_gathered(name) => remove_own(&path, also)?,
             Some(name) if is_folder && is_partial(name) => remove_waiting(&path)?,
             // It goes last, so that a folder that is cleared halfway stays percoat's.
             Some(MARK) if !is_folder => true,

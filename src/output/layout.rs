@@ -12,6 +12,8 @@ pub(super) const OWN: &str = ".percoat";
 pub(super) const MARK: &str = ".percoat";
 /// The combinations of a sweep that are done, one line each.
 pub const SWEEP_LOG: &str = "sweep.jsonl";
+/// Where the combinations of a sweep keep their fields.
+pub const COMBINATIONS: &str = "combinations";
 /// Where the coarser grid's steps stand while a finer one is solved.
 pub(super) const COARSER: &str = "coarser";
 

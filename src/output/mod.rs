@@ -49,9 +49,9 @@ mod volume;
 
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
-pub use folder::{Plan, RunFolder};
+pub use folder::{Plan, RunFolder, release};
 pub use histograms::histograms;
-pub use layout::{FolderError, SWEEP_LOG, is_beside};
+pub use layout::{COMBINATIONS, FolderError, SWEEP_LOG, is_beside};
 pub use limit::{limit_json, limits_json};
 pub use manifest::{Scope, Writer, checksum};
 pub use number::number;

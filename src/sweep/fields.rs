@@ -4,7 +4,7 @@ use super::row::Ended;
 use crate::case::resources::{Job, needs};
 use crate::case::{Case, Room, plausibility};
 use crate::load::Load;
-use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, solved_plan, write_scalars};
+use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, release, solved_plan, write_scalars};
 use crate::run::{Recorder, RunError, StepRecord};
 use crate::spectral::{Solver, Step};
 use crate::stress::StressField;
@@ -83,5 +83,7 @@ pub(super) fn keep(case: &Case, folder: &Path, fits: Fits<'_>) -> Result<Ended, 
     let warnings = [outcome.warnings.clone(), plausibility::of_case(case)].concat();
     write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;
     claim.publish()?;
+    // Its files are part of the sweep's result.
+    release(folder)?;
     Ok(Ended::solved(&outcome, case))
 }

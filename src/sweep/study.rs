@@ -6,12 +6,13 @@ use super::row::{Ended, Row};
 use super::workers;
 use crate::case::resources::{Job, needs, refusal};
 use crate::case::{Case, CaseError, Room, Source};
-use crate::output;
+use crate::output::{self, COMBINATIONS, OutputError, solved_plan};
 use crate::run::Sampling;
 use std::collections::{HashMap, HashSet};
+use std::fs;
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Instant;
 
 /// Samples of the largest grid of which several combinations are solved at once, each by one thread. On larger ones all
@@ -47,8 +48,7 @@ pub struct Study<'a> {
     combinations: &'a Combinations,
     task: Task,
     room: Room,
-    /// Where each combination leaves its fields, if they are kept.
-    fields: Option<&'a Path>,
+    keeps_fields: bool,
     planned: Vec<Planned>,
 }
 
@@ -61,6 +61,8 @@ struct Planned {
     /// What solving it takes, bytes.
     memory: u64,
     is_small: bool,
+    /// What it leaves when its fields are kept.
+    files: Vec<String>,
 }
 
 impl<'a> Study<'a> {
@@ -75,7 +77,7 @@ impl<'a> Study<'a> {
         task: Task,
         room: Room,
     ) -> Result<Self, StudyError> {
-        let mut study = Self { source, fixed, combinations, task, room, fields: None, planned: Vec::new() };
+        let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, planned: Vec::new() };
         let mut first = None;
         for (index, combination) in combinations.all.iter().enumerate() {
             let case = study.case(combination).map_err(StudyError::from);
@@ -88,11 +90,12 @@ impl<'a> Study<'a> {
                     };
                     let memory = points.map_or(room.memory, |points| needs(&case, points, study.job()).memory);
                     let is_small = points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL);
-                    Planned { index, fingerprint: fingerprint(&case, task), memory, is_small }
+                    let files = solved_plan(&case, case.load.values().len(), true).names;
+                    Planned { index, fingerprint: fingerprint(&case, task), memory, is_small, files }
                 }
                 Err(error) => {
                     first.get_or_insert(error);
-                    Planned { index, fingerprint: String::new(), memory: 0, is_small: true }
+                    Planned { index, fingerprint: String::new(), memory: 0, is_small: true, files: Vec::new() }
                 }
             };
             study.planned.push(planned);
@@ -103,31 +106,61 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Keeps the fields of every combination, as a solved case in `folder/NNNN`.
-    pub fn keeping_fields(self, folder: &'a Path) -> Self {
-        Self { fields: Some(folder), ..self }
+    /// Keeps the fields of every combination, as a solved case in `combinations/NNNN`.
+    pub fn keeping_fields(self) -> Self {
+        Self { keeps_fields: true, ..self }
     }
 
-    /// Where a combination keeps its fields.
-    pub fn folder_of(&self, number: usize) -> Option<PathBuf> {
-        self.fields.map(|folder| folder.join(format!("{number:04}")))
+    /// The files of all combinations, relative to the folder of the result; none where fields are not kept.
+    pub fn files(&self) -> Vec<String> {
+        let kept = self.planned.iter().filter(|_| self.keeps_fields);
+        kept.flat_map(|planned| {
+            let folder = folder_of(self.combinations.all[planned.index].number);
+            planned.files.iter().map(move |name| format!("{folder}/{name}"))
+        })
+        .collect()
     }
 
-    /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again.
-    pub fn known(&self, rows: &[Row]) -> Vec<Row> {
+    /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again; so is what keeps
+    /// fields and has none under its number in the folder `from`, where the rows stand.
+    pub fn known(&self, rows: &[Row], from: &Path) -> Vec<Row> {
         let by_print: HashMap<&str, &Row> =
             rows.iter().filter(|row| !row.results.is_empty()).map(|row| (row.fingerprint.as_str(), row)).collect();
         let known = |planned: &Planned| {
             let combination = &self.combinations.all[planned.index];
             let row = *by_print.get(planned.fingerprint.as_str())?;
-            // Fields are there under the number they were solved with.
-            let has_fields = self
-                .folder_of(combination.number)
-                .is_none_or(|folder| row.combination == combination.number && folder.join("contact.npz").is_file());
+            let fields = from.join(folder_of(combination.number));
+            let is_there = || {
+                let case = self.case(combination).map(|case| case.to_toml()).ok();
+                fields.join("contact.npz").is_file() && fs::read_to_string(fields.join("case.toml")).ok() == case
+            };
+            let has_fields = !self.keeps_fields || row.combination == combination.number && is_there();
             let settings = self.settings(combination);
             has_fields.then(|| Row { combination: combination.number, settings, ..row.clone() })
         };
         self.planned.iter().filter_map(known).collect()
+    }
+
+    /// Gives the files of known combinations a second name in the folder `to`, where the result is gathered.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path.
+    pub fn take_over(&self, known: &[Row], from: &Path, to: &Path) -> Result<(), OutputError> {
+        if !self.keeps_fields || from == to {
+            return Ok(());
+        }
+        for row in known {
+            let folder = folder_of(row.combination);
+            output::make_folder(&to.join(&folder))?;
+            let planned = self.planned.iter().find(|own| self.combinations.all[own.index].number == row.combination);
+            for name in planned.map_or(&[][..], |planned| &planned.files) {
+                let [old, new] = [from, to].map(|place| place.join(&folder).join(name));
+                if old.is_file() && fs::hard_link(&old, &new).is_err() {
+                    fs::copy(&old, &new).map_err(|error| OutputError::new(&new, error))?;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// How many combinations are solved at once by `threads`.
@@ -137,19 +170,20 @@ impl<'a> Study<'a> {
         usize::try_from(self.room.memory / memory).unwrap_or(usize::MAX).min(threads).max(1)
     }
 
-    /// Solves every combination that is not among the `known` rows; `done` hears of each as it is done.
+    /// Solves every combination that is not among the `known` rows; `done` hears of each as it is done. Fields that are kept
+    /// are gathered in `folder`.
     ///
     /// # Errors
     /// Those of `done`.
-    pub fn run<E>(&self, known: &[Row], mut done: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
+    pub fn run<E>(&self, known: &[Row], folder: &Path, mut done: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
         let numbers: HashSet<usize> = known.iter().map(|row| row.combination).collect();
         let is_known = |planned: &&Planned| numbers.contains(&self.combinations.all[planned.index].number);
         let pending = self.planned.iter().filter(|planned| !is_known(planned));
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());
         let share = Room { memory: self.room.memory / workers as u64, ..self.room };
-        workers::each(&small, workers, |planned| self.row(planned, share), &mut done)?;
-        workers::each(&large, 1, |planned| self.row(planned, self.room), &mut done)
+        workers::each(&small, workers, |planned| self.row(planned, folder, share), &mut done)?;
+        workers::each(&large, 1, |planned| self.row(planned, folder, self.room), &mut done)
     }
 
     /// Refuses what cannot be solved before it is tried.
@@ -173,15 +207,15 @@ impl<'a> Study<'a> {
 
     fn job(&self) -> Job {
         match self.task {
-            Task::Solve => Job::Solve { pictures: false, fields: self.fields.is_some() },
+            Task::Solve => Job::Solve { pictures: false, fields: self.keeps_fields },
             Task::Limit => Job::Limit { pictures: false },
         }
     }
 
-    fn row(&self, planned: &Planned, room: Room) -> Row {
+    fn row(&self, planned: &Planned, folder: &Path, room: Room) -> Row {
         let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
         // One combination that brings the program down leaves the others as they are.
-        let ended = catch_unwind(AssertUnwindSafe(|| self.ended(combination, room)));
+        let ended = catch_unwind(AssertUnwindSafe(|| self.ended(combination, folder, room)));
         let Ended { status, reason, warnings, results } =
             ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
         Row {
@@ -196,7 +230,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn ended(&self, combination: &Combination, room: Room) -> Ended {
+    fn ended(&self, combination: &Combination, folder: &Path, room: Room) -> Ended {
         let case = match self.case(combination) {
             Ok(case) => case,
             Err(error) => return Ended::failed(error.message()),
@@ -205,11 +239,12 @@ impl<'a> Study<'a> {
             return Ended::failed(why);
         }
         let mut fits = Fits { case: &case, job: self.job(), room };
-        match (self.task, self.folder_of(combination.number)) {
-            (Task::Solve, Some(folder)) => {
+        match (self.task, self.keeps_fields) {
+            (Task::Solve, true) => {
+                let folder = folder.join(folder_of(combination.number));
                 keep(&case, &folder, fits).unwrap_or_else(|error| Ended::failed(error.to_string()))
             }
-            (Task::Solve, None) => match case.run().solve(&mut fits) {
+            (Task::Solve, false) => match case.run().solve(&mut fits) {
                 Ok(outcome) => Ended::solved(&outcome, &case),
                 Err(error) => Ended::failed(error.to_string()),
             },
@@ -219,6 +254,11 @@ impl<'a> Study<'a> {
             },
         }
     }
+}
+
+/// Where a combination keeps its fields.
+fn folder_of(number: usize) -> String {
+    format!("{COMBINATIONS}/{number:04}")
 }
 
 /// Of a whole case, the task and this version of percoat.

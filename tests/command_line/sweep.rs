@@ -231,7 +231,17 @@ fn fields_are_kept_where_they_are_asked_for() {
     let answer = sweep(&desk, "out", &["--keep-fields", "--set", "layers.0.thickness=0.1,0.2"]);
     assert_eq!(answer.code, 0, "{}", answer.err);
     let alone = desk.solve("alone", &["case.toml", "--no-pictures", "--set", "layers.0.thickness=0.2"]);
-    assert_eq!(Folder(desk.path("out/combinations/0002")).results(), alone.results());
+    let kept = |number: &str| Folder(desk.path(&format!("out/combinations/{number}"))).results();
+    assert_eq!(kept("0002"), alone.results());
+    assert_eq!(Folder(desk.path("out/combinations/0002")).all_names(), alone.names(), "nothing else is left there");
+    // Fields of another sweep stay until a new one is complete, and those of the same are taken over.
+    let before = Folder(desk.path("out/combinations/0001")).bytes("contact.npz");
+    let more = sweep(&desk, "out", &["--keep-fields", "--resume", "--set", "layers.0.thickness=0.1,0.2,0.3"]);
+    assert!(more.code == 0 && more.err.contains("2 of 3 combinations are done already"), "{}", more.err);
+    assert_eq!(Folder(desk.path("out/combinations/0001")).bytes("contact.npz"), before);
+    assert_eq!(Folder(desk.path("out/combinations")).names().len(), 3);
+    let fewer = sweep(&desk, "out", &["--set", "layers.0.thickness=0.1,0.2"]);
+    assert!(fewer.code == 0 && !desk.path("out/combinations/0001/contact.npz").exists(), "they go with their result");
 }
 
 #[test]
