@@ -34,6 +34,8 @@ mod readings;
 mod refusals;
 #[path = "command_line/report.rs"]
 mod report;
+#[path = "command_line/resume.rs"]
+mod resume;
 #[path = "command_line/solve.rs"]
 mod solve;
 #[path = "command_line/stress.rs"]

@@ -31,7 +31,7 @@ impl Saved {
     fn anything(&self) -> bool {
         match self {
             Self::Nothing => false,
-            Self::Steps { done, folder, .. } => *done > 0 || RunFolder::coarser(folder).is_some(),
+            Self::Steps { folder, .. } => RunFolder::has_begun(folder),
             Self::Combinations { done, .. } => *done > 0,
             Self::Result(_) => true,
         }
@@ -46,8 +46,10 @@ impl fmt::Display for Saved {
             }
             Self::Steps { done, of, folder } => {
                 write!(f, "{done} of {of} steps saved in {}", folder.display())?;
-                RunFolder::coarser(folder)
-                    .map_or(Ok(()), |path| write!(f, ", all of them on a coarser grid in {}", path.display()))
+                if let Some(path) = RunFolder::coarser(folder) {
+                    write!(f, ", all of them on a coarser grid in {}", path.display())?;
+                }
+                f.write_str("; the same command with --resume goes on from there")
             }
             Self::Combinations { of, .. } if !self.anything() => {
                 write!(f, "none of {of} combinations is done, nothing is saved")

@@ -6,7 +6,7 @@ use super::options::Common;
 use super::progress::Progress;
 use super::terminal;
 use percoat::output::{Clock, OutputError, Recording, RunFolder};
-use percoat::run::{Recorder, Run, StepRecord};
+use percoat::run::{Finished, Last, Recorder, Run, StepRecord};
 use percoat::{Load, Section, Solver, Step, StressField};
 
 /// Records a run and shows how far it is.
@@ -49,6 +49,14 @@ impl<'a> Shown<'a> {
 
 impl Recorder for Shown<'_> {
     type Error = OutputError;
+
+    fn finished(&mut self) -> Option<Finished> {
+        self.recording.finished()
+    }
+
+    fn solved(&mut self, last: &Last) -> Result<(), OutputError> {
+        self.recording.solved(last)
+    }
 
     fn fits(&self, points: [usize; 2]) -> bool {
         self.allowed.fits(points)
@@ -96,6 +104,7 @@ impl Recorder for Shown<'_> {
     }
 
     fn refined(&mut self, points: [usize; 2], change: f64) {
+        self.recording.refined(points, change);
         if self.common.verbose {
             self.progress.tell(format_args!("{points:?} points: change {change:.2e}"));
         }

@@ -9,14 +9,14 @@ use super::pictures::PictureOptions;
 use super::plan::may_write;
 use super::progress::Progress;
 use super::shown::Shown;
-use super::terminal;
+use super::terminal::{self, tell};
 use clap::Args;
 use percoat::case::resources::Job;
 use percoat::case::{Case, plausibility};
 use percoat::output::summary::summary;
-use percoat::output::{Clock, Recording, RunFolder, table, write_scalars};
+use percoat::output::{self, Clock, Plan, Recording, RunFolder, table, write_scalars};
 use percoat::picture::Snapshot;
-use percoat::run::StepRecord;
+use percoat::run::{Finished, StepRecord};
 use std::io::Write;
 use std::path::Path;
 
@@ -26,6 +26,9 @@ pub struct SolveOptions {
     /// Keep scalars alone: no contact.npz, stress.npz and volumes
     #[arg(long)]
     no_fields: bool,
+    /// Go on from what an earlier run into the folder was stopped at
+    #[arg(long)]
+    resume: bool,
 }
 
 pub fn run(
@@ -43,9 +46,12 @@ pub fn run(
     let allowed = Allowed::new(&case, &folder, job)?;
     run.check()?;
     interruption::watch();
-    let claim = RunFolder::claim(&folder, may_write(&case, run.loads.len(), !options.no_fields, pictures))?;
+    let plan = may_write(&case, run.loads.len(), !options.no_fields, pictures);
+    let mut claim = RunFolder::claim(&folder, Plan { resumes: options.resume, ..plan })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
-    let recording = Recording::new(&claim, &run, case.to_toml(), clock);
+    let fingerprint = output::fingerprint(&case, if options.no_fields { "scalars" } else { "fields" });
+    let earlier = earlier(&mut claim, &fingerprint, options.resume, common.quiet)?;
+    let recording = Recording::new(&claim, &run, case.to_toml(), clock).resumable(&run, fingerprint, earlier);
     let recording = if options.no_fields { recording.without_fields() } else { recording };
     let mut recording = Shown::new(recording, &claim, &run, allowed, common);
     let outcome = run.solve(&mut recording)?;
@@ -73,6 +79,25 @@ pub fn run(
     }
     terminal::warn(&warnings, common.quiet);
     Ok(ending)
+}
+
+/// What an earlier run into the folder has finished, if this one is to go on from there.
+fn earlier(claim: &mut RunFolder, fingerprint: &str, resume: bool, quiet: bool) -> Result<Option<Finished>, Failure> {
+    let finished = |claim: &RunFolder| output::finished(&claim.staging(), fingerprint).map_err(Failure::refused);
+    let found = if claim.resumes() { finished(claim)? } else { None };
+    if claim.resumes() && found.is_none() {
+        terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
+    }
+    if resume && !quiet {
+        match &found {
+            None => tell!("note: nothing unfinished to go on from"),
+            Some(Finished { points: [n1, n2], steps, last, .. }) => {
+                let done = steps.len() + usize::from(last.is_some());
+                tell!("note: goes on after step {done} on {n1} × {n2} samples");
+            }
+        }
+    }
+    Ok(found)
 }
 
 fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {

@@ -22,6 +22,11 @@ impl Fields {
         Ok(Self { arrays: StepArrays::new(folder, "contact")?, surface })
     }
 
+    /// The same where an earlier run has left those of so many `steps`; `None` where it has gathered them.
+    pub(super) fn go_on(folder: &Path, surface: Arc<Surface>, steps: usize) -> Result<Option<Self>, OutputError> {
+        Ok(StepArrays::go_on(folder, "contact", steps)?.map(|arrays| Self { arrays, surface }))
+    }
+
     /// Puts the fields of the next step on disk; its `mean_pressure` is known.
     pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<(), OutputError> {
         self.arrays.next_step();

@@ -1,11 +1,11 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
-use super::gathered::{is_partial, remove_gathered, remove_own, set_aside};
+use super::gathered::{is_partial, remove_gathered, remove_own, remove_waiting, set_aside};
 use super::layout::{COARSER, FolderError, MARK, OWN, SWEEP_LOG, foreign, names, own, remove_folder, staging};
 use super::manifest::{Manifest, Scope, Writer, Written};
 use super::publication::Publication;
-use super::steps_log;
 use super::{OutputError, make_folder, write_text};
+use super::{state, steps_log};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -111,6 +111,11 @@ impl RunFolder {
         Some(staging.join(COARSER)).filter(|path| path.is_dir())
     }
 
+    /// Whether anything has been solved in the place where a result is gathered, on its grid or a coarser one.
+    pub fn has_begun(staging: &Path) -> bool {
+        has_steps(staging) || has_steps(&staging.join(COARSER)) || staging.join(state::NAME).is_file()
+    }
+
     /// Begins again on a finer grid. The steps of the coarser one stand in `coarser/` until the result is published.
     /// What somebody else has put there before is moved aside: where to.
     ///
@@ -119,6 +124,10 @@ impl RunFolder {
     pub fn begin_finer(&self) -> Result<Option<PathBuf>, OutputError> {
         let staging = self.staging();
         if !has_steps(&staging) {
+            // A run that was killed may have begun here, without coming to the end of a step.
+            for name in names(&staging)?.iter().filter(|name| self.resumed && is_partial(name)) {
+                remove_waiting(&staging.join(name))?;
+            }
             return Ok(None);
         }
         let coarser = staging.join(COARSER);
@@ -153,7 +162,7 @@ impl RunFolder {
     /// Whether an earlier run of this writer has finished something and not published it.
     fn is_begun(&self) -> bool {
         let staging = self.staging();
-        staging.join(MARK).is_file() && (has_steps(&staging) || has_steps(&staging.join(COARSER)))
+        staging.join(MARK).is_file() && Self::has_begun(&staging)
     }
 
     /// Moves what an earlier run of this writer left unfinished to `interrupted-1/` or the next free number; removes it
@@ -163,8 +172,8 @@ impl RunFolder {
         if !staging.exists() {
             return Ok(None);
         }
-        let steps = has_steps(&staging) || has_steps(&staging.join(COARSER));
-        if !steps && remove_gathered(&staging, self.plan.writer, &|name| self.plan.names.iter().any(|own| own == name))?
+        if !Self::has_begun(&staging)
+            && remove_gathered(&staging, self.plan.writer, &|name| self.plan.names.iter().any(|own| own == name))?
         {
             return Ok(None);
         }

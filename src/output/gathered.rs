@@ -4,14 +4,22 @@
 use super::OutputError;
 use super::layout::{COARSER, COMBINATIONS, MARK, SWEEP_LOG, remove_folder};
 use super::manifest::Writer;
-use super::steps_log;
+use super::{state, steps_log};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// Files that steps leave before they are published.
-const STEPS: [&str; 7] =
-    ["case.toml", steps_log::NAME, "summary.json", "curve.csv", "histograms.csv", "contact.npz", "stress.npz"];
+const STEPS: [&str; 8] = [
+    "case.toml",
+    steps_log::NAME,
+    state::NAME,
+    "summary.json",
+    "curve.csv",
+    "histograms.csv",
+    "contact.npz",
+    "stress.npz",
+];
 /// Those that combinations leave.
 const ROWS: [&str; 3] = [SWEEP_LOG, "sweep.csv", "sweep.json"];
 

@@ -3,7 +3,7 @@
 use bytemuck::Pod;
 use npyz::{AutoSerialize, WriterBuilder};
 use std::cell::RefCell;
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::rc::Rc;
 use zip::write::SimpleFileOptions;
 
@@ -48,6 +48,14 @@ impl<W: Write + Seek> Archive<W> {
         let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored).large_file(true);
         self.zip.start_file(format!("{name}.npy"), options)?;
         npy(&mut self.zip, shape, values)?;
+        self.failure.take().map_or(Ok(()), Err)
+    }
+
+    /// Adds a text.
+    pub(super) fn text(&mut self, name: &str, text: &str) -> io::Result<()> {
+        let options = SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+        self.zip.start_file(name, options)?;
+        self.zip.write_all(text.as_bytes())?;
         self.failure.take().map_or(Ok(()), Err)
     }
 
@@ -124,6 +132,17 @@ pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> i
     let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
     header.writer(writer).write_header_only()?;
     Ok(())
+}
+
+/// The values of an array as [`npy`] has written it: behind the header, in the byte order of the machine.
+pub(super) fn values(mut reader: impl Read) -> io::Result<Vec<f64>> {
+    let header = npyz::NpyHeader::from_reader(&mut reader)?;
+    if header.dtype() != f64::default_dtype() {
+        return Err(io::ErrorKind::InvalidData.into());
+    }
+    let mut values = vec![0.0; header.len() as usize];
+    reader.read_exact(bytemuck::cast_slice_mut(&mut values))?;
+    Ok(values)
 }
 
 /// Whether an array has as many values as its shape says.

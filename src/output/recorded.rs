@@ -37,6 +37,11 @@ pub fn steps_of(file: &Value) -> Result<Vec<StepRecord>, Unreadable> {
         .collect()
 }
 
+/// A load step as a line of `steps.jsonl` tells it.
+pub(super) fn step(value: &Value) -> Result<StepRecord, Unreadable> {
+    Ok(record(read::<StepKeys>("a step", value)?))
+}
+
 /// Where the time of a run went; `None` where the file does not say.
 ///
 /// # Errors
@@ -231,7 +236,7 @@ fn plain(x: Option<f64>) -> f64 {
 
 fn record(keys: StepKeys) -> StepRecord {
     // "not a number" is what a record says itself of numbers that are none.
-    let stop = STOPS.into_iter().find(|stop| stop.to_string() == keys.stop_reason).unwrap_or(Stop::Stalled);
+    let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == keys.stop_reason).unwrap_or(Stop::Stalled);
     let levels: Vec<LevelReading> = keys.levels.into_iter().map(level).collect();
     let singular = levels.iter().any(|level| level.singular);
     StepRecord {
@@ -249,7 +254,7 @@ fn record(keys: StepKeys) -> StepRecord {
         },
         report: Report {
             stop,
-            route: route(&keys.route, keys.trials),
+            route: route(&keys.route, keys.trials).unwrap_or(Route::Direct),
             iterations: keys.iterations,
             outer: keys.friction.as_ref().map_or(0, |sliding| sliding.outer_iterations),
             residual: plain(keys.residual),
@@ -265,18 +270,17 @@ fn record(keys: StepKeys) -> StepRecord {
     }
 }
 
-const STOPS: [Stop; 6] =
-    [Stop::Converged, Stop::Stalled, Stop::IterationLimit, Stop::NoContact, Stop::Unresolved, Stop::BeyondFullContact];
-
-fn route(name: &str, trials: usize) -> Route {
+/// A route by its name.
+pub(super) fn route(name: &str, trials: usize) -> Option<Route> {
     let named = [
+        Route::Direct,
         Route::Outer,
         Route::Baseline,
         Route::WithoutContinuation,
         Route::BaselineAfterStall,
         Route::LoadSearch { trials },
     ];
-    named.into_iter().find(|route| route.name() == name).unwrap_or(Route::Direct)
+    named.into_iter().find(|route| route.name() == name)
 }
 
 fn level(keys: LevelKeys) -> LevelReading {

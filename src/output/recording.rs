@@ -2,11 +2,12 @@
 
 use super::clock::{Clock, Phase};
 use super::fields::Fields;
+use super::state::States;
 use super::steps_log::StepsLog;
 use super::stress::Stresses;
 use super::{OutputError, RunFolder, write_text};
 use crate::load::Load;
-use crate::run::{Recorder, Run, StepRecord, StressRequest};
+use crate::run::{Finished, Last, Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Solver, Step};
 use crate::stress::{Section, StressField};
 use std::path::{Path, PathBuf};
@@ -22,6 +23,14 @@ pub struct Recording<'a> {
     /// Whether fields are kept.
     fields: bool,
     clock: Clock,
+    /// None where no later run is to go on from this one.
+    states: Option<States>,
+    /// What an earlier run has finished, until this one asks for it.
+    earlier: Option<Finished>,
+    /// Number of steps that stand there already when the first grid begins; `None` where it begins anew.
+    standing: Option<usize>,
+    /// Whether all steps are done on a coarser grid.
+    refined: bool,
     /// None before the first grid.
     files: Option<Files>,
     set_aside: Option<PathBuf>,
@@ -30,13 +39,15 @@ pub struct Recording<'a> {
 /// Files of the steps on one grid.
 #[derive(Debug)]
 struct Files {
-    /// None where fields are not kept.
+    /// None where fields are not kept, or gathered already.
     fields: Option<Fields>,
-    /// None where fields are not kept, or no stresses wanted.
+    /// None where fields are not kept or gathered already, or no stresses wanted.
     stresses: Option<Stresses>,
-    /// The section of the last step, where fields are not kept.
+    /// The section of the last step, where stresses are not kept.
     section: Option<Section>,
     log: StepsLog,
+    /// The grid.
+    points: [usize; 2],
     /// Number of finished steps.
     steps: usize,
 }
@@ -44,12 +55,57 @@ struct Files {
 impl<'a> Recording<'a> {
     /// Of a run into the folder it has claimed; `case` is the case as `case.toml` shows it. The clock goes on.
     pub fn new(claim: &'a RunFolder, run: &Run, case: String, clock: Clock) -> Self {
-        Self { claim, case, stress: run.stress.clone(), fields: true, clock, files: None, set_aside: None }
+        Self {
+            claim,
+            case,
+            stress: run.stress.clone(),
+            fields: true,
+            clock,
+            states: None,
+            earlier: None,
+            standing: None,
+            refined: false,
+            files: None,
+            set_aside: None,
+        }
+    }
+
+    /// The same so that a later run with this [fingerprint](super::fingerprint) can go on from it, itself going on with
+    /// what an `earlier` one has [finished](super::finished) in the folder.
+    pub fn resumable(self, run: &Run, fingerprint: String, earlier: Option<Finished>) -> Self {
+        let mut states = States::new(fingerprint, run.loads.len());
+        if let Some(earlier) = &earlier {
+            states.changes.clone_from(&earlier.changes);
+        }
+        let standing = earlier.as_ref().and_then(|earlier| earlier.last.as_ref().map(|_| earlier.steps.len()));
+        let refined = earlier.as_ref().is_some_and(|earlier| earlier.coarser.is_some());
+        Self { states: Some(states), earlier, standing, refined, ..self }
     }
 
     /// The same without `contact.npz`, `stress.npz` and volumes: scalars, and what pictures show of the last step.
     pub fn without_fields(self) -> Self {
         Self { fields: false, ..self }
+    }
+
+    /// The files of the steps on the grid of a solver, of which an earlier run has left so many.
+    fn open(&self, solver: &Solver, standing: Option<usize>) -> Result<Files, OutputError> {
+        let folder = self.claim.staging();
+        let half_space = solver.problem().half_space().clone();
+        let request = self.stress.clone().filter(|_| self.fields);
+        let surface = self.fields.then(|| Arc::clone(solver.surface()));
+        let (fields, stresses, log) = match standing {
+            None => (
+                surface.map(|surface| Fields::new(&folder, surface)).transpose()?,
+                request.map(|request| Stresses::new(&folder, request, half_space)).transpose()?,
+                StepsLog::new(&folder),
+            ),
+            Some(steps) => (
+                surface.map_or(Ok(None), |surface| Fields::go_on(&folder, surface, steps))?,
+                request.map_or(Ok(None), |request| Stresses::go_on(&folder, request, half_space, steps))?,
+                StepsLog::go_on(&folder, steps)?,
+            ),
+        };
+        Ok(Files { fields, stresses, section: None, log, points: solver.grid().points(), steps: standing.unwrap_or(0) })
     }
 
     /// Number of load steps that are finished on the present grid.
@@ -86,17 +142,37 @@ impl Recorder for Recording<'_> {
 
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);
-        self.files = None;
         let folder = self.claim.staging();
-        self.set_aside = self.claim.begin_finer()?;
+        if self.files.take().is_some() {
+            self.refined = true;
+            self.states.as_mut().map_or(Ok(()), |states| states.begin_finer(&folder, solver.grid().points()))?;
+        }
+        let standing = self.standing.take();
+        if standing.is_none() {
+            self.set_aside = self.claim.begin_finer()?;
+        }
         write_text(&folder.join("case.toml"), &self.case)?;
-        let half_space = solver.problem().half_space();
-        let request = self.stress.clone().filter(|_| self.fields);
-        let stresses = request.map(|request| Stresses::new(&folder, request, half_space.clone())).transpose()?;
-        let fields = self.fields.then(|| Fields::new(&folder, Arc::clone(solver.surface()))).transpose()?;
-        self.files = Some(Files { fields, stresses, section: None, log: StepsLog::new(&folder), steps: 0 });
+        self.files = Some(self.open(solver, standing)?);
         self.clock.turn(Phase::Setup);
         Ok(())
+    }
+
+    fn finished(&mut self) -> Option<Finished> {
+        self.earlier.take()
+    }
+
+    fn solved(&mut self, last: &Last) -> Result<(), OutputError> {
+        let (Some(states), Some(files)) = (&mut self.states, &self.files) else { return Ok(()) };
+        self.clock.turn(Phase::Output);
+        states.save(&self.claim.staging(), files.points, self.refined, files.steps + 1, last)?;
+        self.clock.turn(Phase::Solve);
+        Ok(())
+    }
+
+    fn refined(&mut self, _points: [usize; 2], change: f64) {
+        if let Some(states) = &mut self.states {
+            states.changes.push(change);
+        }
     }
 
     fn load(&mut self, _load: Load) {
@@ -116,14 +192,16 @@ impl Recorder for Recording<'_> {
         let files = self.files.as_mut().expect(BEGUN);
         if let Some(fields) = &mut files.fields {
             fields.add(step, record.reading.mean_pressure)?;
-        } else if let (Some(field), Some(cut)) = (field, self.stress.as_ref().and_then(|request| request.cut.as_ref()))
-        {
-            self.clock.turn(Phase::Stress);
-            files.section = Some(field.section(&cut.line, &cut.depths(step.problem().half_space())));
-            self.clock.turn(Phase::Output);
         }
-        if let (Some(stresses), Some(field)) = (&mut files.stresses, field) {
-            stresses.add(field, &mut self.clock)?;
+        let cut = self.stress.as_ref().and_then(|request| request.cut.as_ref());
+        match (field, &mut files.stresses, cut) {
+            (Some(field), Some(stresses), _) => stresses.add(field, &mut self.clock)?,
+            (Some(field), None, Some(cut)) => {
+                self.clock.turn(Phase::Stress);
+                files.section = Some(field.section(&cut.line, &cut.depths(step.problem().half_space())));
+                self.clock.turn(Phase::Output);
+            }
+            _ => {}
         }
         files.log.add(record)?;
         files.steps += 1;

@@ -3,11 +3,10 @@
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
 use super::gathered::remove_waiting;
-use super::npz::{Archive, complete, header, npy};
+use super::npz::{Archive, complete, header, npy, values};
 use super::{Draft, OutputError, make_folder, write_file};
-use npyz::AutoSerialize;
 use std::fs;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// An archive that is being gathered on disk.
@@ -48,6 +47,22 @@ impl StepArrays {
         Ok(arrays)
     }
 
+    /// The same where an earlier run has left the entries of so many `steps` at least; one step more is still to come.
+    /// `None` where it has gathered the archive.
+    pub(super) fn go_on(folder: &Path, name: &'static str, steps: usize) -> Result<Option<Self>, OutputError> {
+        let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps };
+        if arrays.archive().is_file() {
+            remove_waiting(&arrays.partial())?;
+            return Ok(None);
+        }
+        make_folder(&arrays.partial())?;
+        Ok(Some(arrays))
+    }
+
+    fn archive(&self) -> PathBuf {
+        self.folder.join(format!("{}.npz", self.name))
+    }
+
     fn partial(&self) -> PathBuf {
         self.folder.join(format!("{}.partial", self.name))
     }
@@ -85,11 +100,9 @@ impl StepArrays {
     }
 
     fn enter(&mut self, array: &str, part: Option<usize>, shape: &[usize]) {
-        if self.steps == 1 {
-            match self.arrays.iter_mut().find(|entry| entry.array == array) {
-                Some(entry) => entry.parts = part,
-                None => self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: part }),
-            }
+        match self.arrays.iter_mut().find(|entry| entry.array == array) {
+            Some(entry) => entry.parts = entry.parts.max(part),
+            None => self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: part }),
         }
     }
 
@@ -98,7 +111,7 @@ impl StepArrays {
         self,
         constants: impl FnOnce(&mut Archive<&mut BufWriter<fs::File>>) -> io::Result<()>,
     ) -> Result<(), OutputError> {
-        write_file(&self.folder.join(format!("{}.npz", self.name)), |writer| {
+        write_file(&self.archive(), |writer| {
             let mut archive = Archive::new(writer);
             constants(&mut archive)?;
             for Entry { array, shape, parts } in &self.arrays {
@@ -136,16 +149,8 @@ impl GrowingEntry {
     }
 }
 
-/// The values of an array as [`npy`] has written it: behind the header, in the byte order of the machine.
 fn read(path: &Path) -> io::Result<Vec<f64>> {
-    let mut reader = BufReader::new(fs::File::open(path)?);
-    let header = npyz::NpyHeader::from_reader(&mut reader)?;
-    if header.dtype() != f64::default_dtype() {
-        return Err(io::ErrorKind::InvalidData.into());
-    }
-    let mut values = vec![0.0; header.len() as usize];
-    reader.read_exact(bytemuck::cast_slice_mut(&mut values))?;
-    Ok(values)
+    values(BufReader::new(fs::File::open(path)?))
 }
 
 #[cfg(test)]

@@ -18,27 +18,48 @@ pub(super) struct StepsLog {
     path: PathBuf,
     /// Open from the first step on.
     file: Option<File>,
+    /// Lines of an earlier run with which it begins.
+    known: Option<String>,
 }
 
 impl StepsLog {
     /// No steps yet; `folder` is where the result is gathered.
     pub(super) fn new(folder: &Path) -> Self {
-        Self { path: folder.join(NAME), file: None }
+        Self { path: folder.join(NAME), file: None, known: None }
     }
 
-    /// Appends a step. Refused when the first one finds steps there already.
+    /// After an earlier run; of its steps the first so many stay when the next is added.
+    pub(super) fn go_on(folder: &Path, steps: usize) -> Result<Self, OutputError> {
+        let path = folder.join(NAME);
+        let lines = if steps > 0 { lines(&path).map_err(|error| OutputError::new(&path, error))? } else { Vec::new() };
+        let known = lines.into_iter().take(steps).map(|line| line + "\n").collect();
+        Ok(Self { path, file: None, known: Some(known) })
+    }
+
+    /// Appends a step. Refused when the first one finds steps there already, unless it goes on after them.
     pub(super) fn add(&mut self, record: &StepRecord) -> Result<(), OutputError> {
         let line = serde_json::to_string(record).expect("a step is numbers and texts under names") + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {
             Some(file) => file.write_all(line.as_bytes()).map_err(failed),
-            None if self.path.exists() => Err(failed(io::ErrorKind::AlreadyExists.into())),
+            None if self.known.is_none() && self.path.exists() => Err(failed(io::ErrorKind::AlreadyExists.into())),
             None => {
                 // The first line and the file come at once.
-                write_text(&self.path, &line)?;
+                write_text(&self.path, &(self.known.take().unwrap_or_default() + &line))?;
                 self.file = Some(OpenOptions::new().append(true).open(&self.path).map_err(failed)?);
                 Ok(())
             }
         }
     }
+}
+
+/// The whole lines of a log: whatever a kill or a full disk left of one more is none.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn lines(path: &Path) -> io::Result<Vec<String>> {
+    let mut bytes = std::fs::read(path)?;
+    bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
+    let text = String::from_utf8(bytes).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
+    Ok(text.lines().map(str::to_owned).collect())
 }

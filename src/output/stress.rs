@@ -31,6 +31,17 @@ impl Stresses {
         Ok(Self { folder: folder.to_owned(), arrays, request, half_space, section: None })
     }
 
+    /// The same where an earlier run has left those of so many `steps`; `None` where it has gathered them.
+    pub(super) fn go_on(
+        folder: &Path,
+        request: StressRequest,
+        half_space: HalfSpace,
+        steps: usize,
+    ) -> Result<Option<Self>, OutputError> {
+        let arrays = StepArrays::go_on(folder, "stress", steps)?;
+        Ok(arrays.map(|arrays| Self { folder: folder.to_owned(), arrays, request, half_space, section: None }))
+    }
+
     /// Puts the stresses of the next step on disk, one plane at a time; the clock is told what is computing and what is
     /// writing, but for a volume, which is both at once.
     pub(super) fn add(&mut self, field: &StressField, clock: &mut Clock) -> Result<(), OutputError> {

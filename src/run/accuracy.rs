@@ -5,6 +5,7 @@ use crate::lattice::Cell;
 use crate::numeric::fourier::fast_points;
 use crate::numeric::search::largest;
 use crate::reading::Reading;
+use crate::spectral::OtherGrids;
 use std::fmt;
 
 /// Points along the shorter cell vector at which a refinement starts, fewer where the cell is too oblong for them.
@@ -96,6 +97,20 @@ impl Refinement {
         }
         let grids = (0..).map(|times| balanced_points(cell, first << times));
         Ok(grids.take_while(|points| points.iter().all(|&n| n <= MOST_POINTS)).collect())
+    }
+
+    /// Goes on where another one was at the grid of `points`, after the changes that the grids before had brought.
+    ///
+    /// # Errors
+    /// [`OtherGrids`] when it has no such grid, or another number of changes before it.
+    pub fn go_on(&mut self, points: [usize; 2], changes: &[f64]) -> Result<(), OtherGrids> {
+        let at = self.grids.iter().position(|grid| *grid == points).ok_or(OtherGrids)?;
+        // The first grid has none to differ from.
+        if changes.len() != at.saturating_sub(1) {
+            return Err(OtherGrids);
+        }
+        (self.at, self.changes) = (at, changes.to_vec());
+        Ok(())
     }
 
     /// The present grid.

@@ -1,7 +1,8 @@
 //! The engine of a run: load path, refinement to an accuracy, stresses, warnings.
 //!
 //! A [`Run`] says what is solved. A [`Recorder`] hears of every step as it is done, and keeps of it what it wants: the
-//! command line writes files, a study reads numbers, `()` keeps nothing. What comes out at the end is an [`Outcome`].
+//! command line writes files, a study reads numbers, `()` keeps nothing. What comes out at the end is an [`Outcome`]. A
+//! recorder that knows what an earlier run has [`Finished`] lets this one go on from there.
 //!
 //! ```
 //! use percoat::run::{Run, Sampling};
@@ -18,6 +19,7 @@
 //! ```
 
 mod accuracy;
+mod finished;
 mod limit;
 mod outcome;
 pub(crate) mod places;
@@ -27,6 +29,7 @@ mod sampling;
 pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
+pub use finished::{Finished, Last};
 pub use limit::{At, Limit, Limits, Shown};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
@@ -40,7 +43,7 @@ use crate::lattice::Grid;
 use crate::load::Load;
 use crate::problem::Problem;
 use crate::reading::{Criterion, StressReading};
-use crate::spectral::{Settings, Solver, Step};
+use crate::spectral::{OtherGrids, Settings, Solver, Step};
 use crate::stress::StressField;
 use std::convert::Infallible;
 use std::error::Error;
@@ -114,18 +117,26 @@ impl Run {
     /// [`RunError`]; what the recorder heard of until then stands.
     pub fn solve<R: Recorder>(&self, recorder: &mut R) -> Result<Outcome, RunError<R::Error>> {
         self.checked()?;
+        let mut finished = recorder.finished();
         let (mut steps, last, points, change, end) = match self.sampling {
             Sampling::Points(points) => {
-                let (steps, last) = self.on_grid(points, recorder)?;
+                if finished.as_ref().is_some_and(|finished| finished.points != points) {
+                    return Err(OtherGrids.into());
+                }
+                let (steps, last) = self.on_grid(points, finished, recorder)?;
                 (steps, last, points, None, None)
             }
             Sampling::Accuracy(accuracy) => {
                 let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
-                let mut coarse: Option<Vec<StepRecord>> = None;
+                let mut coarse = None;
+                if let Some(finished) = &mut finished {
+                    refinement.go_on(finished.points, &finished.changes)?;
+                    coarse = finished.coarser.take();
+                }
                 loop {
                     let points = refinement.points();
-                    let (steps, last) = self.on_grid(points, recorder)?;
-                    let change = coarse.map(|coarse| accuracy::change(&coarse, &steps));
+                    let (steps, last) = self.on_grid(points, finished.take(), recorder)?;
+                    let change = coarse.map(|coarse: Vec<StepRecord>| accuracy::change(&coarse, &steps));
                     if let Some(change) = change {
                         recorder.refined(points, change);
                     }
@@ -147,31 +158,50 @@ impl Run {
         self.stress.as_ref().map(|request| request.mean).or_else(|| has_strengths().then(MeanStress::default))
     }
 
-    /// All loads on one grid.
-    fn on_grid<R: Recorder>(&self, points: [usize; 2], recorder: &mut R) -> Result<Solved, RunError<R::Error>> {
+    /// All loads on one grid, after those that an earlier run has `finished`.
+    fn on_grid<R: Recorder>(
+        &self,
+        points: [usize; 2],
+        finished: Option<Finished>,
+        recorder: &mut R,
+    ) -> Result<Solved, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&self.problem), points, self.settings)?;
         recorder.begin(&solver).map_err(RunError::Recorder)?;
-        let (mut records, mut last) = (Vec::new(), None);
-        for &load in &self.loads {
+        let (mut records, mut saved) = finished.map_or((Vec::new(), None), |own| (own.steps, own.last));
+        let Some(loads) = self.loads.get(records.len()..).filter(|loads| !loads.is_empty()) else {
+            return Err(OtherGrids.into());
+        };
+        let mut last = None;
+        for &load in loads {
             // Its memory goes before the next one takes as much.
             drop(last.take());
-            let (record, step) = self.solve_load(&mut solver, load, recorder)?;
+            let (record, step) = self.solve_load(&mut solver, load, saved.take(), recorder)?;
             records.push(record);
             last = Some(step);
         }
         Ok((records, last))
     }
 
-    /// One load, with its stresses where they are wanted.
+    /// One load, if it is not `saved`, with its stresses where they are wanted.
     fn solve_load<R: Recorder>(
         &self,
         solver: &mut Solver,
         load: Load,
+        saved: Option<Last>,
         recorder: &mut R,
     ) -> Result<(StepRecord, Step), RunError<R::Error>> {
         recorder.load(load);
         let began = recorder.clock();
-        let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
+        let before = saved.as_ref().and_then(|saved| saved.seconds).unwrap_or(0.0);
+        let step = match saved {
+            Some(saved) => solver.restore(load, saved.state)?,
+            None => {
+                let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
+                let seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
+                recorder.solved(&Last { state: solver.state(&step), seconds }).map_err(RunError::Recorder)?;
+                step
+            }
+        };
         let mut record = StepRecord::new(&step, step.reading());
         let field = self.mean_stress().map(|mean| {
             recorder.stresses();
@@ -180,7 +210,7 @@ impl Run {
         if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
             record.add_stress(StressReading::of(&step, &record.reading, field), self.problem.half_space());
         }
-        record.seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
+        record.seconds = recorder.clock().zip(began).map(|(now, began)| before + now - began);
         recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;
         Ok((record, step))
     }

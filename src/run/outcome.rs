@@ -4,7 +4,7 @@ use super::StepRecord;
 use super::accuracy::{End, TooOblong};
 use crate::lattice::LatticeError;
 use crate::numeric::number::number;
-use crate::spectral::Step;
+use crate::spectral::{OtherGrids, Step};
 use std::error::Error;
 
 /// What a run has found.
@@ -81,6 +81,9 @@ pub enum RunError<E: Error + 'static> {
     /// A penetration is beyond complete contact.
     #[error(transparent)]
     BeyondFullContact(#[from] BeyondFullContact),
+    /// What an earlier run has finished is not of this one.
+    #[error(transparent)]
+    OtherGrids(#[from] OtherGrids),
     /// The recorder cannot go on.
     #[error("the run cannot be recorded")]
     Recorder(#[source] E),

@@ -1,6 +1,6 @@
 //! What hears of a run while it goes on, and says whether it may. It hears from the threads that solve.
 
-use super::StepRecord;
+use super::{Finished, Last, StepRecord};
 use crate::load::Load;
 use crate::spectral::{Progress, Solver, Step};
 use crate::stress::StressField;
@@ -11,6 +11,11 @@ use std::error::Error;
 pub trait Recorder: Send {
     /// Why it cannot go on.
     type Error: Error + Send + Sync + 'static;
+
+    /// What an earlier run of the same kind has finished, to go on from there. Asked once, before anything is solved.
+    fn finished(&mut self) -> Option<Finished> {
+        None
+    }
 
     /// Whether there is room for a finer grid of `points`; without it a refinement ends.
     fn fits(&self, _points: [usize; 2]) -> bool {
@@ -35,6 +40,14 @@ pub trait Recorder: Send {
 
     /// An iteration on the finest grid is done.
     fn iteration(&mut self, _progress: Progress) {}
+
+    /// A load is solved; nothing is read off it yet. Not told of a load that an earlier run has solved.
+    ///
+    /// # Errors
+    /// Ends the run.
+    fn solved(&mut self, _last: &Last) -> Result<(), Self::Error> {
+        Ok(())
+    }
 
     /// The stresses of a step begin.
     fn stresses(&mut self) {}

@@ -1,5 +1,6 @@
 //! A contact solved on one grid.
 
+use super::iteration::{Certificate, Unknowns};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::numeric::array::view;
@@ -28,6 +29,12 @@ impl Contact {
         penetration: f64,
     ) -> Self {
         Self { problem: Arc::clone(problem), surface: Arc::clone(surface), pressure, gap, penetration }
+    }
+
+    /// What was iterated, with what the pressure proves.
+    pub(super) fn unknowns(&self, certificate: Certificate) -> Unknowns {
+        let Self { pressure, gap, penetration, .. } = self;
+        Unknowns { pressure: Arc::clone(pressure), gap: Arc::clone(gap), penetration: *penetration, certificate }
     }
 
     /// What is pressed into what.

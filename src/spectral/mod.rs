@@ -5,7 +5,8 @@
 //! - `extension`: the residual continued beyond the contact, for the preconditioner;
 //! - `iteration`: conjugate gradients on one grid, and the certificate of what they return;
 //! - `prolongation`: a solution carried over to the next finer grid;
-//! - [`Solver`]: a problem on its nested grids, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid.
+//! - [`Solver`]: a problem on its nested grids, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
+//!   [`State`]: what a run that was interrupted goes on with.
 
 mod contact;
 mod convolution;
@@ -15,9 +16,11 @@ mod multiplier;
 pub mod operator;
 mod prolongation;
 mod solver;
+mod state;
 mod step;
 
 pub use contact::Contact;
-pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop};
+pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop, Unknowns};
 pub use solver::{Memory, Solver};
+pub use state::{OtherGrids, State};
 pub use step::Step;

@@ -153,27 +153,39 @@ impl Solver {
         if report.stop == Stop::Converged && !load.is_mean_pressure() && !nests[0].is_resolved() {
             report.stop = Stop::Unresolved;
         }
-        let part = |index: usize| left_out.iter().all(|(out, _)| *out != index);
-        let step = Step {
-            load,
-            report,
-            certificate: nests[0].unknowns.certificate,
-            convolutions: convolutions + work / finest,
-            finest: nests[0].contact(&self.problem),
-            coarser: (1..nests.len())
-                .take(KEPT)
-                .take_while(|&k| part(k))
-                .map(|k| nests[k].contact(&self.problem))
-                .collect(),
-        };
+        let part = |index: &usize| left_out.iter().all(|(out, _)| out != index);
+        let coarser = (1..nests.len()).take(KEPT).take_while(part).count();
+        let step = self.step(load, report, convolutions + work / finest, coarser);
         for (index, before) in left_out {
             self.nests[index].unknowns = before;
         }
         if !report.stop.solved() {
-            // A spoilt solution is no start for the next step.
-            self.nests.iter_mut().for_each(|nest| nest.unknowns = Unknowns::new(nest.surface.grid().len()));
+            self.forget();
         }
         step
+    }
+
+    /// The step that its grids have just solved, with the contact on so many `coarser` ones.
+    pub(super) fn step(&self, load: Load, report: Report, convolutions: f64, coarser: usize) -> Step {
+        let contact = |nest: &Nest| nest.contact(&self.problem);
+        let (finest, coarser) = (contact(&self.nests[0]), self.nests[1..=coarser].iter().map(contact).collect());
+        let certificate = self.nests[0].unknowns.certificate;
+        Step { load, report, certificate, convolutions, finest, coarser }
+    }
+
+    /// Forgets what it has found: a spoilt solution is no start for the next step.
+    pub(super) fn forget(&mut self) {
+        self.nests.iter_mut().for_each(|nest| nest.unknowns = Unknowns::new(nest.surface.grid().len()));
+    }
+
+    /// What each grid has found, the finest first.
+    pub(super) fn unknowns(&self) -> impl Iterator<Item = &Unknowns> {
+        self.nests.iter().map(|nest| &nest.unknowns)
+    }
+
+    /// Gives each grid what it is to have found, the finest first.
+    pub(super) fn adopt(&mut self, unknowns: Vec<Unknowns>) {
+        self.nests.iter_mut().zip(unknowns).for_each(|(nest, unknowns)| nest.unknowns = unknowns);
     }
 }
 

@@ -3,7 +3,7 @@
 //! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
 
 use super::row::Row;
-use crate::output::{OutputError, SWEEP_LOG as LOG, write_text};
+use crate::output::{OutputError, SWEEP_LOG as LOG, whole_lines, write_text};
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -58,18 +58,14 @@ fn line(row: &Row) -> String {
 /// # Errors
 /// When it cannot be read, or a whole line is none of a log.
 pub fn read(path: &Path) -> io::Result<Vec<Row>> {
-    let mut bytes = std::fs::read(path)?;
-    // Whatever a kill or a full disk left of one more line, perhaps part of a letter.
-    bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
-    let text = String::from_utf8(bytes).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
-    let whole = text.lines();
-    let row = |(number, line): (usize, &str)| {
+    let whole = whole_lines(path)?;
+    let row = |(number, line): (usize, &String)| {
         serde_json::from_str(line).map_err(|error| {
             let reason = format!("{}, line {number} is none of a sweep: {error}", path.display());
             io::Error::new(io::ErrorKind::InvalidData, reason)
         })
     };
-    (1..).zip(whole).map(row).collect()
+    (1..).zip(&whole).map(row).collect()
 }
 
 #[cfg(test)]

@@ -10,7 +10,6 @@ use crate::output::{self, COMBINATIONS, OutputError, solved_plan};
 use crate::run::Sampling;
 use std::collections::{HashMap, HashSet};
 use std::fs;
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::Instant;
@@ -91,7 +90,13 @@ impl<'a> Study<'a> {
                     let memory = points.map_or(room.memory, |points| needs(&case, points, study.job()).memory);
                     let is_small = points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL);
                     let files = solved_plan(&case, case.load.values().len(), true).names;
-                    Planned { index, fingerprint: fingerprint(&case, task), memory, is_small, files }
+                    Planned {
+                        index,
+                        fingerprint: output::fingerprint(&case, &format!("{task:?}")),
+                        memory,
+                        is_small,
+                        files,
+                    }
                 }
                 Err(error) => {
                     first.get_or_insert(error);
@@ -259,14 +264,4 @@ impl<'a> Study<'a> {
 /// Where a combination keeps its fields.
 fn folder_of(number: usize) -> String {
     format!("{COMBINATIONS}/{number:04}")
-}
-
-/// Of a whole case, the task and this version of percoat.
-fn fingerprint(case: &Case, task: Task) -> String {
-    let text = format!("{} {task:?}\n{}", env!("CARGO_PKG_VERSION"), case.to_toml());
-    let heights = case.counterbody().topography().map(|own| own.heights().to_owned().into_raw_vec_and_offset().0);
-    let heights = heights.unwrap_or_default();
-    let (length, checksum) = output::checksum(&mut text.as_bytes().chain(bytemuck::cast_slice(&heights)))
-        .expect("what is in memory can be read");
-    format!("{length:x}-{checksum:016x}")
 }

@@ -10,6 +10,8 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+/// How a run that is stopped ends its last line.
+const GO_ON: &str = "; the same command with --resume goes on from there";
 const LONG_ENOUGH: Duration = Duration::from_secs(120);
 /// Forty steps that take their time.
 const LONG: [&str; 4] = ["fig5", "--set", "grid.points=256", "--no-pictures"];
@@ -137,7 +139,7 @@ fn an_end_that_is_asked_for_is_answered_with_the_steps_that_are_saved() {
         let steps = readable_steps(&folder.join("unfinished"));
         // Between the files of a step and the count of it.
         let expected = |steps: usize| {
-            format!("interrupted: {steps} of 40 steps saved in {}\n", folder.join("unfinished").display())
+            format!("interrupted: {steps} of 40 steps saved in {}{GO_ON}\n", folder.join("unfinished").display())
         };
         assert!([steps, steps - 1].iter().any(|&steps| said == expected(steps)), "{signal}: {said}, found {steps}");
     }
@@ -276,9 +278,9 @@ fn a_run_that_fails_on_a_finer_grid_says_what_the_coarser_one_has_saved() {
     assert_eq!(code, Some(4), "{said}");
     assert!(said.contains("run/unfinished/contact.partial/"), "{said}");
     assert!(
-        said.ends_with(
-            "0 of 1 steps saved in run/unfinished, all of them on a coarser grid in run/unfinished/coarser\n"
-        ),
+        said.ends_with(&format!(
+            "0 of 1 steps saved in run/unfinished, all of them on a coarser grid in run/unfinished/coarser{GO_ON}\n"
+        )),
         "{said}"
     );
     assert_eq!(readable_steps(&desk.path("run/unfinished/coarser")), 1);
@@ -296,7 +298,7 @@ fn a_disk_without_room_is_one_error_with_path_and_reason_and_the_steps_stay() {
     let lines: Vec<&str> = said.lines().collect();
     assert!(
         matches!(lines[..], [error, saved] if error.starts_with("error: cannot write run/unfinished/contact.npz: File too large")
-            && saved == "3 of 3 steps saved in run/unfinished"),
+            && saved == format!("3 of 3 steps saved in run/unfinished{GO_ON}")),
         "{said}"
     );
     assert_eq!(readable_steps(&folder.0.join("unfinished")), 3);

@@ -82,7 +82,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         // Its memory goes before the next one takes as much.
         self.last = None;
         let load = Load::MeanPressure(mean_pressure);
-        let (record, step) = self.run.solve_load(&mut self.solver, load, self.recorder)?;
+        let (record, step) = self.run.solve_load(&mut self.solver, load, None, self.recorder)?;
         self.last = Some(step);
         // What is read off a step has the load to rounding.
         let before = |other: &StepRecord| other.reading.mean_pressure < mean_pressure * (1.0 - SAME);

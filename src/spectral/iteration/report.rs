@@ -24,6 +24,16 @@ pub enum Stop {
 }
 
 impl Stop {
+    /// Every one.
+    pub const ALL: [Self; 6] = [
+        Self::Converged,
+        Self::Stalled,
+        Self::IterationLimit,
+        Self::NoContact,
+        Self::Unresolved,
+        Self::BeyondFullContact,
+    ];
+
     /// Whether the returned pressure solves the problem to the tolerance.
     pub fn solved(self) -> bool {
         matches!(self, Self::Converged | Self::NoContact)

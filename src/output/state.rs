@@ -1,0 +1,243 @@
+//! `state.npz`: what the solver knew after the last load of an unfinished run that is saved, and where in the run that was.
+//!
+//! It is replaced by the next one at once, and comes before what is read off its step. Writing it takes a small part of
+//! the time between two of them; what is solved in between is solved again by the run that goes on.
+
+use super::npz::{Archive, values};
+use super::recorded::{self, Unreadable};
+use super::steps_log;
+use super::{OutputError, write_file};
+use crate::run::{Finished, Last, StepRecord};
+use crate::spectral::{Certificate, Report, State, Stop, Unknowns};
+use serde::{Deserialize, Serialize};
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use zip::ZipArchive;
+
+/// Name of the file.
+pub(super) const NAME: &str = "state.npz";
+/// Entry of the archive that says where it was.
+const PLACE: &str = "state.json";
+/// What is solved between two states takes so many times the time of writing one, at least.
+const SHARE: u32 = 20;
+
+/// Why a run cannot go on with what stands unfinished in its folder.
+#[derive(Debug, thiserror::Error)]
+pub enum CannotGoOn {
+    /// It is of another run.
+    #[error(
+        "{} is of another run: the case, its surface, --no-fields or the version of percoat is another one; give the same \
+         command again, or leave --resume out, which moves it aside", .0.display()
+    )]
+    Foreign(PathBuf),
+    /// It cannot be read, or is not whole.
+    #[error("cannot go on from {}: {reason}; leave --resume out to begin anew, which moves it aside", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+/// Where a run was.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Place {
+    /// Of what decides about the result.
+    fingerprint: String,
+    /// The grid.
+    points: [usize; 2],
+    /// Whether all steps are done on a coarser one.
+    refined: bool,
+    /// Number of loads solved on it.
+    steps: usize,
+    /// What the solver says of the last, if there is one.
+    solved: Option<Solved>,
+}
+
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct Solved {
+    stop: String,
+    route: String,
+    trials: usize,
+    iterations: usize,
+    outer: usize,
+    /// Number of coarser grids that the step keeps, and of all in the file.
+    coarser: usize,
+    grids: usize,
+}
+
+/// Saves the states of a run.
+#[derive(Debug)]
+pub(super) struct States {
+    fingerprint: String,
+    /// Number of all loads.
+    loads: usize,
+    /// What the grids so far have brought.
+    pub(super) changes: Vec<f64>,
+    /// When the last one was written, and how long that took.
+    written: Option<(Instant, Duration)>,
+}
+
+impl States {
+    /// Of a run with so many loads.
+    pub(super) fn new(fingerprint: String, loads: usize) -> Self {
+        Self { fingerprint, loads, changes: Vec::new(), written: None }
+    }
+
+    /// Saves that a finer grid begins.
+    pub(super) fn begin_finer(&mut self, folder: &Path, points: [usize; 2]) -> Result<(), OutputError> {
+        self.write(folder, Place { points, refined: true, steps: 0, ..self.place() }, None)
+    }
+
+    /// Saves what the solver knows after the step of this number, from 1, unless the last time was a moment ago; `refined`
+    /// tells whether there is a coarser grid. The last step is always saved.
+    pub(super) fn save(
+        &mut self,
+        folder: &Path,
+        points: [usize; 2],
+        refined: bool,
+        steps: usize,
+        last: &Last,
+    ) -> Result<(), OutputError> {
+        if steps < self.loads && self.written.is_some_and(|(when, took)| when.elapsed() < SHARE * took) {
+            return Ok(());
+        }
+        let Report { stop, route, iterations, outer, .. } = last.state.report;
+        let solved = Solved {
+            stop: stop.to_string(),
+            route: route.name().to_owned(),
+            trials: route.trials(),
+            iterations,
+            outer,
+            coarser: last.state.coarser,
+            grids: last.state.grids.len(),
+        };
+        self.write(folder, Place { points, refined, steps, solved: Some(solved), ..self.place() }, Some(last))
+    }
+
+    /// Before anything is solved.
+    fn place(&self) -> Place {
+        let fingerprint = self.fingerprint.clone();
+        Place { fingerprint, points: [0; 2], refined: false, steps: 0, solved: None }
+    }
+
+    fn write(&mut self, folder: &Path, place: Place, last: Option<&Last>) -> Result<(), OutputError> {
+        let began = Instant::now();
+        let place = serde_json::to_string(&place).expect("a place is numbers and texts under names");
+        write_file(&folder.join(NAME), |writer| {
+            let mut archive = Archive::new(writer);
+            archive.text(PLACE, &place)?;
+            archive.array("changes", &[self.changes.len()], self.changes.iter().copied())?;
+            if let Some(Last { state, seconds }) = last {
+                let numbers = [state.convolutions, state.report.residual, seconds.unwrap_or(f64::NAN)];
+                archive.array("numbers", &[3], numbers)?;
+                for (index, Unknowns { pressure, gap, penetration, certificate }) in state.grids.iter().enumerate() {
+                    let Certificate { energy_gap, penetration: deepest, load } = *certificate;
+                    archive.array(&format!("proof_{index}"), &[4], [*penetration, energy_gap, deepest, load])?;
+                    archive.array(&format!("pressure_{index}"), &[pressure.len()], pressure.iter().copied())?;
+                    archive.array(&format!("gap_{index}"), &[gap.len()], gap.iter().copied())?;
+                }
+            }
+            archive.finish()
+        })?;
+        self.written = Some((Instant::now(), began.elapsed()));
+        Ok(())
+    }
+}
+
+/// What an unfinished run has finished where its result is gathered; `None` where no state is saved, as by versions before
+/// 0.2.
+///
+/// # Errors
+/// [`CannotGoOn`].
+pub fn finished(folder: &Path, fingerprint: &str) -> Result<Option<Finished>, CannotGoOn> {
+    let path = folder.join(NAME);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let failed = |error: io::Error| CannotGoOn::Unreadable { path: path.clone(), reason: error.to_string() };
+    let mut saved = Saved::open(&path).map_err(failed)?;
+    let place = saved.place().map_err(failed)?;
+    if place.fingerprint != fingerprint {
+        return Err(CannotGoOn::Foreign(folder.to_owned()));
+    }
+    let last = place.solved.as_ref().map(|solved| saved.last(solved)).transpose().map_err(failed)?;
+    let changes = saved.array("changes").map_err(failed)?;
+    let (own, coarser) = (folder.join(steps_log::NAME), folder.join(super::layout::COARSER).join(steps_log::NAME));
+    // The steps of the grid before move aside after the finer one has been saved as begun.
+    let moved = place.steps > 0 || !own.is_file();
+    let coarser = place.refined.then(|| steps(if moved { &coarser } else { &own })).transpose()?;
+    let mut before = if place.steps > 1 { steps(&own)? } else { Vec::new() };
+    let before_last = place.steps.saturating_sub(1);
+    if before.len() < before_last {
+        let reason = format!("it has {} of {before_last} steps", before.len());
+        return Err(CannotGoOn::Unreadable { path: own, reason });
+    }
+    before.truncate(before_last);
+    Ok(Some(Finished { points: place.points, changes, coarser, steps: before, last }))
+}
+
+/// The steps of a log.
+fn steps(path: &Path) -> Result<Vec<StepRecord>, CannotGoOn> {
+    let failed = |reason: String| CannotGoOn::Unreadable { path: path.to_owned(), reason };
+    let lines = steps_log::lines(path).map_err(|error| failed(error.to_string()))?;
+    let step = |line: &String| -> Result<StepRecord, String> {
+        let value = serde_json::from_str(line).map_err(|error| error.to_string())?;
+        recorded::step(&value).map_err(|error: Unreadable| error.to_string())
+    };
+    lines.iter().map(step).collect::<Result<_, _>>().map_err(failed)
+}
+
+/// A state that is read back.
+struct Saved(ZipArchive<BufReader<File>>);
+
+impl Saved {
+    fn open(path: &Path) -> io::Result<Self> {
+        Ok(Self(ZipArchive::new(BufReader::new(File::open(path)?))?))
+    }
+
+    fn place(&mut self) -> io::Result<Place> {
+        Ok(serde_json::from_reader(self.0.by_name(PLACE)?)?)
+    }
+
+    fn array(&mut self, name: &str) -> io::Result<Vec<f64>> {
+        let mut entry = self.0.by_name(&format!("{name}.npy"))?;
+        let values = values(&mut entry)?;
+        // At its end the checksum is looked at.
+        io::copy(&mut entry, &mut io::sink())?;
+        Ok(values)
+    }
+
+    fn numbers<const N: usize>(&mut self, name: &str) -> io::Result<[f64; N]> {
+        self.array(name)?.try_into().map_err(|_| unlike(format!("`{name}` has another length")))
+    }
+
+    fn last(&mut self, solved: &Solved) -> io::Result<Last> {
+        let [convolutions, residual, seconds] = self.numbers("numbers")?;
+        let unknown = || unlike(format!("`{}` by `{}` is no end of an iteration", solved.stop, solved.route));
+        let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == solved.stop).ok_or_else(unknown)?;
+        let route = recorded::route(&solved.route, solved.trials).ok_or_else(unknown)?;
+        let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
+        let grids = (0..solved.grids).map(|index| self.unknowns(index)).collect::<io::Result<_>>()?;
+        let state = State { report, convolutions, coarser: solved.coarser, grids };
+        Ok(Last { state, seconds: Some(seconds).filter(|seconds| seconds.is_finite()) })
+    }
+
+    fn unknowns(&mut self, index: usize) -> io::Result<Unknowns> {
+        let [penetration, energy_gap, deepest, load] = self.numbers(&format!("proof_{index}"))?;
+        Ok(Unknowns {
+            pressure: Arc::new(self.array(&format!("pressure_{index}"))?),
+            gap: Arc::new(self.array(&format!("gap_{index}"))?),
+            penetration,
+            certificate: Certificate { energy_gap, penetration: deepest, load },
+        })
+    }
+}
+
+fn unlike(reason: String) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, reason)
+}

@@ -1,0 +1,285 @@
+//! `solve --resume`: a run that was stopped at any moment and goes on ends as one that was not.
+
+use crate::program::{Desk, Folder};
+use percoat::case::{Case, Source};
+use percoat::output::{self, Clock, OutputError, Recording, RunFolder, solved_plan, write_scalars};
+use percoat::run::{Finished, Last, Outcome, Recorder, RunError, StepRecord};
+use percoat::{Solver, Step, StressField};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// Loads up and down on a coating with strengths; stresses of every kind; on one grid.
+const STRESSES: &str = r#"
+[lattice]
+kind = "oblique"
+a1 = [1.0, 0.0]
+a2 = [0.3, 0.9]
+[[levels]]
+shape = "sphere"
+radius = 0.8
+[[layers]]
+thickness = 0.1
+young = 3.0
+poisson = 0.25
+yield_strength = 0.3
+interface_strength = { normal = 0.1, shear = 0.2 }
+[substrate]
+young = 1.0
+poisson = 0.3
+[load]
+mean_pressure = [0.01, 0.03, 0.0, 0.02]
+[friction]
+coefficient = 0.3
+[grid]
+points = [24, 20]
+[stress]
+planes = [0.0, 0.1]
+points = [[0.1, 0.2, 0.05]]
+section = { from = [0.0, 0.0], toward = [1.0, 0.0], length = 0.5, depth = 0.3 }
+volume = { depth = 0.2, rows = 2, points = 4 }
+"#;
+
+/// A cone with a ring around it, refined; the second grid is the last that is allowed here.
+const REFINED: &str = r#"
+[lattice]
+kind = "square"
+period = 1.0
+[[levels]]
+shape = "cone"
+slope = 0.2
+[substrate]
+young = 1.0
+poisson = 0.3
+[load]
+mean_pressure = [0.001, 0.01]
+[grid]
+accuracy = 1e-9
+"#;
+
+/// A rough surface, one of whose penetrations touches too little to be resolved, and one iteration too few for some.
+const ROUGH: &str = r#"
+[lattice]
+kind = "square"
+period = 1.0
+[surface.random]
+hurst = 0.8
+shortest = 0.1
+rms_slope = 0.1
+[substrate]
+young = 1.0
+poisson = 0.3
+[load]
+penetration = [1e-6, 0.002, 0.01, 0.012]
+[grid]
+points = 32
+[solver]
+max_iterations = 9
+"#;
+
+/// The largest grid that there is room for.
+const ROOM: usize = 192;
+
+/// Records a run until it is killed, after so many more calls that leave something on disk.
+struct Mortal<'a> {
+    recording: Recording<'a>,
+    calls: usize,
+}
+
+#[derive(Debug)]
+enum Death {
+    Killed,
+    Output(OutputError),
+}
+
+impl fmt::Display for Death {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{self:?}")
+    }
+}
+
+impl std::error::Error for Death {}
+
+impl Mortal<'_> {
+    fn lives(&mut self, done: Result<(), OutputError>) -> Result<(), Death> {
+        done.map_err(Death::Output)?;
+        self.calls = self.calls.checked_sub(1).ok_or(Death::Killed)?;
+        Ok(())
+    }
+}
+
+impl Recorder for Mortal<'_> {
+    type Error = Death;
+
+    fn finished(&mut self) -> Option<Finished> {
+        self.recording.finished()
+    }
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        points[0] <= ROOM
+    }
+
+    fn begin(&mut self, solver: &Solver) -> Result<(), Death> {
+        let done = self.recording.begin(solver);
+        self.lives(done)
+    }
+
+    fn solved(&mut self, last: &Last) -> Result<(), Death> {
+        let done = self.recording.solved(last);
+        self.lives(done)
+    }
+
+    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Death> {
+        let done = self.recording.step(step, record, field);
+        self.lives(done)
+    }
+
+    fn refined(&mut self, points: [usize; 2], change: f64) {
+        self.recording.refined(points, change);
+    }
+}
+
+fn case(text: &str) -> Case {
+    Case::read(&Source { name: "resumed".to_owned(), text: text.to_owned(), folder: PathBuf::new() }, &[]).unwrap()
+}
+
+/// A run into a folder, going on with what stands there, killed after so many calls; `None` if it was. Else whether it went
+/// on, and what it has found.
+fn run(case: &Case, folder: &Path, fields: bool, calls: usize) -> Option<(bool, Outcome)> {
+    let run = case.run();
+    let mut plan = solved_plan(case, run.loads.len(), fields);
+    plan.resumes = true;
+    let claim = RunFolder::claim(folder, plan).unwrap();
+    let fingerprint = output::fingerprint(case, "test");
+    let earlier = if claim.resumes() { output::finished(&claim.staging(), &fingerprint).unwrap() } else { None };
+    let went_on = earlier.is_some();
+    let recording = Recording::new(&claim, &run, case.to_toml(), Clock::start()).resumable(&run, fingerprint, earlier);
+    let recording = if fields { recording } else { recording.without_fields() };
+    let mut mortal = Mortal { recording, calls };
+    let outcome = match run.solve(&mut mortal) {
+        Ok(outcome) => outcome,
+        Err(RunError::Recorder(Death::Killed)) => return None,
+        Err(error) => panic!("{error:?}"),
+    };
+    let left = mortal.calls;
+    let (_, mut clock) = mortal.recording.finish().unwrap();
+    // Killed after fields are gathered.
+    if left == 0 {
+        return None;
+    }
+    write_scalars(&claim.staging(), case, &outcome, &outcome.warnings, clock.timing()).unwrap();
+    claim.publish().unwrap();
+    Some((went_on, outcome))
+}
+
+/// Kills a run after every call, its successor some calls later, and compares what the third leaves.
+fn survives_every_call(text: &str, fields: bool) {
+    let (desk, case) = (Desk::new(), case(text));
+    let results = |name: &str| -> BTreeMap<String, Vec<u8>> { Folder(desk.path(name)).results() };
+    let (_, whole) = run(&case, &desk.path("whole"), fields, usize::MAX).unwrap();
+    let expected = results("whole");
+    let mut resumed = 0;
+    for calls in 0.. {
+        let name = format!("killed-{calls}");
+        let folder = desk.path(&name);
+        if run(&case, &folder, fields, calls).is_some() {
+            assert!(resumed >= 2 * case.run().loads.len(), "only {resumed} of {calls} runs went on");
+            return;
+        }
+        let second = run(&case, &folder, fields, 2 + calls % 3);
+        let (went_on, outcome) = second.unwrap_or_else(|| run(&case, &folder, fields, usize::MAX).unwrap());
+        resumed += usize::from(went_on);
+        assert_eq!((outcome.change, outcome.end), (whole.change, whole.end));
+        assert_eq!(outcome.warnings, whole.warnings);
+        let found = results(&name);
+        assert_eq!(found.keys().collect::<Vec<_>>(), expected.keys().collect::<Vec<_>>());
+        for (file, content) in &found {
+            assert!(*content == expected[file], "{file} of a run killed after {calls} calls differs");
+        }
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
+
+#[test]
+fn a_run_with_stresses_killed_after_any_call_ends_bit_for_bit_as_if_it_had_not_been() {
+    survives_every_call(STRESSES, true);
+}
+
+#[test]
+fn so_does_a_refinement() {
+    survives_every_call(REFINED, true);
+}
+
+#[test]
+fn and_one_on_a_rough_surface_whose_steps_do_not_all_converge() {
+    survives_every_call(ROUGH, true);
+}
+
+const LONG: [&str; 3] = ["fig5", "--set", "grid.points=128"];
+
+#[test]
+fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
+    let desk = Desk::new();
+    let whole = desk.solve("whole", &LONG);
+    let folder = Folder(desk.path("killed"));
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
+        .args(["solve", "-o", "killed"])
+        .args(LONG)
+        .current_dir(desk.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let (log, started) = (folder.0.join("unfinished/steps.jsonl"), Instant::now());
+    while fs::read_to_string(&log).unwrap_or_default().lines().count() < 5 {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
+        assert!(started.elapsed() < Duration::from_secs(120));
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let resume = |change: &[&str]| desk.percoat(&[&["solve", "-o", "killed", "--resume"], &LONG[..], change].concat());
+    // Another run is refused, and nothing is lost.
+    for change in [&["--no-fields"][..], &["--set", "substrate.poisson=0.2"]] {
+        resume(change).complains(2, &["is of another run", "--resume"]);
+    }
+    let again = resume(&[]);
+    assert_eq!(again.code, 0, "{}", again.err);
+    assert!(again.err.contains("note: goes on after step"), "{}", again.err);
+    let (found, expected) = (folder.results(), whole.results());
+    assert_eq!(folder.names(), whole.names());
+    assert!(found.iter().all(|(name, content)| *content == expected[name]), "{:?}", folder.names());
+    // What is finished is solved again.
+    let after = resume(&[]);
+    assert!(after.code == 0 && after.err.contains("nothing unfinished to go on from"), "{}", after.err);
+}
+
+#[test]
+fn what_was_damaged_is_refused_with_its_path_and_can_be_moved_aside() {
+    let (desk, case) = (Desk::new(), case(STRESSES));
+    let folder = desk.path("killed");
+    assert!(run(&case, &folder, true, 5).is_none());
+    desk.write("case.toml", STRESSES);
+    let fingerprint = output::fingerprint(&case, "test");
+    let state = folder.join("unfinished/state.npz");
+    let whole = fs::read(&state).unwrap();
+    let spoilt = |at: usize| {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 1;
+        bytes
+    };
+    for bytes in [whole[..whole.len() / 2].to_vec(), spoilt(whole.len() / 2), Vec::new()] {
+        fs::write(&state, bytes).unwrap();
+        let error = output::finished(&folder.join("unfinished"), &fingerprint).unwrap_err().to_string();
+        assert!(error.contains("state.npz") && error.contains("leave --resume out"), "{error}");
+    }
+    let refused = desk.percoat(&["solve", "case.toml", "-o", "killed", "--resume", "--no-pictures"]);
+    refused.complains(2, &["state.npz"]);
+    let anew = desk.percoat(&["solve", "case.toml", "-o", "killed", "--no-pictures"]);
+    assert!(anew.code == 0 && anew.err.contains("interrupted-1"), "{}", anew.err);
+    assert!(folder.join("interrupted-1/state.npz").is_file());
+}
