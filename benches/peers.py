@@ -19,7 +19,7 @@ What is timed
 - ASPHER in its fastest variant that converges, found before each case: either transform, double or mixed
   precision; nested grids, its |q| preconditioner, no output but the pressure. FFTW measures its plans before.
 - Convolution: real to complex, times a table, and back; plans and tables made before, result in place where offered.
-- Threads are set alike for everybody. Each contender is a process of its own that waits while others are timed; rounds go
+- Threads are set alike for everybody; Tamaas, whose package on PyPI is not parallel, is timed on one alone. Each contender is a process of its own that waits while others are timed; rounds go
   A B C A B C …, and a ratio is the median of those of the rounds, peer over percoat: above 1 percoat is faster.
   "processor time" is the same ratio of what the system counted (setup on both sides): it stands where others use the
   machine too, but threads that wait for one another by spinning are counted as working.
@@ -386,7 +386,7 @@ def solves(options, peer, python):
                 for threads in options.threads:
                     ours = Contender("percoat", [peer, "solve", *arguments, threads], threads)
                     others = [best_aspher(python, arguments, threads)] if "ASPHER" in options.peers else []
-                    if "Tamaas" in options.peers:
+                    if "Tamaas" in options.peers and threads == 1:  # its package has no more
                         others.append(Contender("Tamaas", worker(python, "tamaas", *arguments, threads), threads))
                     others = [other for other in others if other]
                     take_turns([ours, *others], options.rounds, options.budget)

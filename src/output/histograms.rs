@@ -12,7 +12,7 @@ pub fn histograms(steps: &[StepRecord]) -> Option<String> {
         for histogram in &step.rough.as_ref()?.histograms {
             let intervals = histogram.ends.windows(2).zip(&histogram.counts).zip(histogram.densities());
             for ((ends, count), density) in intervals {
-                let (quantity, [from, to]) = (histogram.quantity, [ends[0], ends[1]]);
+                let (quantity, [from, to]) = (&histogram.quantity, [ends[0], ends[1]]);
                 // Writing into a String cannot fail.
                 let _ = writeln!(text, "{number},{quantity},{from:e},{to:e},{count},{density:e}");
             }

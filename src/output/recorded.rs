@@ -4,7 +4,9 @@
 //! elsewhere. What the files do not hold (boundaries, what a reading says of its own errors) stays empty.
 
 use super::Timing;
-use crate::reading::{Criterion, Errors, LevelErrors, LevelReading, Reading, RoughReading, StressReading, Utilisation};
+use crate::reading::{
+    Criterion, Errors, Histogram, LevelErrors, LevelReading, Reading, RoughReading, StressReading, Utilisation,
+};
 use crate::run::{At, Limit, Limits, StepRecord};
 use crate::spectral::{Certificate, Report, Route, Stop};
 use crate::stress::Peak;
@@ -151,6 +153,9 @@ struct StepKeys {
     strength: Vec<UtilisationKeys>,
     seconds: Option<f64>,
     rough: Option<RoughReading>,
+    /// Of an unfinished run.
+    #[serde(default)]
+    histograms: Vec<Histogram>,
 }
 
 #[derive(Deserialize)]
@@ -263,7 +268,7 @@ fn record(keys: StepKeys) -> StepRecord {
         slides: keys.friction.is_some(),
         convolutions: keys.convolutions,
         points: keys.points,
-        rough: keys.rough,
+        rough: keys.rough.map(|rough| RoughReading { histograms: keys.histograms, ..rough }),
         stress: keys.stress.map(stress),
         strength: keys.strength.into_iter().filter_map(utilisation).collect(),
         seconds: keys.seconds,

@@ -1,10 +1,12 @@
 //! `steps.jsonl`: every step of an unfinished run, one line each, appended as it is done.
 //!
-//! A line is the step as it will stand in `summary.json`. Whatever ends the run, the lines that end are whole steps, and
+//! A line is the step as it will stand in `summary.json`, and its histograms. Whatever ends the run, the lines that end are whole steps, and
 //! the file has one at least: where it stands, a step is finished.
 
 use super::{OutputError, write_text};
+use crate::reading::Histogram;
 use crate::run::StepRecord;
+use serde::Serialize;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -20,6 +22,14 @@ pub(super) struct StepsLog {
     file: Option<File>,
     /// Lines of an earlier run with which it begins.
     known: Option<String>,
+}
+
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    record: &'a StepRecord,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    histograms: Option<&'a Vec<Histogram>>,
 }
 
 impl StepsLog {
@@ -38,7 +48,10 @@ impl StepsLog {
 
     /// Appends a step. Refused when the first one finds steps there already, unless it goes on after them.
     pub(super) fn add(&mut self, record: &StepRecord) -> Result<(), OutputError> {
-        let line = serde_json::to_string(record).expect("a step is numbers and texts under names") + "\n";
+        let histograms = record.rough.as_ref().map(|rough| &rough.histograms);
+        let line =
+            serde_json::to_string(&Line { record, histograms }).expect("a step is numbers and texts under names");
+        let line = line + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {
             Some(file) => file.write_all(line.as_bytes()).map_err(failed),

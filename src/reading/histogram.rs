@@ -1,5 +1,7 @@
 //! How often a quantity lies in each of several intervals.
 
+use std::borrow::Cow;
+
 /// Intervals of an even histogram.
 const EVEN: usize = 64;
 /// Intervals to a decade of one by decades.
@@ -7,9 +9,10 @@ const TO_A_DECADE: f64 = 8.0;
 
 /// Counts in neighbouring intervals, the upper end of the last one counted.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Histogram {
     /// Of what.
-    pub quantity: &'static str,
+    pub quantity: Cow<'static, str>,
     /// Ends of the intervals, ascending: one more than counts.
     pub ends: Vec<f64>,
     /// How many values lie in each.
@@ -24,12 +27,12 @@ impl Histogram {
     pub fn even(quantity: &'static str, values: impl Iterator<Item = f64> + Clone, total: usize) -> Self {
         let most = values.clone().fold(0.0, f64::max);
         if !(most > 0.0 && most.is_finite()) {
-            return Self { quantity, ends: Vec::new(), counts: Vec::new(), total };
+            return Self { quantity: quantity.into(), ends: Vec::new(), counts: Vec::new(), total };
         }
         let ends = (0..=EVEN).map(|k| most * k as f64 / EVEN as f64).collect();
         let mut counts = vec![0; EVEN];
         values.for_each(|value| counts[((value / most * EVEN as f64) as usize).min(EVEN - 1)] += 1);
-        Self { quantity, ends, counts, total }
+        Self { quantity: quantity.into(), ends, counts, total }
     }
 
     /// Eight intervals to a decade from the smallest value on, each as many times as long as the one before; of values
@@ -38,7 +41,7 @@ impl Histogram {
         let total = values.clone().count();
         let least = values.clone().fold(f64::INFINITY, f64::min);
         if !(least > 0.0 && least.is_finite()) {
-            return Self { quantity, ends: Vec::new(), counts: Vec::new(), total };
+            return Self { quantity: quantity.into(), ends: Vec::new(), counts: Vec::new(), total };
         }
         // The smallest spots have one sample, the next two: no interval begins at a value.
         let first = least * 10f64.powf(-0.5 / TO_A_DECADE);
@@ -47,7 +50,7 @@ impl Histogram {
         let ends = (0..=most + 1).map(|k| first * 10f64.powf(k as f64 / TO_A_DECADE)).collect();
         let mut counts = vec![0; most + 1];
         values.for_each(|value| counts[place(value)] += 1);
-        Self { quantity, ends, counts, total }
+        Self { quantity: quantity.into(), ends, counts, total }
     }
 
     /// Part of the whole per unit of the quantity, in each interval.

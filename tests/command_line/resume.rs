@@ -22,6 +22,7 @@ a2 = [0.3, 0.9]
 [[levels]]
 shape = "sphere"
 radius = 0.8
+sites = [[0.0, 0.0]]
 [[layers]]
 thickness = 0.1
 young = 3.0
@@ -98,7 +99,10 @@ enum Death {
 
 impl fmt::Display for Death {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{self:?}")
+        match self {
+            Self::Killed => f.write_str("killed"),
+            Self::Output(error) => error.fmt(f),
+        }
     }
 }
 
@@ -117,6 +121,10 @@ impl Recorder for Mortal<'_> {
 
     fn finished(&mut self) -> Option<Finished> {
         self.recording.finished()
+    }
+
+    fn clock(&self) -> Option<f64> {
+        self.recording.clock()
     }
 
     fn fits(&self, points: [usize; 2]) -> bool {
