@@ -178,6 +178,20 @@ fn steps_that_are_not_converged_are_marked_at_the_top() {
 }
 
 #[test]
+fn a_pressure_that_is_infinite_under_a_tip_is_no_reason_not_to_have_converged() {
+    let desk = Desk::new();
+    desk.write(
+        "cone.toml",
+        "lattice = { kind = \"square\", period = 1 }\nlevels = [{ shape = \"cone\", slope = 0.2 }]\n\
+         substrate = { young = 1, poisson = 0.3 }\nload = { mean_pressure = 0.01 }\n",
+    );
+    let answer = desk.percoat(&["solve", "cone.toml", "-o", "run", "--no-pictures", "--set", "grid.points=64"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = words(&report(&desk, "run"));
+    assert!(page.contains("1 of 1 load steps converged") && !page.contains("Not converged"), "{page}");
+}
+
+#[test]
 fn a_title_is_a_text_whatever_stands_in_it() {
     let desk = Desk::new();
     let title = "title=\"\"\"<script src='http:x'>alert(1)</script> & \"</title>\"\"\"\"";
