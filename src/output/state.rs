@@ -90,7 +90,10 @@ impl States {
 
     /// Saves that a finer grid begins.
     pub(super) fn begin_finer(&mut self, folder: &Path, points: [usize; 2]) -> Result<(), OutputError> {
-        self.write(folder, Place { points, refined: true, steps: 0, ..self.place() }, None)
+        self.write(folder, Place { points, refined: true, steps: 0, ..self.place() }, None)?;
+        // A log without a state of its grid is that of the grid before: the first step is saved before it is logged.
+        self.written = None;
+        Ok(())
     }
 
     /// Saves what the solver knows after the step of this number, from 1, unless the last time was a moment ago; `refined`
