@@ -49,7 +49,7 @@ const COMPARED: u64 = 12 * MEBIBYTE;
 const COMPARISON: u64 = MEBIBYTE;
 /// Per sample: what is kept for a run that goes on, pressure and gap of all nested grids, twice while one takes the place of
 /// another.
-const STATE_FILES: u64 = 43;
+const CHECKPOINTS: u64 = 43;
 /// A picture on disk, in both formats.
 const PICTURE: u64 = 3 * MEBIBYTE / 10;
 
@@ -133,7 +133,7 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let disk = fields + steps * (written + volume) + summary + pages;
     // A refinement keeps the steps of the last grid, a quarter, until those of the next are all there.
     let coarser = if matches!(case.grid, Sampling::Accuracy(_)) { disk / 4 } else { 0 };
-    let disk_while_running = disk + fields.max(steps * written) + coarser + STATE_FILES * samples;
+    let disk_while_running = disk + fields.max(steps * written) + coarser + CHECKPOINTS * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
 }

@@ -19,7 +19,11 @@ pub struct Allowed<'a> {
 impl<'a> Allowed<'a> {
     /// For a job that writes into `folder`; what does not find enough is refused before any is taken.
     pub fn new(case: &'a Case, folder: &Path, job: Job) -> Result<Self, Failure> {
-        let room = Room::on_this_machine(folder);
+        Self::within(case, Room::on_this_machine(folder), job)
+    }
+
+    /// The same where the `room` is known.
+    pub fn within(case: &'a Case, room: Room, job: Job) -> Result<Self, Failure> {
         refusal(case, room, job).map_or(Ok(Self { case, job, room }), |why| Err(Failure::Refused(why)))
     }
 }

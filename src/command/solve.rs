@@ -3,7 +3,7 @@
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
-use super::interruption;
+use super::interruption::{self, Saved};
 use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::plan::may_write;
@@ -12,11 +12,13 @@ use super::shown::Shown;
 use super::terminal::{self, tell};
 use clap::Args;
 use percoat::case::resources::Job;
-use percoat::case::{Case, plausibility};
+use percoat::case::{Case, Room, plausibility};
 use percoat::output::summary::summary;
-use percoat::output::{self, Clock, Plan, Recording, RunFolder, table, write_scalars};
+use percoat::output::{self, Clock, Plan, Recording, RunFolder, is_beside, steps_of, table, write_scalars};
 use percoat::picture::Snapshot;
-use percoat::run::{Finished, StepRecord};
+use percoat::run::{Finished, Sampling, StepRecord};
+use serde_json::Value;
+use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -43,15 +45,31 @@ pub fn run(
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let run = case.run();
     let job = Job::Solve { pictures: pictures.wanted(), fields: !options.no_fields };
-    let allowed = Allowed::new(&case, &folder, job)?;
+    let mut room = Room::on_this_machine(&folder);
+    if options.resume {
+        // What stands there already takes no room again.
+        room.disk = room.disk.saturating_add(RunFolder::gathered(&folder));
+    }
+    let allowed = Allowed::within(&case, room, job)?;
     run.check()?;
     interruption::watch();
     let plan = may_write(&case, run.loads.len(), !options.no_fields, pictures);
     let mut claim = RunFolder::claim(&folder, Plan { resumes: options.resume, ..plan })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let fingerprint = output::fingerprint(&case, if options.no_fields { "scalars" } else { "fields" });
-    let earlier = earlier(&mut claim, &fingerprint, options.resume, common.quiet)?;
-    let recording = Recording::new(&claim, &run, case.to_toml(), clock).resumable(&run, fingerprint, earlier);
+    let earlier = earlier(&mut claim, &fingerprint, common.quiet)?;
+    if let (None, true, Some(ending)) = (&earlier, options.resume, finished(&case, &folder, !options.no_fields)) {
+        claim.leave()?;
+        if !common.quiet {
+            tell!("note: {} is finished; leave --resume out to solve it again", folder.display());
+        }
+        return Ok(ending);
+    }
+    if let Some(Finished { steps, last, .. }) = &earlier {
+        let done = steps.len() + usize::from(last.is_some());
+        *interruption::hold() = Saved::Steps { done, of: run.loads.len(), folder: claim.staging() };
+    }
+    let recording = Recording::new(&claim, &run, case.to_toml(), clock).resumable(fingerprint, earlier);
     let recording = if options.no_fields { recording.without_fields() } else { recording };
     let mut recording = Shown::new(recording, &claim, &run, allowed, common);
     let outcome = run.solve(&mut recording)?;
@@ -82,22 +100,35 @@ pub fn run(
 }
 
 /// What an earlier run into the folder has finished, if this one is to go on from there.
-fn earlier(claim: &mut RunFolder, fingerprint: &str, resume: bool, quiet: bool) -> Result<Option<Finished>, Failure> {
+fn earlier(claim: &mut RunFolder, fingerprint: &str, quiet: bool) -> Result<Option<Finished>, Failure> {
     let finished = |claim: &RunFolder| output::finished(&claim.staging(), fingerprint).map_err(Failure::refused);
     let found = if claim.resumes() { finished(claim)? } else { None };
     if claim.resumes() && found.is_none() {
         terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
     }
-    if resume && !quiet {
-        match &found {
-            None => tell!("note: nothing unfinished to go on from"),
-            Some(Finished { points: [n1, n2], steps, last, .. }) => {
-                let done = steps.len() + usize::from(last.is_some());
-                tell!("note: goes on after step {done} on {n1} × {n2} samples");
-            }
-        }
+    if let (Some(Finished { points: [n1, n2], steps, last, .. }), false) = (&found, quiet) {
+        let done = steps.len() + usize::from(last.is_some());
+        tell!("note: goes on after step {done} on {n1} × {n2} samples");
     }
     Ok(found)
+}
+
+/// How the result that stands in a folder ended, if it is of this case.
+fn finished(case: &Case, folder: &Path, fields: bool) -> Option<Ending> {
+    let is_own = |name: &str| folder.join(name).is_file() && is_beside("summary.json", folder, name).unwrap_or(false);
+    if !is_own("summary.json") || fields && !is_own("contact.npz") {
+        return None;
+    }
+    let summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json")).ok()?).ok()?;
+    if summary["fingerprint"] != output::fingerprint(case, "") {
+        return None;
+    }
+    let reached = match case.grid {
+        Sampling::Accuracy(accuracy) => summary["accuracy"].as_f64().is_some_and(|change| change < accuracy),
+        Sampling::Points(_) => true,
+    };
+    let converged = steps_of(&summary).ok()?.iter().all(StepRecord::converged);
+    Some(if reached && converged { Ending::Done } else { Ending::NotConverged })
 }
 
 fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {

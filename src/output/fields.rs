@@ -22,9 +22,14 @@ impl Fields {
         Ok(Self { arrays: StepArrays::new(folder, "contact")?, surface })
     }
 
-    /// The same where an earlier run has left those of so many `steps`; `None` where it has gathered them.
-    pub(super) fn go_on(folder: &Path, surface: Arc<Surface>, steps: usize) -> Result<Option<Self>, OutputError> {
-        Ok(StepArrays::go_on(folder, "contact", steps)?.map(|arrays| Self { arrays, surface }))
+    /// The same where an earlier run has left those of so many `steps`, see [`StepArrays::go_on`].
+    pub(super) fn go_on(
+        folder: &Path,
+        surface: Arc<Surface>,
+        steps: usize,
+        last: bool,
+    ) -> Result<Option<Self>, OutputError> {
+        Ok(StepArrays::go_on(folder, "contact", steps, last)?.map(|arrays| Self { arrays, surface }))
     }
 
     /// Puts the fields of the next step on disk; its `mean_pressure` is known.

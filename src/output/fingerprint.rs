@@ -6,10 +6,12 @@ use std::io::Read;
 
 /// Of a whole case with its surface, what is done with it, and this version of percoat.
 pub fn fingerprint(case: &Case, task: &str) -> String {
-    let text = format!("{} {task}\n{}", env!("CARGO_PKG_VERSION"), case.to_toml());
-    let heights = case.counterbody().topography().map(|own| own.heights().to_owned().into_raw_vec_and_offset().0);
-    let heights = heights.unwrap_or_default();
+    let heights = case.counterbody().topography().map(|own| own.heights());
+    let points = heights.as_ref().map(|own| own.dim());
+    let heights = heights.as_ref().map(|own| own.as_standard_layout());
+    let samples = heights.as_ref().and_then(|own| own.as_slice()).unwrap_or_default();
+    let text = format!("{} {task} {points:?}\n{}", env!("CARGO_PKG_VERSION"), case.to_toml());
     let (length, checksum) =
-        checksum(&mut text.as_bytes().chain(bytemuck::cast_slice(&heights))).expect("what is in memory can be read");
+        checksum(&mut text.as_bytes().chain(bytemuck::cast_slice(samples))).expect("what is in memory can be read");
     format!("{length:x}-{checksum:016x}")
 }

@@ -1,11 +1,11 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
-use super::gathered::{is_partial, remove_gathered, remove_own, remove_waiting, set_aside};
+use super::gathered::{is_partial, remove_gathered, remove_own, remove_temporary, remove_waiting, set_aside};
 use super::layout::{COARSER, FolderError, MARK, OWN, SWEEP_LOG, foreign, names, own, remove_folder, staging};
 use super::manifest::{Manifest, Scope, Writer, Written};
 use super::publication::Publication;
 use super::{OutputError, make_folder, write_text};
-use super::{state, steps_log};
+use super::{checkpoint, steps_log};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -66,6 +66,7 @@ impl RunFolder {
         refuse_foreign(folder, &adopting(folder, &plan)?, &plan)?;
         let mut claimed = Self { folder: folder.to_owned(), plan, set_aside: None, resumed: false, _lock: lock };
         if claimed.plan.resumes && claimed.is_begun() {
+            remove_temporary(&claimed.staging())?;
             claimed.resumed = true;
             claimed.set_aside = aside;
             return Ok(claimed);
@@ -83,6 +84,27 @@ impl RunFolder {
     /// Whether what an earlier run finished stands where the result is gathered, and this run goes on with it.
     pub fn resumes(&self) -> bool {
         self.resumed
+    }
+
+    /// What stands where the result is gathered already, bytes.
+    pub fn gathered(folder: &Path) -> u64 {
+        fn size(folder: &Path) -> u64 {
+            let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+            let own = |entry: fs::DirEntry| match entry.metadata() {
+                Ok(own) if own.is_dir() => size(&entry.path()),
+                own => own.map_or(0, |own| own.len()),
+            };
+            entries.map(own).sum()
+        }
+        size(&staging(folder, Writer::Solve))
+    }
+
+    /// Ends without a result: where it would have been gathered goes.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path that cannot be removed.
+    pub fn leave(self) -> Result<(), OutputError> {
+        remove_gathered(&self.staging(), self.plan.writer, &|_| false).map(|_| ())
     }
 
     /// Begins anew although this run was to go on: what an earlier one finished is moved aside; where to.
@@ -113,7 +135,7 @@ impl RunFolder {
 
     /// Whether anything has been solved in the place where a result is gathered, on its grid or a coarser one.
     pub fn has_begun(staging: &Path) -> bool {
-        has_steps(staging) || has_steps(&staging.join(COARSER)) || staging.join(state::NAME).is_file()
+        has_steps(staging) || has_steps(&staging.join(COARSER)) || staging.join(checkpoint::NAME).is_file()
     }
 
     /// Begins again on a finer grid. The steps of the coarser one stand in `coarser/` until the result is published.
@@ -125,10 +147,14 @@ impl RunFolder {
         let staging = self.staging();
         if !has_steps(&staging) {
             // A run that was killed may have begun here, without coming to the end of a step.
+            let mut aside = None;
             for name in names(&staging)?.iter().filter(|name| self.resumed && is_partial(name)) {
-                remove_waiting(&staging.join(name))?;
+                let partial = staging.join(name);
+                if !remove_waiting(&partial)? {
+                    aside = set_aside(&partial, &self.folder)?;
+                }
             }
-            return Ok(None);
+            return Ok(aside);
         }
         let coarser = staging.join(COARSER);
         let aside = if remove_own(&coarser, &|_| false)? { None } else { set_aside(&coarser, &self.folder)? };

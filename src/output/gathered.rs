@@ -2,9 +2,9 @@
 //! is neither published nor removed.
 
 use super::OutputError;
-use super::layout::{COARSER, COMBINATIONS, MARK, SWEEP_LOG, remove_folder};
+use super::layout::{COARSER, COMBINATIONS, MARK, SWEEP_LOG, names, remove_folder};
 use super::manifest::Writer;
-use super::{state, steps_log};
+use super::{checkpoint, steps_log};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 const STEPS: [&str; 8] = [
     "case.toml",
     steps_log::NAME,
-    state::NAME,
+    checkpoint::NAME,
     "summary.json",
     "curve.csv",
     "histograms.csv",
@@ -25,7 +25,7 @@ const ROWS: [&str; 3] = [SWEEP_LOG, "sweep.csv", "sweep.json"];
 
 /// Whether fields of the steps wait in a folder of that name.
 pub(super) fn is_partial(name: &str) -> bool {
-    name.ends_with(".partial")
+    ["contact.partial", "stress.partial"].contains(&name)
 }
 
 /// Whether steps or combinations are gathered in a folder of that name.
@@ -36,8 +36,25 @@ fn is_gathered(name: &str) -> bool {
 /// Whether a run leaves a file of that name before it publishes.
 fn is_of_steps(name: &str) -> bool {
     let is_volume = name.starts_with("stress.") && name.ends_with(".vts");
-    let is_temporary = name.starts_with('.') && name.ends_with(".tmp");
-    STEPS.contains(&name) || ROWS.contains(&name) || is_volume || is_temporary
+    STEPS.contains(&name) || ROWS.contains(&name) || is_volume || is_temporary(name)
+}
+
+/// Whether a file of that name is one that was being written.
+fn is_temporary(name: &str) -> bool {
+    name.starts_with('.') && name.ends_with(".tmp")
+}
+
+/// Removes what a run was writing when it was killed.
+pub(super) fn remove_temporary(folder: &Path) -> Result<(), OutputError> {
+    for name in names(folder)? {
+        let path = folder.join(&name);
+        if is_partial(&name) && path.is_dir() {
+            remove_temporary(&path)?;
+        } else if is_temporary(&name) && path.is_file() {
+            fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))?;
+        }
+    }
+    Ok(())
 }
 
 /// Removes where a writer has gathered its result; `also` are further names of its files. What is somebody else's in the

@@ -18,13 +18,14 @@
 //!    `unfinished/` goes in one move. At every moment the old result or the whole new
 //!    one stands in one place, where files can have two names (hard links); elsewhere the new one moves file by file.
 //!
-//! A run that is killed leaves `unfinished/` with all steps it has finished, and in `state.npz` what the solver knew. The
+//! A run that is killed leaves `unfinished/` with all steps it has finished, and in `checkpoint.npz` what the solver knew. The
 //! next run into the folder completes a publication that was decided; otherwise it goes on from there if it is told to
 //! ([`Plan::resumes`]), or moves the folder to `interrupted-1/` or the next free number. What somebody
 //! else puts into `unfinished/` is not published and not removed: it is moved aside like an interrupted run. `compare`
 //! gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone, and
 //! a single study those of its own folder ([`Scope`]).
 
+mod checkpoint;
 mod clock;
 pub mod columns;
 mod comparison;
@@ -42,7 +43,6 @@ mod publication;
 mod recorded;
 mod recording;
 mod solved;
-mod state;
 mod steps;
 mod steps_log;
 mod stress;
@@ -50,6 +50,7 @@ pub mod summary;
 pub mod table;
 mod volume;
 
+pub use checkpoint::{CannotGoOn, finished};
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
 pub use fingerprint::fingerprint;
@@ -63,8 +64,7 @@ pub(crate) use number::with_error;
 pub use recorded::{Unreadable, limits_of, steps_of, timing_of};
 pub use recording::Recording;
 pub use solved::{solved_plan, write_scalars};
-pub use state::{CannotGoOn, finished};
-pub use steps_log::lines as whole_lines;
+pub use steps_log::whole_lines;
 pub use volume::write_volume;
 
 use std::fs;

@@ -156,6 +156,9 @@ struct StepKeys {
     /// Of an unfinished run.
     #[serde(default)]
     histograms: Vec<Histogram>,
+    /// The same, largest pressures on the grid.
+    #[serde(default)]
+    peaks: Vec<Option<f64>>,
 }
 
 #[derive(Deserialize)]
@@ -242,15 +245,18 @@ fn plain(x: Option<f64>) -> f64 {
 fn record(keys: StepKeys) -> StepRecord {
     // "not a number" is what a record says itself of numbers that are none.
     let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == keys.stop_reason).unwrap_or(Stop::Stalled);
-    let levels: Vec<LevelReading> = keys.levels.into_iter().map(level).collect();
+    let mut levels: Vec<LevelReading> = keys.levels.into_iter().map(level).collect();
     let singular = levels.iter().any(|level| level.singular);
+    let mut max_pressure = value(keys.max_pressure, singular);
+    let peaks = std::iter::once(&mut max_pressure).chain(levels.iter_mut().map(|level| &mut level.max_pressure));
+    peaks.zip(keys.peaks).for_each(|(peak, own)| *peak = plain(own));
     StepRecord {
         reading: Reading {
             mean_pressure: plain(keys.mean_pressure),
             penetration: plain(keys.penetration),
             contact_fraction: plain(keys.contact_fraction),
             contact_fraction_uncertainty: 0.0,
-            max_pressure: value(keys.max_pressure, singular),
+            max_pressure,
             contact_spots: keys.contact_spots,
             spot_resolution: keys.spot_resolution,
             levels,
@@ -331,7 +337,8 @@ fn stress(keys: StressKeys) -> StressReading {
         materials: all(keys.materials),
         faces: all(keys.faces),
         interfaces: keys.interfaces.into_iter().map(carried).collect(),
-        surface_error: plain(keys.surface_error),
+        // Infinite where it cannot be told.
+        surface_error: keys.surface_error.unwrap_or(f64::INFINITY),
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a run leaves on disk while it goes on: its case, every finished step with its fields, and stresses.
 
+use super::checkpoint::Checkpoints;
 use super::clock::{Clock, Phase};
 use super::fields::Fields;
-use super::state::States;
 use super::steps_log::StepsLog;
 use super::stress::Stresses;
 use super::{OutputError, RunFolder, write_text};
@@ -20,11 +20,13 @@ pub struct Recording<'a> {
     /// Content of `case.toml`.
     case: String,
     stress: Option<StressRequest>,
+    /// Number of all loads.
+    loads: usize,
     /// Whether fields are kept.
     fields: bool,
     clock: Clock,
     /// None where no later run is to go on from this one.
-    states: Option<States>,
+    checkpoints: Option<Checkpoints>,
     /// What an earlier run has finished, until this one asks for it.
     earlier: Option<Finished>,
     /// Number of steps that stand there already when the first grid begins; `None` where it begins anew.
@@ -59,9 +61,10 @@ impl<'a> Recording<'a> {
             claim,
             case,
             stress: run.stress.clone(),
+            loads: run.loads.len(),
             fields: true,
             clock,
-            states: None,
+            checkpoints: None,
             earlier: None,
             standing: None,
             refined: false,
@@ -72,14 +75,14 @@ impl<'a> Recording<'a> {
 
     /// The same so that a later run with this [fingerprint](super::fingerprint) can go on from it, itself going on with
     /// what an `earlier` one has [finished](super::finished) in the folder.
-    pub fn resumable(self, run: &Run, fingerprint: String, earlier: Option<Finished>) -> Self {
-        let mut states = States::new(fingerprint, run.loads.len());
+    pub fn resumable(self, fingerprint: String, earlier: Option<Finished>) -> Self {
+        let mut checkpoints = Checkpoints::new(fingerprint, self.loads);
         if let Some(earlier) = &earlier {
-            states.changes.clone_from(&earlier.changes);
+            checkpoints.changes.clone_from(&earlier.changes);
         }
         let standing = earlier.as_ref().and_then(|earlier| earlier.last.as_ref().map(|_| earlier.steps.len()));
         let refined = earlier.as_ref().is_some_and(|earlier| earlier.coarser.is_some());
-        Self { states: Some(states), earlier, standing, refined, ..self }
+        Self { checkpoints: Some(checkpoints), earlier, standing, refined, ..self }
     }
 
     /// The same without `contact.npz`, `stress.npz` and volumes: scalars, and what pictures show of the last step.
@@ -93,6 +96,7 @@ impl<'a> Recording<'a> {
         let half_space = solver.problem().half_space().clone();
         let request = self.stress.clone().filter(|_| self.fields);
         let surface = self.fields.then(|| Arc::clone(solver.surface()));
+        let last = standing.is_some_and(|steps| steps + 1 == self.loads);
         let (fields, stresses, log) = match standing {
             None => (
                 surface.map(|surface| Fields::new(&folder, surface)).transpose()?,
@@ -100,8 +104,8 @@ impl<'a> Recording<'a> {
                 StepsLog::new(&folder),
             ),
             Some(steps) => (
-                surface.map_or(Ok(None), |surface| Fields::go_on(&folder, surface, steps))?,
-                request.map_or(Ok(None), |request| Stresses::go_on(&folder, request, half_space, steps))?,
+                surface.map_or(Ok(None), |surface| Fields::go_on(&folder, surface, steps, last))?,
+                request.map_or(Ok(None), |request| Stresses::go_on(&folder, request, half_space, steps, last))?,
                 StepsLog::go_on(&folder, steps)?,
             ),
         };
@@ -145,7 +149,9 @@ impl Recorder for Recording<'_> {
         let folder = self.claim.staging();
         if self.files.take().is_some() {
             self.refined = true;
-            self.states.as_mut().map_or(Ok(()), |states| states.begin_finer(&folder, solver.grid().points()))?;
+            self.checkpoints
+                .as_mut()
+                .map_or(Ok(()), |checkpoints| checkpoints.begin_finer(&folder, solver.grid().points()))?;
         }
         let standing = self.standing.take();
         if standing.is_none() {
@@ -162,16 +168,16 @@ impl Recorder for Recording<'_> {
     }
 
     fn solved(&mut self, last: &Last) -> Result<(), OutputError> {
-        let (Some(states), Some(files)) = (&mut self.states, &self.files) else { return Ok(()) };
+        let (Some(checkpoints), Some(files)) = (&mut self.checkpoints, &self.files) else { return Ok(()) };
         self.clock.turn(Phase::Output);
-        states.save(&self.claim.staging(), files.points, self.refined, files.steps + 1, last)?;
+        checkpoints.save(&self.claim.staging(), files.points, self.refined, files.steps + 1, last)?;
         self.clock.turn(Phase::Solve);
         Ok(())
     }
 
     fn refined(&mut self, _points: [usize; 2], change: f64) {
-        if let Some(states) = &mut self.states {
-            states.changes.push(change);
+        if let Some(checkpoints) = &mut self.checkpoints {
+            checkpoints.changes.push(change);
         }
     }
 

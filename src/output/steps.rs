@@ -3,6 +3,7 @@
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
 use super::gathered::remove_waiting;
+use super::layout::names;
 use super::npz::{Archive, complete, header, npy, values};
 use super::{Draft, OutputError, make_folder, write_file};
 use std::fs;
@@ -47,16 +48,30 @@ impl StepArrays {
         Ok(arrays)
     }
 
-    /// The same where an earlier run has left the entries of so many `steps` at least; one step more is still to come.
-    /// `None` where it has gathered the archive.
-    pub(super) fn go_on(folder: &Path, name: &'static str, steps: usize) -> Result<Option<Self>, OutputError> {
+    /// The same where an earlier run has left the entries of so many `steps` at least; one more is still to come, the `last`
+    /// of all or another. `None` where that run had come to the last and has gathered the archive.
+    pub(super) fn go_on(
+        folder: &Path,
+        name: &'static str,
+        steps: usize,
+        last: bool,
+    ) -> Result<Option<Self>, OutputError> {
         let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps };
-        if arrays.archive().is_file() {
-            remove_waiting(&arrays.partial())?;
+        let partial = arrays.partial();
+        if last && arrays.archive().is_file() {
+            remove_waiting(&partial)?;
             return Ok(None);
         }
-        make_folder(&arrays.partial())?;
-        Ok(Some(arrays))
+        make_folder(&partial)?;
+        let there = names(&partial)?;
+        let gone = (1..=steps).find(|step| !there.iter().any(|name| name.contains(&format!(".{step:04}."))));
+        match gone {
+            None => Ok(Some(arrays)),
+            Some(step) => {
+                let error = io::Error::other(format!("what step {step} has left there is gone; leave --resume out"));
+                Err(OutputError::new(&partial, error))
+            }
+        }
     }
 
     fn archive(&self) -> PathBuf {

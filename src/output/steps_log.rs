@@ -1,7 +1,7 @@
 //! `steps.jsonl`: every step of an unfinished run, one line each, appended as it is done.
 //!
-//! A line is the step as it will stand in `summary.json`, and its histograms. Whatever ends the run, the lines that end are whole steps, and
-//! the file has one at least: where it stands, a step is finished.
+//! A line is the step as it will stand in `summary.json`, with what a run that goes on needs besides. Whatever ends the
+//! run, the lines that end are whole steps, and the file has one at least: where it stands, a step is finished.
 
 use super::{OutputError, write_text};
 use crate::reading::Histogram;
@@ -28,6 +28,8 @@ pub(super) struct StepsLog {
 struct Line<'a> {
     #[serde(flatten)]
     record: &'a StepRecord,
+    /// Largest pressures on the grid, of all and of each level, also where they are infinite under a tip.
+    peaks: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     histograms: Option<&'a Vec<Histogram>>,
 }
@@ -41,7 +43,8 @@ impl StepsLog {
     /// After an earlier run; of its steps the first so many stay when the next is added.
     pub(super) fn go_on(folder: &Path, steps: usize) -> Result<Self, OutputError> {
         let path = folder.join(NAME);
-        let lines = if steps > 0 { lines(&path).map_err(|error| OutputError::new(&path, error))? } else { Vec::new() };
+        let lines =
+            if steps > 0 { whole_lines(&path).map_err(|error| OutputError::new(&path, error))? } else { Vec::new() };
         let known = lines.into_iter().take(steps).map(|line| line + "\n").collect();
         Ok(Self { path, file: None, known: Some(known) })
     }
@@ -49,9 +52,10 @@ impl StepsLog {
     /// Appends a step. Refused when the first one finds steps there already, unless it goes on after them.
     pub(super) fn add(&mut self, record: &StepRecord) -> Result<(), OutputError> {
         let histograms = record.rough.as_ref().map(|rough| &rough.histograms);
-        let line =
-            serde_json::to_string(&Line { record, histograms }).expect("a step is numbers and texts under names");
-        let line = line + "\n";
+        let levels = record.reading.levels.iter().map(|level| level.max_pressure);
+        let peaks = std::iter::once(record.reading.max_pressure).chain(levels).collect();
+        let line = serde_json::to_string(&Line { record, peaks, histograms });
+        let line = line.expect("a step is numbers and texts under names") + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {
             Some(file) => file.write_all(line.as_bytes()).map_err(failed),
@@ -70,7 +74,7 @@ impl StepsLog {
 ///
 /// # Errors
 /// When it cannot be read.
-pub fn lines(path: &Path) -> io::Result<Vec<String>> {
+pub fn whole_lines(path: &Path) -> io::Result<Vec<String>> {
     let mut bytes = std::fs::read(path)?;
     bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
     let text = String::from_utf8(bytes).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;

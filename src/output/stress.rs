@@ -31,14 +31,15 @@ impl Stresses {
         Ok(Self { folder: folder.to_owned(), arrays, request, half_space, section: None })
     }
 
-    /// The same where an earlier run has left those of so many `steps`; `None` where it has gathered them.
+    /// The same where an earlier run has left those of so many `steps`, see [`StepArrays::go_on`].
     pub(super) fn go_on(
         folder: &Path,
         request: StressRequest,
         half_space: HalfSpace,
         steps: usize,
+        last: bool,
     ) -> Result<Option<Self>, OutputError> {
-        let arrays = StepArrays::go_on(folder, "stress", steps)?;
+        let arrays = StepArrays::go_on(folder, "stress", steps, last)?;
         Ok(arrays.map(|arrays| Self { folder: folder.to_owned(), arrays, request, half_space, section: None }))
     }
 

@@ -2,6 +2,7 @@
 
 use super::Timing;
 use super::columns::{Cells, csv, scalars};
+use super::fingerprint::fingerprint;
 use crate::case::Case;
 use crate::run::StepRecord;
 use serde_json::{Value, json};
@@ -18,6 +19,8 @@ pub fn summary(
     let version = env!("CARGO_PKG_VERSION");
     let mut summary =
         json!({ "percoat": version, "title": case.title, "case": case, "units": units(case), "warnings": warnings });
+    // With it a run knows that it is finished.
+    summary["fingerprint"] = fingerprint(case, "").into();
     if let Some(accuracy) = accuracy {
         summary["accuracy"] = accuracy.into();
     }

@@ -113,6 +113,11 @@ impl Refinement {
         Ok(())
     }
 
+    /// Whether the present grid is the first.
+    pub(super) fn is_first(&self) -> bool {
+        self.at == 0
+    }
+
     /// The present grid.
     pub fn points(&self) -> [usize; 2] {
         self.grids[self.at]

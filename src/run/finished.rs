@@ -1,11 +1,11 @@
 //! What an earlier run of the same kind has finished, with which a run goes on.
 
 use super::StepRecord;
-use crate::spectral::State;
+use crate::spectral::Checkpoint;
 
 /// What an earlier run has finished on a grid, and on those before it.
 ///
-/// The last load that it solved is not solved again: its step comes from the saved state, and all that is read off it is
+/// The last load that it solved is not solved again: its step comes from a checkpoint, and all that is read off it is
 /// read again. So a run that goes on ends as one that was never interrupted does, bit for bit.
 #[derive(Debug, Clone)]
 pub struct Finished {
@@ -25,7 +25,7 @@ pub struct Finished {
 #[derive(Debug, Clone)]
 pub struct Last {
     /// What the solver knew after it.
-    pub state: State,
+    pub checkpoint: Checkpoint,
     /// Wall time of its solution, seconds, where the recorder has a clock.
     pub seconds: Option<f64>,
 }

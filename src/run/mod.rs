@@ -132,6 +132,11 @@ impl Run {
                 if let Some(finished) = &mut finished {
                     refinement.go_on(finished.points, &finished.changes)?;
                     coarse = finished.coarser.take();
+                    // Each grid but the first is compared with the one before.
+                    let steps = coarse.as_ref().map_or(0, Vec::len);
+                    if steps != if refinement.is_first() { 0 } else { self.loads.len() } {
+                        return Err(OtherGrids.into());
+                    }
                 }
                 loop {
                     let points = refinement.points();
@@ -194,11 +199,11 @@ impl Run {
         let began = recorder.clock();
         let before = saved.as_ref().and_then(|saved| saved.seconds).unwrap_or(0.0);
         let step = match saved {
-            Some(saved) => solver.restore(load, saved.state)?,
+            Some(saved) => solver.restore(load, saved.checkpoint)?,
             None => {
                 let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
                 let seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
-                recorder.solved(&Last { state: solver.state(&step), seconds }).map_err(RunError::Recorder)?;
+                recorder.solved(&Last { checkpoint: solver.checkpoint(&step), seconds }).map_err(RunError::Recorder)?;
                 step
             }
         };

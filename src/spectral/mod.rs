@@ -6,8 +6,9 @@
 //! - `iteration`: conjugate gradients on one grid, and the certificate of what they return;
 //! - `prolongation`: a solution carried over to the next finer grid;
 //! - [`Solver`]: a problem on its nested grids, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
-//!   [`State`]: what a run that was interrupted goes on with.
+//!   [`Checkpoint`]: what a run that was interrupted goes on with.
 
+mod checkpoint;
 mod contact;
 mod convolution;
 mod extension;
@@ -16,11 +17,10 @@ mod multiplier;
 pub mod operator;
 mod prolongation;
 mod solver;
-mod state;
 mod step;
 
+pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::Contact;
 pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop, Unknowns};
 pub use solver::{Memory, Solver};
-pub use state::{OtherGrids, State};
 pub use step::Step;

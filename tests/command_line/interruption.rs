@@ -276,7 +276,7 @@ fn a_run_that_fails_on_a_finer_grid_says_what_the_coarser_one_has_saved() {
     let desk = Desk::new();
     let (code, said) = solve_without_room(&desk, &["--set", "grid.accuracy=1e-9"]);
     assert_eq!(code, Some(4), "{said}");
-    assert!(said.contains("run/unfinished/state.npz: File too large"), "{said}");
+    assert!(said.contains("run/unfinished/checkpoint.npz: File too large"), "{said}");
     assert!(
         said.ends_with(&format!(
             "0 of 1 steps saved in run/unfinished, all of them on a coarser grid in run/unfinished/coarser{GO_ON}\n"

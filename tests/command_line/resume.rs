@@ -45,7 +45,8 @@ section = { from = [0.0, 0.0], toward = [1.0, 0.0], length = 0.5, depth = 0.3 }
 volume = { depth = 0.2, rows = 2, points = 4 }
 "#;
 
-/// A cone with a ring around it, refined; the second grid is the last that is allowed here.
+/// Cones between spheres, refined; the second grid is the last that is allowed here. The finite peaks have a part in the
+/// change.
 const REFINED: &str = r#"
 [lattice]
 kind = "square"
@@ -53,6 +54,11 @@ period = 1.0
 [[levels]]
 shape = "cone"
 slope = 0.2
+sites = [[0.0, 0.0]]
+[[levels]]
+shape = "sphere"
+radius = 0.5
+sites = [[0.5, 0.5]]
 [substrate]
 young = 1.0
 poisson = 0.3
@@ -165,7 +171,7 @@ fn run(case: &Case, folder: &Path, fields: bool, calls: usize) -> Option<(bool, 
     let fingerprint = output::fingerprint(case, "test");
     let earlier = if claim.resumes() { output::finished(&claim.staging(), &fingerprint).unwrap() } else { None };
     let went_on = earlier.is_some();
-    let recording = Recording::new(&claim, &run, case.to_toml(), Clock::start()).resumable(&run, fingerprint, earlier);
+    let recording = Recording::new(&claim, &run, case.to_toml(), Clock::start()).resumable(fingerprint, earlier);
     let recording = if fields { recording } else { recording.without_fields() };
     let mut mortal = Mortal { recording, calls };
     let outcome = match run.solve(&mut mortal) {
@@ -261,9 +267,13 @@ fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
     let (found, expected) = (folder.results(), whole.results());
     assert_eq!(folder.names(), whole.names());
     assert!(found.iter().all(|(name, content)| *content == expected[name]), "{:?}", folder.names());
-    // What is finished is solved again.
+    // What is finished stays, and is told so.
+    let before = folder.files();
     let after = resume(&[]);
-    assert!(after.code == 0 && after.err.contains("nothing unfinished to go on from"), "{}", after.err);
+    assert!(after.code == 0 && after.err.contains("is finished"), "{}", after.err);
+    assert!(folder.files() == before && !folder.names().contains("unfinished"));
+    let other = resume(&["--set", "substrate.poisson=0.2", "--set", "load.mean_pressure=0.01"]);
+    assert!(other.code == 0 && !other.err.contains("is finished"), "{}", other.err);
 }
 
 #[test]
@@ -273,7 +283,7 @@ fn what_was_damaged_is_refused_with_its_path_and_can_be_moved_aside() {
     assert!(run(&case, &folder, true, 5).is_none());
     desk.write("case.toml", STRESSES);
     let fingerprint = output::fingerprint(&case, "test");
-    let state = folder.join("unfinished/state.npz");
+    let state = folder.join("unfinished/checkpoint.npz");
     let whole = fs::read(&state).unwrap();
     let spoilt = |at: usize| {
         let mut bytes = whole.clone();
@@ -283,11 +293,11 @@ fn what_was_damaged_is_refused_with_its_path_and_can_be_moved_aside() {
     for bytes in [whole[..whole.len() / 2].to_vec(), spoilt(whole.len() / 2), Vec::new()] {
         fs::write(&state, bytes).unwrap();
         let error = output::finished(&folder.join("unfinished"), &fingerprint).unwrap_err().to_string();
-        assert!(error.contains("state.npz") && error.contains("leave --resume out"), "{error}");
+        assert!(error.contains("checkpoint.npz") && error.contains("leave --resume out"), "{error}");
     }
     let refused = desk.percoat(&["solve", "case.toml", "-o", "killed", "--resume", "--no-pictures"]);
-    refused.complains(2, &["state.npz"]);
+    refused.complains(2, &["checkpoint.npz"]);
     let anew = desk.percoat(&["solve", "case.toml", "-o", "killed", "--no-pictures"]);
     assert!(anew.code == 0 && anew.err.contains("interrupted-1"), "{}", anew.err);
-    assert!(folder.join("interrupted-1/state.npz").is_file());
+    assert!(folder.join("interrupted-1/checkpoint.npz").is_file());
 }

@@ -1,14 +1,15 @@
-//! `state.npz`: what the solver knew after the last load of an unfinished run that is saved, and where in the run that was.
+//! `checkpoint.npz`: what the solver knew after the last load of an unfinished run that is saved, and where in the run that was.
 //!
-//! It is replaced by the next one at once, and comes before what is read off its step. Writing it takes a small part of
-//! the time between two of them; what is solved in between is solved again by the run that goes on.
+//! It is replaced by the next one at once, and comes before what is read off its step. Writing them takes a small part of
+//! the time of a run with several loads; what is solved in between is solved again by the run that goes on.
 
+use super::layout::COARSER;
 use super::npz::{Archive, values};
 use super::recorded::{self, Unreadable};
 use super::steps_log;
 use super::{OutputError, write_file};
 use crate::run::{Finished, Last, StepRecord};
-use crate::spectral::{Certificate, Report, State, Stop, Unknowns};
+use crate::spectral::{Certificate, Checkpoint, Report, Stop, Unknowns};
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, BufReader};
@@ -18,10 +19,10 @@ use std::time::{Duration, Instant};
 use zip::ZipArchive;
 
 /// Name of the file.
-pub(super) const NAME: &str = "state.npz";
+pub(super) const NAME: &str = "checkpoint.npz";
 /// Entry of the archive that says where it was.
-const PLACE: &str = "state.json";
-/// What is solved between two states takes so many times the time of writing one, at least.
+const PLACE: &str = "place.json";
+/// What is solved between two checkpoints takes so many times the time of writing one, at least.
 const SHARE: u32 = 20;
 
 /// Why a run cannot go on with what stands unfinished in its folder.
@@ -70,34 +71,37 @@ struct Solved {
     grids: usize,
 }
 
-/// Saves the states of a run.
+/// Saves the checkpoints of a run.
 #[derive(Debug)]
-pub(super) struct States {
+pub(super) struct Checkpoints {
     fingerprint: String,
     /// Number of all loads.
     loads: usize,
     /// What the grids so far have brought.
     pub(super) changes: Vec<f64>,
+    /// When the run began.
+    began: Instant,
     /// When the last one was written, and how long that took.
     written: Option<(Instant, Duration)>,
 }
 
-impl States {
+impl Checkpoints {
     /// Of a run with so many loads.
     pub(super) fn new(fingerprint: String, loads: usize) -> Self {
-        Self { fingerprint, loads, changes: Vec::new(), written: None }
+        Self { fingerprint, loads, changes: Vec::new(), began: Instant::now(), written: None }
     }
 
     /// Saves that a finer grid begins.
     pub(super) fn begin_finer(&mut self, folder: &Path, points: [usize; 2]) -> Result<(), OutputError> {
         self.write(folder, Place { points, refined: true, steps: 0, ..self.place() }, None)?;
-        // A log without a state of its grid is that of the grid before: the first step is saved before it is logged.
+        // A log without a checkpoint of its grid is that of the grid before: the first step is saved before it is logged.
         self.written = None;
         Ok(())
     }
 
     /// Saves what the solver knows after the step of this number, from 1, unless the last time was a moment ago; `refined`
-    /// tells whether there is a coarser grid. The last step is always saved.
+    /// tells whether there is a coarser grid. The first and the last step on a grid are always saved, but for a run of one
+    /// load that has just begun.
     pub(super) fn save(
         &mut self,
         folder: &Path,
@@ -106,18 +110,24 @@ impl States {
         steps: usize,
         last: &Last,
     ) -> Result<(), OutputError> {
-        if steps < self.loads && self.written.is_some_and(|(when, took)| when.elapsed() < SHARE * took) {
+        let soon = |(when, took): (Instant, Duration)| when.elapsed() < SHARE * took;
+        // What is gathered at the end needs the last step of several; of one load alone nothing has to be kept.
+        let skipped = match self.written {
+            Some(written) => steps < self.loads && soon(written),
+            None => self.loads == 1 && !refined && soon((self.began, foreseen(last))),
+        };
+        if skipped {
             return Ok(());
         }
-        let Report { stop, route, iterations, outer, .. } = last.state.report;
+        let Report { stop, route, iterations, outer, .. } = last.checkpoint.report;
         let solved = Solved {
             stop: stop.to_string(),
             route: route.name().to_owned(),
             trials: route.trials(),
             iterations,
             outer,
-            coarser: last.state.coarser,
-            grids: last.state.grids.len(),
+            coarser: last.checkpoint.coarser,
+            grids: last.checkpoint.grids.len(),
         };
         self.write(folder, Place { points, refined, steps, solved: Some(solved), ..self.place() }, Some(last))
     }
@@ -135,10 +145,11 @@ impl States {
             let mut archive = Archive::new(writer);
             archive.text(PLACE, &place)?;
             archive.array("changes", &[self.changes.len()], self.changes.iter().copied())?;
-            if let Some(Last { state, seconds }) = last {
-                let numbers = [state.convolutions, state.report.residual, seconds.unwrap_or(f64::NAN)];
+            if let Some(Last { checkpoint, seconds }) = last {
+                let numbers = [checkpoint.convolutions, checkpoint.report.residual, seconds.unwrap_or(f64::NAN)];
                 archive.array("numbers", &[3], numbers)?;
-                for (index, Unknowns { pressure, gap, penetration, certificate }) in state.grids.iter().enumerate() {
+                for (index, Unknowns { pressure, gap, penetration, certificate }) in checkpoint.grids.iter().enumerate()
+                {
                     let Certificate { energy_gap, penetration: deepest, load } = *certificate;
                     archive.array(&format!("proof_{index}"), &[4], [*penetration, energy_gap, deepest, load])?;
                     archive.array(&format!("pressure_{index}"), &[pressure.len()], pressure.iter().copied())?;
@@ -152,8 +163,14 @@ impl States {
     }
 }
 
-/// What an unfinished run has finished where its result is gathered; `None` where no state is saved, as by versions before
-/// 0.2.
+/// How long writing takes, by a disk that is not slow.
+fn foreseen(last: &Last) -> Duration {
+    const BYTES_PER_SECOND: f64 = 1e9;
+    let samples: usize = last.checkpoint.grids.iter().map(|own| own.pressure.len()).sum();
+    Duration::from_secs_f64(16.0 * samples as f64 / BYTES_PER_SECOND)
+}
+
+/// What an unfinished run has finished where its result is gathered; `None` where there is no checkpoint.
 ///
 /// # Errors
 /// [`CannotGoOn`].
@@ -170,24 +187,26 @@ pub fn finished(folder: &Path, fingerprint: &str) -> Result<Option<Finished>, Ca
     }
     let last = place.solved.as_ref().map(|solved| saved.last(solved)).transpose().map_err(failed)?;
     let changes = saved.array("changes").map_err(failed)?;
-    let (own, coarser) = (folder.join(steps_log::NAME), folder.join(super::layout::COARSER).join(steps_log::NAME));
+    let (path, coarser) = (folder.join(steps_log::NAME), folder.join(COARSER).join(steps_log::NAME));
+    let own = if path.is_file() { steps(&path)? } else { Vec::new() };
     // The steps of the grid before move aside after the finer one has been saved as begun.
-    let moved = place.steps > 0 || !own.is_file();
-    let coarser = place.refined.then(|| steps(if moved { &coarser } else { &own })).transpose()?;
-    let mut before = if place.steps > 1 { steps(&own)? } else { Vec::new() };
-    let before_last = place.steps.saturating_sub(1);
-    if before.len() < before_last {
-        let reason = format!("it has {} of {before_last} steps", before.len());
-        return Err(CannotGoOn::Unreadable { path: own, reason });
+    let (mut own, before) = match own.first() {
+        Some(step) if step.points != place.points => (Vec::new(), Some(own)),
+        _ => (own, None),
+    };
+    let coarser = place.refined.then(|| before.map_or_else(|| steps(&coarser), Ok)).transpose()?;
+    let count = place.steps.saturating_sub(1);
+    if own.len() < count {
+        return Err(CannotGoOn::Unreadable { path, reason: format!("it has {} of {count} steps", own.len()) });
     }
-    before.truncate(before_last);
-    Ok(Some(Finished { points: place.points, changes, coarser, steps: before, last }))
+    own.truncate(count);
+    Ok(Some(Finished { points: place.points, changes, coarser, steps: own, last }))
 }
 
 /// The steps of a log.
 fn steps(path: &Path) -> Result<Vec<StepRecord>, CannotGoOn> {
     let failed = |reason: String| CannotGoOn::Unreadable { path: path.to_owned(), reason };
-    let lines = steps_log::lines(path).map_err(|error| failed(error.to_string()))?;
+    let lines = steps_log::whole_lines(path).map_err(|error| failed(error.to_string()))?;
     let step = |line: &String| -> Result<StepRecord, String> {
         let value = serde_json::from_str(line).map_err(|error| error.to_string())?;
         recorded::step(&value).map_err(|error: Unreadable| error.to_string())
@@ -195,7 +214,7 @@ fn steps(path: &Path) -> Result<Vec<StepRecord>, CannotGoOn> {
     lines.iter().map(step).collect::<Result<_, _>>().map_err(failed)
 }
 
-/// A state that is read back.
+/// A checkpoint that is read back.
 struct Saved(ZipArchive<BufReader<File>>);
 
 impl Saved {
@@ -226,8 +245,8 @@ impl Saved {
         let route = recorded::route(&solved.route, solved.trials).ok_or_else(unknown)?;
         let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
         let grids = (0..solved.grids).map(|index| self.unknowns(index)).collect::<io::Result<_>>()?;
-        let state = State { report, convolutions, coarser: solved.coarser, grids };
-        Ok(Last { state, seconds: Some(seconds).filter(|seconds| seconds.is_finite()) })
+        let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids };
+        Ok(Last { checkpoint, seconds: Some(seconds).filter(|seconds| seconds.is_finite()) })
     }
 
     fn unknowns(&mut self, index: usize) -> io::Result<Unknowns> {
