@@ -1,0 +1,239 @@
+//! A key, and the keys of a table.
+
+use super::super::words::joined;
+use super::form::{self, Form};
+
+/// The keys of a table: of the whole case, of a section, or of a table inside one.
+#[derive(Debug)]
+pub(in crate::case) struct Keys {
+    /// Every key, in the order in which they are told.
+    pub(in crate::case) all: &'static [Key],
+    /// Keys that one may look for here, and why they have no place.
+    pub(in crate::case) misplaced: &'static [(&'static str, &'static str)],
+}
+
+/// A key of a table.
+#[derive(Debug)]
+pub(in crate::case) struct Key {
+    /// Its name.
+    pub(in crate::case) name: &'static str,
+    /// What it is.
+    pub(in crate::case) what: &'static str,
+    /// The forms in which its value may be written.
+    pub(in crate::case) forms: &'static [Form],
+    /// What its numbers are measured in.
+    pub(super) unit: Unit,
+    /// What holds where it is not given.
+    pub(in crate::case) absent: Absent,
+    /// A value that it may have, in TOML.
+    pub(in crate::case) example: &'static str,
+    /// What bounds alone do not say: relations to other keys, and others.
+    pub(super) rule: Option<&'static str>,
+    /// Kinds of table that have it, by the text of the table's first key; empty: all. Keys of other kinds exclude it.
+    pub(in crate::case) kinds: &'static [&'static str],
+    /// The other key in whose place it stands.
+    pub(super) instead_of: Option<&'static str>,
+    /// Further keys that it excludes.
+    pub(super) and_of: &'static [&'static str],
+}
+
+/// What holds where a key is not given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::case) enum Absent {
+    /// The table is refused, unless another key stands in its place or its kind does without.
+    Refused,
+    /// This value, in TOML.
+    Value(&'static str),
+    /// What is said.
+    Means(&'static str),
+}
+
+/// What the numbers of a key are measured in. Any consistent units; `[units]` names them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Unit {
+    /// Nothing, or the key has no numbers.
+    Pure,
+    Length,
+    Pressure,
+    /// Of springs.
+    PressurePerLength,
+    /// Of the coefficient of a power law.
+    LengthToOneMinusN,
+}
+
+impl Unit {
+    /// Its name.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Pure => "none",
+            Self::Length => "length, the same in the whole case; units.length names it",
+            Self::Pressure => "pressure, as Young's modulus; units.pressure names it",
+            Self::PressurePerLength => "pressure per length",
+            Self::LengthToOneMinusN => "length to the power 1 − n",
+        }
+    }
+
+    /// What is measured in it, in a word.
+    pub(super) fn quantity(self) -> &'static str {
+        match self {
+            Self::Pure | Self::LengthToOneMinusN => "number",
+            Self::Length => "length",
+            Self::Pressure => "pressure",
+            Self::PressurePerLength => "pressure per length",
+        }
+    }
+}
+
+impl Key {
+    /// A key that must be given.
+    pub(super) const fn new(
+        name: &'static str,
+        what: &'static str,
+        forms: &'static [Form],
+        example: &'static str,
+    ) -> Self {
+        Self {
+            name,
+            what,
+            forms,
+            unit: Unit::Pure,
+            absent: Absent::Refused,
+            example,
+            rule: None,
+            kinds: &[],
+            instead_of: None,
+            and_of: &[],
+        }
+    }
+
+    pub(super) const fn unit(self, unit: Unit) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// The value that it has where it is not given.
+    pub(super) const fn default(self, value: &'static str) -> Self {
+        Self { absent: Absent::Value(value), ..self }
+    }
+
+    /// What holds where it is not given.
+    pub(super) const fn otherwise(self, means: &'static str) -> Self {
+        Self { absent: Absent::Means(means), ..self }
+    }
+
+    pub(super) const fn rule(self, rule: &'static str) -> Self {
+        Self { rule: Some(rule), ..self }
+    }
+
+    pub(super) const fn of(self, kinds: &'static [&'static str]) -> Self {
+        Self { kinds, ..self }
+    }
+
+    pub(super) const fn instead_of(self, other: &'static str) -> Self {
+        Self { instead_of: Some(other), ..self }
+    }
+
+    pub(super) const fn and_of(self, others: &'static [&'static str]) -> Self {
+        Self { and_of: others, ..self }
+    }
+
+    /// Keys of the table, or of each table of the list, that it holds or may hold.
+    pub(in crate::case) fn holds(&self) -> &'static Keys {
+        self.forms.iter().find_map(Form::keys).unwrap_or(&Keys::NONE)
+    }
+
+    /// What it is and what it must be.
+    pub(in crate::case) fn told(&self) -> String {
+        match self.holds().all {
+            [] => format!("{}; {}", self.what, form::told(self.forms)),
+            _ => self.what.to_owned(),
+        }
+    }
+
+    /// As it may stand in a case: a section with its keys, or a line.
+    pub(in crate::case) fn written(&self) -> String {
+        let parsed = format!("{} = {}", self.name, self.example).parse::<toml::Table>();
+        match (self.holds().all, parsed) {
+            ([_, ..], Ok(table)) => toml::to_string(&table).unwrap_or_default().trim_end().to_owned(),
+            _ => format!("{} = {}", self.name, self.example),
+        }
+    }
+
+    /// Which forms its value may have: "integer or [n1, n2]".
+    pub(super) fn kind_of_value(&self) -> String {
+        joined(&self.forms.iter().map(Form::kind).collect::<Vec<_>>(), "or")
+    }
+
+    /// Bounds of its numbers and lists; none where it has neither.
+    pub(super) fn range(&self) -> Option<String> {
+        let mut ranges: Vec<String> = Vec::new();
+        for range in self.forms.iter().flat_map(Form::ranges) {
+            if !ranges.contains(&range) {
+                ranges.push(range);
+            }
+        }
+        (!ranges.is_empty()).then(|| ranges.join("; "))
+    }
+
+    /// Whether it has numbers, beside those in tables.
+    pub(super) fn has_numbers(&self) -> bool {
+        self.forms.iter().any(Form::has_numbers)
+    }
+
+    /// What kind of value it has, in a few words: "length > 0".
+    pub(super) fn value(&self) -> String {
+        let forms: Vec<String> = self.forms.iter().map(|form| form.short(self.unit.quantity())).collect();
+        joined(&forms, "or")
+    }
+
+    pub(super) fn excludes(&self, other: &Self) -> bool {
+        let kinds = !self.kinds.is_empty() && !other.kinds.is_empty() && self.kinds != other.kinds;
+        let one = |a: &Self, b: &Self| a.instead_of == Some(b.name) || a.and_of.contains(&b.name);
+        kinds || one(self, other) || one(other, self)
+    }
+}
+
+impl Keys {
+    pub(super) const NONE: Self = Self::new(&[]);
+
+    pub(super) const fn new(all: &'static [Key]) -> Self {
+        Self { all, misplaced: &[] }
+    }
+
+    /// A key by its name.
+    pub(in crate::case) fn get(&self, name: &str) -> Option<&'static Key> {
+        self.all.iter().find(|key| key.name == name)
+    }
+
+    /// The keys of the tables inside one of its keys; none for a key it does not know.
+    pub(in crate::case) fn within(&self, name: &str) -> &'static Self {
+        self.get(name).map_or(&Self::NONE, Key::holds)
+    }
+
+    /// Keys that cannot stand beside this one in the table.
+    pub(in crate::case) fn excluded(&self, name: &str) -> Vec<&'static str> {
+        let Some(key) = self.get(name) else { return Vec::new() };
+        self.all.iter().filter(|other| key.excludes(other)).map(|other| other.name).collect()
+    }
+
+    /// The keys that a table needs, where one of several is needed the first; all of a table that needs none.
+    pub(super) fn shown(&self) -> impl Iterator<Item = &'static Key> {
+        let needs = self.all.iter().any(|key| key.absent == Absent::Refused);
+        let mut shown: Vec<&'static Key> = Vec::new();
+        for key in self.all {
+            if (!needs || key.absent == Absent::Refused) && !shown.iter().any(|before| before.excludes(key)) {
+                shown.push(key);
+            }
+        }
+        shown.into_iter()
+    }
+
+    /// This table and all inside it, each with its path.
+    pub(in crate::case) fn tables(&'static self, path: &str) -> Vec<(String, &'static Self)> {
+        let inside = self.all.iter().flat_map(|key| match path {
+            _ if key.holds().all.is_empty() => Vec::new(),
+            "" => key.holds().tables(key.name),
+            _ => key.holds().tables(&format!("{path}.{}", key.name)),
+        });
+        std::iter::once((path.to_owned(), self)).chain(inside).collect()
+    }
+}
