@@ -282,7 +282,8 @@ impl<'a> ValueAt<'a> {
     /// The items of a list, no fewer and no more than the key admits.
     pub(super) fn list(&self) -> Result<Vec<ValueAt<'a>>, Refusal> {
         let form = self.forms.iter().find(|form| matches!(form, Form::List { .. }));
-        let (Value::List(items), Some(form @ Form::List { of, count: [least, most] })) = (&self.node.value, form) else {
+        let (Value::List(items), Some(form @ Form::List { of, count: [least, most] })) = (&self.node.value, form)
+        else {
             return Err(self.refuse_with_example());
         };
         if items.len() < *least {
@@ -329,6 +330,8 @@ impl<'a> ValueAt<'a> {
     }
 
     fn sections(&self) -> Option<(&'static Keys, usize)> {
-        self.forms.iter().find_map(|form| if let Form::Sections(keys, most) = form { Some((*keys, *most)) } else { None })
+        self.forms
+            .iter()
+            .find_map(|form| if let Form::Sections(keys, most) = form { Some((*keys, *most)) } else { None })
     }
 }

@@ -60,9 +60,14 @@ pub(super) static LAYER: Keys = Keys::new(&[
 
 static GRADED: Keys = Keys::new(&[
     Key::new("shear_ratio", "χ at the upper and the lower face", &[Form::Tuple(ENDS, &[SIZE; 2])], "[2.0, 1.0]"),
-    Key::new("young", "Young's modulus at the upper and the lower face", &[Form::Tuple(ENDS, &[SIZE; 2])], "[4.0, 1.0]")
-        .unit(Unit::Pressure)
-        .instead_of("shear_ratio"),
+    Key::new(
+        "young",
+        "Young's modulus at the upper and the lower face",
+        &[Form::Tuple(ENDS, &[SIZE; 2])],
+        "[4.0, 1.0]",
+    )
+    .unit(Unit::Pressure)
+    .instead_of("shear_ratio"),
     Key::new(
         "poisson",
         "Poisson's ratio at the upper and the lower face, linear between them",

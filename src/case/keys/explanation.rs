@@ -28,6 +28,8 @@ pub struct Explanation {
     pub rule: Option<String>,
     /// Kinds of table that have it, by the text of the table's first key; empty: all.
     pub kinds: Vec<String>,
+    /// Keys that may stand in its place.
+    pub instead: Vec<String>,
     /// Keys that cannot stand beside it.
     pub excludes: Vec<String>,
     /// Lines of a case that have it.
@@ -77,21 +79,15 @@ fn parts(asked: &str) -> Vec<&str> {
 
 fn unknown(asked: &str, parts: &[&str], all: &[At]) -> UnknownKey {
     let word = parts.last().copied().unwrap_or_default();
-    // Where the section is known, the key is misspelt, else either of both.
     let within = &parts[..parts.len().saturating_sub(1)];
     let home = |at: &&At| at.path.split('.').collect::<Vec<_>>().split_last().is_some_and(|(_, of)| of == within);
     let inside: Vec<&str> = all.iter().filter(home).map(|at| at.key.name).collect();
     let names: Vec<&str> = all.iter().map(|at| at.key.name).collect();
-    let of = |name: &str| all.iter().filter(|at| at.key.name == name).map(|at| at.path.clone()).collect::<Vec<_>>();
-    let joined = parts.join(".");
-    let paths: Vec<&str> = all.iter().map(|at| &at.path[..]).collect();
+    let of = |name: &str| all.iter().filter(|at| at.key.name == name).map(|at| at.path.clone()).collect();
+    // Where the section is known, the key is misspelt, else either of both.
     let near = match nearest(word, &inside).filter(|_| !within.is_empty()) {
         Some((name, _)) => vec![format!("{}.{name}", within.join("."))],
-        None if within.is_empty() => nearest(word, &names).map_or(Vec::new(), |(name, _)| of(name)),
-        None => match names.contains(&word) {
-            true => of(word),
-            false => nearest(&joined, &paths).map_or(Vec::new(), |(path, _)| vec![path.to_owned()]),
-        },
+        None => nearest(word, &names).map_or(Vec::new(), |(name, _)| of(name)),
     };
     UnknownKey { asked: asked.to_owned(), near }
 }
@@ -136,6 +132,7 @@ impl At {
             },
             rule: key.rule.map(str::to_owned),
             kinds: own(key.kinds),
+            instead: own(&table.instead(key.name)),
             excludes: own(&table.excluded(key.name)),
             example: self.example(),
             set: self.set(),
@@ -150,6 +147,10 @@ impl At {
             true => format!("[[{name}]]"),
             false => format!("[{name}]"),
         };
+        if let ([Form::Table(_)], false) = (self.key.forms, is_list(section)) {
+            let own = self.key.written();
+            return own.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
+        }
         let kind = self.key.kinds.first().map(|kind| format!("{} = \"{kind}\"\n", self.table.all[0].name));
         format!("{}\n{}{rest} = {}", brackets(section), kind.unwrap_or_default(), self.key.example)
     }

@@ -89,6 +89,20 @@ impl Form {
         }
     }
 
+    /// The same of items in brackets with what they are: "[upper, lower] of pressures > 0".
+    pub(super) fn with_items(&self, quantity: &str) -> String {
+        let own = self.short(quantity);
+        match self {
+            Self::Tuple(_, [Self::Number(range), rest @ ..])
+                if rest.iter().all(|form| form.ranges() == [range.full()]) =>
+            {
+                let items = format!("{quantity}s {}", range.short());
+                if items == "numbers " { own } else { format!("{own} of {}", items.trim_end()) }
+            }
+            _ => own,
+        }
+    }
+
     /// Which type it is.
     pub(super) fn kind(&self) -> String {
         match self {
@@ -116,9 +130,7 @@ impl Form {
                 names.zip(each).map(|(name, range)| format!("{name}: {range}")).collect()
             }
             Self::List { of, count: [0, most] } => [of.ranges(), vec![format!("at most {most} items")]].concat(),
-            Self::List { of, count: [least, most] } => {
-                [of.ranges(), vec![format!("{least} to {most} items")]].concat()
-            }
+            Self::List { of, count: [least, most] } => [of.ranges(), vec![format!("{least} to {most} items")]].concat(),
             Self::Sections(_, most) => vec![format!("at most {most}")],
             Self::Boolean | Self::Word(_) | Self::Text(_) | Self::Table(_) => Vec::new(),
         }

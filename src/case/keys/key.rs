@@ -151,16 +151,25 @@ impl Key {
 
     /// As it may stand in a case: a section with its keys, or a line.
     pub(in crate::case) fn written(&self) -> String {
-        let parsed = format!("{} = {}", self.name, self.example).parse::<toml::Table>();
-        match (self.holds().all, parsed) {
-            ([_, ..], Ok(table)) => toml::to_string(&table).unwrap_or_default().trim_end().to_owned(),
-            _ => format!("{} = {}", self.name, self.example),
+        let line = format!("{} = {}", self.name, self.example);
+        let parsed = line.parse::<toml::Table>().ok().and_then(|mut table| table.remove(self.name));
+        let keys = |table: &toml::Table| {
+            let held = self.holds().all.iter().filter_map(|key| Some((key.name, table.get(key.name)?)));
+            held.map(|(name, value)| format!("\n{name} = {value}")).collect::<String>()
+        };
+        match (self.forms, &parsed) {
+            ([Form::Table(_)], Some(toml::Value::Table(table))) => format!("[{}]{}", self.name, keys(table)),
+            ([Form::Sections(..)], Some(toml::Value::Array(items))) => {
+                let tables = items.iter().filter_map(toml::Value::as_table);
+                tables.map(|table| format!("[[{}]]{}", self.name, keys(table))).collect::<Vec<_>>().join("\n")
+            }
+            _ => line,
         }
     }
 
     /// Which forms its value may have: "integer or [n1, n2]".
     pub(super) fn kind_of_value(&self) -> String {
-        joined(&self.forms.iter().map(Form::kind).collect::<Vec<_>>(), "or")
+        self.forms_as(Form::kind)
     }
 
     /// Bounds of its numbers and lists; none where it has neither.
@@ -181,8 +190,21 @@ impl Key {
 
     /// What kind of value it has, in a few words: "length > 0".
     pub(super) fn value(&self) -> String {
-        let forms: Vec<String> = self.forms.iter().map(|form| form.short(self.unit.quantity())).collect();
-        joined(&forms, "or")
+        let quantity = self.unit.quantity();
+        if let [form @ Form::Tuple(..)] = self.forms {
+            return form.with_items(quantity);
+        }
+        self.forms_as(|form| form.short(quantity))
+    }
+
+    /// Its forms, the words among them one by one.
+    fn forms_as(&self, told: impl Fn(&Form) -> String) -> String {
+        let forms = self.forms.iter().flat_map(|form| match form {
+            Form::Boolean => vec!["true".to_owned(), "false".to_owned()],
+            Form::Word(words) => words.iter().map(|word| format!("\"{word}\"")).collect(),
+            form => vec![told(form)],
+        });
+        joined(&forms.collect::<Vec<_>>(), "or")
     }
 
     pub(super) fn excludes(&self, other: &Self) -> bool {
@@ -213,6 +235,20 @@ impl Keys {
     pub(in crate::case) fn excluded(&self, name: &str) -> Vec<&'static str> {
         let Some(key) = self.get(name) else { return Vec::new() };
         self.all.iter().filter(|other| key.excludes(other)).map(|other| other.name).collect()
+    }
+
+    /// Keys one of which stands in the place of this one; where none of them does, it is needed.
+    pub(in crate::case) fn instead(&self, name: &str) -> Vec<&'static str> {
+        let root = |mut key: &'static Key| {
+            while let Some(other) = key.instead_of.and_then(|other| self.get(other)) {
+                key = other;
+            }
+            key.name
+        };
+        let Some(key) = self.get(name).filter(|key| key.kinds.is_empty()) else { return Vec::new() };
+        let is = |other: &&Key| other.excludes(key);
+        let stands = |other: &&'static Key| root(other) == root(key) || other.and_of.contains(&key.name);
+        self.all.iter().filter(is).filter(stands).map(|other| other.name).collect()
     }
 
     /// The keys that a table needs, where one of several is needed the first; all of a table that needs none.

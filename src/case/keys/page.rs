@@ -30,9 +30,8 @@ impl fmt::Display for Explanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&wrapped(&format!("{}: {}", self.path, self.what), 2))?;
         f.write_str("\n")?;
-        let line = |f: &mut fmt::Formatter<'_>, name: &str, text: &str| {
-            f.write_str(&entry(&format!("  {name}"), 12, text))
-        };
+        let line =
+            |f: &mut fmt::Formatter<'_>, name: &str, text: &str| f.write_str(&entry(&format!("  {name}"), 12, text));
         line(f, "type", &self.forms)?;
         if let Some(range) = &self.range {
             line(f, "range", range)?;
@@ -53,8 +52,10 @@ impl fmt::Display for Explanation {
         for (index, text) in self.example.lines().enumerate() {
             writeln!(f, "{:<12}{text}", if index == 0 { "  example" } else { "" })?;
         }
-        if let Some(set) = &self.set {
-            writeln!(f, "{:<12}--set {set}", "  or")?;
+        if let Some(line) = self.set.as_ref().map(|set| format!("{:<12}--set {set}", "  or"))
+            && line.chars().count() <= WIDTH
+        {
+            writeln!(f, "{line}")?;
         }
         if self.keys.is_empty() {
             return Ok(());
@@ -79,8 +80,8 @@ impl Explanation {
         match &self.default {
             Some(default) => default.clone(),
             None if !self.kinds.is_empty() => "none, it must be given".to_owned(),
-            None if self.excludes.is_empty() => "none, it must be given".to_owned(),
-            None => format!("none, it or {} must be given", joined(&self.excludes, "or")),
+            None if self.instead.is_empty() => "none, it must be given".to_owned(),
+            None => format!("none, it or {} must be given", joined(&self.instead, "or")),
         }
     }
 
@@ -89,8 +90,8 @@ impl Explanation {
         match &self.default {
             Some(default) => format!("default: {default}"),
             None if !self.kinds.is_empty() => format!("required for {}", joined(&self.kinds, "and")),
-            None if self.excludes.is_empty() => "required".to_owned(),
-            None => format!("required, or {}", joined(&self.excludes, "or")),
+            None if self.instead.is_empty() => "required".to_owned(),
+            None => format!("required, or {}", joined(&self.instead, "or")),
         }
     }
 }

@@ -123,11 +123,9 @@ impl Range {
         match self.bounds() {
             _ if self == Self::Factor => "≠ 0".to_owned(),
             (Bound::Included(low), Bound::Included(high)) => format!("{} to {}", plain(low), plain(high)),
-            (low, high) => [bound(low, "≥", ">"), bound(high, "≤", "<")]
-                .into_iter()
-                .flatten()
-                .collect::<Vec<_>>()
-                .join(", "),
+            (low, high) => {
+                [bound(low, "≥", ">"), bound(high, "≤", "<")].into_iter().flatten().collect::<Vec<_>>().join(", ")
+            }
         }
     }
 }

@@ -95,12 +95,7 @@ pub(super) static SOLVER: Keys = Keys::new(&[
 ]);
 
 pub(super) static FRICTION: Keys = Keys::new(&[
-    Key::new(
-        "coefficient",
-        "μ: the body feels the traction μp",
-        &[Form::Number(Range::between(0.0, 100.0))],
-        "0.3",
-    ),
+    Key::new("coefficient", "μ: the body feels the traction μp", &[Form::Number(Range::between(0.0, 100.0))], "0.3"),
     Key::new(
         "direction",
         "in which the indenters slide, of any length",

@@ -26,8 +26,12 @@ pub fn schema() -> Value {
 fn table(keys: &'static Keys) -> Value {
     let properties: Map<String, Value> = keys.all.iter().map(|key| (key.name.to_owned(), property(key))).collect();
     let mut table = json!({ "type": "object", "additionalProperties": false, "properties": properties });
-    let required: Vec<&str> =
-        keys.all.iter().filter(|key| is_required(key) && rivals(keys, key).is_empty()).map(|key| key.name).collect();
+    let required: Vec<&str> = keys
+        .all
+        .iter()
+        .filter(|key| is_required(key) && keys.instead(key.name).is_empty())
+        .map(|key| key.name)
+        .collect();
     if !required.is_empty() {
         table["required"] = required.into();
     }
@@ -89,9 +93,7 @@ fn form(form: &Form) -> Value {
 fn number(range: Range) -> Value {
     let mut number = json!({ "type": "number" });
     let (low, high) = range.outer();
-    for (bound, included, excluded) in
-        [(low, "minimum", "exclusiveMinimum"), (high, "maximum", "exclusiveMaximum")]
-    {
+    for (bound, included, excluded) in [(low, "minimum", "exclusiveMinimum"), (high, "maximum", "exclusiveMaximum")] {
         match bound {
             Bound::Included(x) => number[included] = x.into(),
             Bound::Excluded(x) => number[excluded] = x.into(),
@@ -105,12 +107,12 @@ fn number(range: Range) -> Value {
 fn exclusions(keys: &'static Keys) -> Vec<Value> {
     let mut rules = Vec::new();
     for (index, key) in keys.all.iter().enumerate() {
-        let rivals = rivals(keys, key);
-        let later = keys.all[index + 1..].iter().filter(|other| rivals.contains(&other.name));
+        let later = keys.all[index + 1..].iter().filter(|other| key.kinds.is_empty() && key.excludes(other));
         rules.extend(later.map(|other| json!({ "not": { "required": [key.name, other.name] } })));
-        if is_required(key) && !rivals.is_empty() {
+        let others = keys.instead(key.name);
+        if is_required(key) && !others.is_empty() {
             let one: Vec<Value> =
-                std::iter::once(key.name).chain(rivals).map(|name| json!({ "required": [name] })).collect();
+                std::iter::once(key.name).chain(others).map(|name| json!({ "required": [name] })).collect();
             rules.push(json!({ "anyOf": one }));
         }
     }
@@ -137,11 +139,6 @@ fn kinds(keys: &'static Keys) -> Vec<Value> {
 /// Whether every table needs it, or a rival.
 fn is_required(key: &Key) -> bool {
     key.absent == Absent::Refused && key.kinds.is_empty()
-}
-
-/// Keys that exclude it in tables of every kind.
-fn rivals(keys: &'static Keys, key: &Key) -> Vec<&'static str> {
-    if key.kinds.is_empty() { keys.excluded(key.name) } else { Vec::new() }
 }
 
 /// A value of the table, in TOML, as JSON.

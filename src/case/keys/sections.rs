@@ -52,7 +52,7 @@ pub(in crate::case) static CASE: Keys = Keys::new(&[
         "solver",
         "how the contact problem is solved, and how far",
         &[Form::Table(&SOLVER)],
-        "{ tolerance = 1e-10 }",
+        "{ method = \"polonsky-keer\" }",
     )
     .otherwise("its defaults"),
     Key::new("friction", "the indenters slide", &[Form::Table(&FRICTION)], "{ coefficient = 0.3 }")

@@ -29,7 +29,7 @@ pub(super) static STRESS: Keys = Keys::new(&[
     .otherwise("no cut"),
     Key::new(
         "points",
-        "single points, z into the body",
+        "single points, z ≥ 0 into the body",
         &[Form::List { of: &Form::Tuple("a point [x, y, z]", &[PLACE, PLACE, SIZE_OR_ZERO]), count: [0, 100_000] }],
         "[[0.0, 0.0, 0.1]]",
     )
@@ -88,11 +88,6 @@ pub(super) static LOCALIZED: Keys = Keys::new(&[
         "\"area-balanced\"",
     )
     .default("\"load-balanced\""),
-    Key::new(
-        "mutual_effect",
-        "whether the indenters around the one looked at act on it",
-        &[Form::Boolean],
-        "false",
-    )
-    .default("true"),
+    Key::new("mutual_effect", "whether the indenters around the one looked at act on it", &[Form::Boolean], "false")
+        .default("true"),
 ]);

@@ -17,8 +17,8 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::grid;
-use super::lattice::{LatticeSection, build_cell};
 use super::keys::CARRIED;
+use super::lattice::{LatticeSection, build_cell};
 use super::node::Value;
 use super::reader::{TableAt, ValueAt};
 use crate::counterbody::Topography;

@@ -40,13 +40,14 @@ impl Bases {
         let npy = [b"\x93NUMPY\x01\0", &[head.len() as u8, 0][..], head, &values].concat();
         std::fs::write(folder.path().join("surface.npy"), npy).unwrap();
         let linear = RICH.replace("\"log\"", "\"linear\"");
-        let plain = "lattice = { kind = \"hexagonal\", period = 1.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
+        let plain =
+            "lattice = { kind = \"hexagonal\", period = 1.0 }\nlevels = [{ shape = \"paraboloid\", radius = 1.0 }]\n";
         let layer = |own: &str| format!("layers = [{{ thickness = 1.0, {own} }}]\n");
         let graded = layer("graded = { shear_ratio = [2, 1], poisson = [0.2, 0.3], sublayers = 5 }");
         let uniform = layer("shear_ratio = 2.0, poisson = 0.2");
         let spectrum = "hurst = 0.5, shortest = 0.3, longest = 1.0, rolloff = 0.6, rms_slope = 0.2";
         let texts = [
-            format!("{plain}{BODY}{uniform}"),
+            format!("{plain}{BODY}{uniform}friction = {{ coefficient = 0.1 }}\n"),
             linear.clone(),
             linear.replace("mean_pressure =", "penetration ="),
             format!("{plain}{BODY}{graded}"),
@@ -88,9 +89,10 @@ impl Bases {
 /// The way to a table that fits.
 fn steps(value: &Value, parts: &[&str], fits: &impl Fn(&Table) -> bool) -> Option<Vec<String>> {
     match (value, parts) {
-        (Value::Array(items), _) => items.iter().enumerate().find_map(|(index, item)| {
-            Some([vec![index.to_string()], steps(item, parts, fits)?].concat())
-        }),
+        (Value::Array(items), _) => items
+            .iter()
+            .enumerate()
+            .find_map(|(index, item)| Some([vec![index.to_string()], steps(item, parts, fits)?].concat())),
         (Value::Table(table), []) => fits(table).then(Vec::new),
         (Value::Table(table), [part, rest @ ..]) => {
             Some([vec![(*part).to_owned()], steps(table.get(*part)?, rest, fits)?].concat())

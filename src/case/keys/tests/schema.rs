@@ -66,13 +66,15 @@ fn follows(word: &str, rule: &Value, rules: &Map<String, Value>, value: &Value) 
             Value::Array(each) => own.iter().zip(each).all(|(item, rule)| valid(rule, item)),
             rule => own.iter().all(|item| valid(rule, item)),
         }),
-        "properties" => value.as_object().is_none_or(|own| {
-            own.iter().all(|(key, value)| rule.get(key).is_none_or(|rule| valid(rule, value)))
-        }),
-        "additionalProperties" => value.as_object().is_none_or(|own| {
-            own.keys().all(|key| rules["properties"].get(key).is_some())
-        }),
-        "required" => value.as_object().is_none_or(|own| all().iter().all(|key| own.contains_key(key.as_str().unwrap()))),
+        "properties" => value
+            .as_object()
+            .is_none_or(|own| own.iter().all(|(key, value)| rule.get(key).is_none_or(|rule| valid(rule, value)))),
+        "additionalProperties" => {
+            value.as_object().is_none_or(|own| own.keys().all(|key| rules["properties"].get(key).is_some()))
+        }
+        "required" => {
+            value.as_object().is_none_or(|own| all().iter().all(|key| own.contains_key(key.as_str().unwrap())))
+        }
         "allOf" => all().iter().all(|rule| valid(rule, value)),
         "anyOf" => all().iter().any(|rule| valid(rule, value)),
         "not" => !valid(rule, value),
