@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::keys::LAYERS;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::body::{Material, MaterialError};
 
 /// How a layer is graded.

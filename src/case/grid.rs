@@ -2,7 +2,8 @@
 
 use super::error::Refusal;
 use super::node::Value;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::numeric::fourier::has_fast_factors;
 use crate::run::Sampling;
 

@@ -6,7 +6,8 @@ use serde::{Serialize, Serializer};
 use super::error::Refusal;
 use super::grading::{self, Grading};
 use super::node::Value;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Strength};
 
 /// One section of `[[layers]]`, from the surface down.

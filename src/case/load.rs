@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::node::Value;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::load::Load;
 
 /// The section `[load]`: what is prescribed, one value a load step.

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::localized::CircleRadius;
 
 /// The section `[localized]`.

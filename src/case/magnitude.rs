@@ -8,7 +8,8 @@ use std::ops::RangeInclusive;
 use super::error::Refusal;
 use super::keys::CARRIED;
 use super::node::plain;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::body::{HalfSpace, Interface};
 use crate::counterbody::Level;
 use crate::lattice::Cell;
@@ -88,7 +89,7 @@ pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -
             let what =
                 format!("at the distance {} of the cell's side the profile rises by {}", plain(reach), plain(rise));
             return Err(Refusal::new(section.place, format!("`{}`: {what}", section.path("shape")), "this level")
-                .help(format!("between 1e-60 and 1e60 is carried by double precision; choose other units")));
+                .help("between 1e-60 and 1e60 is carried by double precision; choose other units"));
         }
     }
     Ok(())

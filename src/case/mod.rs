@@ -42,6 +42,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod units;
+mod value;
 mod words;
 
 pub use error::CaseError;

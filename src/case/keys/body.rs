@@ -1,8 +1,8 @@
 //! `[[layers]]` and `[substrate]`: the body.
 
-use super::form::Form;
-use super::key::{Key, Keys, Unit};
+use super::key::{Form, Key, Keys};
 use super::range::Range;
+use super::unit::Unit;
 
 /// Most layers a case can have, sublayers counted.
 pub(in crate::case) const LAYERS: usize = 200;

@@ -1,8 +1,8 @@
 //! `[lattice]`, `[[levels]]` and `[surface]`: what is pressed into the body.
 
-use super::form::Form;
-use super::key::{Key, Keys, Unit};
+use super::key::{Form, Key, Keys};
 use super::range::Range;
+use super::unit::Unit;
 
 const SIZE: Form = Form::Number(Range::Size);
 const PLACE: Form = Form::Number(Range::Place);

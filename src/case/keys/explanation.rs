@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use super::super::words::{alternatives, nearest};
-use super::form::Form;
-use super::key::{Absent, Key, Keys};
+use super::key::{Absent, Form, Key, Keys};
 use super::sections::CASE;
 
 /// All that is to be said of a key. It prints itself, in lines of at most 80 letters.

@@ -1,48 +1,9 @@
-//! The forms in which a value may be written: a number, one of a few words, a list, a table.
+//! What the forms of a value are called, in errors, in the README and by `percoat explain`.
 
 use super::super::words::{alternatives, joined};
-use super::key::Keys;
-use super::range::Range;
-
-/// A form of a value.
-#[derive(Debug, Clone, Copy)]
-pub(in crate::case) enum Form {
-    /// A number; integers count as numbers.
-    Number(Range),
-    /// An integer between two, both of them included.
-    Integer(usize, usize),
-    /// True or false.
-    Boolean,
-    /// One of a few words.
-    Word(&'static [&'static str]),
-    /// Any text; what it is, such as "the path of a file".
-    Text(&'static str),
-    /// A name; what it is, and of how many letters at most.
-    Name(&'static str, usize),
-    /// So many items in brackets, which is called such as "a vector [x, y]".
-    Tuple(&'static str, &'static [Form]),
-    /// A list.
-    List {
-        /// The form of each item.
-        of: &'static Form,
-        /// Fewest and most items.
-        count: [usize; 2],
-    },
-    /// A table with these keys.
-    Table(&'static Keys),
-    /// Sections of one name, at most so many, each with these keys.
-    Sections(&'static Keys, usize),
-}
+use super::key::Form;
 
 impl Form {
-    /// The keys of the tables in it; none where it has no table.
-    pub(super) fn keys(&self) -> Option<&'static Keys> {
-        match self {
-            Self::Table(keys) | Self::Sections(keys, _) => Some(keys),
-            _ => None,
-        }
-    }
-
     /// What a value must be, for "must be …".
     pub(in crate::case) fn told(&self) -> String {
         match self {
@@ -166,7 +127,17 @@ impl Form {
 
 /// What a value of any of some forms must be.
 pub(in crate::case) fn told(forms: &[Form]) -> String {
-    joined(&forms.iter().map(Form::told).collect::<Vec<_>>(), "or")
+    forms_as(forms, Form::told)
+}
+
+/// Some forms, the words among them one by one.
+pub(super) fn forms_as(forms: &[Form], told: impl Fn(&Form) -> String) -> String {
+    let forms = forms.iter().flat_map(|form| match form {
+        Form::Boolean => vec!["true".to_owned(), "false".to_owned()],
+        Form::Word(words) => words.iter().map(|word| format!("\"{word}\"")).collect(),
+        form => vec![told(form)],
+    });
+    joined(&forms.collect::<Vec<_>>(), "or")
 }
 
 fn counted(count: usize) -> String {

@@ -1,7 +1,7 @@
-//! A key, and the keys of a table.
+//! A key, the forms of its value, and the keys of a table.
 
-use super::super::words::joined;
-use super::form::{self, Form};
+use super::range::Range;
+use super::unit::Unit;
 
 /// The keys of a table: of the whole case, of a section, or of a table inside one.
 #[derive(Debug)]
@@ -48,38 +48,42 @@ pub(in crate::case) enum Absent {
     Means(&'static str),
 }
 
-/// What the numbers of a key are measured in. Any consistent units; `[units]` names them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Unit {
-    /// Nothing, or the key has no numbers.
-    Pure,
-    Length,
-    Pressure,
-    /// Of springs.
-    PressurePerLength,
-    /// Of the coefficient of a power law.
-    LengthToOneMinusN,
+/// A form of a value.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::case) enum Form {
+    /// A number; integers count as numbers.
+    Number(Range),
+    /// An integer between two, both of them included.
+    Integer(usize, usize),
+    /// True or false.
+    Boolean,
+    /// One of a few words.
+    Word(&'static [&'static str]),
+    /// Any text; what it is, such as "the path of a file".
+    Text(&'static str),
+    /// A name; what it is, and of how many letters at most.
+    Name(&'static str, usize),
+    /// So many items in brackets, which is called such as "a vector [x, y]".
+    Tuple(&'static str, &'static [Form]),
+    /// A list.
+    List {
+        /// The form of each item.
+        of: &'static Form,
+        /// Fewest and most items.
+        count: [usize; 2],
+    },
+    /// A table with these keys.
+    Table(&'static Keys),
+    /// Sections of one name, at most so many, each with these keys.
+    Sections(&'static Keys, usize),
 }
 
-impl Unit {
-    /// Its name.
-    pub(super) fn name(self) -> &'static str {
+impl Form {
+    /// The keys of the tables in it; none where it has no table.
+    pub(super) fn keys(&self) -> Option<&'static Keys> {
         match self {
-            Self::Pure => "none",
-            Self::Length => "length, the same in the whole case; units.length names it",
-            Self::Pressure => "pressure, as Young's modulus; units.pressure names it",
-            Self::PressurePerLength => "pressure per length",
-            Self::LengthToOneMinusN => "length to the power 1 − n",
-        }
-    }
-
-    /// What is measured in it, in a word.
-    pub(super) fn quantity(self) -> &'static str {
-        match self {
-            Self::Pure | Self::LengthToOneMinusN => "number",
-            Self::Length => "length",
-            Self::Pressure => "pressure",
-            Self::PressurePerLength => "pressure per length",
+            Self::Table(keys) | Self::Sections(keys, _) => Some(keys),
+            _ => None,
         }
     }
 }
@@ -139,72 +143,6 @@ impl Key {
     /// Keys of the table, or of each table of the list, that it holds or may hold.
     pub(in crate::case) fn holds(&self) -> &'static Keys {
         self.forms.iter().find_map(Form::keys).unwrap_or(&Keys::NONE)
-    }
-
-    /// What it is and what it must be.
-    pub(in crate::case) fn told(&self) -> String {
-        match self.holds().all {
-            [] => format!("{}; {}", self.what, form::told(self.forms)),
-            _ => self.what.to_owned(),
-        }
-    }
-
-    /// As it may stand in a case: a section with its keys, or a line.
-    pub(in crate::case) fn written(&self) -> String {
-        let line = format!("{} = {}", self.name, self.example);
-        let parsed = line.parse::<toml::Table>().ok().and_then(|mut table| table.remove(self.name));
-        let keys = |table: &toml::Table| {
-            let held = self.holds().all.iter().filter_map(|key| Some((key.name, table.get(key.name)?)));
-            held.map(|(name, value)| format!("\n{name} = {value}")).collect::<String>()
-        };
-        match (self.forms, &parsed) {
-            ([Form::Table(_)], Some(toml::Value::Table(table))) => format!("[{}]{}", self.name, keys(table)),
-            ([Form::Sections(..)], Some(toml::Value::Array(items))) => {
-                let tables = items.iter().filter_map(toml::Value::as_table);
-                tables.map(|table| format!("[[{}]]{}", self.name, keys(table))).collect::<Vec<_>>().join("\n")
-            }
-            _ => line,
-        }
-    }
-
-    /// Which forms its value may have: "integer or [n1, n2]".
-    pub(super) fn kind_of_value(&self) -> String {
-        self.forms_as(Form::kind)
-    }
-
-    /// Bounds of its numbers and lists; none where it has neither.
-    pub(super) fn range(&self) -> Option<String> {
-        let mut ranges: Vec<String> = Vec::new();
-        for range in self.forms.iter().flat_map(Form::ranges) {
-            if !ranges.contains(&range) {
-                ranges.push(range);
-            }
-        }
-        (!ranges.is_empty()).then(|| ranges.join("; "))
-    }
-
-    /// Whether it has numbers, beside those in tables.
-    pub(super) fn has_numbers(&self) -> bool {
-        self.forms.iter().any(Form::has_numbers)
-    }
-
-    /// What kind of value it has, in a few words: "length > 0".
-    pub(super) fn value(&self) -> String {
-        let quantity = self.unit.quantity();
-        if let [form @ Form::Tuple(..)] = self.forms {
-            return form.with_items(quantity);
-        }
-        self.forms_as(|form| form.short(quantity))
-    }
-
-    /// Its forms, the words among them one by one.
-    fn forms_as(&self, told: impl Fn(&Form) -> String) -> String {
-        let forms = self.forms.iter().flat_map(|form| match form {
-            Form::Boolean => vec!["true".to_owned(), "false".to_owned()],
-            Form::Word(words) => words.iter().map(|word| format!("\"{word}\"")).collect(),
-            form => vec![told(form)],
-        });
-        joined(&forms.collect::<Vec<_>>(), "or")
     }
 
     pub(super) fn excludes(&self, other: &Self) -> bool {

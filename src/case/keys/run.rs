@@ -2,9 +2,9 @@
 
 use std::ops::Bound;
 
-use super::form::Form;
-use super::key::{Key, Keys, Unit};
+use super::key::{Form, Key, Keys};
 use super::range::Range;
+use super::unit::Unit;
 
 /// Most load steps a case can have.
 const STEPS: usize = 10_000;

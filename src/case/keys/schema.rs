@@ -7,8 +7,7 @@ use std::ops::Bound;
 
 use serde_json::{Map, Value, json};
 
-use super::form::Form;
-use super::key::{Absent, Key, Keys};
+use super::key::{Absent, Form, Key, Keys};
 use super::range::Range;
 use super::sections::CASE;
 

@@ -2,8 +2,7 @@
 
 use super::body::{LAYER, LAYERS, SUBSTRATE};
 use super::counterbody::{LATTICE, LEVELS, SURFACE};
-use super::form::Form;
-use super::key::{Key, Keys};
+use super::key::{Form, Key, Keys};
 use super::run::{FRICTION, GRID, LOAD, SOLVER, UNITS};
 use super::stress::{LOCALIZED, STRESS};
 

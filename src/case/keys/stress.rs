@@ -1,8 +1,8 @@
 //! `[stress]` and `[localized]`: what is wanted beside the contact.
 
-use super::form::Form;
-use super::key::{Key, Keys, Unit};
+use super::key::{Form, Key, Keys};
 use super::range::Range;
+use super::unit::Unit;
 
 const SIZE: Form = Form::Number(Range::Size);
 const SIZE_OR_ZERO: Form = Form::Number(Range::SizeOrZero);

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use super::super::error::Refusal;
 use super::super::node::Value;
-use super::super::reader::{TableAt, ValueAt};
+use super::super::reader::TableAt;
+use super::super::value::ValueAt;
 use super::fault::{Fault, Heights};
 use super::unit::{self, KNOWN};
 use super::{npy, text, xyz};

@@ -1,6 +1,6 @@
 //! What the table admits is what the reader takes, and what it does not is refused, at every bound.
 
-use super::super::form::Form;
+use super::super::key::Form;
 use super::super::range::Range;
 use super::bases::{self, Bases, all_keys};
 use super::schema::accepts;
