@@ -8,6 +8,7 @@ use super::sections::CASE;
 
 /// All that is to be said of a key. It prints itself, in lines of at most 80 letters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Explanation {
     /// Its path in a case, such as `layers.poisson`.
     pub path: String,
