@@ -14,6 +14,8 @@ mod compare;
 mod daily;
 #[path = "command_line/exit_codes.rs"]
 mod exit_codes;
+#[path = "command_line/explain.rs"]
+mod explain;
 #[path = "command_line/folder.rs"]
 mod folder;
 #[path = "command_line/inspection.rs"]

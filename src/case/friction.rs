@@ -23,10 +23,9 @@ pub struct FrictionSection {
 impl FrictionSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
-        let coefficient = section.required("coefficient")?;
-        let direction = section.optional("direction").map_or(Ok([1.0, 0.0]), |value| magnitude::direction(&value))?;
-        let coupling = section.optional("coupling").map_or(Ok(true), |value| value.boolean())?;
-        Ok(Self { coefficient: coefficient.number(0.0..=MOST)?, direction, coupling })
+        let coefficient = section.value("coefficient")?.number()?;
+        let direction = magnitude::direction(&section.value("direction")?)?;
+        Ok(Self { coefficient, direction, coupling: section.value("coupling")?.boolean()? })
     }
 
     pub(super) fn friction(&self) -> Result<Friction, FrictionError> {
@@ -40,9 +39,9 @@ impl FrictionSection {
         section: &TableAt<'_>,
         layers: &[&TableAt<'_>],
         (problem, settings): (Problem, Settings),
-        solver: Option<&TableAt<'_>>,
+        solver: &TableAt<'_>,
     ) -> Result<Problem, Refusal> {
-        let method = solver.and_then(|solver| solver.optional("method"));
+        let method = solver.optional("method");
         if let Some(method) = method.filter(|_| settings.method == Method::PolonskyKeer && self.is_coupled()) {
             let message =
                 "`solver.method` = \"polonsky-keer\" needs a symmetric operator, which coupled friction is not";
@@ -62,6 +61,3 @@ impl FrictionSection {
         self.coupling && self.coefficient > 0.0
     }
 }
-
-/// Largest coefficient of friction.
-const MOST: f64 = 100.0;

@@ -7,14 +7,10 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::magnitude;
-use super::reader::{TableAt, ValueAt};
+use super::keys::LAYERS;
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::body::{Material, MaterialError};
-
-/// Most layers a case can have, sublayers counted.
-pub(super) const MOST: usize = 200;
-/// Sublayers of a layer that says nothing of them.
-const SUBLAYERS: usize = 20;
 
 /// How a layer is graded.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -52,19 +48,18 @@ pub enum Law {
 
 impl Grading {
     pub(super) fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
-        const WANTED: &str = "{ young = [upper, lower], poisson = [upper, lower], sublayers = … }";
-        let section = value.table(WANTED)?;
+        let section = value.table()?;
         section.only()?;
-        let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure), at the upper and the lower face";
-        let modulus = match section.one_of(["shear_ratio", "young"], what)? {
-            (0, ratio) => Ends::ShearRatio(faces(&ratio, magnitude::size)?),
-            (_, young) => Ends::Young(faces(&young, magnitude::size)?),
+        let modulus = match section.one_of(["shear_ratio", "young"])? {
+            (0, ratio) => Ends::ShearRatio(ratio.numbers()?),
+            (_, young) => Ends::Young(young.numbers()?),
         };
-        let poisson = faces(&section.required("poisson")?, |value| value.number(0.0..=0.5))?;
-        let laws = [("linear", Law::Linear), ("exponential", Law::Exponential)];
-        let law = section.optional("law").map_or(Ok(Law::Linear), |value| value.choice(&laws))?;
-        let sublayers = section.optional("sublayers").map_or(Ok(SUBLAYERS), |value| value.integer(1..=MOST))?;
-        Ok(Self { modulus, poisson, law, sublayers })
+        let poisson = section.value("poisson")?.numbers()?;
+        let law = match section.value("law")?.word()? {
+            "exponential" => Law::Exponential,
+            _ => Law::Linear,
+        };
+        Ok(Self { modulus, poisson, law, sublayers: section.value("sublayers")?.integer()? })
     }
 
     /// The same one, of so many sublayers.
@@ -91,23 +86,14 @@ impl Grading {
     }
 }
 
-/// Values at the upper and the lower face.
-fn faces(value: &ValueAt<'_>, read: impl Fn(&ValueAt<'_>) -> Result<f64, Refusal>) -> Result<[f64; 2], Refusal> {
-    const WANTED: &str = "two numbers, at the upper and the lower face";
-    match &value.list(WANTED, "[upper, lower]")?[..] {
-        [upper, lower] => Ok([read(upper)?, read(lower)?]),
-        _ => Err(value.refuse(WANTED).help("[upper, lower]")),
-    }
-}
-
 /// Refuses more sublayers than can be had, at the layer with which they are too many.
 pub(super) fn count(numbers: &[usize], sections: &[TableAt<'_>]) -> Result<(), Refusal> {
     let mut count = 0;
     for (number, section) in numbers.iter().zip(sections) {
         count += number;
-        if count > MOST {
+        if count > LAYERS {
             let place = section.optional("graded").map_or(section.place, |value| value.node.place);
-            let message = format!("`layers` must be at most {MOST} layers and sublayers, not {count} up to here");
+            let message = format!("`layers` must be at most {LAYERS} layers and sublayers, not {count} up to here");
             return Err(Refusal::new(place, message, "too many").help("give fewer `sublayers`"));
         }
     }

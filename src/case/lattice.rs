@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::levels::LevelSection;
-use super::magnitude;
 use super::reader::TableAt;
 use crate::lattice::{Cell, Lattice, LatticeError};
 
@@ -40,13 +39,13 @@ const SINE: f64 = 1e-3;
 
 impl LatticeSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        let kind = section.required("kind")?.choice(&[("hexagonal", 0), ("square", 1), ("oblique", 2)])?;
+        let kind = section.value("kind")?.word()?;
         section.only()?;
-        let period = || magnitude::size(&section.required("period")?);
-        let vector = |key| magnitude::pair(&section.required(key)?, "a vector [x, y]");
+        let period = || section.value("period")?.number();
+        let vector = |key| section.value(key)?.numbers();
         match kind {
-            0 => Ok(Self::Hexagonal { period: period()? }),
-            1 => Ok(Self::Square { period: period()? }),
+            "hexagonal" => Ok(Self::Hexagonal { period: period()? }),
+            "square" => Ok(Self::Square { period: period()? }),
             _ => Ok(Self::Oblique { a1: vector("a1")?, a2: vector("a2")? }),
         }
     }

@@ -5,9 +5,9 @@ use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
 use super::grading::{self, Grading};
-use super::magnitude;
 use super::node::Value;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Strength};
 
 /// One section of `[[layers]]`, from the surface down.
@@ -110,12 +110,11 @@ impl StrengthKeys {
 
 impl InterfaceStrengthKeys {
     fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
-        const WANTED: &str = "{ normal = …, shear = … }";
-        let section = value.table(WANTED)?;
+        let section = value.table()?;
         section.only()?;
         let own = Self { normal: strength(&section, "normal")?, shear: strength(&section, "shear")? };
         if own.is_empty() {
-            return Err(value.refuse(WANTED).help("one of both at least; the one left out is never reached"));
+            return Err(value.refuse_form().help("one of both at least; the one left out is never reached"));
         }
         Ok(own)
     }
@@ -130,7 +129,7 @@ impl InterfaceStrengthKeys {
 }
 
 fn strength(section: &TableAt<'_>, key: &str) -> Result<Option<f64>, Refusal> {
-    section.optional(key).map(|value| magnitude::size(&value)).transpose()
+    section.optional(key).map(|value| value.number()).transpose()
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
@@ -148,12 +147,11 @@ impl Elasticity {
                 None => Ok(Self::Graded { graded: Grading::read(&graded)? }),
             };
         }
-        let what = "`shear_ratio` (χ = G/G_substrate) or `young` (a pressure)";
-        let modulus = match section.one_of(["shear_ratio", "young"], what)? {
-            (0, ratio) => Modulus::ShearRatio(magnitude::size(&ratio)?),
-            (_, young) => Modulus::Young(magnitude::size(&young)?),
+        let modulus = match section.one_of(["shear_ratio", "young"])? {
+            (0, ratio) => Modulus::ShearRatio(ratio.number()?),
+            (_, young) => Modulus::Young(young.number()?),
         };
-        Ok(Self::Uniform { modulus, poisson: poisson(section)? })
+        Ok(Self::Uniform { modulus, poisson: section.value("poisson")?.number()? })
     }
 
     /// The key of its stiffness.
@@ -169,10 +167,10 @@ impl Elasticity {
 impl LayerSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
-        let thickness = magnitude::size(&section.required("thickness")?)?;
+        let thickness = section.value("thickness")?.number()?;
         let elasticity = Elasticity::read(section)?;
-        let interface = section.optional("interface").map_or(Ok(Interface::Bonded), |value| interface(&value))?;
-        let residual_stress = section.optional("residual_stress").map_or(Ok(0.0), |value| magnitude::place(&value))?;
+        let interface = interface(&section.value("interface")?)?;
+        let residual_stress = section.value("residual_stress")?.number()?;
         let interface_strength =
             section.optional("interface_strength").map(|value| InterfaceStrengthKeys::read(&value));
         Ok(Self {
@@ -224,8 +222,8 @@ impl LayerSection {
 impl SubstrateSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
-        let young = magnitude::size(&section.required("young")?)?;
-        Ok(Self { young, poisson: poisson(section)?, strength: StrengthKeys::read(section)? })
+        let young = section.value("young")?.number()?;
+        Ok(Self { young, poisson: section.value("poisson")?.number()?, strength: StrengthKeys::read(section)? })
     }
 }
 
@@ -266,19 +264,14 @@ pub(super) fn refined(layers: &[LayerSection], substrate: &SubstrateSection) -> 
     Some(HalfSpace::new(layers.iter().map(finer).collect::<Option<Vec<_>>>()?.concat(), base))
 }
 
-fn poisson(section: &TableAt<'_>) -> Result<f64, Refusal> {
-    section.required("poisson")?.number(0.0..=0.5)
-}
-
 fn interface(value: &ValueAt<'_>) -> Result<Interface, Refusal> {
-    const WANTED: &str = "\"bonded\", \"frictionless\" or { tangential_stiffness = …, normal_stiffness = … }";
     match &value.node.value {
-        Value::Text(_) => {
-            let choices = [("bonded", Interface::Bonded), ("frictionless", Interface::Frictionless)];
-            value.choice(&choices).map_err(|refusal| refusal.or_help(format!("or a spring: {WANTED}")))
-        }
+        Value::Text(_) => match value.word().map_err(|refusal| refusal.or_help(value.example()))? {
+            "frictionless" => Ok(Interface::Frictionless),
+            _ => Ok(Interface::Bonded),
+        },
         Value::Table(table) if !table.entries.is_empty() => {
-            let section = value.table(WANTED)?;
+            let section = value.table()?;
             section.only()?;
             let stiffness =
                 |key, without| section.optional(key).map_or(Ok(f64::INFINITY), |value| rigidity(&value, without));
@@ -287,7 +280,7 @@ fn interface(value: &ValueAt<'_>) -> Result<Interface, Refusal> {
                 normal: stiffness("normal_stiffness", NO_PRESSURE)?,
             })
         }
-        _ => Err(value.refuse(WANTED).help("a spring needs one stiffness at least; the one left out is rigid")),
+        _ => Err(value.refuse_form().help("a spring needs one stiffness at least; the one left out is rigid")),
     }
 }
 
@@ -297,7 +290,7 @@ const NO_PRESSURE: &str =
 
 /// A stiffness; `without` says what to do instead of 0.
 fn rigidity(value: &ValueAt<'_>, without: &str) -> Result<f64, Refusal> {
-    magnitude::size(value).map_err(|refusal| match value.node.value {
+    value.number().map_err(|refusal| match value.node.value {
         Value::Integer(0) | Value::Float(0.0) => refusal.help(without),
         Value::Float(stiffness) if stiffness.is_infinite() => {
             refusal.help("leave the key out: an absent stiffness is rigid")

@@ -3,12 +3,9 @@
 use serde::Serialize;
 
 use super::error::Refusal;
-use super::magnitude;
 use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::counterbody::{Level, Shape};
-
-/// Most levels a case can have.
-pub(super) const MOST: usize = 200;
 
 /// One section of `[[levels]]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -35,18 +32,18 @@ enum ShapeKeys {
 
 impl LevelSection {
     pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        let kind = section.required("shape")?;
-        let kind = kind.choice(&[("paraboloid", 0), ("sphere", 1), ("cone", 2), ("power", 3)])?;
+        let shape = section.value("shape")?.word()?;
         section.only()?;
-        let size = |key| magnitude::size(&section.required(key)?);
-        let shape = match kind {
-            0 => Shape::Paraboloid { radius: size("radius")? },
-            1 => Shape::Sphere { radius: size("radius")? },
-            2 => Shape::Cone { slope: size("slope")? },
+        let size = |key| section.value(key)?.number();
+        let shape = match shape {
+            "paraboloid" => Shape::Paraboloid { radius: size("radius")? },
+            "sphere" => Shape::Sphere { radius: size("radius")? },
+            "cone" => Shape::Cone { slope: size("slope")? },
             _ => Shape::Power { coefficient: size("coefficient")?, exponent: size("exponent")? },
         };
-        let height = section.optional("height").map_or(Ok(0.0), |height| magnitude::place(&height))?;
-        Ok(Self { shape, height, sites: sites(section)? })
+        let sites = |sites: &ValueAt<'_>| sites.list()?.iter().map(ValueAt::numbers).collect();
+        let height = section.value("height")?.number()?;
+        Ok(Self { shape, height, sites: section.optional("sites").as_ref().map(sites).transpose()? })
     }
 
     /// The level as the core knows it.
@@ -54,15 +51,4 @@ impl LevelSection {
         Level::new(self.shape, self.height)
             .map_err(|error| Refusal::new(section.place, format!("`{}`: {error}", section.path("shape")), "this level"))
     }
-}
-
-fn sites(section: &TableAt<'_>) -> Result<Option<Vec<[f64; 2]>>, Refusal> {
-    const WANTED: &str = "a list of sites [s1, s2]";
-    const HELP: &str = "one pair an indenter, in fractions of the cell's vectors: sites = [[0.0, 0.0], [0.5, 0.5]]";
-    let Some(sites) = section.optional("sites") else { return Ok(None) };
-    let items = sites.list(WANTED, HELP)?;
-    if items.is_empty() {
-        return Err(sites.refuse(WANTED).help(HELP));
-    }
-    items.iter().map(|site| magnitude::pair(site, "a site [s1, s2]")).collect::<Result<_, _>>().map(Some)
 }

@@ -4,10 +4,8 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::localized::CircleRadius;
-
-/// Most circles that a case can ask for.
-const CIRCLES: usize = 100;
 
 /// The section `[localized]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -22,35 +20,16 @@ pub struct LocalizedSection {
     pub mutual_effect: bool,
 }
 
-impl Default for LocalizedSection {
-    fn default() -> Self {
-        Self { indenters: vec![7, 13, 37, 73], elements: 48, radius: CircleRadius::LoadBalanced, mutual_effect: true }
-    }
-}
-
 impl LocalizedSection {
-    pub(super) fn read(section: Option<&TableAt<'_>>) -> Result<Self, Refusal> {
-        let mut localized = Self::default();
-        let Some(section) = section else { return Ok(localized) };
+    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
         section.only()?;
-        if let Some(indenters) = section.optional("indenters") {
-            const WANTED: &str = "a list of at least one integer";
-            const HELP: &str = "for example indenters = [7, 13]";
-            localized.indenters = indenters.items(WANTED, HELP, CIRCLES, |circle| circle.integer(1..=10_000))?;
-            if localized.indenters.is_empty() {
-                return Err(indenters.refuse(WANTED).help(HELP));
-            }
-        }
-        if let Some(elements) = section.optional("elements") {
-            localized.elements = elements.integer(4..=1000)?;
-        }
-        if let Some(radius) = section.optional("radius") {
-            let rules = [CircleRadius::LoadBalanced, CircleRadius::AreaBalanced, CircleRadius::LatticeSum];
-            localized.radius = radius.choice(&rules.map(|rule| (rule.name(), rule)))?;
-        }
-        if let Some(effect) = section.optional("mutual_effect") {
-            localized.mutual_effect = effect.boolean()?;
-        }
-        Ok(localized)
+        let indenters = section.value("indenters")?.list()?.iter().map(ValueAt::integer).collect::<Result<_, _>>()?;
+        let radius = match section.value("radius")?.word()? {
+            "area-balanced" => CircleRadius::AreaBalanced,
+            "lattice-sum" => CircleRadius::LatticeSum,
+            _ => CircleRadius::LoadBalanced,
+        };
+        let mutual_effect = section.value("mutual_effect")?.boolean()?;
+        Ok(Self { indenters, elements: section.value("elements")?.integer()?, radius, mutual_effect })
     }
 }

@@ -1,60 +1,28 @@
 //! What double precision cannot carry, refused with the reason.
 //!
-//! Results are products of up to five of a case's lengths and moduli and of their squares: between 1e-60 and 1e60
-//! none of them overflows or vanishes. The ratios below are those at which one of two numbers no longer counts beside
-//! the other, far beyond any body that could be made.
+//! Each number alone is one that [`CARRIED`] says; the ratios below are those at which one of two numbers no longer
+//! counts beside the other, far beyond any body that could be made.
 
 use std::ops::RangeInclusive;
 
 use super::error::Refusal;
+use super::keys::CARRIED;
 use super::node::plain;
-use super::reader::{POSITIVE, TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::body::{HalfSpace, Interface};
 use crate::counterbody::Level;
 use crate::lattice::Cell;
 use crate::run::Sampling;
 
-/// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
-pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
 /// Ratios of moduli, of thicknesses to the cell, and of springs to what they hold, that still count.
 const RATIO: RangeInclusive<f64> = 1e-12..=1e12;
 /// How much denser samples may stand along one cell vector than along the other.
 const DENSER: f64 = 1000.0;
 
-const WHY: &str = "double precision carries the products of five such numbers, no others; choose other units";
-
-/// A length, a modulus or a pressure greater than 0 that double precision carries.
-pub(super) fn size(value: &ValueAt<'_>) -> Result<f64, Refusal> {
-    let size = value.number(POSITIVE)?;
-    if CARRIED.contains(&size) { Ok(size) } else { Err(value.refuse("a number between 1e-60 and 1e60").help(WHY)) }
-}
-
-/// The same, or 0.
-pub(super) fn size_or_zero(value: &ValueAt<'_>) -> Result<f64, Refusal> {
-    if value.number(0.0..)? == 0.0 { Ok(0.0) } else { size(value) }
-}
-
-/// A place along an axis: any number that double precision carries.
-pub(super) fn place(value: &ValueAt<'_>) -> Result<f64, Refusal> {
-    let place = value.number(..)?;
-    if place.abs() <= *CARRIED.end() {
-        Ok(place)
-    } else {
-        Err(value.refuse("a number between -1e60 and 1e60").help(WHY))
-    }
-}
-
-/// Two places or the components of a vector, `wanted` such as "a vector [x, y]".
-pub(super) fn pair(value: &ValueAt<'_>, wanted: &str) -> Result<[f64; 2], Refusal> {
-    match &value.list(wanted, "two numbers in brackets")?[..] {
-        [x, y] => Ok([place(x)?, place(y)?]),
-        _ => Err(value.refuse(wanted).help("two numbers in brackets")),
-    }
-}
-
 /// A direction [x, y] along the surface, of any length.
 pub(super) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
-    let direction = pair(value, "a direction [x, y]")?;
+    let direction = value.numbers()?;
     if direction.iter().all(|x| x.abs() < *CARRIED.start()) {
         return Err(value.refuse("a direction [x, y] other than [0, 0]"));
     }
@@ -121,7 +89,7 @@ pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -
             let what =
                 format!("at the distance {} of the cell's side the profile rises by {}", plain(reach), plain(rise));
             return Err(Refusal::new(section.place, format!("`{}`: {what}", section.path("shape")), "this level")
-                .help(format!("between 1e-60 and 1e60 is allowed: {WHY}")));
+                .help("between 1e-60 and 1e60 is carried by double precision; choose other units"));
         }
     }
     Ok(())
@@ -131,7 +99,7 @@ pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -
 pub(super) fn grid(
     grid: Sampling,
     file: Option<[usize; 2]>,
-    section: Option<&TableAt<'_>>,
+    section: &TableAt<'_>,
     lattice: &TableAt<'_>,
     cell: Cell,
 ) -> Result<(), Refusal> {
@@ -144,7 +112,7 @@ pub(super) fn grid(
     if first.max(second) <= DENSER * first.min(second) {
         return Ok(());
     }
-    let points = section.and_then(|section| section.optional("points"));
+    let points = section.optional("points");
     let place = points.map_or(lattice.place, |value| value.node.place);
     let what = format!("samples stand {} apart along a₁ and {} along a₂", short(first), short(second));
     let advice = match file {

@@ -2,7 +2,7 @@
 //!
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
 //! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]). One file a section:
-//! lattice, levels, surface, layers (with the substrate), load, grid, solver, friction, units, stress, localized; `keys` names every key.
+//! lattice, levels, surface, layers (with the substrate), load, grid, solver, friction, units, stress, localized; `keys` says what every key is.
 //! `magnitude` refuses what double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says
 //! what a run takes.
 //!
@@ -42,17 +42,19 @@ mod surface;
 #[cfg(test)]
 mod tests;
 mod units;
+mod value;
+mod words;
 
 pub use error::CaseError;
 pub use foreseen::foreseen;
 pub use friction::FrictionSection;
 pub use grading::{Ends, Grading, Law};
+pub use keys::{CARRIED, Explanation, UnknownKey, explain, overview, schema};
 pub use lattice::LatticeSection;
 pub use layers::{Elasticity, InterfaceStrengthKeys, LayerSection, Modulus, StrengthKeys, SubstrateSection};
 pub use levels::LevelSection;
 pub use load::LoadSection;
 pub use localized::LocalizedSection;
-pub use magnitude::CARRIED;
 pub use model::Case;
 pub(crate) use model::written;
 pub use room::{Room, available_memory};

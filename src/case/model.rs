@@ -11,7 +11,7 @@ use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection, UnitsSection,
 };
-use super::{grading, grid, keys, lattice, layers, levels, magnitude, overrides, solver};
+use super::{grid, keys, lattice, layers, magnitude, overrides, solver};
 use crate::body::HalfSpace;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
 use crate::problem::Problem;
@@ -139,9 +139,6 @@ fn readable(line: &str) -> String {
     format!("{key} = {}", numbers.collect::<String>())
 }
 
-/// What is written where the section is missing.
-const LATTICE: &str = "[lattice]\nkind = \"hexagonal\"\nperiod = 1.0";
-
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let mut root = Table::parse(&source.text)?;
     for (number, text) in (1..).zip(overrides) {
@@ -150,34 +147,34 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &keys::CASE, Place::new(0, end..end));
     root.only()?;
-    let title = match root.optional("title") {
-        Some(title) if title.text("a text")?.contains('\n') => return Err(title.refuse("a text of one line")),
-        Some(title) => title.text("a text")?.to_owned(),
-        None => String::new(),
+    let title = root.value("title")?;
+    let title = match title.text()? {
+        text if text.contains('\n') => return Err(title.refuse_form()),
+        text => text.to_owned(),
     };
 
-    let level_sections = root.sections("levels", levels::MOST)?;
+    let level_sections = root.sections("levels")?;
     let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read).collect::<Result<_, _>>()?;
     let surface_section = match (&level_sections[..], root.section("surface")?) {
         ([], Some(section)) => Some(section),
         ([_, ..], None) => None,
         ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.place)),
         ([], None) => {
-            root.required_section("lattice", LATTICE)?;
+            root.required_section("lattice")?;
             let refusal = Refusal::new(root.place, "the case has neither [[levels]] nor [surface]", "none up to here");
-            let example = "[[levels]]\nshape = \"paraboloid\"\nradius = 0.8\nheight = 0.0";
-            return Err(refusal.help(format!("add a level, for example\n{example}")));
+            return Err(refusal.help(format!("add a level, for example\n{}", root.example("levels"))));
         }
     };
+    let grid_section = root.section_or_empty("grid")?;
     // Where the cell is said to be what it is: a surface may say it itself.
     let cell_section = match (&surface_section, root.section("lattice")?) {
         (Some(surface), None) => surface.clone(),
-        _ => root.required_section("lattice", LATTICE)?,
+        _ => root.required_section("lattice")?,
     };
     let (lattice, surface, counterbody) = match &surface_section {
         Some(section) => {
-            let [lattice, grid] = ["lattice", "grid"].map(|key| root.section(key));
-            let around = Around { folder: &source.folder, lattice: lattice?, grid: grid?, length: length_unit(&root)? };
+            let (lattice, grid) = (root.section("lattice")?, grid_section.clone());
+            let around = Around { folder: &source.folder, lattice, grid, length: length_unit(&root)? };
             let read = surface::read(section, &around)?;
             let counterbody = Counterbody::from(read.topography);
             (read.lattice, Some((read.section, read.sampling, read.doubts)), Ok(counterbody))
@@ -194,9 +191,9 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     // Both were checked key by key.
     let counterbody = counterbody
         .map_err(|error| Refusal::new(cell_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
-    let layer_sections = root.sections("layers", grading::MOST)?;
+    let layer_sections = root.sections("layers")?;
     let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
-    let substrate_section = root.required_section("substrate", "[substrate]\nyoung = 1.0\npoisson = 0.3")?;
+    let substrate_section = root.required_section("substrate")?;
     let substrate = SubstrateSection::read(&substrate_section)?;
     let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
 
@@ -208,21 +205,20 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         .collect();
     magnitude::layers(&half_space, &places, counterbody.cell())?;
 
-    let load = LoadSection::read(&root.required_section("load", "[load]\nmean_pressure = 0.01")?)?;
+    let load = LoadSection::read(&root.required_section("load")?)?;
     let file_points = counterbody.topography().map(Topography::points);
-    let grid_section = root.section("grid")?;
     let (surface, sampling, surface_doubts) = match surface {
         Some((section, sampling, doubts)) => (Some(section), sampling, doubts),
-        None => (None, grid::read(grid_section.as_ref(), None)?, Vec::new()),
+        None => (None, grid::read(&grid_section, None)?, Vec::new()),
     };
-    magnitude::grid(sampling, file_points, grid_section.as_ref(), &cell_section, counterbody.cell())?;
-    let solver_section = root.section("solver")?;
-    let settings = solver::read(solver_section.as_ref())?;
+    magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
+    let solver_section = root.section_or_empty("solver")?;
+    let settings = solver::read(&solver_section)?;
     let mut problem = Problem::new(counterbody, half_space);
     let mut friction = None;
     if let Some(section) = root.section("friction")? {
         let own = FrictionSection::read(&section)?;
-        problem = own.slide(&section, &places, (problem, settings), solver_section.as_ref())?;
+        problem = own.slide(&section, &places, (problem, settings), &solver_section)?;
         friction = Some(own);
     }
     Ok(Case {
@@ -236,7 +232,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
             .section("stress")?
             .map(|section| StressSection::read(&section, levels.len(), friction.map(|own| own.direction)))
             .transpose()?,
-        localized: LocalizedSection::read(root.section("localized")?.as_ref())?,
+        localized: LocalizedSection::read(&root.section_or_empty("localized")?)?,
         levels,
         surface,
         layers,
@@ -248,8 +244,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
 }
 
 /// `units.length`, where the case names its units.
-fn length_unit<'a>(root: &TableAt<'a>) -> Result<Option<&'a str>, Refusal> {
-    let Some(units) = root.optional("units") else { return Ok(None) };
-    let length = units.table("write it as a section, [units]")?.optional("length");
-    length.map(|length| length.text("a unit of length, such as \"µm\"")).transpose()
+fn length_unit(root: &TableAt<'_>) -> Result<Option<String>, Refusal> {
+    let length = root.section("units")?.and_then(|units| units.optional("length"));
+    length.map(|length| length.name().map(str::to_owned)).transpose()
 }

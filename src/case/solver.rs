@@ -4,19 +4,12 @@ use super::error::Refusal;
 use super::reader::TableAt;
 use crate::spectral::{Method, Settings};
 
-pub(super) fn read(section: Option<&TableAt<'_>>) -> Result<Settings, Refusal> {
-    let mut settings = Settings::default();
-    let Some(section) = section else { return Ok(settings) };
+pub(super) fn read(section: &TableAt<'_>) -> Result<Settings, Refusal> {
     section.only()?;
-    if let Some(method) = section.optional("method") {
-        let choices = [("preconditioned", Method::Preconditioned), ("polonsky-keer", Method::PolonskyKeer)];
-        settings.method = method.choice(&choices)?;
-    }
-    if let Some(tolerance) = section.optional("tolerance") {
-        settings.tolerance = tolerance.number(1e-14..=1e-2)?;
-    }
-    if let Some(limit) = section.optional("max_iterations") {
-        settings.max_iterations = limit.integer(1..=usize::MAX)?;
-    }
-    Ok(settings)
+    let method = match section.value("method")?.word()? {
+        "polonsky-keer" => Method::PolonskyKeer,
+        _ => Method::Preconditioned,
+    };
+    let tolerance = section.value("tolerance")?.number()?;
+    Ok(Settings { method, tolerance, max_iterations: section.value("max_iterations")?.integer()? })
 }

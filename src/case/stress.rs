@@ -6,7 +6,8 @@ use super::error::Refusal;
 use super::layers::is_zero;
 use super::magnitude;
 use super::node::Value;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::body::MeanStress;
 use crate::counterbody::{Counterbody, Indenters};
 use crate::lattice::Lattice;
@@ -85,48 +86,23 @@ impl StressSection {
     /// Read the section of a case with this many levels (none: a surface from a file), which may slide in a direction.
     pub(super) fn read(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
         section.only()?;
-        let planes = section.optional("planes").map_or(Ok(Vec::new()), |value| {
-            value.items("a list of depths", "for example planes = [0.0, 0.5]", PLANES, magnitude::size_or_zero)
-        })?;
-        let mean = match section.optional("mean") {
-            Some(value) => {
-                value.choice(&[("confined", MeanStress::Confined), ("half-space", MeanStress::HalfSpace)])?
-            }
-            None => MeanStress::Confined,
+        let planes = section.value("planes")?.list()?.iter().map(ValueAt::number).collect::<Result<_, _>>()?;
+        let mean = match section.value("mean")?.word()? {
+            "half-space" => MeanStress::HalfSpace,
+            _ => MeanStress::Confined,
         };
         let cut = section.optional("section").map(|value| Cut::read(&value, levels, sliding)).transpose()?;
-        let points = section.optional("points").map_or(Ok(Vec::new()), |value| {
-            value.items("a list of points", "for example points = [[0.0, 0.0, 0.1]]", POINTS, point)
-        })?;
+        let points = section.value("points")?.list()?.iter().map(ValueAt::numbers).collect::<Result<_, _>>()?;
         let volume = section.optional("volume").map(|value| volume(&value)).transpose()?;
         Ok(Self { planes, mean, section: cut, points, volume })
     }
 }
 
-/// Most planes and points that a case can ask for.
-const PLANES: usize = 1000;
-const POINTS: usize = 100_000;
-
-/// A point [x, y, z] at or below the surface.
-fn point(value: &ValueAt<'_>) -> Result<[f64; 3], Refusal> {
-    const WANTED: &str = "three numbers [x, y, z], z not less than 0";
-    let items = value.list(WANTED, WANTED)?;
-    let [x, y, z] = &items[..] else { return Err(value.refuse(WANTED)) };
-    Ok([magnitude::place(x)?, magnitude::place(y)?, magnitude::size_or_zero(z)?])
-}
-
 fn volume(value: &ValueAt<'_>) -> Result<Volume, Refusal> {
-    let section = value.table("{ depth = 1.0, rows = 40, points = 96 }")?;
+    let section = value.table()?;
     section.only()?;
-    let count = |key: &str, default: usize| match section.optional(key) {
-        Some(value) => value.integer(1..=2048),
-        None => Ok(default),
-    };
-    Ok(Volume {
-        depth: magnitude::size(&section.required("depth")?)?,
-        rows: count("rows", 40)?,
-        points: count("points", 96)?,
-    })
+    let count = |key| section.value(key)?.integer();
+    Ok(Volume { depth: section.value("depth")?.number()?, rows: count("rows")?, points: count("points")? })
 }
 
 impl Cut {
@@ -146,22 +122,21 @@ impl Cut {
     }
 
     fn read(value: &ValueAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
-        let example = match levels {
-            0 => "{ from = [0.0, 0.0], toward = [1.0, 0.0], length = 1.0, depth = 1.0 }",
-            _ => "{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }",
+        let section = match levels {
+            0 => value.table_or("{ from = [0.0, 0.0], toward = [1.0, 0.0], length = 1.0, depth = 1.0 }")?,
+            _ => value.table()?,
         };
-        let section = value.table(example)?;
         section.only()?;
-        let from = Origin::read(&section.required("from")?, levels)?;
-        let length = magnitude::size(&section.required("length")?)?;
+        let from = Origin::read(&section.value("from")?, levels)?;
+        let length = section.value("length")?.number()?;
         // Along the sliding both edges count.
         let (toward, behind) = match (section.optional("toward"), sliding) {
             (None, Some(direction)) => (Toward::Direction(direction), 0.5 * length),
-            (None, None) => return Err(section.required("toward").expect_err("it is not there")),
+            (None, None) => return Err(section.missing("toward")),
             (Some(toward), _) => (Toward::read(&toward, levels)?, 0.0),
         };
-        let behind = section.optional("behind").map_or(Ok(behind), |value| magnitude::size_or_zero(&value))?;
-        Ok(Self { from, toward, length, behind, depth: magnitude::size(&section.required("depth")?)? })
+        let behind = section.optional("behind").map_or(Ok(behind), |value| value.number())?;
+        Ok(Self { from, toward, length, behind, depth: section.value("depth")?.number()? })
     }
 }
 
@@ -170,7 +145,7 @@ impl Origin {
         if !matches!(value.node.value, Value::List(_)) {
             return level(value, levels).map(Self::Level);
         }
-        magnitude::pair(value, "a place [x, y]").map(Self::Place)
+        value.numbers().map(Self::Place)
     }
 }
 
@@ -190,7 +165,8 @@ fn level(value: &ValueAt<'_>, levels: usize) -> Result<usize, Refusal> {
         1 => "\"level 1\", the only one".to_owned(),
         _ => format!("\"level 1\" to \"level {levels}\""),
     };
-    let number = value.text(&wanted)?.strip_prefix("level ").and_then(|number| number.trim().parse().ok());
+    let text = value.text().map_err(|_| value.refuse(&wanted))?;
+    let number = text.strip_prefix("level ").and_then(|number| number.trim().parse().ok());
     number.filter(|number| (1..=levels).contains(number)).ok_or_else(|| value.refuse(wanted))
 }
 

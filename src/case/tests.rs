@@ -129,69 +129,12 @@ fn what_is_not_said_has_its_default() {
     let case = read(text, &[]).unwrap();
     assert_eq!(case.grid, Sampling::Points([512, 512]));
     assert_eq!(case.solver, crate::spectral::Settings::default());
-    assert_eq!(case.localized, LocalizedSection::default());
+    assert_eq!((&case.localized.indenters[..], case.localized.elements), (&[7, 13, 37, 73][..], 48));
     assert_eq!((case.stress, case.layers, case.title), (None, vec![], String::new()));
     let coated = format!("{text}[[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n[stress]\n");
     let case = read(&coated, &[]).unwrap();
     assert_eq!(case.half_space().layers()[0].interface(), Interface::Bonded);
     assert_eq!(case.stress.map(|stress| stress.planes), Some(vec![]));
-}
-
-/// The texts of the keys say what a value is when it is not given: "512 when not given", "\"bonded\" (when not given)".
-#[test]
-fn the_defaults_that_the_keys_state_are_those_of_a_case() {
-    let text = "[lattice]\nkind = \"square\"\nperiod = 2\n[[levels]]\nshape = \"cone\"\nslope = 0.1\n\
-                [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n[stress]\nvolume = { depth = 1 }\n\
-                [[layers]]\nthickness = 1\nshear_ratio = 2\npoisson = 0.2\n";
-    let written: toml::Table = read(text, &[]).unwrap().to_toml().parse().unwrap();
-    let found = |path: &str| {
-        path.split('.').try_fold(toml::Value::Table(written.clone()), |value, key| match value {
-            toml::Value::Array(items) => items[0].get(key).cloned(),
-            table => table.get(key).cloned(),
-        })
-    };
-    let mut compared = Vec::new();
-    for (path, keys) in keys::CASE.tables("") {
-        for key in keys.all {
-            let Some((before, _)) = key.what.split_once(" when not given").or(key.what.split_once(" (when not given)"))
-            else {
-                continue;
-            };
-            let stated = before.rsplit([';', ':']).flat_map(|part| [part, part.rsplit(',').next().unwrap_or(part)]);
-            let stated = stated.map(|part| part.trim().replace("10⁻⁸", "1e-8"));
-            let mut stated = stated.filter_map(|part| format!("value = {part}").parse::<toml::Table>().ok());
-            let (path, Some(stated)) = (join(&path, key.name), stated.next()) else { continue };
-            let Some(value) = found(&path) else { continue };
-            let all = |value: &toml::Value| match value {
-                // One number of points for both directions.
-                toml::Value::Array(items) if items[0] == stated["value"] => items.iter().all(|item| *item == items[0]),
-                toml::Value::Float(x) => {
-                    Some(*x) == stated["value"].as_float().or(stated["value"].as_integer().map(|n| n as f64))
-                }
-                value => *value == stated["value"],
-            };
-            assert!(all(&value), "{path} is {value}: {}", key.what);
-            compared.push(path);
-        }
-    }
-    assert_eq!(
-        compared,
-        [
-            "levels.height",
-            "layers.interface",
-            "grid.points",
-            "solver.method",
-            "solver.tolerance",
-            "solver.max_iterations",
-            "stress.mean",
-            "stress.volume.rows",
-            "stress.volume.points",
-            "localized.indenters",
-            "localized.elements",
-            "localized.radius",
-            "localized.mutual_effect",
-        ]
-    );
 }
 
 #[test]

@@ -148,6 +148,15 @@ pub enum Command {
         #[command(flatten)]
         changes: Changes,
     },
+    /// Say what the keys of a case are: type, unit, range, default and an example (without KEY: the sections)
+    #[command(after_help = help::EXPLAIN)]
+    Explain {
+        /// A section, a key such as layers.poisson, or the name of a key
+        key: Option<String>,
+        /// Print the JSON schema of case files, for editors
+        #[arg(long, conflicts_with = "key")]
+        schema: bool,
+    },
     #[cfg(feature = "validate")]
     /// Hold percoat against closed forms, references and peers; exit code 1 when a check fails
     #[command(after_help = help::VALIDATE)]

@@ -70,6 +70,14 @@ help!(
     "cases fig5 > mine.toml",
     "cases fig5 --set grid.points=256"
 );
+help!(
+    EXPLAIN,
+    "0 done; 2 refused; 4 output failed",
+    "explain",
+    "explain layers" => "the keys of a section",
+    "explain load.mean_pressure.from",
+    "explain --schema > percoat.schema.json"
+);
 #[cfg(feature = "validate")]
 help!(
     VALIDATE,

@@ -6,6 +6,7 @@ mod cases;
 mod check;
 mod compare;
 mod ending;
+mod explain;
 mod help;
 mod input;
 mod interruption;
@@ -59,6 +60,8 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         }
         Command::Check { case, output, changes, .. } => check::run(case, output.as_deref(), &changes.set),
         Command::Cases { name, changes } => cases::run(name.as_deref(), &changes.set),
+        Command::Explain { schema: true, .. } => explain::schema(),
+        Command::Explain { key, .. } => explain::run(key.as_deref()),
         #[cfg(feature = "validate")]
         Command::Validate { list: true, study, .. } => validate::list(study.as_deref()),
         #[cfg(feature = "validate")]

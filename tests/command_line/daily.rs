@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::io::Write;
 use std::process::{Command, Stdio};
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "solve",
     "compare",
     "limit",
@@ -15,6 +15,7 @@ const COMMANDS: [&str; 12] = [
     "kernel",
     "check",
     "cases",
+    "explain",
     "validate",
     "completions",
     "man",

@@ -2,7 +2,7 @@
 
 use std::io::BufRead;
 
-use super::super::magnitude::CARRIED;
+use super::super::keys::CARRIED;
 use super::super::node::plain;
 use super::super::resources::bytes;
 use super::super::room::available_memory;

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use super::super::error::Refusal;
 use super::super::node::Value;
-use super::super::reader::{TableAt, ValueAt};
+use super::super::reader::TableAt;
+use super::super::value::ValueAt;
 use super::fault::{Fault, Heights};
 use super::unit::{self, KNOWN};
 use super::{npy, text, xyz};
@@ -45,29 +46,23 @@ const FORMATS: &str =
 impl Treatment {
     /// Of the section; `length` is the case's unit, where it names one.
     pub fn read(section: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
-        let scale = match section.optional("scale") {
-            None => 1.0,
-            Some(value) => {
-                let scale = value.number(..)?;
-                if !(1e-60..=1e60).contains(&scale.abs()) {
-                    return Err(value.refuse("a number other than 0, between 1e-60 and 1e60 or the negative of one"));
-                }
-                scale
-            }
-        };
+        let scale = section.value("scale")?.number()?;
         let unit = section.optional("unit").map_or(Ok(1.0), |value| unit_of(&value, length))?;
-        let level = section.optional("level").map_or(Ok(false), |value| value.boolean())?;
-        let window = section.optional("window").map_or(Ok(None), |value| match &value.node.value {
-            Value::Boolean(wanted) => Ok(wanted.then_some(Window::Tukey)),
-            Value::Text(_) => value.choice(&[Window::Hann, Window::Tukey].map(|own| (own.name(), Some(own)))),
-            _ => Err(value.refuse("true, false, \"hann\" or \"tukey\"")),
-        })?;
+        let level = section.value("level")?.boolean()?;
+        let window = section.value("window")?;
+        let window = match &window.node.value {
+            Value::Text(_) => match window.word()? {
+                "hann" => Some(Window::Hann),
+                _ => Some(Window::Tukey),
+            },
+            _ => window.boolean()?.then_some(Window::Tukey),
+        };
         Ok(Self { scale: scale * unit, unit, level, window })
     }
 }
 
 fn unit_of(value: &ValueAt<'_>, length: Option<&str>) -> Result<f64, Refusal> {
-    let name = value.text(&format!("a unit of length: {KNOWN}"))?;
+    let name = value.text()?;
     let Some(length) = length else {
         let message = format!("`{}` needs the unit of the case's lengths to be converted to", value.path);
         return Err(Refusal::new(value.node.place, message, "converted to what?")

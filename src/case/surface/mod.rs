@@ -17,10 +17,11 @@ use serde::Serialize;
 
 use super::error::Refusal;
 use super::grid;
+use super::keys::CARRIED;
 use super::lattice::{LatticeSection, build_cell};
-use super::magnitude;
 use super::node::Value;
-use super::reader::{TableAt, ValueAt};
+use super::reader::TableAt;
+use super::value::ValueAt;
 use crate::counterbody::Topography;
 use crate::counterbody::roughness::{Spectrum, Window};
 use crate::lattice::Cell;
@@ -78,9 +79,9 @@ pub(super) struct Around<'a> {
     /// That of the case file.
     pub(super) folder: &'a Path,
     pub(super) lattice: Option<TableAt<'a>>,
-    pub(super) grid: Option<TableAt<'a>>,
+    pub(super) grid: TableAt<'a>,
     /// `units.length`, if it is there.
-    pub(super) length: Option<&'a str>,
+    pub(super) length: Option<String>,
 }
 
 /// A topography of a case.
@@ -99,20 +100,20 @@ const LOSS: f64 = 0.01;
 /// Read the section and its file, or generate its surface.
 pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
     section.only()?;
-    match section.one_of(["heights", "random"], "`heights`, the path of a file, or a section [surface.random]")? {
+    match section.one_of(["heights", "random"])? {
         (0, heights) => from_file(section, &heights, around),
         (_, random) => from_seed(section, &random, around),
     }
 }
 
 fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
-    let path = around.folder.join(heights.text("the path of a file")?);
+    let path = around.folder.join(heights.text()?);
     let path = std::path::absolute(&path).unwrap_or(path);
-    let treatment = Treatment::read(section, around.length)?;
+    let treatment = Treatment::read(section, around.length.as_deref())?;
     let FromFile { heights: stored, period: own, doubt } = file::read(&path, heights, treatment)?;
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(section, around, points, own)?;
-    let sampling = grid::read(around.grid.as_ref(), Some(points))?;
+    let sampling = grid::read(&around.grid, Some(points))?;
     let (on_grid, lost) = match sampling {
         Sampling::Points(wanted) if wanted != points => resampled(heights, cell, stored, wanted)?,
         _ => (stored, None),
@@ -147,10 +148,10 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
         return Err(Refusal::new(value.node.place, message, "not used here").help("remove it"));
     }
     let (lattice, cell) = cell(section, around, [1, 1], None)?;
-    let table = random.table("write it as a section, [surface.random]")?;
+    let table = random.table_or("write it as a section, [surface.random]")?;
     let own = RandomSection::read(&table, cell)?;
     let surface = own.surface();
-    let sampling = grid::read(around.grid.as_ref(), None)?;
+    let sampling = grid::read(&around.grid, None)?;
     let refuse = |error: String| Refusal::new(table.place, format!("`surface.random`: {error}"), "no such surface");
     let points = match sampling {
         Sampling::Points(points) => points,
@@ -202,7 +203,7 @@ fn cell(
         })?,
     };
     let [l1, l2] = sides;
-    if let Some(side) = sides.iter().find(|side| !magnitude::CARRIED.contains(*side)) {
+    if let Some(side) = sides.iter().find(|side| !CARRIED.contains(*side)) {
         let message = format!("`surface`: a side of the cell is {side}; it must be between 1e-60 and 1e60");
         return Err(Refusal::new(section.place, message, "no cell"));
     }
@@ -215,13 +216,9 @@ fn cell(
 
 /// A length for both directions, or one for each.
 fn sides(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
-    const WANTED: &str = "a length greater than 0 or two of them, [L1, L2]";
     match &value.node.value {
-        Value::List(_) => match &value.list(WANTED, WANTED)?[..] {
-            [one, other] => Ok([magnitude::size(one)?, magnitude::size(other)?]),
-            _ => Err(value.refuse(WANTED)),
-        },
-        _ => magnitude::size(value).map(|side| [side; 2]),
+        Value::List(_) => value.numbers(),
+        _ => value.number().map(|side| [side; 2]),
     }
 }
 

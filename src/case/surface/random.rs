@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use super::super::error::Refusal;
-use super::super::magnitude;
-use super::super::reader::{POSITIVE, TableAt};
+use super::super::reader::TableAt;
 use crate::counterbody::roughness::{Rms, SelfAffine};
 use crate::lattice::Cell;
 
@@ -39,21 +38,20 @@ pub enum RmsKey {
 impl RandomSection {
     pub(super) fn read(section: &TableAt<'_>, cell: Cell) -> Result<Self, Refusal> {
         section.only()?;
-        let hurst = section.required("hurst")?.number(0.0..=1.0)?;
-        let shortest_value = section.required("shortest")?;
-        let shortest = magnitude::size(&shortest_value)?;
+        let hurst = section.value("hurst")?.number()?;
+        let shortest_value = section.value("shortest")?;
+        let shortest = shortest_value.number()?;
         let [x, y] = cell.reduced().short();
         // The wave along the lattice's densest lines, which lie farthest apart.
         let of_cell = cell.area() / x.hypot(y);
-        let length =
-            |key: &str, otherwise: f64| section.optional(key).map_or(Ok(otherwise), |value| magnitude::size(&value));
+        let length = |key, otherwise| section.optional(key).map_or(Ok(otherwise), |value| value.number());
         let longest = length("longest", of_cell)?;
         let rolloff = length("rolloff", longest)?;
-        let rms = match section.one_of(["rms_slope", "rms_height"], "`rms_slope`, or `rms_height`, a length")? {
-            (0, slope) => RmsKey::RmsSlope(slope.number(POSITIVE)?),
-            (_, height) => RmsKey::RmsHeight(magnitude::size(&height)?),
+        let rms = match section.one_of(["rms_slope", "rms_height"])? {
+            (0, slope) => RmsKey::RmsSlope(slope.number()?),
+            (_, height) => RmsKey::RmsHeight(height.number()?),
         };
-        let seed = section.optional("seed").map_or(Ok(0), |value| value.integer(0..=i64::MAX as usize))? as u64;
+        let seed = section.value("seed")?.integer()? as u64;
         if !(shortest <= rolloff && rolloff <= longest) {
             let what = format!(
                 "`{}` ≤ `rolloff` ≤ `longest` must hold of the wavelengths, not {shortest} ≤ {rolloff} ≤ {longest}",

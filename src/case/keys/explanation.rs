@@ -1,0 +1,177 @@
+//! What a key is, for those who ask: `percoat explain layers.poisson`.
+
+use serde::Serialize;
+
+use super::super::words::{alternatives, nearest};
+use super::key::{Absent, Form, Key, Keys};
+use super::sections::CASE;
+
+/// All that is to be said of a key. It prints itself, in lines of at most 80 letters.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Explanation {
+    /// Its path in a case, such as `layers.poisson`.
+    pub path: String,
+    /// What it is.
+    pub what: String,
+    /// What kind of value it has, with its bounds, in a few words: "length > 0".
+    pub value: String,
+    /// Which forms its value may have: "integer or [n1, n2]".
+    pub forms: String,
+    /// Bounds of its numbers, and how long its lists may be.
+    pub range: Option<String>,
+    /// What its numbers are measured in; none: it has no numbers.
+    pub unit: Option<String>,
+    /// What holds where it is not given: a value in TOML or a sentence; none: it must be given.
+    pub default: Option<String>,
+    /// What bounds alone do not say.
+    pub rule: Option<String>,
+    /// Kinds of table that have it, by the text of the table's first key; empty: all.
+    pub kinds: Vec<String>,
+    /// Keys that may stand in its place.
+    pub instead: Vec<String>,
+    /// Keys that cannot stand beside it.
+    pub excludes: Vec<String>,
+    /// Lines of a case that have it.
+    pub example: String,
+    /// The same as an override `KEY=VALUE`; none for a section.
+    pub set: Option<String>,
+    /// The keys of the table that it is or may be.
+    pub keys: Vec<Explanation>,
+}
+
+/// There is no such key.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("there is no key `{asked}`{}", if .near.is_empty() {
+    "; `percoat explain` lists the sections".to_owned()
+} else {
+    format!("; did you mean {}?", alternatives(.near, '`'))
+})]
+pub struct UnknownKey {
+    /// What was asked for.
+    pub asked: String,
+    /// Paths that are like it.
+    pub near: Vec<String>,
+}
+
+/// Every key whose path ends so: `layers.poisson`, `layers.0.poisson` or `layers[0].poisson`; `points` is several.
+///
+/// # Errors
+/// [`UnknownKey`], with the keys that may be meant.
+pub fn explain(asked: &str) -> Result<Vec<Explanation>, UnknownKey> {
+    let parts = parts(asked);
+    let all = all();
+    let ends = |path: &str| path.split('.').collect::<Vec<_>>().ends_with(&parts);
+    let found: Vec<_> = all.iter().filter(|at| !parts.is_empty() && ends(&at.path)).map(At::explanation).collect();
+    if found.is_empty() { Err(unknown(asked, &parts, &all)) } else { Ok(found) }
+}
+
+/// Every key and section of the case itself.
+pub(super) fn sections() -> Vec<Explanation> {
+    all().iter().filter(|at| !at.path.contains('.')).map(At::explanation).collect()
+}
+
+/// The names of a path, without the numbers of items.
+fn parts(asked: &str) -> Vec<&str> {
+    let parts = asked.split(['.', '[']).map(|part| part.trim_end_matches(']').trim());
+    parts.filter(|part| !part.is_empty() && part.parse::<usize>().is_err()).collect()
+}
+
+fn unknown(asked: &str, parts: &[&str], all: &[At]) -> UnknownKey {
+    let word = parts.last().copied().unwrap_or_default();
+    let within = &parts[..parts.len().saturating_sub(1)];
+    let home = |at: &&At| at.path.split('.').collect::<Vec<_>>().split_last().is_some_and(|(_, of)| of == within);
+    let inside: Vec<&str> = all.iter().filter(home).map(|at| at.key.name).collect();
+    let names: Vec<&str> = all.iter().map(|at| at.key.name).collect();
+    let of = |name: &str| all.iter().filter(|at| at.key.name == name).map(|at| at.path.clone()).collect();
+    // Where the section is known, the key is misspelt, else either of both.
+    let near = match nearest(word, &inside).filter(|_| !within.is_empty()) {
+        Some((name, _)) => vec![format!("{}.{name}", within.join("."))],
+        None => nearest(word, &names).map_or(Vec::new(), |(name, _)| of(name)),
+    };
+    UnknownKey { asked: asked.to_owned(), near }
+}
+
+/// A key at its place.
+struct At {
+    path: String,
+    key: &'static Key,
+    table: &'static Keys,
+}
+
+/// Every key of a case, a table before what it holds.
+fn all() -> Vec<At> {
+    fn below(table: &'static Keys, path: &str) -> Vec<At> {
+        let at = |key: &'static Key| {
+            let path = format!("{path}.{}", key.name).trim_start_matches('.').to_owned();
+            let inside = below(key.holds(), &path);
+            std::iter::once(At { path, key, table }).chain(inside)
+        };
+        table.all.iter().flat_map(at).collect()
+    }
+    below(&CASE, "")
+}
+
+impl At {
+    fn explanation(&self) -> Explanation {
+        let Self { path, key, table } = self;
+        let own = |texts: &[&str]| texts.iter().map(|text| (*text).to_owned()).collect();
+        let inside =
+            |key: &'static Key| At { path: format!("{path}.{}", key.name), key, table: self.key.holds() }.explanation();
+        Explanation {
+            path: path.clone(),
+            what: key.what.to_owned(),
+            value: key.value(),
+            forms: key.kind_of_value(),
+            range: key.range(),
+            unit: key.has_numbers().then(|| key.unit.name().to_owned()),
+            default: match key.absent {
+                Absent::Refused => None,
+                Absent::Value(value) => Some(value.to_owned()),
+                Absent::Means(means) => Some(means.to_owned()),
+            },
+            rule: key.rule.map(str::to_owned),
+            kinds: own(key.kinds),
+            instead: own(&table.instead(key.name)),
+            excludes: own(&table.excluded(key.name)),
+            example: self.example(),
+            set: self.set(),
+            keys: key.holds().all.iter().map(inside).collect(),
+        }
+    }
+
+    /// Lines of a case with the key.
+    fn example(&self) -> String {
+        let Some((section, rest)) = self.path.split_once('.') else { return self.key.written() };
+        let brackets = |name: &str| match is_list(section) {
+            true => format!("[[{name}]]"),
+            false => format!("[{name}]"),
+        };
+        if let ([Form::Table(_)], false) = (self.key.forms, is_list(section)) {
+            let own = self.key.written();
+            return own.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
+        }
+        let kind = self.key.kinds.first().map(|kind| format!("{} = \"{kind}\"\n", self.table.all[0].name));
+        format!("{}\n{}{rest} = {}", brackets(section), kind.unwrap_or_default(), self.key.example)
+    }
+
+    /// `layers.0.poisson=0.25`, as a shell takes it.
+    fn set(&self) -> Option<String> {
+        let (section, rest) = match self.path.split_once('.') {
+            Some((section, rest)) => (section, rest),
+            None if self.key.holds().all.is_empty() => (&self.path[..], ""),
+            None => return None,
+        };
+        let item = if is_list(section) { ".0" } else { "" };
+        let key = format!("{section}{item}.{rest}").trim_end_matches('.').to_owned();
+        let example = self.key.example;
+        let bare = example.trim_matches('"');
+        let is_plain = |text: &str| text.chars().all(|c| c.is_ascii_alphanumeric() || "._-+".contains(c));
+        Some(if is_plain(bare) { format!("{key}={bare}") } else { format!("'{key}={example}'") })
+    }
+}
+
+/// Whether a section of the case may stand several times.
+fn is_list(section: &str) -> bool {
+    CASE.get(section).is_some_and(|key| matches!(key.forms, [Form::Sections(..)]))
+}

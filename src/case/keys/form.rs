@@ -1,0 +1,156 @@
+//! What the forms of a value are called, in errors, in the README and by `percoat explain`.
+
+use super::super::words::{alternatives, joined};
+use super::key::Form;
+
+impl Form {
+    /// What a value must be, for "must be …".
+    pub(in crate::case) fn told(&self) -> String {
+        match self {
+            Self::Number(range) => range.told(),
+            Self::Integer(low, usize::MAX) => format!("an integer of at least {low}"),
+            Self::Integer(low, high) => format!("an integer between {low} and {high}"),
+            Self::Boolean => "true or false".to_owned(),
+            Self::Word(words) => alternatives(words, '"'),
+            Self::Text(what) => (*what).to_owned(),
+            Self::Name(what, most) => format!("{what} of 1 to {most} characters without spaces at its ends"),
+            Self::Tuple(called, _) => (*called).to_owned(),
+            Self::List { of, count: [0, _] } => format!("a list of {}", of.plural()),
+            Self::List { of, count: [least, _] } => format!("a list of at least {} {}", counted(*least), of.singular()),
+            Self::Table(keys) => {
+                let entries: Vec<String> = keys.shown().map(|key| format!("{} = …", key.name)).collect();
+                format!("{{ {} }}", entries.join(", "))
+            }
+            Self::Sections(..) => "a list of tables".to_owned(),
+        }
+    }
+
+    /// What kind of value it is, in a few words: "list of lengths ≥ 0" for the quantity "length".
+    pub(super) fn short(&self, quantity: &str) -> String {
+        match self {
+            Self::Number(range) => format!("{quantity} {}", range.short()).trim_end().to_owned(),
+            Self::Integer(low, most) if *most >= i64::MAX as usize => format!("integer ≥ {low}"),
+            Self::Integer(low, high) => format!("integer {low} to {high}"),
+            Self::Boolean => "true or false".to_owned(),
+            Self::Word(words) => alternatives(words, '"'),
+            Self::Text(what) => bare(what).to_owned(),
+            Self::Name(what, most) => format!("{}, at most {most} letters", bare(what)),
+            Self::Tuple(called, _) => bracket(called).to_owned(),
+            Self::List { of, count: [least, most] } => {
+                let items = match of {
+                    Self::Number(range) => format!("{quantity}s {}", range.short()).trim_end().to_owned(),
+                    Self::Integer(low, high) => format!("integers {low} to {high}"),
+                    other => other.plural(),
+                };
+                let count = if *least > 0 { format!("{least} to {most}") } else { format!("at most {most}") };
+                format!("list of {count} {items}")
+            }
+            Self::Table(_) => "table".to_owned(),
+            Self::Sections(_, most) => format!("at most {most} sections"),
+        }
+    }
+
+    /// The same of items in brackets with what they are: "[upper, lower] of pressures > 0".
+    pub(super) fn with_items(&self, quantity: &str) -> String {
+        let own = self.short(quantity);
+        match self {
+            Self::Tuple(_, [Self::Number(range), rest @ ..])
+                if rest.iter().all(|form| form.ranges() == [range.full()]) =>
+            {
+                let items = format!("{quantity}s {}", range.short());
+                if items == "numbers " { own } else { format!("{own} of {}", items.trim_end()) }
+            }
+            _ => own,
+        }
+    }
+
+    /// Which type it is.
+    pub(super) fn kind(&self) -> String {
+        match self {
+            Self::Number(_) | Self::Integer(..) => self.singular(),
+            Self::List { of, .. } => format!("list of {}", of.plural()),
+            Self::Name(..) => "text".to_owned(),
+            Self::Sections(..) => "sections".to_owned(),
+            other => other.short("number"),
+        }
+    }
+
+    /// Bounds of the numbers and lists in it.
+    pub(super) fn ranges(&self) -> Vec<String> {
+        match self {
+            Self::Number(range) => vec![range.full()],
+            Self::Integer(low, most) if *most >= i64::MAX as usize => vec![format!("at least {low}")],
+            Self::Integer(low, high) => vec![format!("{low} to {high}")],
+            Self::Name(_, most) => vec![format!("1 to {most} characters without spaces at its ends")],
+            Self::Tuple(called, items) => {
+                let each: Vec<String> = items.iter().flat_map(Self::ranges).collect();
+                if each.iter().all(|range| *range == each[0]) {
+                    return each.into_iter().take(1).collect();
+                }
+                let names = bracket(called).trim_matches(['[', ']']).split(", ");
+                names.zip(each).map(|(name, range)| format!("{name}: {range}")).collect()
+            }
+            Self::List { of, count: [0, most] } => [of.ranges(), vec![format!("at most {most} items")]].concat(),
+            Self::List { of, count: [least, most] } => [of.ranges(), vec![format!("{least} to {most} items")]].concat(),
+            Self::Sections(_, most) => vec![format!("at most {most}")],
+            Self::Boolean | Self::Word(_) | Self::Text(_) | Self::Table(_) => Vec::new(),
+        }
+    }
+
+    pub(super) fn has_numbers(&self) -> bool {
+        match self {
+            Self::Number(_) => true,
+            Self::Tuple(_, items) => items.iter().any(Self::has_numbers),
+            Self::List { of, .. } => of.has_numbers(),
+            _ => false,
+        }
+    }
+
+    fn singular(&self) -> String {
+        match self {
+            Self::Number(_) => "number".to_owned(),
+            Self::Integer(..) => "integer".to_owned(),
+            Self::Tuple(called, _) => bare(called).to_owned(),
+            other => other.told(),
+        }
+    }
+
+    fn plural(&self) -> String {
+        match self {
+            Self::Number(_) => "numbers".to_owned(),
+            Self::Integer(..) => "integers".to_owned(),
+            Self::Tuple(called, _) => bracket(called).to_owned(),
+            other => other.told(),
+        }
+    }
+}
+
+/// What a value of any of some forms must be.
+pub(in crate::case) fn told(forms: &[Form]) -> String {
+    forms_as(forms, Form::told)
+}
+
+/// Some forms, the words among them one by one.
+pub(super) fn forms_as(forms: &[Form], told: impl Fn(&Form) -> String) -> String {
+    let forms = forms.iter().flat_map(|form| match form {
+        Form::Boolean => vec!["true".to_owned(), "false".to_owned()],
+        Form::Word(words) => words.iter().map(|word| format!("\"{word}\"")).collect(),
+        form => vec![told(form)],
+    });
+    joined(&forms.collect::<Vec<_>>(), "or")
+}
+
+fn counted(count: usize) -> String {
+    if count == 1 { "one".to_owned() } else { count.to_string() }
+}
+
+/// Without its article.
+fn bare(what: &str) -> &str {
+    ["a ", "an ", "the "].iter().find_map(|article| what.strip_prefix(article)).unwrap_or(what)
+}
+
+/// What stands in brackets, with them.
+pub(super) fn bracket(called: &str) -> &str {
+    let end = called.find(']').map_or(called.len(), |end| end + 1);
+    &called[called.find('[').unwrap_or(0)..end]
+}

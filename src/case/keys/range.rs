@@ -1,0 +1,178 @@
+//! Which numbers a key takes.
+//!
+//! Results are products of up to five of a case's lengths and moduli and of their squares: between 1e-60 and 1e60
+//! none of them overflows or vanishes.
+
+use std::ops::{Bound, RangeBounds, RangeInclusive};
+
+use super::super::node::plain;
+
+/// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
+pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
+
+/// What a number that is not carried is told.
+const WHY: &str = "double precision carries the products of five such numbers, no others; choose other units";
+
+/// The numbers that a key takes, all of them finite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::case) enum Range {
+    /// A length, a modulus or a pressure greater than 0 that double precision carries.
+    Size,
+    /// The same, or 0.
+    SizeOrZero,
+    /// A place along an axis, a component of a vector: any number that double precision carries.
+    Place,
+    /// Any number but 0 that double precision carries, as does its inverse.
+    Factor,
+    /// Between two bounds.
+    Within(Bound<f64>, Bound<f64>),
+}
+
+/// Why a number is none that a key takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::case) struct Beyond {
+    /// What it must be.
+    pub(in crate::case) wanted: String,
+    /// What to do about it, where the bound alone does not say it.
+    pub(in crate::case) help: Option<&'static str>,
+}
+
+impl Range {
+    /// Numbers greater than 0, however large.
+    pub(in crate::case) const POSITIVE: Self = Self::Within(Bound::Excluded(0.0), Bound::Unbounded);
+
+    /// From one number to another, both of them included.
+    pub(in crate::case) const fn between(low: f64, high: f64) -> Self {
+        Self::Within(Bound::Included(low), Bound::Included(high))
+    }
+
+    /// Whether it is one of the numbers.
+    pub(in crate::case) fn admit(self, x: f64) -> Result<f64, Beyond> {
+        if !x.is_finite() || !self.bounds().contains(&x) {
+            return Err(Beyond { wanted: self.told(), help: None });
+        }
+        let carried = match self {
+            Self::Size => CARRIED.contains(&x),
+            Self::SizeOrZero => x == 0.0 || CARRIED.contains(&x),
+            Self::Place => x.abs() <= *CARRIED.end(),
+            Self::Factor => CARRIED.contains(&x.abs()),
+            Self::Within(..) => true,
+        };
+        let wanted = match self {
+            Self::Place => "a number between -1e60 and 1e60",
+            Self::Factor => "a number other than 0, between 1e-60 and 1e60 or the negative of one",
+            _ => "a number between 1e-60 and 1e60",
+        };
+        if carried { Ok(x) } else { Err(Beyond { wanted: wanted.to_owned(), help: Some(WHY) }) }
+    }
+
+    /// Its bounds before double precision is asked.
+    fn bounds(self) -> (Bound<f64>, Bound<f64>) {
+        match self {
+            Self::Size => (Bound::Excluded(0.0), Bound::Unbounded),
+            Self::SizeOrZero => (Bound::Included(0.0), Bound::Unbounded),
+            Self::Place | Self::Factor => (Bound::Unbounded, Bound::Unbounded),
+            Self::Within(low, high) => (low, high),
+        }
+    }
+
+    /// Bounds that every number keeps, for those who know only bounds; a few that they let through are refused.
+    pub(super) fn outer(self) -> (Bound<f64>, Bound<f64>) {
+        let most = *CARRIED.end();
+        match self {
+            Self::Size => (Bound::Included(*CARRIED.start()), Bound::Included(most)),
+            Self::SizeOrZero => (Bound::Included(0.0), Bound::Included(most)),
+            Self::Place | Self::Factor => (Bound::Included(-most), Bound::Included(most)),
+            Self::Within(low, high) => (low, high),
+        }
+    }
+
+    /// "a number greater than 0 and at most 0.1".
+    pub(in crate::case) fn told(self) -> String {
+        match self.bounds() {
+            (Bound::Included(low), Bound::Included(high)) => {
+                format!("a number between {} and {}", plain(low), plain(high))
+            }
+            (Bound::Unbounded, Bound::Unbounded) if self == Self::Factor => "a finite number other than 0".to_owned(),
+            (Bound::Unbounded, Bound::Unbounded) => "a finite number".to_owned(),
+            (Bound::Included(low), Bound::Unbounded) => format!("a finite number of at least {}", plain(low)),
+            (low, Bound::Unbounded) => format!("a finite number {}", lower(low)),
+            (Bound::Unbounded, high) => format!("a finite number {}", upper(high)),
+            (low, high) => format!("a number {} and {}", lower(low), upper(high)),
+        }
+    }
+
+    /// The same with what double precision carries.
+    pub(super) fn full(self) -> String {
+        match self {
+            Self::Size => "greater than 0 (1e-60 to 1e60)".to_owned(),
+            Self::SizeOrZero => "0 or greater (to 1e60)".to_owned(),
+            Self::Place => "any (-1e60 to 1e60)".to_owned(),
+            Self::Factor => "any but 0 (1e-60 to 1e60, or negative)".to_owned(),
+            Self::Within(..) => self.short(),
+        }
+    }
+
+    /// "> 0", "0 to 0.5", "> 0, ≤ 0.1"; empty where every number is one.
+    pub(super) fn short(self) -> String {
+        let bound = |bound, included, excluded| match bound {
+            Bound::Included(x) => Some(format!("{included} {}", plain(x))),
+            Bound::Excluded(x) => Some(format!("{excluded} {}", plain(x))),
+            Bound::Unbounded => None,
+        };
+        match self.bounds() {
+            _ if self == Self::Factor => "≠ 0".to_owned(),
+            (Bound::Included(low), Bound::Included(high)) => format!("{} to {}", plain(low), plain(high)),
+            (low, high) => {
+                [bound(low, "≥", ">"), bound(high, "≤", "<")].into_iter().flatten().collect::<Vec<_>>().join(", ")
+            }
+        }
+    }
+}
+
+fn lower(bound: Bound<f64>) -> String {
+    match bound {
+        Bound::Included(x) => format!("at least {}", plain(x)),
+        Bound::Excluded(x) => format!("greater than {}", plain(x)),
+        Bound::Unbounded => String::new(),
+    }
+}
+
+fn upper(bound: Bound<f64>) -> String {
+    match bound {
+        Bound::Included(x) => format!("at most {}", plain(x)),
+        Bound::Excluded(x) => format!("less than {}", plain(x)),
+        Bound::Unbounded => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_read_like_sentences() {
+        let accuracy = Range::Within(Bound::Excluded(0.0), Bound::Included(0.1));
+        for (range, told, short) in [
+            (Range::Size, "a finite number greater than 0", "> 0"),
+            (Range::SizeOrZero, "a finite number of at least 0", "≥ 0"),
+            (Range::Place, "a finite number", ""),
+            (Range::between(0.0, 0.5), "a number between 0 and 0.5", "0 to 0.5"),
+            (accuracy, "a number greater than 0 and at most 0.1", "> 0, ≤ 0.1"),
+        ] {
+            assert_eq!((&range.told()[..], &range.short()[..]), (told, short));
+        }
+    }
+
+    #[test]
+    fn what_is_not_carried_is_told_why() {
+        let refused = |range: Range, x| range.admit(x).unwrap_err();
+        assert_eq!(refused(Range::Size, 0.0).help, None);
+        assert_eq!(refused(Range::SizeOrZero, 1e-70).wanted, "a number between 1e-60 and 1e60");
+        assert!(refused(Range::Place, -1e61).help.is_some() && Range::Place.admit(1e-70).is_ok());
+        assert!(refused(Range::Factor, 0.0).wanted.contains("other than 0") && Range::Factor.admit(-2.0).is_ok());
+        for range in [Range::Size, Range::SizeOrZero, Range::Place, Range::Factor, Range::between(0.0, 1.0)] {
+            assert!([f64::NAN, f64::INFINITY].iter().all(|x| range.admit(*x).is_err()));
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! The table is what the reader does, the README says, the schema demands and `percoat explain` prints.
+
+mod bases;
+mod bounds;
+mod schema;
+
+use super::key::{Absent, Key, Keys};
+use super::sections::{CASE, homes};
+use super::{UnknownKey, explain, overview};
+use crate::case::words::joined;
+use bases::Bases;
+
+/// "instead of `a`: what it is; a note".
+fn is(key: &Key) -> String {
+    let rule = key.rule.map_or(String::new(), |rule| format!("; {rule}"));
+    match key.instead_of {
+        Some(other) => format!("instead of `{other}`: {}{rule}", key.what),
+        None if key.kinds.is_empty() => format!("{}{rule}", key.what),
+        None => format!("{}: {}{rule}", key.kinds.join(", "), key.what),
+    }
+}
+
+/// One row a key; those of a range stand under the first key that takes one.
+fn rows(keys: &Keys, path: &str) -> String {
+    let names = |key: &Key| key.holds().all.iter().map(|key| key.name).collect::<Vec<_>>();
+    let row = |(index, key): (usize, &Key)| {
+        let name = format!("{path}{}", key.name);
+        let told = keys.all[..index].iter().any(|before| !names(key).is_empty() && names(before) == names(key));
+        let inside = if told { String::new() } else { rows(key.holds(), &format!("{name}.")) };
+        format!("| `{name}` | {} | {} | {} |\n{inside}", is(key), key.value(), default(keys, key))
+    };
+    keys.all.iter().enumerate().map(row).collect()
+}
+
+fn default(keys: &Keys, key: &Key) -> String {
+    let others: Vec<String> = keys.instead(key.name).iter().map(|name| format!("`{name}`")).collect();
+    match key.absent {
+        Absent::Value(value) => format!("`{value}`"),
+        Absent::Means(means) => means.to_owned(),
+        Absent::Refused if others.is_empty() || !key.kinds.is_empty() => "required".to_owned(),
+        Absent::Refused => format!("required, or {}", joined(&others, "or")),
+    }
+}
+
+#[test]
+fn the_readme_has_this_table() {
+    let section = |key: &Key| {
+        let default = default(&CASE, key);
+        format!("| **`{}`** | {} | {} | {default} |\n{}", key.name, is(key), key.value(), rows(key.holds(), ""))
+    };
+    let rows: String = CASE.all.iter().map(section).collect();
+    let table = format!("| key | is | value | when not given |\n|---|---|---|---|\n{rows}");
+    assert!(include_str!("../../../../README.md").contains(&table), "README.md must contain\n{table}");
+}
+
+#[test]
+fn a_key_is_at_home_in_every_table_that_has_it() {
+    assert_eq!(homes("tolerance"), ["solver"]);
+    assert_eq!(homes("points"), ["grid", "stress", "stress.volume"]);
+    assert_eq!(homes("normal_stiffness"), ["layers.interface"]);
+    assert!(homes("colour").is_empty());
+}
+
+#[test]
+fn sizes_of_one_shape_exclude_those_of_the_others() {
+    let [levels, lattice, localized] = ["levels", "lattice", "localized"].map(|name| CASE.within(name));
+    assert_eq!(levels.excluded("slope"), ["radius", "coefficient", "exponent"]);
+    assert_eq!(levels.excluded("exponent"), ["radius", "slope"]);
+    assert_eq!(lattice.excluded("period"), ["a1", "a2"]);
+    assert_eq!((CASE.excluded("levels"), CASE.excluded("surface")), (vec!["surface"], vec!["levels"]));
+    assert!(levels.excluded("height").is_empty() && localized.excluded("radius").is_empty());
+}
+
+#[test]
+fn a_key_is_found_by_its_path_or_its_name_and_a_slip_is_told() {
+    let paths = |asked: &str| explain(asked).map(|found| found.into_iter().map(|key| key.path).collect::<Vec<_>>());
+    for asked in ["layers.poisson", "layers.0.poisson", "layers[0].poisson"] {
+        assert_eq!(paths(asked).unwrap(), ["layers.poisson"]);
+    }
+    assert_eq!(paths("points").unwrap(), ["grid.points", "stress.points", "stress.volume.points"]);
+    assert_eq!(paths("volume.points").unwrap(), ["stress.volume.points"]);
+    let near = |asked: &str| paths(asked).unwrap_err().near;
+    assert_eq!(near("layers.thicknes"), ["layers.thickness"]);
+    assert_eq!(near("poison"), ["layers.poisson", "layers.graded.poisson", "substrate.poisson"]);
+    assert_eq!(near("solver.acuracy"), ["grid.accuracy"]);
+    assert_eq!(near("sovler.tolerance"), ["solver.tolerance"]);
+    assert_eq!(near("sovler"), ["solver"]);
+    let strange = UnknownKey { asked: "xyzzy".to_owned(), near: vec![] };
+    assert_eq!(explain("xyzzy").unwrap_err(), strange);
+    assert!(strange.to_string().contains("lists the sections") && paths("").is_err() && paths("0").is_err());
+}
+
+#[test]
+fn what_is_printed_fits_eighty_letters() {
+    let all = CASE.all.iter().flat_map(|key| explain(key.name).unwrap());
+    let inside = CASE.tables("").into_iter().skip(1).flat_map(|(path, keys)| {
+        keys.all.iter().flat_map(move |key| explain(&format!("{path}.{}", key.name)).unwrap())
+    });
+    for text in all.chain(inside).map(|key| key.to_string()).chain([overview()]) {
+        for line in text.lines() {
+            assert!(line.chars().count() <= 80 && line.trim_end() == line, "{line:?} of\n{text}");
+        }
+    }
+}
+
+#[test]
+fn every_example_is_a_case_in_some_surroundings() {
+    let bases = Bases::new();
+    for (path, key) in bases::all_keys() {
+        let read = bases.each(&path).any(|at| at.set(key.example).is_ok());
+        assert!(read, "{path} = {}: {:?}", key.example, bases.each(&path).map(|at| at.set(key.example).err()).last());
+        let own = explain(&path).unwrap().remove(0);
+        assert!(own.example.parse::<toml::Table>().is_ok(), "{}", own.example);
+        let Some(set) = own.set else { continue };
+        // A key of one kind goes with the others of it.
+        let kind = key.kinds.first().map(|kind| match path.starts_with("levels") {
+            true => format!("levels.0.shape={kind}"),
+            false => format!("lattice.kind={kind}"),
+        });
+        let others =
+            bases::all_keys().into_iter().filter(|(_, other)| !key.kinds.is_empty() && other.kinds == key.kinds);
+        let others = others.filter_map(|(path, _)| explain(&path).unwrap().remove(0).set);
+        let sets = kind.into_iter().chain(others).chain([set]).map(|set| set.trim_matches('\'').to_owned());
+        let sets: Vec<String> = sets.collect();
+        assert!(bases.all().any(|text| bases.read(&text, &sets).is_ok()), "{sets:?}");
+    }
+}
+
+#[test]
+fn a_default_is_what_a_case_without_the_key_has() {
+    let bases = Bases::new();
+    let mut count = 0;
+    for (path, key) in bases::all_keys() {
+        let Absent::Value(default) = key.absent else { continue };
+        let at = bases.each(&path).next().unwrap_or_else(|| panic!("no case has {path}"));
+        let (without, with) = (at.without().unwrap(), at.set(default).unwrap());
+        assert!(without == with, "{path} = {default}:\n{}\nis not\n{}", with.to_toml(), without.to_toml());
+        assert!(at.set(key.example).unwrap() != without, "{path} = {} changes nothing", key.example);
+        count += 1;
+    }
+    assert!(count >= 20, "only {count} defaults");
+}
