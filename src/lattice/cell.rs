@@ -124,6 +124,11 @@ impl Reduced {
         if norm(self.cell.a1) <= norm(self.cell.a2) { self.cell.a1 } else { self.cell.a2 }
     }
 
+    /// rᵢ = Σⱼ `matrix[i][j]` aⱼ.
+    pub(super) fn matrix(&self) -> [[i32; 2]; 2] {
+        self.matrix
+    }
+
     /// Length of the longer one of r₁ and r₂.
     pub fn longer_side(&self) -> f64 {
         norm(self.cell.a1).max(norm(self.cell.a2))
