@@ -9,8 +9,8 @@ use crate::run::{At, Limit, Limits, StepRecord};
 use crate::spectral::{Certificate, Report, Route, Stop};
 use crate::stress::Peak;
 use crate::stress::maxima::{Carried, Extremes};
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 /// Why a result cannot be read back: what is missing or of another kind.
@@ -135,10 +135,11 @@ struct StepKeys {
     iterations: usize,
     convolutions: f64,
     residual: Option<f64>,
+    #[serde(deserialize_with = "certificate")]
     certificate: Certificate,
     points: [usize; 2],
     contact_spots: usize,
-    spot_resolution: f64,
+    spot_resolution: Option<f64>,
     levels: Vec<LevelKeys>,
     friction: Option<Sliding>,
     stress: Option<StressKeys>,
@@ -169,7 +170,7 @@ struct LevelKeys {
     radius_max: Option<f64>,
     centre: [Option<f64>; 2],
     merged: bool,
-    resolution: f64,
+    resolution: Option<f64>,
     errors: LevelErrors,
 }
 
@@ -200,9 +201,9 @@ struct PeakKeys {
     value: Option<f64>,
     error: Option<f64>,
     singular: bool,
-    x: f64,
-    y: f64,
-    z: f64,
+    x: Option<f64>,
+    y: Option<f64>,
+    z: Option<f64>,
     material: usize,
     direction: [Option<f64>; 3],
 }
@@ -215,9 +216,9 @@ struct UtilisationKeys {
     utilisation: Option<f64>,
     singular: bool,
     error: Option<f64>,
-    x: f64,
-    y: f64,
-    z: f64,
+    x: Option<f64>,
+    y: Option<f64>,
+    z: Option<f64>,
 }
 
 /// A number, infinite, or none.
@@ -227,6 +228,18 @@ fn value(x: Option<f64>, singular: bool) -> f64 {
 
 fn plain(x: Option<f64>) -> f64 {
     value(x, false)
+}
+
+/// Of a pressure that is not a number nothing is.
+fn certificate<'de, D: Deserializer<'de>>(keys: D) -> Result<Certificate, D::Error> {
+    #[derive(Deserialize)]
+    struct Keys {
+        energy_gap: Option<f64>,
+        penetration: Option<f64>,
+        load: Option<f64>,
+    }
+    let Keys { energy_gap, penetration, load } = Keys::deserialize(keys)?;
+    Ok(Certificate { energy_gap: plain(energy_gap), penetration: plain(penetration), load: plain(load) })
 }
 
 fn record(keys: StepKeys) -> StepRecord {
@@ -242,7 +255,7 @@ fn record(keys: StepKeys) -> StepRecord {
             contact_fraction_uncertainty: 0.0,
             max_pressure: value(keys.max_pressure, singular),
             contact_spots: keys.contact_spots,
-            spot_resolution: keys.spot_resolution,
+            spot_resolution: plain(keys.spot_resolution),
             levels,
             boundaries: Vec::new(),
             errors: keys.errors,
@@ -297,7 +310,7 @@ fn level(keys: LevelKeys) -> LevelReading {
         radius_max,
         centre: x.zip(y).map(|(x, y)| [x, y]),
         merged: keys.merged,
-        resolution: keys.resolution,
+        resolution: plain(keys.resolution),
         uncertainty: Default::default(),
         errors: keys.errors,
     }
@@ -329,7 +342,7 @@ fn stress(keys: StressKeys) -> StressReading {
 fn peak(keys: &PeakKeys) -> Peak {
     Peak {
         value: value(keys.value, keys.singular),
-        position: [keys.x, keys.y, keys.z],
+        position: [keys.x, keys.y, keys.z].map(plain),
         material: keys.material,
         direction: keys.direction.map(plain),
         error: keys.error,
@@ -342,6 +355,37 @@ fn utilisation(keys: UtilisationKeys) -> Option<Utilisation> {
         criterion: criterion(&keys.criterion, keys.material, keys.interface)?,
         value: value(keys.utilisation, keys.singular),
         error: keys.error,
-        position: [keys.x, keys.y, keys.z],
+        position: [keys.x, keys.y, keys.z].map(plain),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::Topography;
+    use crate::lattice::Cell;
+    use crate::load::Load;
+    use crate::problem::Problem;
+    use crate::spectral::{Settings, Solver};
+    use ndarray::Array2;
+    use serde_json::json;
+
+    #[test]
+    fn a_step_that_stopped_as_no_number_comes_back_as_one() {
+        let heights = Array2::from_shape_fn([8; 2], |(i, j)| if i + j == 0 { 1.0 } else { 0.0 });
+        let surface = Topography::new(Cell::square(8.0).unwrap(), heights).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let mut solver = Solver::new(Problem::new(surface, body), [8; 2], Settings::default()).unwrap();
+        let step = solver.solve(Load::MeanPressure(1e-3));
+        let mut record = StepRecord::new(&step, step.reading());
+        let nan = f64::NAN;
+        record.certificate = Certificate { energy_gap: nan, penetration: nan, load: nan };
+        (record.reading.penetration, record.reading.spot_resolution) = (nan, nan);
+        let file: Value = serde_json::from_str(&json!({ "steps": [record] }).to_string()).unwrap();
+        let read = steps_of(&file).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(read[0].stop_reason(), "not a number");
+        assert!(read[0].certificate.energy_gap.is_nan() && read[0].reading.spot_resolution.is_nan());
+        assert_eq!(read[0].reading.mean_pressure, record.reading.mean_pressure);
+    }
 }
