@@ -60,13 +60,13 @@ fn every_combination_and_step_is_a_row_with_what_solve_finds() {
     assert_eq!(folder.names(), BTreeSet::from(["sweep.csv", "sweep.json", "sweep.jsonl"].map(str::to_owned)));
     let text = folder.text("sweep.csv");
     let table = cells(&text);
-    assert_eq!(table[0][..5], ["combination", "layers_0_thickness", "layers_0_poisson", "status", "step"]);
+    assert_eq!(table[0][..5], ["combination", "set_layers_0_thickness", "set_layers_0_poisson", "status", "step"]);
     assert_eq!(table[0].last(), Some(&"reason"));
     let allowed = |name: &&str| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     assert!(table[0].iter().all(allowed) && table.iter().all(|row| row.len() == table[0].len()));
     assert_eq!(column(&table, "combination").join(""), "112233445566");
     assert_eq!(column(&table, "step").join(""), "121212121212");
-    assert_eq!(column(&table, "layers_0_poisson")[..6], ["0.2", "0.2", "0.4", "0.4", "0.5", "0.5"]);
+    assert_eq!(column(&table, "set_layers_0_poisson")[..6], ["0.2", "0.2", "0.4", "0.4", "0.5", "0.5"]);
     // The fourth combination by itself.
     let solved = desk.solve(
         "alone",
