@@ -119,6 +119,11 @@ pub struct Reduced {
 }
 
 impl Reduced {
+    /// The cell spanned by r₁ and r₂.
+    pub fn cell(&self) -> Cell {
+        self.cell
+    }
+
     /// A shortest lattice vector.
     pub fn short(&self) -> [f64; 2] {
         if norm(self.cell.a1) <= norm(self.cell.a2) { self.cell.a1 } else { self.cell.a2 }

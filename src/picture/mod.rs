@@ -45,6 +45,7 @@ mod tiling;
 mod touches;
 mod utilisations;
 pub(crate) mod vector;
+mod window;
 
 pub use axis::{Axis, Scale};
 pub use canvas::Canvas;
