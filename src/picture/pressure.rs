@@ -23,15 +23,15 @@ pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let most = if most > 0.0 { most } else { 1.0 };
     let bar = Bar::sequential(snapshot.units.pressure_of("contact pressure", "p"), most);
     let [x, y] = axes(snapshot, window);
-    let mut over = unit_cell(snapshot, view);
-    over.extend(sliding_arrow(snapshot, view));
+    let mut over: Vec<Over> = sliding_arrow(snapshot, view).into_iter().collect();
+    over.extend(unit_cell(snapshot, view));
     over.extend(numbers(snapshot, view, |place| {
         let dark = snapshot.pressure_at(place).is_some_and(|p| p < 0.6 * most);
         if dark { Colour::WHITE } else { Colour::BLACK }
     }));
     let map = Map { title: String::new(), x, y, aspect: view.aspect(), fill: Fill::Values(bar, &value), over };
     let what = match snapshot.levels() {
-        0 if cell.is_rectangular() => "White: no contact; one unit cell.",
+        0 if cell.is_rectangular() && !view.is_part => "White: no contact; one unit cell.",
         0 => "White: no contact; dashed: the unit cell.",
         _ => "Numbers are levels; white: no contact; dashed: the unit cell.",
     };
