@@ -139,7 +139,8 @@ struct StepKeys {
     certificate: Certificate,
     points: [usize; 2],
     contact_spots: usize,
-    spot_resolution: Option<f64>,
+    #[serde(deserialize_with = "or_none")]
+    spot_resolution: f64,
     levels: Vec<LevelKeys>,
     friction: Option<Sliding>,
     stress: Option<StressKeys>,
@@ -170,7 +171,8 @@ struct LevelKeys {
     radius_max: Option<f64>,
     centre: [Option<f64>; 2],
     merged: bool,
-    resolution: Option<f64>,
+    #[serde(deserialize_with = "or_none")]
+    resolution: f64,
     errors: LevelErrors,
 }
 
@@ -201,9 +203,12 @@ struct PeakKeys {
     value: Option<f64>,
     error: Option<f64>,
     singular: bool,
-    x: Option<f64>,
-    y: Option<f64>,
-    z: Option<f64>,
+    #[serde(deserialize_with = "or_none")]
+    x: f64,
+    #[serde(deserialize_with = "or_none")]
+    y: f64,
+    #[serde(deserialize_with = "or_none")]
+    z: f64,
     material: usize,
     direction: [Option<f64>; 3],
 }
@@ -216,9 +221,12 @@ struct UtilisationKeys {
     utilisation: Option<f64>,
     singular: bool,
     error: Option<f64>,
-    x: Option<f64>,
-    y: Option<f64>,
-    z: Option<f64>,
+    #[serde(deserialize_with = "or_none")]
+    x: f64,
+    #[serde(deserialize_with = "or_none")]
+    y: f64,
+    #[serde(deserialize_with = "or_none")]
+    z: f64,
 }
 
 /// A number, infinite, or none.
@@ -234,12 +242,20 @@ fn plain(x: Option<f64>) -> f64 {
 fn certificate<'de, D: Deserializer<'de>>(keys: D) -> Result<Certificate, D::Error> {
     #[derive(Deserialize)]
     struct Keys {
-        energy_gap: Option<f64>,
-        penetration: Option<f64>,
-        load: Option<f64>,
+        #[serde(deserialize_with = "or_none")]
+        energy_gap: f64,
+        #[serde(deserialize_with = "or_none")]
+        penetration: f64,
+        #[serde(deserialize_with = "or_none")]
+        load: f64,
     }
     let Keys { energy_gap, penetration, load } = Keys::deserialize(keys)?;
-    Ok(Certificate { energy_gap: plain(energy_gap), penetration: plain(penetration), load: plain(load) })
+    Ok(Certificate { energy_gap, penetration, load })
+}
+
+/// A number that must be there, null for none.
+fn or_none<'de, D: Deserializer<'de>>(number: D) -> Result<f64, D::Error> {
+    Option::deserialize(number).map(plain)
 }
 
 fn record(keys: StepKeys) -> StepRecord {
@@ -255,7 +271,7 @@ fn record(keys: StepKeys) -> StepRecord {
             contact_fraction_uncertainty: 0.0,
             max_pressure: value(keys.max_pressure, singular),
             contact_spots: keys.contact_spots,
-            spot_resolution: plain(keys.spot_resolution),
+            spot_resolution: keys.spot_resolution,
             levels,
             boundaries: Vec::new(),
             errors: keys.errors,
@@ -310,7 +326,7 @@ fn level(keys: LevelKeys) -> LevelReading {
         radius_max,
         centre: x.zip(y).map(|(x, y)| [x, y]),
         merged: keys.merged,
-        resolution: plain(keys.resolution),
+        resolution: keys.resolution,
         uncertainty: Default::default(),
         errors: keys.errors,
     }
@@ -342,7 +358,7 @@ fn stress(keys: StressKeys) -> StressReading {
 fn peak(keys: &PeakKeys) -> Peak {
     Peak {
         value: value(keys.value, keys.singular),
-        position: [keys.x, keys.y, keys.z].map(plain),
+        position: [keys.x, keys.y, keys.z],
         material: keys.material,
         direction: keys.direction.map(plain),
         error: keys.error,
@@ -355,7 +371,7 @@ fn utilisation(keys: UtilisationKeys) -> Option<Utilisation> {
         criterion: criterion(&keys.criterion, keys.material, keys.interface)?,
         value: value(keys.utilisation, keys.singular),
         error: keys.error,
-        position: [keys.x, keys.y, keys.z].map(plain),
+        position: [keys.x, keys.y, keys.z],
     })
 }
 

@@ -1,6 +1,6 @@
 //! Contact spots by level with their boundaries, and how far each boundary is from a circle (Fig. 2b).
 
-use super::axis::{Axis, Scale};
+use super::axis::Axis;
 use super::canvas::{Canvas, Dash, Stroke};
 use super::chart::{Chart, Plot};
 use super::colour::Colour;
@@ -8,6 +8,7 @@ use super::curve::{Curve, Style};
 use super::map::{Fill, Map, Over};
 use super::number::signed;
 use super::pressure::{axes, numbers, sliding_arrow, sliding_words, unit_cell};
+use super::scale::Scale;
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::images;

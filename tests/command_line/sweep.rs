@@ -183,6 +183,61 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
     assert_eq!(killed.text("sweep.csv").lines().count(), 141);
 }
 
+/// The hundred and thirtieth exit code is the shell's for what the keyboard ends.
+#[test]
+fn a_sweep_that_is_interrupted_keeps_its_rows_and_goes_on() {
+    let desk = desk();
+    let values = ["--set", "layers.0.thickness=0.05:0.5:12", "--set", "grid.points=64"];
+    assert_eq!(sweep(&desk, "out", &values).code, 0);
+    let whole = Folder(desk.path("out")).text("sweep.csv");
+    let child = Command::new("env")
+        .arg("--default-signal=INT")
+        .arg(assert_cmd::cargo::cargo_bin!("percoat"))
+        .args(["sweep", "case.toml", "-o", "out", "--no-pictures"])
+        .args(values)
+        .current_dir(desk.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let (log, started) = (desk.path("out/unfinished-sweep/sweep.jsonl"), Instant::now());
+    let rows =
+        || fs::read_to_string(&log).unwrap_or_default().split_inclusive('\n').filter(|row| row.ends_with('\n')).count();
+    while rows() < 3 {
+        assert!(started.elapsed() < Duration::from_secs(120));
+        sleep(Duration::from_millis(1));
+    }
+    // What is read while it writes might not belong together.
+    desk.percoat(&["report", "out"]).complains(2, &["out", "another run"]);
+    Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    let done = rows();
+    assert!(done >= 3 && said.contains(&format!("interrupted: {done} of 12 combinations")), "{said}");
+    let answer = sweep(&desk, "out", &[&values[..], &["--resume"]].concat());
+    assert!(
+        answer.code == 0 && answer.err.contains(&format!("{done} of 12 combinations are done already")),
+        "{}",
+        answer.err
+    );
+    assert_eq!(Folder(desk.path("out")).text("sweep.csv"), whole);
+}
+
+#[test]
+fn a_part_without_combinations_is_a_part() {
+    let desk = desk();
+    let values = ["--set", "layers.0.thickness=0.1,0.2"];
+    for part in ["1/3", "2/3", "3/3"] {
+        let answer = sweep(&desk, &format!("parts/{}", &part[..1]), &[&values[..], &["--shard", part]].concat());
+        assert_eq!(answer.code, 0, "{part}: {}", answer.err);
+    }
+    let answer = desk.percoat(&["merge", "--no-pictures", "parts/1", "parts/2", "parts/3"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert_eq!(sweep(&desk, "whole", &values).code, 0);
+    assert_eq!(Folder(desk.path("whole")).text("sweep.csv"), Folder(desk.path("parts")).text("sweep.csv"));
+}
+
 #[test]
 fn what_cannot_be_used_again_is_not_lost() {
     let desk = desk();

@@ -1,6 +1,7 @@
 //! The keys of a sweep that a picture has as axes.
 
-use super::super::axis::{Scale, log_spaced};
+use super::super::axis::log_spaced;
+use super::super::scale::Scale;
 use crate::sweep::Row;
 
 /// Values of a key from which on two of them make a map.

@@ -1,10 +1,11 @@
 //! Maps over two keys of a sweep.
 
-use super::super::axis::{Axis, Scale};
+use super::super::axis::Axis;
 use super::super::bar::Bar;
 use super::super::canvas::Canvas;
 use super::super::colour::ColourMap;
 use super::super::map::{Fill, Map};
+use super::super::scale::Scale;
 use super::super::sheet::{Panel, sheet};
 use super::keys::{Keys, number, scale};
 use super::numbers::Number;
