@@ -60,15 +60,15 @@ impl View {
 
     /// Height over width of its plot.
     pub fn aspect(&self) -> f64 {
-        self.to_scale().clamp(ASPECT[0], ASPECT[1])
+        self.true_aspect().clamp(ASPECT[0], ASPECT[1])
     }
 
     /// By how much lengths along y are longer in the plot than those along x.
     pub fn stretch(&self) -> f64 {
-        self.aspect() / self.to_scale()
+        self.aspect() / self.true_aspect()
     }
 
-    fn to_scale(&self) -> f64 {
+    fn true_aspect(&self) -> f64 {
         let [width, height] = self.window.map(|[first, last]| last - first);
         height / width
     }
