@@ -17,11 +17,13 @@ fn solved(topography: Topography, load: Load) -> (RoughReading, Reading) {
     (RoughReading::of(step.finest()).expect("a topography"), step.reading())
 }
 
+fn surface(seed: u64) -> SelfAffine {
+    SelfAffine { hurst: 0.8, longest: 1.0, rolloff: 0.5, shortest: 0.0625, rms: Rms::Slope(0.1), seed }
+}
+
 fn rough(points: usize, seed: u64) -> Topography {
-    let rms = Rms::Slope(0.1);
-    let surface = SelfAffine { hurst: 0.8, longest: 1.0, rolloff: 0.5, shortest: 0.0625, rms, seed };
     let cell = Cell::square(1.0).unwrap();
-    Topography::new(cell, surface.heights(cell, [points; 2]).unwrap()).unwrap()
+    Topography::new(cell, surface(seed).heights(cell, [points; 2]).unwrap()).unwrap()
 }
 
 /// The same surface on finer and finer grids. Counting converges as the spacing, from above: the limit is extrapolated from
@@ -97,5 +99,34 @@ fn the_mean_gap_is_the_way_left_to_complete_contact() {
         let rough = RoughReading::of(step.finest()).unwrap();
         let left = complete - step.penetration();
         assert!((rough.mean_gap - left).abs() < 1e-6 * complete, "{pressure}: {} {left}", rough.mean_gap);
+    }
+}
+
+/// The vectors (a₁, a₂ + a₁) have the samples of (a₁, a₂) in another order: row i + j of column j.
+#[test]
+fn a_topography_reads_the_same_whichever_vectors_describe_its_cell() {
+    let n = 48;
+    for a2 in [[0.0, 1.0], [0.5, 0.75f64.sqrt()], [0.2, 0.9]] {
+        let a1 = [1.0, 0.0];
+        let cell = Cell::new(a1, a2).unwrap();
+        let heights = surface(3).heights(cell, [n; 2]).unwrap();
+        let skewed = Cell::new(a1, [a2[0] + a1[0], a2[1]]).unwrap();
+        let others = Array2::from_shape_fn([n; 2], |(i, j)| heights[[(i + j) % n, j]]);
+        let read = |cell: Cell, heights: Array2<f64>| {
+            solved(Topography::new(cell, heights).unwrap(), Load::MeanPressure(4e-3))
+        };
+        let [(own, reading), (other, same)] = [read(cell, heights), read(skewed, others)];
+        assert!(own.spots.count > 3 && own.counted_fraction > 0.05, "{own:?}");
+        // The same samples touch, so that what is counted differs by rounding alone.
+        let numbers = |rough: &RoughReading| {
+            let spots = rough.spots;
+            let shares = [rough.counted_fraction, rough.corrected_fraction, rough.perimeter_density];
+            [&shares[..], &[spots.count as f64, spots.mean_area, spots.half_load_area, spots.largest_area]].concat()
+        };
+        for (a, b) in numbers(&own).into_iter().zip(numbers(&other)) {
+            assert!((a - b).abs() < 1e-12 * a.abs(), "{a2:?}: {a} {b}");
+        }
+        // What is read between the samples follows the solution.
+        assert!((reading.contact_fraction / same.contact_fraction - 1.0).abs() < 1e-6);
     }
 }

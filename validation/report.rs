@@ -50,10 +50,13 @@ impl Report {
         format!("{references} independent references, {own} of own refinement, {findings} findings pinned: {verdict}")
     }
 
-    /// All checks as one table.
-    pub fn table(&self) -> String {
-        let rows: Vec<Vec<String>> = self.results.iter().flat_map(|(study, result)| rows(study, result)).collect();
-        Table::new(&COLUMNS, rows, 2).to_string()
+    /// The checks of each study as a table that fits into so many columns of letters.
+    pub fn tables(&self, width: usize) -> String {
+        let of = |(study, result): &(&'static Study, Result<Outcome, StudyError>)| {
+            let rows = rows(study, result).into_iter().map(|row| row[1..].to_vec()).collect();
+            format!("study {}\n\n{}", study.name, Table::new(&COLUMNS[1..], rows, 1).wrapped(width).fitted(width))
+        };
+        self.results.iter().map(of).collect::<Vec<_>>().join("\n\n")
     }
 
     /// Rows of the paper's table of statements, study by study.
@@ -243,6 +246,8 @@ mod tests {
         assert!(!report.holds());
         assert_eq!(report.failures(), 2);
         assert_eq!(report.errors(), ["one: no memory"]);
-        assert!(report.table().contains("runs to its end") && report.table().contains("has checks"));
+        let table = report.tables(80);
+        assert!(table.lines().all(|line| line.chars().count() <= 80), "{table}");
+        assert!(table.contains("runs to its end") && table.contains("has checks"), "{table}");
     }
 }

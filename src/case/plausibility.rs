@@ -1,11 +1,12 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
 use super::{Case, LayerSection, LoadSection, sublayers};
-use crate::body::{HalfSpace, Interface, Layer, MeanStress};
+use crate::body::{Interface, Layer, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
 use crate::numeric::number::number;
 use crate::run::warnings::{HIGH, STEEP, ratio};
+use std::iter::repeat_n;
 
 /// Lengths of one case that differ by more than this are hardly in one unit.
 const APART: f64 = 1e4;
@@ -13,7 +14,7 @@ const APART: f64 = 1e4;
 /// What the case alone makes doubtful, one sentence each.
 pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
-    let mut doubts: Vec<String> = pressures(&case.load, case.half_space()).into_iter().collect();
+    let mut doubts: Vec<String> = pressures(case).into_iter().collect();
     doubts.extend(lengths(case, cell));
     doubts.extend(sublayers::doubt(case));
     if counterbody.indenters().is_some() {
@@ -23,17 +24,28 @@ pub fn of_case(case: &Case) -> Vec<String> {
     doubts.extend(counterbody.topography().and_then(topography));
     doubts.extend_from_slice(case.surface_doubts());
     if case.stress.as_ref().is_some_and(|stress| stress.mean == MeanStress::HalfSpace) {
-        doubts.extend(slipping(case.half_space(), cell));
+        doubts.extend(slipping(case, cell));
     }
     doubts
 }
 
-fn pressures(load: &LoadSection, half_space: &HalfSpace) -> Option<String> {
-    let LoadSection::MeanPressure(loads) = load else { return None };
+/// The layers of the half-space as the case has them: `layers[0]`, or one of its sublayers.
+fn names(layers: &[LayerSection]) -> impl Iterator<Item = String> {
+    layers.iter().enumerate().flat_map(|(number, layer)| {
+        let (of, graded) = (layer.sublayers(), layer.grading().is_some());
+        let name = move |sublayer| match graded {
+            true => format!("layers[{number}], its sublayer {sublayer} of {of}"),
+            false => format!("layers[{number}]"),
+        };
+        (1..=of).map(name)
+    })
+}
+
+fn pressures(case: &Case) -> Option<String> {
+    let (half_space, LoadSection::MeanPressure(loads)) = (case.half_space(), &case.load) else { return None };
     let highest = loads.iter().copied().fold(0.0, f64::max);
     let layers = half_space.layers().iter().map(|layer| layer.material());
-    let names = (1..=half_space.layers().len()).map(|number| format!("layer {number}"));
-    let materials = layers.zip(names).chain([(half_space.substrate(), "the substrate".to_owned())]);
+    let materials = layers.zip(names(&case.layers)).chain([(half_space.substrate(), "the substrate".to_owned())]);
     let (material, name) = materials.min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
     let part = highest / material.young();
     (part > HIGH).then(|| {
@@ -134,14 +146,16 @@ fn topography(topography: &Topography) -> Option<String> {
 }
 
 /// Springs that slip over more than the cell: the wide disc of `mean = "half-space"` must be wider than that.
-fn slipping(half_space: &HalfSpace, cell: Cell) -> Vec<String> {
-    let side = cell.reduced().longer_side();
-    let layers = (1..).zip(half_space.layers()).zip(MeanStress::slip_lengths(half_space));
+fn slipping(case: &Case, cell: Cell) -> Vec<String> {
+    let (half_space, side) = (case.half_space(), cell.reduced().longer_side());
+    // Under a graded layer that of its last sublayer.
+    let sections = (0..).zip(&case.layers).flat_map(|(number, layer)| repeat_n(number, layer.sublayers()));
+    let layers = sections.zip(half_space.layers()).zip(MeanStress::slip_lengths(half_space));
     let slips = layers.filter_map(|((layer, above), length): ((usize, &Layer), Option<f64>)| {
         let Interface::Spring { tangential, .. } = above.interface() else { return None };
         let length = length.filter(|&length| length > side)?;
         Some(format!(
-            "stress.mean = \"half-space\": the spring under layer {layer} (tangential stiffness {}) slips over {}, {} times \
+            "stress.mean = \"half-space\": the spring under layers[{layer}] (tangential stiffness {}) slips over {}, {} times \
              the cell: the layers above follow the substrate only where the load is several times wider than that; \
              under a narrower one they spread as above a frictionless interface",
             number(tangential),
@@ -194,6 +208,23 @@ mod tests {
     }
 
     #[test]
+    fn a_sublayer_is_named_by_its_layer() {
+        let graded = "{ young = [2.0, 1e-3], poisson = [0.2, 0.3], sublayers = 20 }";
+        let layers =
+            format!("layers=[{{ thickness = 0.5, young = 2, poisson = 0.3 }}, {{ thickness = 1, graded = {graded} }}]");
+        let said = doubts("fig2", &[&layers, "load.mean_pressure=0.5"]).join("\n");
+        assert!(said.contains("of layers[1], its sublayer 20 of 20:"), "{said}");
+        let said =
+            doubts("fig2", &["load.mean_pressure=60", "substrate.young=1e3", "layers.0.shear_ratio=1e-3"]).join("\n");
+        assert!(said.contains("of layers[0]:"), "{said}");
+        let spring = "interface = { tangential_stiffness = 1e-3 }";
+        let layers =
+            format!("layers=[{{ thickness = 1, graded = {{ young = [2.0, 1.0], poisson = [0.2, 0.3] }}, {spring} }}]");
+        let said = doubts("fig2", &[&layers, "stress.mean=half-space"]).join("\n");
+        assert!(said.contains("the spring under layers[0] ("), "{said}");
+    }
+
+    #[test]
     fn a_topography_of_micrometres_on_a_cell_of_metres_is_doubted_either_way() {
         let cell = Cell::square(1.0).unwrap();
         let waves = |height: f64| {
@@ -211,7 +242,7 @@ mod tests {
         let spring = |k: &str| format!("layers.0.interface={{ tangential_stiffness = {k} }}");
         let half_space = "stress.mean=half-space";
         let soft = doubts("fig2", &[&spring("1e-3"), half_space]).join("\n");
-        assert!(soft.contains("layer 1") && soft.contains("slips over"), "{soft}");
+        assert!(soft.contains("layers[0]") && soft.contains("slips over"), "{soft}");
         assert!(doubts("fig2", &[&spring("1e3"), half_space]).is_empty());
         assert!(doubts("fig2", &[&spring("1e-3"), "stress.mean=confined"]).is_empty());
     }

@@ -18,8 +18,9 @@ pub fn run(
     saying: &Saying,
 ) -> Result<Ending, Failure> {
     let parts = folders.iter().map(|folder| part(folder)).collect::<Result<Vec<_>, _>>()?;
-    let first = &parts[0].0;
-    let same = |key: &str| parts.iter().zip(folders).find(|((own, _), _)| own[key] != first[key]);
+    let (descriptions, parts): (Vec<Value>, Vec<Vec<Row>>) = parts.into_iter().unzip();
+    let first = &descriptions[0];
+    let same = |key: &str| descriptions.iter().zip(folders).find(|(own, _)| own[key] != first[key]);
     for key in ["fingerprint", "case", "task", "of", "percoat"] {
         if let Some((_, other)) = same(key) {
             return Err(Failure::refused(format!(
@@ -29,13 +30,13 @@ pub fn run(
             )));
         }
     }
-    let rows = join(parts.iter().map(|(_, rows)| rows)).map_err(Failure::refused)?;
+    let rows = join(parts.into_iter()).map_err(Failure::refused)?;
     let folder = output.map_or_else(|| common_parent(folders), |folder| Ok(folder.to_owned()))?;
     interruption::watch();
     let claim = RunFolder::claim(&folder, sweep::plan(pictures))?;
     terminal::tell_aside(claim.set_aside(), saying.quiet);
     let text = |key: &str| first[key].as_str().unwrap_or_default();
-    let seconds: f64 = parts.iter().filter_map(|(own, _)| own["timing"]["wall"].as_f64()).sum();
+    let seconds: f64 = descriptions.iter().filter_map(|own| own["timing"]["wall"].as_f64()).sum();
     let of = first["of"].as_u64().unwrap_or_default() as usize;
     let asked =
         Asked { title: text("title"), case: text("case"), task: text("task"), fingerprint: text("fingerprint"), of };
@@ -60,7 +61,7 @@ fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
             )))
         }
         (Some((description, rows)), Some((_, more))) => {
-            let rows = join([&rows, &more].into_iter()).map_err(Failure::refused)?;
+            let rows = join([rows, more].into_iter()).map_err(Failure::refused)?;
             Ok((description, rows))
         }
         (Some(own), None) | (None, Some(own)) => Ok(own),

@@ -126,7 +126,7 @@ pub fn run(
     let describe = |rows: &[Row]| sweep::description(asked, rows, started.elapsed().as_secs_f64());
     // For who merges a part that was killed.
     write_text(&staging.join("sweep.json"), &format!("{:#}\n", describe(&rows)))?;
-    let (count, known) = (combinations.all.len(), rows.clone());
+    let (count, known) = (combinations.all.len(), rows.iter().map(|row| row.combination).collect());
     let saved = |done: usize| Saved::Combinations { done, of: count, folder: staging.clone() };
     *interruption::hold() = saved(rows.len());
     let progress = Progress::new("combination", count, rows.len(), common);

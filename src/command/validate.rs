@@ -144,7 +144,7 @@ impl Gathered {
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {
     let mut out = terminal::out();
-    writeln!(out, "{}\n\n{}", report.table(), report.summary())?;
+    writeln!(out, "{}\n\n{}", report.tables(terminal::width()), report.summary())?;
     writeln!(out, "{:.1} s; report in {}", started.elapsed().as_secs_f64(), path.display())?;
     Ok(())
 }

@@ -119,9 +119,19 @@ pub struct Reduced {
 }
 
 impl Reduced {
+    /// The cell spanned by r₁ and r₂.
+    pub fn cell(&self) -> Cell {
+        self.cell
+    }
+
     /// A shortest lattice vector.
     pub fn short(&self) -> [f64; 2] {
         if norm(self.cell.a1) <= norm(self.cell.a2) { self.cell.a1 } else { self.cell.a2 }
+    }
+
+    /// rᵢ = Σⱼ `matrix[i][j]` aⱼ.
+    pub(super) fn matrix(&self) -> [[i32; 2]; 2] {
+        self.matrix
     }
 
     /// Length of the longer one of r₁ and r₂.

@@ -2,7 +2,7 @@
 
 use crate::lattice::Grid;
 
-/// Samples joined along the grid's lines.
+/// Samples joined along the directions of the nearest ones.
 #[derive(Debug, Clone)]
 pub struct Component {
     /// Rows and columns of the samples, followed through the set over the borders of the cell.
@@ -55,6 +55,7 @@ impl Component {
 pub fn components(grid: &Grid, members: impl Fn(usize) -> bool) -> Vec<Component> {
     const UNSEEN: [i32; 2] = [i32::MIN; 2];
     let points = grid.points();
+    let ways: Vec<[i32; 2]> = grid.directions().iter().flat_map(|to| [to.step, to.step.map(|k| -k)]).collect();
     let mut seen = vec![UNSEEN; grid.len()];
     let mut found = Vec::new();
     for start in 0..grid.len() {
@@ -68,7 +69,7 @@ pub fn components(grid: &Grid, members: impl Fn(usize) -> bool) -> Vec<Component
         while looked < samples.len() {
             let [i, j] = samples[looked];
             looked += 1;
-            for there in [[i + 1, j], [i - 1, j], [i, j + 1], [i, j - 1]] {
+            for there in ways.iter().map(|[rows, columns]| [i + rows, j + columns]) {
                 let next = index(points, there);
                 if seen[next] == UNSEEN && members(next) {
                     seen[next] = there;
@@ -81,6 +82,34 @@ pub fn components(grid: &Grid, members: impl Fn(usize) -> bool) -> Vec<Component
         found.push(Component { samples, wraps });
     }
     found
+}
+
+/// What is counted of the contact spots of a pressure.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Counts {
+    /// Samples and sum of the pressure of each spot; those of few samples first.
+    pub sizes: Vec<(usize, f64)>,
+    /// Whether one meets an image of itself.
+    pub wraps: bool,
+}
+
+impl Counts {
+    /// Of spots of a pressure.
+    pub fn of(spots: &[Component], grid: &Grid, pressure: &[f64]) -> Self {
+        let size = |spot: &Component| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum());
+        let mut sizes: Vec<(usize, f64)> = spots.iter().map(size).collect();
+        sizes.sort_by_key(|(size, _)| *size);
+        Self { sizes, wraps: spots.iter().any(|spot| spot.wraps) }
+    }
+
+    /// Index of the spot up to which, from the smallest on, half of the load is carried; `None` without contact.
+    pub fn half_load(&self) -> Option<usize> {
+        let mut rest: f64 = 0.5 * self.sizes.iter().map(|(_, load)| load).sum::<f64>();
+        self.sizes.iter().position(|(_, load)| {
+            rest -= load;
+            rest <= 0.0
+        })
+    }
 }
 
 /// Samples closer than `reach` to `centre`, each once, with their places relative to it; those half a cell away, which
@@ -125,6 +154,22 @@ mod tests {
         let near: Vec<_> = around(&grid, centre, 0.1).collect();
         assert!(near.len() == 4 && near.iter().all(|&(index, _)| corner(index)));
         assert!(components(&grid, |index| index / 8 == 3)[0].wraps);
+    }
+
+    #[test]
+    fn half_of_the_load_decides_which_spot_counts() {
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
+        let mut pressure = [0.0; 64];
+        let counts = |pressure: &[f64]| Counts::of(&components(&grid, |index| pressure[index] > 0.0), &grid, pressure);
+        assert_eq!((counts(&pressure), counts(&pressure).half_load()), (Counts::default(), None));
+        // One sample of load 1, two of 1 each, four of 2 each.
+        pressure[0] = 1.0;
+        pressure[16..18].fill(1.0);
+        pressure[36..40].fill(2.0);
+        assert_eq!(counts(&pressure).sizes, [(1, 1.0), (2, 2.0), (4, 8.0)]);
+        assert_eq!(counts(&pressure).half_load(), Some(2));
+        pressure[0] = 20.0;
+        assert_eq!(counts(&pressure).half_load(), Some(0));
     }
 
     #[test]

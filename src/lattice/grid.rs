@@ -105,9 +105,13 @@ impl Grid {
 
     /// Distance between neighbouring samples, a length: the longer side of the reduced cell of the samples.
     pub fn spacing(&self) -> f64 {
+        self.samples_cell().map_or(0.0, |cell| cell.reduced().longer_side())
+    }
+
+    /// The cell of one sample. It is a cell as the grid's is.
+    pub(super) fn samples_cell(&self) -> Option<Cell> {
         let [e1, e2] = self.steps();
-        // The samples' cell is a cell as the grid's is.
-        Cell::new(e1, e2).map_or(0.0, |cell| cell.reduced().longer_side())
+        Cell::new(e1, e2).ok()
     }
 
     /// Wavevector of the Fourier component (k₁, k₂), 0 ≤ kᵢ < Nᵢ: its shortest alias, 1/length.

@@ -5,6 +5,7 @@ pub(crate) mod components;
 mod error;
 mod grid;
 mod interpolation;
+mod nearest;
 mod sites;
 pub(crate) mod waves;
 mod zone;

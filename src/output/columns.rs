@@ -2,7 +2,7 @@
 //! of letters, digits and underscores, no quotes, no commas or `#` within a cell, an empty cell where there is no value.
 
 use serde_json::Value;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// A row: its cells, each with the name of its column.
 pub type Cells = Vec<(String, String)>;
@@ -34,28 +34,28 @@ pub fn plain(text: &str) -> String {
 }
 
 /// Rows under one head. Columns stand in the order in which they first come; one that comes late stands behind what comes
-/// before it in its row.
-pub fn csv(rows: &[Cells]) -> String {
-    let mut names: Vec<&str> = Vec::new();
-    let mut known: HashSet<&str> = HashSet::new();
-    for row in rows {
+/// before it in its row. The rows are made twice and not kept: of many they take far more than their text.
+pub fn csv<I: Iterator<Item = Cells>>(rows: impl Fn() -> I) -> String {
+    let mut names: Vec<String> = Vec::new();
+    let mut known: HashSet<String> = HashSet::new();
+    for row in rows() {
         let mut after = 0;
         for (name, _) in row {
-            if known.insert(name) {
+            if names.get(after) == Some(&name) {
+                after += 1;
+            } else if known.contains(&name) {
+                after = 1 + names.iter().position(|own| *own == name).unwrap_or(after);
+            } else {
+                known.insert(name.clone());
                 names.insert(after, name);
                 after += 1;
-            } else if names.get(after) == Some(&name.as_str()) {
-                after += 1;
-            } else {
-                after = 1 + names.iter().position(|own| own == name).unwrap_or(after);
             }
         }
     }
     let mut text = names.join(",") + "\n";
-    for row in rows {
-        let cells: std::collections::HashMap<&str, &str> =
-            row.iter().map(|(name, cell)| (name.as_str(), cell.as_str())).collect();
-        let line: Vec<&str> = names.iter().map(|name| cells.get(name).copied().unwrap_or("")).collect();
+    for row in rows() {
+        let cells: HashMap<String, String> = row.into_iter().collect();
+        let line: Vec<&str> = names.iter().map(|name| cells.get(name).map_or("", String::as_str)).collect();
         text += &(line.join(",") + "\n");
     }
     text
@@ -69,7 +69,7 @@ mod tests {
     #[test]
     fn names_and_cells_need_no_quotes() {
         let cells = scalars(&json!({"a": {"b": [1.5, null]}, "why": "x, \"y\" #\n z", "c": true}));
-        let text = csv(&[cells]);
+        let text = csv(|| [cells.clone()].into_iter());
         assert_eq!(text, "a_b_1,a_b_2,why,c\n1.5,,x; 'y' ' z,true\n");
     }
 
@@ -81,6 +81,6 @@ mod tests {
             row(&[("a", "3"), ("b", "4"), ("z", "5"), ("y", "6")]),
             row(&[("z", "7")]),
         ];
-        assert_eq!(csv(&rows), "a,b,z,y\n1,,2,\n3,4,5,6\n,,7,\n");
+        assert_eq!(csv(|| rows.iter().cloned()), "a,b,z,y\n1,,2,\n3,4,5,6\n,,7,\n");
     }
 }

@@ -11,8 +11,8 @@ use crate::run::{At, Limit, Limits, StepRecord};
 use crate::spectral::{Certificate, Report, Route, Stop};
 use crate::stress::Peak;
 use crate::stress::maxima::{Carried, Extremes};
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer};
 use serde_json::Value;
 
 /// Why a result cannot be read back: what is missing or of another kind.
@@ -142,9 +142,11 @@ struct StepKeys {
     iterations: usize,
     convolutions: f64,
     residual: Option<f64>,
+    #[serde(deserialize_with = "certificate")]
     certificate: Certificate,
     points: [usize; 2],
     contact_spots: usize,
+    #[serde(deserialize_with = "or_none")]
     spot_resolution: f64,
     levels: Vec<LevelKeys>,
     friction: Option<Sliding>,
@@ -182,6 +184,7 @@ struct LevelKeys {
     radius_max: Option<f64>,
     centre: [Option<f64>; 2],
     merged: bool,
+    #[serde(deserialize_with = "or_none")]
     resolution: f64,
     errors: LevelErrors,
 }
@@ -213,8 +216,11 @@ struct PeakKeys {
     value: Option<f64>,
     error: Option<f64>,
     singular: bool,
+    #[serde(deserialize_with = "or_none")]
     x: f64,
+    #[serde(deserialize_with = "or_none")]
     y: f64,
+    #[serde(deserialize_with = "or_none")]
     z: f64,
     material: usize,
     direction: [Option<f64>; 3],
@@ -228,8 +234,11 @@ struct UtilisationKeys {
     utilisation: Option<f64>,
     singular: bool,
     error: Option<f64>,
+    #[serde(deserialize_with = "or_none")]
     x: f64,
+    #[serde(deserialize_with = "or_none")]
     y: f64,
+    #[serde(deserialize_with = "or_none")]
     z: f64,
 }
 
@@ -240,6 +249,26 @@ fn value(x: Option<f64>, singular: bool) -> f64 {
 
 fn plain(x: Option<f64>) -> f64 {
     value(x, false)
+}
+
+/// Of a pressure that is not a number nothing is.
+fn certificate<'de, D: Deserializer<'de>>(keys: D) -> Result<Certificate, D::Error> {
+    #[derive(Deserialize)]
+    struct Keys {
+        #[serde(deserialize_with = "or_none")]
+        energy_gap: f64,
+        #[serde(deserialize_with = "or_none")]
+        penetration: f64,
+        #[serde(deserialize_with = "or_none")]
+        load: f64,
+    }
+    let Keys { energy_gap, penetration, load } = Keys::deserialize(keys)?;
+    Ok(Certificate { energy_gap, penetration, load })
+}
+
+/// A number that must be there, null for none.
+fn or_none<'de, D: Deserializer<'de>>(number: D) -> Result<f64, D::Error> {
+    Option::deserialize(number).map(plain)
 }
 
 fn record(keys: StepKeys) -> StepRecord {
@@ -360,4 +389,35 @@ fn utilisation(keys: UtilisationKeys) -> Option<Utilisation> {
         error: keys.error,
         position: [keys.x, keys.y, keys.z],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Material};
+    use crate::counterbody::Topography;
+    use crate::lattice::Cell;
+    use crate::load::Load;
+    use crate::problem::Problem;
+    use crate::spectral::{Settings, Solver};
+    use ndarray::Array2;
+    use serde_json::json;
+
+    #[test]
+    fn a_step_that_stopped_as_no_number_comes_back_as_one() {
+        let heights = Array2::from_shape_fn([8; 2], |(i, j)| if i + j == 0 { 1.0 } else { 0.0 });
+        let surface = Topography::new(Cell::square(8.0).unwrap(), heights).unwrap();
+        let body = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let mut solver = Solver::new(Problem::new(surface, body), [8; 2], Settings::default()).unwrap();
+        let step = solver.solve(Load::MeanPressure(1e-3));
+        let mut record = StepRecord::new(&step, step.reading());
+        let nan = f64::NAN;
+        record.certificate = Certificate { energy_gap: nan, penetration: nan, load: nan };
+        (record.reading.penetration, record.reading.spot_resolution) = (nan, nan);
+        let file: Value = serde_json::from_str(&json!({ "steps": [record] }).to_string()).unwrap();
+        let read = steps_of(&file).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(read[0].stop_reason(), "not a number");
+        assert!(read[0].certificate.energy_gap.is_nan() && read[0].reading.spot_resolution.is_nan());
+        assert_eq!(read[0].reading.mean_pressure, record.reading.mean_pressure);
+    }
 }

@@ -1,7 +1,7 @@
 //! `summary.json` and `curve.csv`: every scalar of a run.
 
 use super::Timing;
-use super::columns::{Cells, csv, scalars};
+use super::columns::{csv, scalars};
 use super::fingerprint::fingerprint;
 use crate::case::Case;
 use crate::run::StepRecord;
@@ -38,6 +38,5 @@ pub(super) fn units(case: &Case) -> Value {
 /// The steps as a CSV table: one row a step, one column a scalar, nested names joined by underscores (`levels_1_load`).
 /// What a step does not have stays empty.
 pub fn curve(steps: &[StepRecord]) -> String {
-    let rows: Vec<Cells> = steps.iter().map(|step| scalars(&json!(step))).collect();
-    csv(&rows)
+    csv(|| steps.iter().map(|step| scalars(&json!(step))))
 }

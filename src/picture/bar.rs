@@ -1,13 +1,14 @@
 //! A colour bar: what the colours of a field stand for.
 
-use super::axis::{Scale, Ticks, ticks};
 use super::canvas::{Anchor, Canvas, PIXELS};
 use super::colour::{Colour, ColourMap};
 use super::frame::{all, factor, tick, widest};
 use super::number::short;
 use super::quantity::Quantity;
+use super::scale::Scale;
 use super::sheet::{HAIR, LABELS, NUMBERS};
 use super::text;
+use super::ticks::{Ticks, ticks};
 use crate::units::Prefixed;
 
 /// What colours stand for.

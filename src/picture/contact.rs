@@ -1,16 +1,18 @@
 //! Contact spots by level with their boundaries, and how far each boundary is from a circle (Fig. 2b).
 
-use super::axis::{Axis, Scale};
+use super::axis::Axis;
 use super::canvas::{Canvas, Dash, Stroke};
 use super::chart::{Chart, Plot};
 use super::colour::Colour;
 use super::curve::{Curve, Style};
 use super::map::{Fill, Map, Over};
 use super::number::signed;
-use super::pressure::{aspect, axes, numbers, sliding_arrow, sliding_words, unit_cell};
+use super::pressure::{axes, numbers, sliding_arrow, sliding_words, unit_cell};
+use super::scale::Scale;
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
-use super::tiling::{images, window};
+use super::tiling::images;
+use super::window::View;
 use crate::reading::LevelReading;
 use std::f64::consts::TAU;
 
@@ -21,12 +23,13 @@ const LEAST: f64 = 0.1;
 /// have without each other, a length, drawn dashed.
 pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Canvas> {
     (snapshot.levels() > 0).then(|| {
-        let window = window(snapshot.step.grid().cell());
+        let view = View::cells(snapshot.step.grid().cell());
+        let window = view.window;
         let colour = |place: [f64; 2]| {
             snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
         };
         let [x, y] = axes(snapshot, window);
-        let mut over = unit_cell(snapshot);
+        let mut over = unit_cell(snapshot, view);
         let cell = snapshot.step.grid().cell();
         for (site, boundary) in snapshot.step.surface().sites().iter().zip(&snapshot.reading.boundaries) {
             for centre in images(cell, site.place, widened(window)) {
@@ -54,10 +57,10 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
         over.extend(lines.map(|points| {
             Over::Line(Stroke { points, width: 0.6, dash: Dash::Solid, colour: Colour::BLACK })
         }));
-        over.extend(numbers(snapshot, window, |_| Colour::BLACK));
-        over.extend(sliding_arrow(snapshot));
+        over.extend(numbers(snapshot, view, |_| Colour::BLACK));
+        over.extend(sliding_arrow(snapshot, view));
         let fill = Fill::Colours(&colour);
-        let spots = Map { title: "(a) contact spots".into(), x, y, aspect: aspect(window), fill, over };
+        let spots = Map { title: "(a) contact spots".into(), x, y, aspect: view.aspect(), fill, over };
         let radii = radii(snapshot, without_mutual_effect);
         let mut what = "Numbers are levels.".to_owned();
         what += &merged_words(snapshot);
@@ -73,10 +76,11 @@ pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Op
             }
         }
         what += sliding_words(snapshot);
+        what += &view.words();
         let caption = snapshot.caption(&what);
         match radii {
             Some((chart, _)) => {
-                sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: aspect(window).min(1.0) }])
+                sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: view.aspect().min(1.0) }])
             }
             None => sheet(&caption, &[&Map { title: String::new(), ..spots }]),
         }
@@ -212,6 +216,6 @@ mod tests {
         assert!(snapshot.reading.levels.iter().all(|level| level.merged), "{}", snapshot.reading);
         assert!(radii(&snapshot, None).is_none());
         assert!(merged_words(&snapshot).contains("levels 1, 2 have merged"));
-        assert!(!snapshot.outlines(window(snapshot.step.grid().cell())).is_empty());
+        assert!(!snapshot.outlines(View::cells(snapshot.step.grid().cell()).window).is_empty());
     }
 }

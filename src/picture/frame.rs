@@ -1,11 +1,13 @@
 //! The frame of a plot: two axes with their ranges, numbers and quantities, and where a point stands between them.
 
-use super::axis::{Axis, Scale, Ticks};
+use super::axis::Axis;
 use super::canvas::{Anchor, Canvas, Dash};
 use super::colour::Colour;
 use super::number;
+use super::scale::Scale;
 use super::sheet::{HAIR, LABELS, Margins, NUMBERS};
 use super::text::{self, wrapped};
+use super::ticks::Ticks;
 
 /// Length of a numbered tick, points.
 const TICK: f64 = 3.0;

@@ -10,7 +10,8 @@
 
 use super::contour::zero_lines;
 use super::snapshot::Snapshot;
-use super::tiling::{Window, around};
+use super::tiling::around;
+use super::window::Window;
 
 /// Farthest distance that is told apart, in spacings.
 const FAR: f64 = 1.5;

@@ -7,45 +7,47 @@ use super::colour::Colour;
 use super::map::{Fill, Map, Over};
 use super::sheet::sheet;
 use super::snapshot::{Snapshot, is_oblique};
-use super::tiling::{Window, images, window, window_of_one};
+use super::tiling::images;
+use super::window::{View, Window};
+
+/// Room of a number, widths of a plot: beside and above each other.
+const ROOM: [f64; 2] = [0.035, 0.055];
 
 /// The picture; white is where there is no contact.
 pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let cell = snapshot.step.grid().cell();
-    let window = if snapshot.levels() == 0 { window_of_one(cell) } else { window(cell) };
+    let view = if snapshot.levels() == 0 { View::one(cell) } else { View::cells(cell) };
+    let window = view.window;
     let value = |place: [f64; 2]| snapshot.pressure_at(place);
     let most = snapshot.pressures().iter().copied().fold(0.0, f64::max);
     let most = if most > 0.0 { most } else { 1.0 };
     let bar = Bar::sequential(snapshot.units.pressure_of("contact pressure", "p"), most);
     let [x, y] = axes(snapshot, window);
-    let mut over = unit_cell(snapshot);
-    over.extend(numbers(snapshot, window, |place| {
+    let mut over: Vec<Over> = sliding_arrow(snapshot, view).into_iter().collect();
+    over.extend(unit_cell(snapshot, view));
+    over.extend(numbers(snapshot, view, |place| {
         let dark = snapshot.pressure_at(place).is_some_and(|p| p < 0.6 * most);
         if dark { Colour::WHITE } else { Colour::BLACK }
     }));
-    over.extend(sliding_arrow(snapshot));
-    let map = Map { title: String::new(), x, y, aspect: aspect(window), fill: Fill::Values(bar, &value), over };
+    let map = Map { title: String::new(), x, y, aspect: view.aspect(), fill: Fill::Values(bar, &value), over };
     let what = match snapshot.levels() {
-        0 if cell.is_rectangular() => "White: no contact; one unit cell.",
+        0 if cell.is_rectangular() && !view.is_part => "White: no contact; one unit cell.",
         0 => "White: no contact; dashed: the unit cell.",
         _ => "Numbers are levels; white: no contact; dashed: the unit cell.",
     };
-    sheet(&snapshot.caption(&(what.to_owned() + sliding_words(snapshot))), &[&map])
+    sheet(&snapshot.caption(&(what.to_owned() + sliding_words(snapshot) + &view.words())), &[&map])
 }
 
 /// An arrow along the sliding, where there is friction.
-pub fn sliding_arrow(snapshot: &Snapshot) -> Option<Over> {
-    snapshot.step.problem().friction().map(|friction| Over::Arrow { direction: friction.direction() })
+pub fn sliding_arrow(snapshot: &Snapshot, view: View) -> Option<Over> {
+    let [x, y] = snapshot.step.problem().friction()?.direction();
+    let y = view.stretch() * y;
+    Some(Over::Arrow { direction: [x, y].map(|part| part / x.hypot(y)) })
 }
 
 /// What a caption says about it.
 pub fn sliding_words(snapshot: &Snapshot) -> &'static str {
     snapshot.step.problem().friction().map_or("", |_| " Arrow: direction of sliding.")
-}
-
-/// Height over width of a window.
-pub fn aspect([[x0, x1], [y0, y1]]: Window) -> f64 {
-    (y1 - y0) / (x1 - x0)
 }
 
 /// Axes along the surface.
@@ -57,7 +59,7 @@ pub fn axes(snapshot: &Snapshot, [[x0, x1], [y0, y1]]: Window) -> [Axis; 2] {
 }
 
 /// The unit cell's outline between the contacts.
-pub fn unit_cell(snapshot: &Snapshot) -> Vec<Over> {
+pub fn unit_cell(snapshot: &Snapshot, view: View) -> Vec<Over> {
     let cell = snapshot.step.grid().cell();
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|s| cell.point(s));
     let side = |k: usize| {
@@ -68,36 +70,64 @@ pub fn unit_cell(snapshot: &Snapshot) -> Vec<Over> {
             Over::Line(Stroke { points, width: 0.6, dash: Dash::Dashed, colour: Colour([120, 120, 120]) })
         })
     };
-    (0..4).flat_map(side).chain(names(snapshot, corners)).collect()
+    (0..4).flat_map(side).chain(names(snapshot, view, corners)).collect()
 }
 
-/// a₁ and a₂ beside their sides, outside the cell, where it has no other name.
-fn names(snapshot: &Snapshot, [origin, along1, _, along2]: [[f64; 2]; 4]) -> Vec<Over> {
-    let cell = snapshot.step.grid().cell();
-    if !is_oblique(&cell) {
+/// a₁ and a₂ beside their sides, where the cell has no other name: outside it, or where the plot ends there, inside.
+fn names(snapshot: &Snapshot, view: View, [origin, along1, _, along2]: [[f64; 2]; 4]) -> Vec<Over> {
+    if !is_oblique(&snapshot.step.grid().cell()) {
         return Vec::new();
     }
-    let [[x0, x1], [y0, y1]] = window(cell);
-    let off = 0.035 * (x1 - x0).min(y1 - y0);
+    let [[x0, x1], [y0, y1]] = view.window;
+    // As the plot has them: lengths along y stretched.
+    let stretch = view.stretch();
+    let off = 0.04 * (x1 - x0);
     let beside = |word: &str, to: [f64; 2], other: [f64; 2]| {
-        let ([dx, dy], away) = ([to[0] - origin[0], to[1] - origin[1]], [other[0] - origin[0], other[1] - origin[1]]);
+        let drawn = |end: [f64; 2]| [end[0] - origin[0], stretch * (end[1] - origin[1])];
+        let ([dx, dy], away) = (drawn(to), drawn(other));
         let length = dx.hypot(dy);
         let sign = if dx * away[1] - dy * away[0] > 0.0 { 1.0 } else { -1.0 };
-        let normal = [sign * dy / length, -sign * dx / length];
-        let at = [0, 1].map(|k| origin[k] + 0.38 * [dx, dy][k] + off * normal[k]);
+        let at = |side: f64| {
+            let [x, y] = [0.38 * dx + side * dy / length * off, 0.38 * dy - side * dx / length * off];
+            [origin[0] + x, origin[1] + y / stretch]
+        };
+        let is_inside = |[x, y]: &[f64; 2]| {
+            let [edge_x, edge_y] = [0.9 * off, 0.9 * off / stretch];
+            (x0 + edge_x..=x1 - edge_x).contains(x) && (y0 + edge_y..=y1 - edge_y).contains(y)
+        };
+        let at = [sign, -sign].map(at).into_iter().find(is_inside)?;
         let dark = snapshot.pressure_at(at).is_some();
-        Over::Word { word: word.to_owned(), at, colour: if dark { Colour::WHITE } else { Colour::BLACK } }
+        Some(Over::Word { word: word.to_owned(), at, colour: if dark { Colour::WHITE } else { Colour::BLACK } })
     };
-    vec![beside("a₁", along1, along2), beside("a₂", along2, along1)]
+    [beside("a₁", along1, along2), beside("a₂", along2, along1)].into_iter().flatten().collect()
 }
 
-/// The number of the level at each site within the window.
-pub fn numbers(snapshot: &Snapshot, window: Window, colour: impl Fn([f64; 2]) -> Colour) -> Vec<Over> {
-    let [[x0, x1], [y0, y1]] = window;
-    let border = 0.02 * (x1 - x0).min(y1 - y0);
-    let inner = [[x0 + border, x1 - border], [y0 + border, y1 - border]];
+/// The number of the level at each site within the view, as far as they have room beside each other: from its middle on.
+pub fn numbers(snapshot: &Snapshot, view: View, colour: impl Fn([f64; 2]) -> Colour) -> Vec<Over> {
+    let [[x0, x1], [y0, y1]] = view.window;
+    let inner = view.window.map(|[first, last]| {
+        let border = 0.02 * (last - first);
+        [first + border, last - border]
+    });
     let cell = snapshot.step.grid().cell();
     let sites = snapshot.step.surface().sites().iter();
-    let places = sites.flat_map(|site| images(cell, site.place, inner).into_iter().map(|at| (site.level, at)));
-    places.map(|(level, at)| Over::Word { word: level.to_string(), at, colour: colour(at) }).collect()
+    let mut places: Vec<(usize, [f64; 2])> =
+        sites.flat_map(|site| images(cell, site.place, inner).into_iter().map(|at| (site.level, at))).collect();
+    // In widths of the plot.
+    let apart =
+        |[a, b]: [f64; 2], [c, d]: [f64; 2]| [(a - c) / (x1 - x0), (b - d) / (x1 - x0) * view.stretch()].map(f64::abs);
+    let middle = [0.5 * (x0 + x1), 0.5 * (y0 + y1)];
+    let off = |at: [f64; 2]| apart(at, middle).iter().map(|part| part * part).sum::<f64>();
+    places.sort_by(|(_, a), (_, b)| off(*a).total_cmp(&off(*b)));
+    let mut shown: Vec<(usize, [f64; 2])> = Vec::new();
+    for (level, at) in places {
+        let has_room = |(_, other): &(usize, [f64; 2])| {
+            let [across, up] = apart(at, *other);
+            across > ROOM[0] || up > ROOM[1]
+        };
+        if shown.iter().all(has_room) {
+            shown.push((level, at));
+        }
+    }
+    shown.into_iter().map(|(level, at)| Over::Word { word: level.to_string(), at, colour: colour(at) }).collect()
 }

@@ -4,9 +4,9 @@ use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
 use super::curve::{Curve, Ink, Style};
+use super::number::short;
 use crate::counterbody::Topography;
 use crate::counterbody::roughness::{SelfAffine, Spectrum, Statistics};
-use crate::numeric::number::number;
 use crate::units::{Unit, Units};
 use std::f64::consts::TAU;
 
@@ -49,8 +49,8 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
         "{}{}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean \
          square of the heights.",
         if title.is_empty() { String::new() } else { format!("{title}. ") },
-        units.length().told(statistics.rms_height, |x| format!("Rms height {}", number(x))),
-        number(own.rms_slope())
+        units.length().told(statistics.rms_height, |x| format!("Rms height {}", short(x))),
+        short(own.rms_slope())
     );
     Some(plots(&caption, &[chart]))
 }

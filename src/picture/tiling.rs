@@ -1,45 +1,23 @@
-//! The cell repeated over a window of the surface, true to scale.
+//! The cell repeated over a window of the surface.
 
 use super::snapshot::Snapshot;
+use super::window::Window;
 use crate::lattice::{Cell, Grid};
 
-/// A rectangle of the surface, [first, last] along x and along y; lengths.
-pub type Window = [[f64; 2]; 2];
-
-/// A window of at least two by two cells around the middle of the unit cell.
-pub fn window(cell: Cell) -> Window {
-    let reduced = cell.reduced();
-    let long = reduced.longer_side();
-    // Rows of cells are area/long apart; of a slender cell several are shown.
-    let rows = (1.2 * long * long / cell.area()).max(2.0);
-    let half = [long, 0.5 * rows * cell.area() / long];
-    // The longer vector of the reduced cell lies along x in all named lattices; otherwise a square shows as much.
-    let [[x1, y1], [x2, y2]] = cell.vectors();
-    let lies_along_x = [[x1, y1], [x2, y2]].iter().any(|[x, y]| *y == 0.0 && x.abs() >= long * (1.0 - 1e-9));
-    let half = if lies_along_x { half } else { [half[0].max(half[1]); 2] };
-    let middle = [0.5 * (x1 + x2), 0.5 * (y1 + y2)];
-    [0, 1].map(|k| [middle[k] - half[k], middle[k] + half[k]])
-}
-
-/// A window of one cell: the rectangle around it.
-pub fn window_of_one(cell: Cell) -> Window {
-    let [[x1, y1], [x2, y2]] = cell.vectors();
-    [bounds(x1, x2), bounds(y1, y2)]
-}
-
-/// Least and largest coordinate of a cell's corners.
-fn bounds(one: f64, other: f64) -> [f64; 2] {
-    [one.min(0.0) + other.min(0.0), one.max(0.0) + other.max(0.0)]
-}
-
 /// All places in the window that are equivalent to the place given in fractions of a₁, a₂.
-pub fn images(cell: Cell, place: [f64; 2], [[x0, x1], [y0, y1]]: Window) -> Vec<[f64; 2]> {
-    let middle = [0.5 * (x0 + x1), 0.5 * (y0 + y1)];
-    let [s, t] = cell.fractions(middle);
-    // The one nearest to the middle, from there.
-    let [u, v] = cell.reduced().nearest([place[0] - s, place[1] - t]);
-    let vectors = cell.reduced().vectors_within(0.5 * (x1 - x0).hypot(y1 - y0) + u.hypot(v));
-    let images = vectors.into_iter().map(|[x, y]| [middle[0] + u + x, middle[1] + v + y]);
+pub fn images(cell: Cell, place: [f64; 2], window: Window) -> Vec<[f64; 2]> {
+    let [[x0, x1], [y0, y1]] = window;
+    let reduced = cell.reduced().cell();
+    let own = reduced.fractions(cell.point(place));
+    let corners = [[x0, y0], [x0, y1], [x1, y0], [x1, y1]].map(|corner| reduced.fractions(corner));
+    // Whole multiples of the reduced vectors by which the place can come to stand in the window.
+    let range = |k: usize| {
+        let parts = corners.iter().map(|corner| corner[k] - own[k]);
+        let [low, high] = parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        (low - 1e-9).ceil() as i64..=(high + 1e-9).floor() as i64
+    };
+    let multiples = range(0).flat_map(|i| range(1).map(move |j| [i as f64, j as f64]));
+    let images = multiples.map(|[i, j]| reduced.point([own[0] + i, own[1] + j]));
     images.filter(|[x, y]| (x0..=x1).contains(x) && (y0..=y1).contains(y)).collect()
 }
 
@@ -105,12 +83,13 @@ impl Snapshot {
 
 #[cfg(test)]
 mod tests {
+    use super::super::window::View;
     use super::*;
 
     #[test]
     fn a_window_holds_four_cells_and_every_site_four_times() {
         for cell in [Cell::hexagonal(3f64.sqrt()).unwrap(), Cell::square(2.0).unwrap()] {
-            let window = window(cell);
+            let window = View::cells(cell).window;
             let area: f64 = window.iter().map(|[first, last]| last - first).product();
             assert!((area / cell.area() - 4.0).abs() < 1e-12);
             for place in [[0.31, 0.17], [0.6, 0.77], [0.99, 0.52]] {
@@ -121,23 +100,6 @@ mod tests {
                     assert!((0..2).all(|k| ((s[k] - place[k]) - (s[k] - place[k]).round()).abs() < 1e-12));
                 }
             }
-        }
-    }
-
-    #[test]
-    fn a_window_of_one_cell_is_that_cell_where_it_is_a_rectangle() {
-        let window = |a1, a2| window_of_one(Cell::new(a1, a2).unwrap());
-        assert_eq!(window([2.0, 0.0], [0.0, 3.0]), [[0.0, 2.0], [0.0, 3.0]]);
-        assert_eq!(window([0.0, 2.0], [-3.0, 0.0]), [[-3.0, 0.0], [0.0, 2.0]]);
-        assert_eq!(window([2.0, 0.0], [1.0, 1.5]), [[0.0, 3.0], [0.0, 1.5]]);
-    }
-
-    #[test]
-    fn a_window_holds_two_cells_along_each_side_of_a_slender_one() {
-        for cell in [Cell::new([0.1, 0.0], [0.0, 10.0]).unwrap(), Cell::new([10.0, 0.0], [0.0, 0.1]).unwrap()] {
-            let [[x1, _], [_, y2]] = cell.vectors();
-            let [width, height] = window(cell).map(|[first, last]| last - first);
-            assert!(width > 1.999 * x1 && height > 1.999 * y2, "{width} {height}");
         }
     }
 

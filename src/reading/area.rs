@@ -1,9 +1,9 @@
 //! Area of contact of any shape, between the samples.
 //!
-//! Along every line of samples contact is a set of intervals. At a distance d inside an end p² falls nearly as d, at a
+//! Along every line of nearest samples contact is a set of intervals. At a distance d inside an end p² falls nearly as d, at a
 //! distance d outside g^{2/3} rises nearly as d: the end is the mean of the roots of two parabolas, one fitted to p² on
 //! the one side, one to g^{2/3} on the other, each without the outermost sample. The lengths, averaged over the lines
-//! of both directions, give the fraction of the cell. What the two roots differ measures their error. Between intervals
+//! of all directions, give the fraction of the cell. What the two roots differ measures their error. Between intervals
 //! of few samples the end is halfway.
 
 use crate::lattice::Grid;
@@ -26,15 +26,20 @@ pub struct Area {
 /// Fraction of the cell in contact, from pressure and gap (one value per sample each), without the intervals whose
 /// samples are `known`.
 pub fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(usize) -> bool + Sync) -> Area {
-    let [n1, n2] = grid.points();
     let sample = |index: usize| (pressure[index], gap[index], known(index));
-    // Lines are added in their order, whoever has read them.
-    let sum = |lines: Vec<[f64; 2]>| lines.iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
-    let along = (0..n1).into_par_iter().map(|i| line_fraction(n2, |j| sample(i * n2 + j))).collect();
-    let across = (0..n2).into_par_iter().map(|j| line_fraction(n1, |i| sample(i * n2 + j))).collect();
-    let (along, across) = (sum(along), sum(across));
-    let [fraction, error] = [0, 1].map(|k| 0.5 * (along[k] / n1 as f64 + across[k] / n2 as f64));
-    Area { fraction, error }
+    let mut mean = [0.0; 2];
+    for direction in grid.directions() {
+        let lines = direction.lines(grid.points());
+        let read = |&start: &usize| {
+            let line: Vec<usize> = direction.line(grid.points(), start).collect();
+            line_fraction(line.len(), |k| sample(line[k]))
+        };
+        // Lines are added in their order, whoever has read them.
+        let all: Vec<[f64; 2]> = lines.par_iter().map(read).collect();
+        let sum = all.iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        mean = [0, 1].map(|k| mean[k] + 0.5 * direction.weight * (sum[k] / lines.len() as f64));
+    }
+    Area { fraction: mean[0], error: mean[1] }
 }
 
 /// Fraction in contact of a closed line of `n` samples, of each pressure, gap and whether it is known, and its estimated

@@ -139,7 +139,8 @@ impl Reading {
                 }
             })
             .collect();
-        let (contact_spots, spot_resolution) = spots::count(grid, pressure).unwrap_or_default();
+        let counts = contact.spots(None);
+        let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
         let contact_fraction = contact_area / cell;
         let contact_fraction_uncertainty = located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error;
         let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
@@ -150,8 +151,8 @@ impl Reading {
             contact_fraction_uncertainty,
             // Between the samples the highest of them need not be the highest peak.
             max_pressure: levels.iter().map(|level| level.max_pressure).fold(max_pressure, f64::max),
-            contact_spots,
-            spot_resolution,
+            contact_spots: counts.sizes.len(),
+            spot_resolution: (typical as f64 / PI).sqrt(),
             levels,
             boundaries,
             errors: Errors::default(),

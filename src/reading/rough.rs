@@ -1,8 +1,8 @@
 //! What is read of the contact of a topography, beside what is read of any contact: counted and corrected area, spots, gap
 //! and stiffness.
 //!
-//! **Area.** Of N samples n are in contact, and E pairs of neighbours along the grid's lines are one of them. Counting takes
-//! every sample at the border for whole, and overestimates: V. A. Yastrebov, G. Anciaux & J.-F. Molinari (Tribol. Int. 114
+//! **Area.** Of N samples n are in contact, and of E pairs of neighbours one is: neighbours along the reduced basis of the
+//! samples' lattice, whichever vectors describe the cell. Counting takes every sample at the border for whole, and overestimates: V. A. Yastrebov, G. Anciaux & J.-F. Molinari (Tribol. Int. 114
 //! (2017) 161–171) take off (π − 1 + ln 2)/24 · S_d Δx with the perimeter S_d along the edges of the samples, of which every
 //! pair has one: S_d Δx is E samples, whatever the cell's shape, and
 //!
@@ -16,7 +16,7 @@
 
 use super::histogram::Histogram;
 use crate::lattice::Grid;
-use crate::lattice::components::components;
+use crate::lattice::components::Counts;
 use crate::numeric::sums;
 use crate::spectral::Contact;
 use std::f64::consts::{LN_2, PI};
@@ -73,15 +73,15 @@ impl RoughReading {
         contact.problem().counterbody().topography()?;
         let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
         let total = grid.len() as f64;
-        let (counted, pairs) = (pressure.iter().filter(|p| **p > 0.0).count(), borders(grid, pressure));
-        let (spots, areas) = spots(grid, pressure);
+        let (counted, [pairs, length]) = (pressure.iter().filter(|p| **p > 0.0).count(), borders(grid, pressure));
+        let (spots, areas) = spots(grid, contact.spots(None));
         let touching = pressure.iter().copied().filter(|p| *p > 0.0);
         let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
-        let corrected = counted as f64 - PART * pairs.iter().sum::<usize>() as f64;
+        let corrected = counted as f64 - PART * pairs;
         Some(Self {
             counted_fraction: counted as f64 / total,
             corrected_fraction: corrected.max(0.0) / total,
-            perimeter_density: perimeter(grid, pairs) / grid.cell().area(),
+            perimeter_density: length / grid.cell().area(),
             spots,
             mean_gap: sums::of(grid.len(), |k| if pressure[k] > 0.0 { [0.0] } else { [gap[k].max(0.0)] })[0] / total,
             stiffness: None,
@@ -95,48 +95,33 @@ impl RoughReading {
     }
 }
 
-/// Pairs of neighbours along a₁ and along a₂ of which one is in contact.
-fn borders(grid: &Grid, pressure: &[f64]) -> [usize; 2] {
-    let [n1, n2] = grid.points();
-    let touches = |i: usize, j: usize| pressure[i % n1 * n2 + j % n2] > 0.0;
-    let mut pairs = [0, 0];
-    for (i, j) in (0..n1).flat_map(|i| (0..n2).map(move |j| (i, j))) {
-        let here = touches(i, j);
-        pairs[0] += usize::from(touches(i + 1, j) != here);
-        pairs[1] += usize::from(touches(i, j + 1) != here);
+/// Number of pairs of neighbours of which one is in contact, and length of the edges between them, along the other vector of
+/// the basis.
+fn borders(grid: &Grid, pressure: &[f64]) -> [f64; 2] {
+    let touches = |index: usize| pressure[index] > 0.0;
+    let mut sum = [0.0; 2];
+    for direction in grid.directions() {
+        let ends = |index: &usize| touches(*index) != touches(direction.sample(grid.points(), *index, 1));
+        let pairs = direction.weight * (0..grid.len()).filter(ends).count() as f64;
+        sum = [sum[0] + pairs, sum[1] + pairs * direction.beside];
     }
-    pairs
-}
-
-/// Length of the edges between such pairs: neighbours along a₁ share one along a₂.
-fn perimeter(grid: &Grid, pairs: [usize; 2]) -> f64 {
-    let [along, across] = grid.steps().map(|[x, y]| x.hypot(y));
-    pairs[0] as f64 * across + pairs[1] as f64 * along
+    sum
 }
 
 /// Sizes of the spots, and their areas, ascending.
-fn spots(grid: &Grid, pressure: &[f64]) -> (SpotSizes, Vec<f64>) {
-    let found = components(grid, |index| pressure[index] > 0.0);
-    let mut sizes: Vec<(usize, f64)> =
-        found.iter().map(|spot| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum())).collect();
-    sizes.sort_by_key(|(size, _)| *size);
-    let areas: Vec<f64> = sizes.iter().map(|(size, _)| *size as f64 * grid.sample_area()).collect();
+fn spots(grid: &Grid, counts: &Counts) -> (SpotSizes, Vec<f64>) {
+    let areas: Vec<f64> = counts.sizes.iter().map(|(size, _)| *size as f64 * grid.sample_area()).collect();
     let [Some(&largest_area), Some(&median_area)] = [areas.last(), areas.get(areas.len() / 2)] else {
         return (SpotSizes::default(), areas);
     };
-    let mut rest: f64 = 0.5 * sizes.iter().map(|(_, load)| load).sum::<f64>();
-    let middle = sizes.iter().position(|(_, load)| {
-        rest -= load;
-        rest <= 0.0
-    });
     let sizes = SpotSizes {
         count: areas.len(),
         density: areas.len() as f64 / grid.cell().area(),
         mean_area: areas.iter().sum::<f64>() / areas.len() as f64,
         median_area,
-        half_load_area: middle.map_or(largest_area, |middle| areas[middle]),
+        half_load_area: counts.half_load().map_or(largest_area, |middle| areas[middle]),
         largest_area,
-        percolates: found.iter().any(|spot| spot.wraps),
+        percolates: counts.wraps,
     };
     (sizes, areas)
 }
@@ -189,6 +174,7 @@ const APART: f64 = 1e-9;
 mod tests {
     use super::*;
     use crate::lattice::Cell;
+    use crate::lattice::components::components;
 
     /// Discs whose centres lie anywhere between samples. How well the correction does on contacts is shown in
     /// `tests/roughness.rs`.
@@ -205,37 +191,35 @@ mod tests {
                 f64::from(u8::from(x * x + y * y < radius * radius))
             };
             let pressure: Vec<f64> = (0..grid.len()).map(inside).collect();
-            let found = perimeter(&grid, borders(&grid, &pressure));
+            let [_, found] = borders(&grid, &pressure);
             // An edge more or less at each of four ends.
             assert!((found - 8.0 * radius).abs() < 4.1 / n as f64, "{found}");
         }
-        let perimeter = perimeter(&grid, borders(&grid, &vec![1.0; n * n]));
-        assert_eq!(perimeter, 0.0);
+        assert_eq!(borders(&grid, &vec![1.0; n * n]), [0.0; 2]);
     }
 
     #[test]
     fn sizes_are_those_of_the_spots() {
         let grid = Grid::new(Cell::square(2.0).unwrap(), [8, 8]).unwrap();
         let mut pressure = [0.0; 64];
-        assert_eq!(spots(&grid, &pressure).0, SpotSizes::default());
+        let spots = |pressure: &[f64]| {
+            let found = components(&grid, |index| pressure[index] > 0.0);
+            spots(&grid, &Counts::of(&found, &grid, pressure))
+        };
+        assert_eq!(spots(&pressure).0, SpotSizes::default());
         pressure[0] = 9.0;
         pressure[16..18].fill(1.0);
         pressure[36..40].fill(0.5);
-        let (sizes, areas) = spots(&grid, &pressure);
+        let (sizes, areas) = spots(&pressure);
         let sample = 4.0 / 64.0;
         assert_eq!(areas, [sample, 2.0 * sample, 4.0 * sample]);
         assert_eq!((sizes.count, sizes.density, sizes.percolates), (3, 0.75, false));
         assert_eq!((sizes.median_area, sizes.largest_area, sizes.half_load_area), (areas[1], areas[2], areas[0]));
         pressure[24..32].fill(1.0);
-        assert!(spots(&grid, &pressure).0.percolates);
-        assert_eq!(
-            borders(&grid, &{
-                let mut one = [0.0; 64];
-                one[9] = 1.0;
-                one
-            }),
-            [2, 2]
-        );
+        assert!(spots(&pressure).0.percolates);
+        let mut one = [0.0; 64];
+        one[9] = 1.0;
+        assert_eq!(borders(&grid, &one), [4.0, 4.0 * 0.25]);
     }
 
     /// p = e^{δ/u₀} has p/u₀, and p = δ^{3/2} has (3/2) δ^{1/2}.

@@ -1,7 +1,6 @@
 //! The contact spots of a grid: whose they are, whether they have merged, where they are open, and their boundaries.
 
 use super::boundary::{Boundary, Polar, Scale};
-use crate::lattice::Grid;
 use crate::lattice::components::{Component, around, components};
 use crate::spectral::Contact;
 use rayon::prelude::*;
@@ -34,8 +33,12 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
         return spots;
     }
     let offset = |index: usize| surface.offset(&reduced, surface.owners()[index], index);
-    // The way to the next sample along a₁ and a₂, in a skewed cell by its shortest equivalent.
-    let steps = [reduced.nearest([1.0 / n1 as f64, 0.0]), reduced.nearest([0.0, 1.0 / n2 as f64])];
+    // The ways to the next samples.
+    let directions = grid.directions();
+    let steps: Vec<[f64; 2]> = directions
+        .iter()
+        .map(|to| reduced.nearest([f64::from(to.step[0]) / n1 as f64, f64::from(to.step[1]) / n2 as f64]))
+        .collect();
     let tolerance = 1e-6 * grid.spacing();
     for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
         let owner = surface.owners()[index];
@@ -52,7 +55,8 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
             }
         }
         // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
-        for (neighbour, step) in grid.adjacent(index).into_iter().zip(steps) {
+        for (direction, step) in directions.iter().zip(&steps) {
+            let neighbour = direction.sample([n1, n2], index, 1);
             if pressure[neighbour] <= 0.0 {
                 continue;
             }
@@ -72,8 +76,13 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
 /// Open samples that one contact encloses: `label` tells contacts apart.
 fn holes(contact: &Contact, label: impl Fn(usize) -> u32) -> Vec<(u32, Component)> {
     let (grid, pressure) = (contact.grid(), contact.pressures());
+    let directions = grid.directions();
     let enclosed = |open: Component| {
-        let mut beside = open.indices(grid).flat_map(|index| grid.adjacent(index)).filter(|&next| pressure[next] > 0.0);
+        let around = |index: usize| {
+            let both = directions.iter().flat_map(|to| [to, to].into_iter().zip([1, -1]));
+            both.map(move |(to, count)| to.sample(grid.points(), index, count))
+        };
+        let mut beside = open.indices(grid).flat_map(around).filter(|&next| pressure[next] > 0.0);
         let owner = label(beside.next()?);
         let alone = beside.all(|index| label(index) == owner);
         drop(beside);
@@ -144,7 +153,8 @@ fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
 pub fn of_topography(contact: &Contact, scale: &Scale<'_>) -> (Vec<Boundary>, Vec<bool>) {
     let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
     let modulus = contact.problem().half_space().surface_material().contact_modulus();
-    let contacts = components(grid, |index| pressure[index] > 0.0);
+    let contacts = contact.touching();
+    contact.spots(Some(&contacts));
     let mut label = vec![NOBODY; grid.len()];
     for (own, contact) in (0..).zip(&contacts) {
         contact.indices(grid).for_each(|index| label[index] = own);
@@ -173,41 +183,4 @@ pub fn of_topography(contact: &Contact, scale: &Scale<'_>) -> (Vec<Boundary>, Ve
         spot.indices(grid).for_each(|index| located[index] = true);
     }
     (found.into_iter().flatten().collect(), located)
-}
-
-/// Number of contact spots, and the samples along the radius of the disc as large as the one up to which, from the
-/// smallest on, half of the load is carried; `None` without contact.
-pub fn count(grid: &Grid, pressure: &[f64]) -> Option<(usize, f64)> {
-    let mut spots: Vec<(usize, f64)> = components(grid, |index| pressure[index] > 0.0)
-        .iter()
-        .map(|spot| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum()))
-        .collect();
-    spots.sort_by_key(|(size, _)| *size);
-    let mut rest: f64 = 0.5 * spots.iter().map(|(_, load)| load).sum::<f64>();
-    let middle = spots.iter().find(|(_, load)| {
-        rest -= load;
-        rest <= 0.0
-    })?;
-    Some((spots.len(), (middle.0 as f64 / PI).sqrt()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lattice::Cell;
-
-    #[test]
-    fn half_of_the_load_decides_which_spot_counts() {
-        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
-        let mut pressure = [0.0; 64];
-        assert_eq!(count(&grid, &pressure), None);
-        // One sample of load 1, two of 1 each, four of 2 each.
-        pressure[0] = 1.0;
-        pressure[16..18].fill(1.0);
-        pressure[36..40].fill(2.0);
-        let disc = |samples: f64| (samples / PI).sqrt();
-        assert_eq!(count(&grid, &pressure), Some((3, disc(4.0))));
-        pressure[0] = 20.0;
-        assert_eq!(count(&grid, &pressure), Some((3, disc(1.0))));
-    }
 }

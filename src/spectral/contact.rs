@@ -3,10 +3,11 @@
 use super::iteration::{Certificate, Unknowns};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
+use crate::lattice::components::{Component, Counts, components};
 use crate::numeric::array::view;
 use crate::problem::Problem;
 use ndarray::ArrayView2;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Pressure and gap of a solved load step on one grid. It owns its fields and shares problem and surface, so that it
 /// outlives the solver.
@@ -17,6 +18,8 @@ pub struct Contact {
     pressure: Arc<Vec<f64>>,
     gap: Arc<Vec<f64>>,
     penetration: f64,
+    /// Counted when they are first asked for, and kept.
+    spots: OnceLock<Counts>,
 }
 
 impl Contact {
@@ -28,7 +31,8 @@ impl Contact {
         gap: Arc<Vec<f64>>,
         penetration: f64,
     ) -> Self {
-        Self { problem: Arc::clone(problem), surface: Arc::clone(surface), pressure, gap, penetration }
+        let (problem, surface) = (Arc::clone(problem), Arc::clone(surface));
+        Self { problem, surface, pressure, gap, penetration, spots: OnceLock::new() }
     }
 
     /// What was iterated, with what the pressure proves.
@@ -76,5 +80,17 @@ impl Contact {
     /// Gap sample by sample, a₂ fastest.
     pub(crate) fn gaps(&self) -> &[f64] {
         &self.gap
+    }
+    /// What is counted of the contact spots; `found`: where they are, if that is known.
+    pub(crate) fn spots(&self, found: Option<&[Component]>) -> &Counts {
+        self.spots.get_or_init(|| match found {
+            Some(found) => Counts::of(found, self.grid(), &self.pressure),
+            None => Counts::of(&self.touching(), self.grid(), &self.pressure),
+        })
+    }
+
+    /// The contact spots; merged contacts are one.
+    pub(crate) fn touching(&self) -> Vec<Component> {
+        components(self.grid(), |index| self.pressure[index] > 0.0)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::axis::Axis;
 use std::collections::BTreeSet;
+use std::iter;
 
 /// Most combinations of a sweep.
 const MOST: usize = 1_000_000;
@@ -186,9 +187,11 @@ impl Combinations {
     }
 }
 
-/// The name of a key's column: `layers_0_thickness` for `layers.0.thickness` and `layers[0].thickness`.
+/// The name of a key's column: `set_layers_0_thickness` for `layers.0.thickness` and `layers[0].thickness`. Lists count from 0
+/// in keys and from 1 in results, where `levels_1_load` is that of the first level.
 pub fn column(key: &str) -> String {
-    key.replace(']', "").split(['.', '[']).map(str::trim).collect::<Vec<_>>().join("_")
+    let parts = key.replace(']', "");
+    iter::once("set").chain(parts.split(['.', '[']).map(str::trim)).collect::<Vec<_>>().join("_")
 }
 
 #[cfg(test)]
@@ -201,6 +204,11 @@ mod tests {
 
     fn values(all: &Combinations) -> Vec<String> {
         all.all.iter().map(|combination| format!("{}: {}", combination.number, combination.values.join(" "))).collect()
+    }
+
+    #[test]
+    fn a_key_and_a_result_have_no_column_in_common() {
+        assert_eq!(["levels.1.height", "levels[1].height"].map(column), ["set_levels_1_height"; 2]);
     }
 
     #[test]

@@ -11,14 +11,17 @@ mod axis;
 mod combinations;
 mod fields;
 mod log;
+mod memory;
 mod row;
 mod study;
 mod table;
+mod task;
 mod workers;
 
 pub use axis::{Axis, AxisError};
 pub use combinations::{Combination, Combinations, CombinationsError, Group, column};
 pub use log::{Log, read};
 pub use row::{Row, Status};
-pub use study::{Study, StudyError, Task};
+pub use study::{Study, StudyError};
 pub use table::{Asked, description, fingerprint, join, table};
+pub use task::Task;

@@ -2,9 +2,11 @@
 
 use super::combinations::{Combination, Combinations};
 use super::fields::{Fits, keep};
+use super::memory::of_results;
 use super::row::{Ended, Row};
+use super::task::Task;
 use super::workers;
-use crate::case::resources::{Job, needs, refusal};
+use crate::case::resources::{Job, bytes, needs, refusal};
 use crate::case::{Case, CaseError, Room, Source};
 use crate::output::{self, COMBINATIONS, OutputError, solved_plan};
 use crate::run::Sampling;
@@ -27,15 +29,6 @@ pub enum StudyError {
     /// What it asks for is.
     #[error("{0}")]
     Refused(String),
-}
-
-/// What is done with every combination.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Task {
-    /// Its load steps are solved.
-    Solve,
-    /// Its limit loads are looked for.
-    Limit,
 }
 
 /// A sweep that is checked and can begin.
@@ -77,7 +70,7 @@ impl<'a> Study<'a> {
         room: Room,
     ) -> Result<Self, StudyError> {
         let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, planned: Vec::new() };
-        let mut first = None;
+        let (mut first, mut results) = (None, 0);
         for (index, combination) in combinations.all.iter().enumerate() {
             let case = study.case(combination).map_err(StudyError::from);
             let planned = match case.and_then(|case| study.check(&case).map(|()| case)) {
@@ -87,6 +80,7 @@ impl<'a> Study<'a> {
                         // How far it goes is not known.
                         Sampling::Accuracy(_) => None,
                     };
+                    results += of_results(&case, task);
                     let memory = points.map_or(room.memory, |points| needs(&case, points, study.job()).memory);
                     let is_small = points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL);
                     let files = solved_plan(&case, case.load.values().len(), true).names;
@@ -105,6 +99,15 @@ impl<'a> Study<'a> {
             };
             study.planned.push(planned);
         }
+        if results > room.memory {
+            return Err(StudyError::Refused(format!(
+                "the results of {} combinations take about {} of memory, and {} are available: solve them in parts, with --shard",
+                combinations.all.len(),
+                bytes(results),
+                bytes(room.memory)
+            )));
+        }
+        study.room.memory -= results;
         match first {
             Some(error) if study.planned.iter().all(|planned| planned.fingerprint.is_empty()) => Err(error),
             _ => Ok(study),
@@ -175,14 +178,18 @@ impl<'a> Study<'a> {
         usize::try_from(self.room.memory / memory).unwrap_or(usize::MAX).min(threads).max(1)
     }
 
-    /// Solves every combination that is not among the `known` rows; `done` hears of each as it is done. Fields that are kept
+    /// Solves every combination whose number is not among the `known` ones; `done` hears of each as it is done. Fields that are kept
     /// are gathered in `folder`.
     ///
     /// # Errors
     /// Those of `done`.
-    pub fn run<E>(&self, known: &[Row], folder: &Path, mut done: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
-        let numbers: HashSet<usize> = known.iter().map(|row| row.combination).collect();
-        let is_known = |planned: &&Planned| numbers.contains(&self.combinations.all[planned.index].number);
+    pub fn run<E>(
+        &self,
+        known: &HashSet<usize>,
+        folder: &Path,
+        mut done: impl FnMut(Row) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let is_known = |planned: &&Planned| known.contains(&self.combinations.all[planned.index].number);
         let pending = self.planned.iter().filter(|planned| !is_known(planned));
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());
@@ -264,4 +271,28 @@ impl<'a> Study<'a> {
 /// Where a combination keeps its fields.
 fn folder_of(number: usize) -> String {
     format!("{COMBINATIONS}/{number:04}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Axis, Group};
+    use super::*;
+    use crate::case::embedded;
+
+    #[test]
+    fn results_that_take_more_memory_than_there_is_are_refused() {
+        let source = embedded::source("fig2").unwrap();
+        let fixed = ["grid.points=32", "load.mean_pressure={ from = 0.01, to = 0.06, steps = 500 }"].map(str::to_owned);
+        let axis = Axis::parse("layers.0.poisson=0.1:0.4:20").unwrap();
+        let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
+        // 20 × 500 steps of three levels, 30 kB each, beside what a case takes.
+        let study = |mebibytes: u64| {
+            let room = Room { memory: mebibytes << 20, disk: u64::MAX };
+            Study::new(&source, &fixed, &combinations, Task::Solve, room).map(|study| study.room.memory >> 20)
+        };
+        let why = study(200).unwrap_err().to_string();
+        assert!(why.contains("the results of 20 combinations") && why.contains("--shard"), "{why}");
+        // 283 MiB of them.
+        assert_eq!(study(400).unwrap(), 116);
+    }
 }

@@ -3,7 +3,7 @@
 use super::combinations::Combinations;
 use super::row::{Row, Status};
 use crate::output::checksum;
-use crate::output::columns::{Cells, csv};
+use crate::output::columns::csv;
 use serde_json::{Value, json};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,26 +12,25 @@ use std::collections::{BTreeMap, BTreeSet};
 pub fn table(rows: &[Row]) -> String {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by_key(|row| row.combination);
-    let cells: Vec<Cells> = sorted.into_iter().flat_map(Row::cells).collect();
-    csv(&cells)
+    csv(|| sorted.iter().flat_map(|row| row.cells()))
 }
 
 /// Rows of several parts, one a combination, by ascending number.
 ///
 /// # Errors
 /// What two parts say differently of one combination.
-pub fn join<'a>(parts: impl Iterator<Item = &'a Vec<Row>>) -> Result<Vec<Row>, String> {
+pub fn join(parts: impl Iterator<Item = Vec<Row>>) -> Result<Vec<Row>, String> {
     let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
     for row in parts.flatten() {
         match rows.entry(row.combination) {
-            Entry::Vacant(place) => drop(place.insert(row.clone())),
+            Entry::Vacant(place) => drop(place.insert(row)),
             Entry::Occupied(there)
                 if there.get().fingerprint != row.fingerprint || there.get().settings != row.settings =>
             {
                 return Err(format!("two parts have different {}: they are not of one sweep", row.named()));
             }
             // What was solved twice is the same, unless one of them failed.
-            Entry::Occupied(mut there) if there.get().results.is_empty() => drop(there.insert(row.clone())),
+            Entry::Occupied(mut there) if there.get().results.is_empty() => drop(there.insert(row)),
             Entry::Occupied(_) => {}
         }
     }

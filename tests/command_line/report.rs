@@ -138,7 +138,8 @@ fn the_page_of_a_sweep_counts_what_is_solved_and_says_why_the_rest_is_not() {
     let mut asked: Value = serde_json::from_str(SWEEP).unwrap();
     asked["case"] = Folder(desk.path("run")).text("case.toml").into();
     desk.write("sweep/sweep.json", asked.to_string());
-    let head = "combination,layers_0_thickness,status,step,mean_pressure,contact_fraction,levels_1_load_share,reason\n";
+    let head =
+        "combination,set_layers_0_thickness,status,step,mean_pressure,contact_fraction,levels_1_load_share,reason\n";
     let mut table = head.to_owned();
     table += "1,0.1,done,1,0.06,0.25,0.5,\n2,0.2,failed,,,,,the <penetration> is too small\n";
     desk.write("sweep/sweep.csv", &table);

@@ -60,13 +60,13 @@ fn every_combination_and_step_is_a_row_with_what_solve_finds() {
     assert_eq!(folder.names(), BTreeSet::from(["sweep.csv", "sweep.json", "sweep.jsonl"].map(str::to_owned)));
     let text = folder.text("sweep.csv");
     let table = cells(&text);
-    assert_eq!(table[0][..5], ["combination", "layers_0_thickness", "layers_0_poisson", "status", "step"]);
+    assert_eq!(table[0][..5], ["combination", "set_layers_0_thickness", "set_layers_0_poisson", "status", "step"]);
     assert_eq!(table[0].last(), Some(&"reason"));
     let allowed = |name: &&str| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     assert!(table[0].iter().all(allowed) && table.iter().all(|row| row.len() == table[0].len()));
     assert_eq!(column(&table, "combination").join(""), "112233445566");
     assert_eq!(column(&table, "step").join(""), "121212121212");
-    assert_eq!(column(&table, "layers_0_poisson")[..6], ["0.2", "0.2", "0.4", "0.4", "0.5", "0.5"]);
+    assert_eq!(column(&table, "set_layers_0_poisson")[..6], ["0.2", "0.2", "0.4", "0.4", "0.5", "0.5"]);
     // The fourth combination by itself.
     let solved = desk.solve(
         "alone",
@@ -181,6 +181,61 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
     let answer = sweep(&desk, "killed", &[&more[..], &larger].concat());
     assert!(answer.err.contains("60 of 70 combinations are done already"), "{}", answer.err);
     assert_eq!(killed.text("sweep.csv").lines().count(), 141);
+}
+
+/// The hundred and thirtieth exit code is the shell's for what the keyboard ends.
+#[test]
+fn a_sweep_that_is_interrupted_keeps_its_rows_and_goes_on() {
+    let desk = desk();
+    let values = ["--set", "layers.0.thickness=0.05:0.5:12", "--set", "grid.points=64"];
+    assert_eq!(sweep(&desk, "out", &values).code, 0);
+    let whole = Folder(desk.path("out")).text("sweep.csv");
+    let child = Command::new("env")
+        .arg("--default-signal=INT")
+        .arg(assert_cmd::cargo::cargo_bin!("percoat"))
+        .args(["sweep", "case.toml", "-o", "out", "--no-pictures"])
+        .args(values)
+        .current_dir(desk.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let (log, started) = (desk.path("out/unfinished-sweep/sweep.jsonl"), Instant::now());
+    let rows =
+        || fs::read_to_string(&log).unwrap_or_default().split_inclusive('\n').filter(|row| row.ends_with('\n')).count();
+    while rows() < 3 {
+        assert!(started.elapsed() < Duration::from_secs(120));
+        sleep(Duration::from_millis(1));
+    }
+    // What is read while it writes might not belong together.
+    desk.percoat(&["report", "out"]).complains(2, &["out", "another run"]);
+    Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    let done = rows();
+    assert!(done >= 3 && said.contains(&format!("interrupted: {done} of 12 combinations")), "{said}");
+    let answer = sweep(&desk, "out", &[&values[..], &["--resume"]].concat());
+    assert!(
+        answer.code == 0 && answer.err.contains(&format!("{done} of 12 combinations are done already")),
+        "{}",
+        answer.err
+    );
+    assert_eq!(Folder(desk.path("out")).text("sweep.csv"), whole);
+}
+
+#[test]
+fn a_part_without_combinations_is_a_part() {
+    let desk = desk();
+    let values = ["--set", "layers.0.thickness=0.1,0.2"];
+    for part in ["1/3", "2/3", "3/3"] {
+        let answer = sweep(&desk, &format!("parts/{}", &part[..1]), &[&values[..], &["--shard", part]].concat());
+        assert_eq!(answer.code, 0, "{part}: {}", answer.err);
+    }
+    let answer = desk.percoat(&["merge", "--no-pictures", "parts/1", "parts/2", "parts/3"]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert_eq!(sweep(&desk, "whole", &values).code, 0);
+    assert_eq!(Folder(desk.path("whole")).text("sweep.csv"), Folder(desk.path("parts")).text("sweep.csv"));
 }
 
 #[test]

@@ -67,11 +67,6 @@ impl Spectrum {
         self.squares().map(|(q, square, _)| q * q * square).sum::<f64>().sqrt()
     }
 
-    /// Root mean square of the heights from their mean, a length.
-    pub fn rms_height(&self) -> f64 {
-        self.squares().map(|(_, square, _)| square).sum::<f64>().sqrt()
-    }
-
     /// C averaged over rings of wavevectors, sixteen to a decade, up to where the grid holds all directions.
     pub fn radial(&self) -> Vec<Radial> {
         let (least, most) = (self.grid.least_wavenumber(), self.grid.least_aliased());
@@ -240,7 +235,8 @@ mod tests {
             let sum = |of: &dyn Fn([i32; 2]) -> f64| -> f64 {
                 WAVES[1..].iter().map(|(k, a, _)| 0.5 * a * a * of(*k)).sum::<f64>().sqrt()
             };
-            assert!((spectrum.rms_height() / sum(&|_| 1.0) - 1.0).abs() < 1e-13);
+            let rms_height = spectrum.squares().map(|(_, square, _)| square).sum::<f64>().sqrt();
+            assert!((rms_height / sum(&|_| 1.0) - 1.0).abs() < 1e-13);
             assert!((spectrum.rms_slope() / sum(&|k| wavenumber(k).powi(2)) - 1.0).abs() < 1e-13);
             let rings = spectrum.radial();
             let power: f64 = rings.iter().map(|ring| ring.density * ring.waves).sum();

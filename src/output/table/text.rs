@@ -3,6 +3,9 @@
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use std::fmt;
 
+/// Blanks around a cell.
+const BLANKS: usize = 2;
+
 /// Texts in rows under a head. It prints itself without a line break at its end.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Table {
@@ -36,15 +39,42 @@ impl Table {
         Self { keys: keys.to_vec(), ..self }
     }
 
+    /// With its first column, of sentences, broken into rows, so that all stands in so many columns of letters if it can.
+    pub fn wrapped(self, width: usize) -> Self {
+        /// Letters that a line has at least.
+        const LEAST: usize = 32;
+        let others: usize = (1..self.head.len()).map(|index| self.wide(index)).sum();
+        let most = (width + 1).saturating_sub(others + BLANKS).max(LEAST);
+        let mut rows = Vec::new();
+        for row in self.rows {
+            let mut lines = vec![String::new()];
+            for word in row[0].split(' ') {
+                let line = lines.last_mut().expect("there is a line from the beginning");
+                if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > most {
+                    lines.push(word.to_owned());
+                } else {
+                    *line += if line.is_empty() { "" } else { " " };
+                    *line += word;
+                }
+            }
+            let rest = lines.split_off(1);
+            rows.push([&lines[..], &row[1..]].concat());
+            rows.extend(rest.into_iter().map(|line| [vec![line], vec![String::new(); row.len() - 1]].concat()));
+        }
+        Self { rows, ..self }
+    }
+
+    /// Letters that a column takes, with the blanks beside it.
+    fn wide(&self, index: usize) -> usize {
+        let cells = self.rows.iter().map(|row| &row[index]).chain([&self.head[index]]);
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0) + BLANKS
+    }
+
     /// As it prints itself, in as many parts one below the other as it takes to fit into so many columns of letters. A
     /// part has one column beside the keys at least.
     pub fn fitted(&self, width: usize) -> String {
-        /// Blanks around a cell.
-        const BLANKS: usize = 2;
-        let cells = |index: usize| self.rows.iter().map(move |row| &row[index]).chain([&self.head[index]]);
-        let wide = |index: &usize| cells(*index).map(|cell| cell.chars().count()).max().unwrap_or(0) + BLANKS;
         // The last blank is not printed.
-        let fits = |columns: &[usize]| columns.iter().map(wide).sum::<usize>() <= width + 1;
+        let fits = |columns: &[usize]| columns.iter().map(|&index| self.wide(index)).sum::<usize>() <= width + 1;
         let mut parts: Vec<Vec<usize>> = vec![self.keys.clone()];
         for index in (0..self.head.len()).filter(|index| !self.keys.contains(index)) {
             let own = parts.last_mut().expect("there is a part from the beginning");
@@ -131,5 +161,17 @@ mod tests {
         }
         assert_eq!(table().fitted(20).matches("name").count(), 2);
         assert_eq!(table().keyed(&[0, 2]).fitted(20).matches("22222").count(), 2);
+    }
+
+    #[test]
+    fn a_sentence_is_broken_so_that_its_numbers_stand_beside_it() {
+        let sentence = "a very long sentence of many words that says what is counted here and what is not";
+        let table = Table::new(&["what", "value"], vec![vec![sentence.into(), "1".into()]], 1);
+        assert_eq!(table.clone().wrapped(120), table);
+        let narrow = table.wrapped(48);
+        assert_eq!(narrow.rows[0], ["a very long sentence of many words that", "1"]);
+        let words: Vec<&str> = narrow.rows.iter().map(|row| &row[0][..]).collect();
+        assert_eq!(words.join(" "), sentence);
+        assert!(narrow.fitted(48).lines().all(|line| line.chars().count() <= 48), "{}", narrow.fitted(48));
     }
 }

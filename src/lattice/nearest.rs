@@ -1,0 +1,145 @@
+//! The samples next to one, and the lines through them.
+//!
+//! They stand along the reduced basis r₁, r₂ of the samples' own lattice **a**₁/N₁, **a**₂/N₂, whichever vectors describe it.
+//! Where r₂ and its shorter diagonal with r₁ are equally long, as in a rhombic lattice, there are several such bases, and what
+//! is read along their vectors is the mean of all.
+
+use super::Grid;
+use super::cell::norm;
+use std::iter;
+
+/// Lengths whose squares differ by less, relatively, are one.
+const TIE: f64 = 1e-9;
+
+/// A direction in which the nearest samples follow each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Direction {
+    /// The way to the next sample, in rows and columns.
+    pub step: [i32; 2],
+    /// In how many of the reduced bases it is, over their number.
+    pub weight: f64,
+    /// Length of the other vector of the basis.
+    pub beside: f64,
+}
+
+impl Direction {
+    /// The sample `count` steps from one; both flat indices.
+    pub fn sample(&self, [n1, n2]: [usize; 2], index: usize, count: i64) -> usize {
+        let along = |k: usize, n: usize, step: i32| (k as i64 + count * i64::from(step)).rem_euclid(n as i64) as usize;
+        along(index / n2, n1, self.step[0]) * n2 + along(index % n2, n2, self.step[1])
+    }
+
+    /// Of the closed lines of samples along it, all equally long, the first sample of each: flat indices.
+    pub fn lines(&self, points: [usize; 2]) -> Vec<usize> {
+        let mut seen = vec![false; points[0] * points[1]];
+        let mut starts = Vec::new();
+        for start in 0..seen.len() {
+            if !seen[start] {
+                starts.push(start);
+                self.line(points, start).for_each(|index| seen[index] = true);
+            }
+        }
+        starts
+    }
+
+    /// The line through a sample, from there on.
+    pub fn line(&self, points: [usize; 2], start: usize) -> impl Iterator<Item = usize> {
+        let to = *self;
+        let rest = (1..).map(move |count| to.sample(points, start, count)).take_while(move |&index| index != start);
+        iter::once(start).chain(rest)
+    }
+}
+
+impl Grid {
+    /// The directions of the nearest samples, one of each pair ±: two, or three where they are tied. Their weights add to two.
+    pub(crate) fn directions(&self) -> Vec<Direction> {
+        let [e1, e2] = self.steps();
+        let vector = |[i, j]: [i32; 2]| [0, 1].map(|k| f64::from(i) * e1[k] + f64::from(j) * e2[k]);
+        let length = |step: [i32; 2]| norm(vector(step));
+        let reduced = self.samples_cell().map_or([[1, 0], [0, 1]], |cell| cell.reduced().matrix());
+        // Followed through a whole spot, rows and columns are kept in 32 bits.
+        let most = reduced.iter().flatten().map(|m| i64::from(m.abs())).max().unwrap_or(1);
+        let [mut r1, mut r2] = if most * self.len() as i64 <= i64::from(i32::MAX) { reduced } else { [[1, 0], [0, 1]] };
+        if length(r2) < length(r1) {
+            (r1, r2) = (r2, r1);
+        }
+        let ([x1, y1], [x2, y2]) = (vector(r1), vector(r2));
+        let sign = if x1 * x2 + y1 * y2 > 0.0 { -1 } else { 1 };
+        let diagonal = [r2[0] + sign * r1[0], r2[1] + sign * r1[1]];
+        let is_tied = |a: f64, b: f64| (a * a - b * b).abs() <= TIE * b * b;
+        let (short, long) = (length(r1), length(r2));
+        let direction = |step, weight, beside| Direction { step, weight, beside };
+        if !is_tied(length(diagonal), long) {
+            return vec![direction(r1, 1.0, long), direction(r2, 1.0, short)];
+        }
+        let [own, others] = if is_tied(short, long) { [2.0 / 3.0; 2] } else { [1.0, 0.5] };
+        vec![direction(r1, own, long), direction(r2, others, short), direction(diagonal, others, short)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lattice::Cell;
+
+    /// Lengths, weights and distances of the lines, in order of the angle.
+    fn described(cell: Cell, points: [usize; 2]) -> Vec<[f64; 4]> {
+        let grid = Grid::new(cell, points).unwrap();
+        let mut all: Vec<[f64; 4]> = grid
+            .directions()
+            .iter()
+            .map(|direction| {
+                let [x, y] =
+                    [0, 1].map(|k| (0..2).map(|c| f64::from(direction.step[c]) * grid.steps()[c][k]).sum::<f64>());
+                // Rounded, so that −0 and π are one.
+                [
+                    1e-9 * (y.atan2(x).rem_euclid(std::f64::consts::PI) * 1e9 + 0.5).floor(),
+                    x.hypot(y),
+                    direction.weight,
+                    direction.beside,
+                ]
+            })
+            .collect();
+        all.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        all
+    }
+
+    #[test]
+    fn directions_are_those_of_the_lattice_whichever_vectors_describe_it() {
+        for (a1, a2, count) in [
+            ([1.0, 0.0], [0.0, 1.0], 2),
+            ([1.0, 0.0], [0.1, 0.7], 2),
+            ([1.0, 0.0], [0.5, 0.75f64.sqrt()], 3),
+            ([1.0, 0.0], [0.5, 2.0], 3),
+        ] {
+            let own = described(Cell::new(a1, a2).unwrap(), [6, 6]);
+            assert_eq!(own.len(), count);
+            assert!((own.iter().map(|direction| direction[2]).sum::<f64>() - 2.0).abs() < 1e-15);
+            for multiple in [-3.0, -1.0, 1.0, 2.0] {
+                let skewed = Cell::new(a1, [0, 1].map(|k| a2[k] + multiple * a1[k])).unwrap();
+                for (a, b) in own.iter().flatten().zip(described(skewed, [6, 6]).iter().flatten()) {
+                    assert!((a - b).abs() < 1e-8, "{a1:?} {a2:?} {multiple}: {a} {b}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lines_hold_every_sample_once() {
+        for step in [[1, 0], [0, 1], [1, 1], [-1, 2], [3, -2]] {
+            let direction = Direction { step, weight: 1.0, beside: 1.0 };
+            let starts = direction.lines([6, 8]);
+            let mut all: Vec<usize> = starts.into_iter().flat_map(|start| direction.line([6, 8], start)).collect();
+            all.sort_unstable();
+            assert_eq!(all, (0..48).collect::<Vec<_>>(), "{step:?}");
+        }
+        let along = Direction { step: [0, 1], weight: 1.0, beside: 1.0 };
+        assert_eq!((along.lines([2, 3]), along.line([2, 3], 3).collect()), (vec![0, 3], vec![3, 4, 5]));
+    }
+
+    #[test]
+    fn a_skew_that_does_not_fit_into_thirty_two_bits_has_the_grid_s_own_lines() {
+        let grid = Grid::new(Cell::new([1.0, 0.0], [3e8, 1e3]).unwrap(), [64, 64]).unwrap();
+        assert!(grid.directions().iter().all(|direction| direction.step.iter().all(|step| step.abs() <= 1)));
+    }
+}

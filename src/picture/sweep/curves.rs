@@ -1,0 +1,69 @@
+//! Curves over one key of a sweep.
+
+use super::super::axis::Axis;
+use super::super::chart::Chart;
+use super::super::curve::{Curve, Ink, Style};
+use super::super::number::short;
+use super::keys::{Keys, number, scale};
+use super::numbers::Number;
+use crate::sweep::Row;
+use serde_json::Value;
+use std::collections::{BTreeMap, HashMap};
+
+/// Curves in a chart, at most.
+const CURVES: usize = 12;
+/// Curves that have colours of their own; more are coloured in their order.
+const COLOURS: usize = 6;
+
+impl Keys {
+    /// A curve for each set of the other keys, or for each load step where there are no others, in so far as they can be told
+    /// apart; and how many there are.
+    pub fn chart(&self, rows: &[Row], shown: &Number) -> (Chart, usize) {
+        let (index, values) = &self.along;
+        let mut curves: BTreeMap<(usize, String), Vec<[f64; 2]>> = BTreeMap::new();
+        let mut order: HashMap<String, usize> = HashMap::new();
+        for row in rows {
+            let others = row.settings.iter().enumerate().filter(|(at, _)| at != index);
+            let label = others.map(|(_, (key, value))| format!("{} {value}", last(key))).collect::<Vec<_>>().join(", ");
+            let next = order.len();
+            let at = *order.entry(label.clone()).or_insert(next);
+            let Some(x) = number(row, *index) else { continue };
+            // Load steps have curves of their own where nothing else has.
+            let steps = if self.names.len() == 1 { row.results.len() } else { 1 };
+            for (step, result) in row.results.iter().enumerate().skip(row.results.len() - steps.min(row.results.len()))
+            {
+                let load = result.get("mean_pressure").and_then(Value::as_f64);
+                let own = match load {
+                    Some(load) if steps > 1 => (step, format!("p̄ = {}", short(load))),
+                    _ => (at, label.clone()),
+                };
+                let value = (shown.value)(result).unwrap_or(f64::NAN);
+                curves.entry(own).or_default().push([x, value]);
+            }
+        }
+        let all = curves.len();
+        let drawn: Vec<_> = curves.into_iter().step_by(one_in(all)).collect();
+        let count = drawn.len();
+        let colour = |index: usize| match count {
+            0..=COLOURS => Ink::Number(index + 1),
+            _ => Ink::Depth(index as f64 / (count - 1) as f64),
+        };
+        let curves = drawn.into_iter().enumerate().map(|(index, ((_, label), mut points))| {
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
+            Curve { label, points, style, colour: colour(index) }
+        });
+        let x = Axis { scale: scale(values), ..Axis::linear(&self.names[*index][..]) };
+        (Chart { title: String::new(), x, y: Axis::linear(shown.quantity.clone()), curves: curves.collect() }, all)
+    }
+}
+
+/// Of so many curves one in how many is drawn.
+pub fn one_in(curves: usize) -> usize {
+    curves.div_ceil(CURVES).max(1)
+}
+
+/// The last part of a key.
+fn last(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or(key)
+}

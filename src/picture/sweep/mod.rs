@@ -1,0 +1,155 @@
+//! What changes with the settings of a sweep: curves over one key, or maps over two.
+
+mod curves;
+mod keys;
+mod maps;
+mod numbers;
+
+use super::canvas::Canvas;
+use super::chart::{Chart, plots};
+use crate::sweep::Row;
+use crate::units::Units;
+use curves::one_in;
+use keys::Keys;
+use numbers::numbers;
+
+/// Quantities that a picture shows, at most.
+const QUANTITIES: usize = 12;
+
+/// The picture; `None` where no key has several numbers, or nothing came out.
+pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
+    let keys = Keys::of(rows)?;
+    let mut numbers = numbers(units, rows);
+    if numbers.is_empty() {
+        return None;
+    }
+    let failed = rows.iter().filter(|row| row.results.is_empty()).count();
+    let steps = rows.iter().map(|row| row.results.len()).max().unwrap_or(0);
+    let mut words = vec![title.trim_end_matches('.').to_owned(), format!("{} combinations", rows.len())];
+    words.retain(|words| !words.is_empty());
+    if failed > 0 {
+        words.push(format!("{failed} failed"));
+    }
+    let all = numbers.len();
+    numbers.truncate(QUANTITIES);
+    let left_out = (all > QUANTITIES).then(|| format!("the first {QUANTITIES} of {all} quantities, the table has all"));
+    if keys.pair.is_some() || keys.names.len() > 1 {
+        words.extend((steps > 1).then(|| "the last load step of each".to_owned()));
+    }
+    if keys.pair.is_some() {
+        words.extend(left_out);
+        return keys.maps(rows, &numbers, &(words.join("; ") + "."));
+    }
+    let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own)).unzip();
+    let curves = counts.into_iter().max().unwrap_or(0);
+    if one_in(curves) > 1 {
+        words.push(format!("one in {} of {curves} curves is drawn, the table has all", one_in(curves)));
+    }
+    words.extend(left_out);
+    Some(plots(&(words.join("; ") + "."), &charts))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::canvas::Mark;
+    use super::*;
+    use crate::sweep::Status;
+    use serde_json::{Value, json};
+
+    fn row(combination: usize, settings: &[(&str, String)], results: Vec<Value>) -> Row {
+        Row {
+            combination,
+            settings: settings.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect(),
+            fingerprint: String::new(),
+            status: Status::Done,
+            reason: None,
+            warnings: Vec::new(),
+            results,
+            seconds: 0.0,
+        }
+    }
+
+    /// All that stands on a picture, in a line.
+    fn words(picture: Option<Canvas>) -> String {
+        let marks = picture.unwrap().marks.into_iter();
+        let words = marks.filter_map(|mark| if let Mark::Text { text, .. } = mark { Some(text) } else { None });
+        words.collect::<Vec<_>>().join(" ")
+    }
+
+    fn step(value: f64) -> Value {
+        json!({ "mean_pressure": 0.1, "max_pressure": value, "penetration": value, "contact_fraction": 0.5 })
+    }
+
+    #[test]
+    fn one_key_has_curves_two_have_maps_and_a_text_has_none() {
+        let values = [0.1, 0.2, 0.3];
+        let one: Vec<Row> =
+            (1..).zip(values).map(|(n, x)| row(n, &[("layers.0.thickness", x.to_string())], vec![step(x)])).collect();
+        let keys = Keys::of(&one).unwrap();
+        assert!(keys.pair.is_none());
+        assert_eq!(
+            keys.chart(&one, &numbers(&Units::unknown(), &one)[0]).0.curves[0].points,
+            [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]]
+        );
+        let pairs = values.iter().flat_map(|x| values.map(|y| [*x, y]));
+        let two: Vec<Row> = (1..)
+            .zip(pairs)
+            .map(|(n, [x, y])| row(n, &[("a", x.to_string()), ("b", y.to_string())], vec![step(x + y)]))
+            .collect();
+        assert!(Keys::of(&two).unwrap().pair.is_some());
+        assert!(Keys::of(&two[1..]).unwrap().pair.is_none(), "a pair is missing");
+        let text = words(sweep("A title", &Units::unknown(), &two));
+        assert!(text.contains("peak pressure") && text.contains("9 combinations"));
+        let texts = [row(1, &[("a", "bonded".into())], vec![step(1.0)]), row(2, &[("a", "x".into())], vec![step(2.0)])];
+        assert!(sweep("", &Units::unknown(), &texts).is_none());
+    }
+
+    #[test]
+    fn what_failed_leaves_a_gap_and_others_have_curves_of_their_own() {
+        let mut rows: Vec<Row> = (0..8)
+            .map(|n| {
+                let settings = [("x", (n / 2).to_string()), ("kind", ["soft", "hard"][n % 2].to_owned())];
+                row(n + 1, &settings, vec![step(n as f64)])
+            })
+            .collect();
+        rows[2].results.clear();
+        let keys = Keys::of(&rows).unwrap();
+        let (chart, _) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0]);
+        let labels: Vec<&str> = chart.curves.iter().map(|curve| &curve.label[..]).collect();
+        assert_eq!(labels, ["kind soft", "kind hard"]);
+        assert_eq!(chart.curves[0].points, [[0.0, 0.0], [2.0, 4.0], [3.0, 6.0]]);
+    }
+
+    #[test]
+    fn what_is_not_drawn_is_told() {
+        let rows = |kinds: usize| -> Vec<Row> {
+            let pairs = (0..2).flat_map(|x| (0..kinds).map(move |kind| (x, kind)));
+            let set = |(x, kind): (usize, usize)| [("x", x.to_string()), ("kind", format!("\"{kind:02}\""))];
+            pairs.enumerate().map(|(n, pair)| row(n + 1, &set(pair), vec![step(pair.0 as f64); 2])).collect()
+        };
+        for (kinds, drawn) in [(2, 2), (7, 7), (12, 12), (13, 7), (40, 10)] {
+            let rows = rows(kinds);
+            let keys = Keys::of(&rows).unwrap();
+            let (chart, all) = keys.chart(&rows, &numbers(&Units::unknown(), &rows)[0]);
+            assert_eq!((chart.curves.len(), all), (drawn, kinds));
+            let text = words(sweep("", &Units::unknown(), &rows));
+            assert!(text.contains("the last load step of each"));
+            assert_eq!(text.contains(&format!("of {kinds} curves is drawn")), drawn < kinds, "{kinds}");
+        }
+    }
+
+    #[test]
+    fn every_quantity_has_its_map_or_is_told() {
+        let rows = |limits: usize| -> Vec<Row> {
+            let result = |p: usize| {
+                let own = (0..limits).map(|k| (format!("limit_{k}"), json!({ "mean_pressure": p + k })));
+                Value::Object([("first".to_owned(), json!({ "mean_pressure": p }))].into_iter().chain(own).collect())
+            };
+            let pairs = (0..9).map(|n| (n, [("a", (n / 3).to_string()), ("b", (n % 3).to_string())]));
+            pairs.map(|(n, set)| row(n + 1, &set, vec![result(n)])).collect()
+        };
+        let maps = |limits: usize| words(sweep("", &Units::unknown(), &rows(limits)));
+        assert!(maps(7).contains("limit 6, mean pressure") && !maps(7).contains("quantities"));
+        assert!(maps(20).contains("the first 12 of 21 quantities"));
+    }
+}

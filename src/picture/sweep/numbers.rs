@@ -1,0 +1,56 @@
+//! The numbers of a sweep's results that a picture shows.
+
+use super::super::quantity::Quantity;
+use crate::sweep::Row;
+use crate::units::Units;
+use serde_json::Value;
+
+/// Where a number of a result stands.
+type Place = Box<dyn Fn(&Value) -> Option<f64> + Sync>;
+
+/// A number of a result.
+pub struct Number {
+    pub quantity: Quantity,
+    pub value: Place,
+}
+
+impl Number {
+    fn at(quantity: impl Into<Quantity>, pointer: &'static str) -> Self {
+        Self { quantity: quantity.into(), value: Box::new(move |result| result.pointer(pointer)?.as_f64()) }
+    }
+
+    /// The largest of a list.
+    fn largest(quantity: impl Into<Quantity>, list: &'static str, pointer: &'static str) -> Self {
+        let value = move |result: &Value| {
+            let items = result.pointer(list)?.as_array()?.iter();
+            items.filter_map(|item| item.pointer(pointer)?.as_f64()).reduce(f64::max)
+        };
+        Self { quantity: quantity.into(), value: Box::new(value) }
+    }
+}
+
+/// The numbers that the rows have.
+pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
+    let limits = |result: &Value| -> Vec<String> {
+        let names = result.as_object().into_iter().flatten().map(|(name, _)| name.clone());
+        names.filter(|name| result.get("first").is_some() && name != "first").collect()
+    };
+    let mut all = vec![
+        Number::at(units.pressure_of("first limit, mean pressure", "p̄"), "/first/mean_pressure"),
+        Number::at(units.pressure_of("peak pressure", "p"), "/max_pressure"),
+        Number::at(units.length_of("penetration", "δ"), "/penetration"),
+        Number::at("fraction in contact", "/contact_fraction"),
+        Number::largest("largest utilisation", "/strength", "/utilisation"),
+        Number::largest(units.pressure_of("largest shear stress", "τ₁"), "/stress/materials", "/max_tau1/value"),
+    ];
+    for name in rows.iter().flat_map(|row| &row.results).next().map(limits).unwrap_or_default() {
+        let quantity = units.pressure_of(&format!("{}, mean pressure", name.replace('_', " ")), "p̄");
+        let value = move |result: &Value| result.get(&name)?.get("mean_pressure")?.as_f64();
+        all.push(Number { quantity, value: Box::new(value) });
+    }
+    let is_there = |number: &Number| {
+        rows.iter().filter_map(|row| row.results.last()).any(|result| (number.value)(result).is_some())
+    };
+    all.retain(is_there);
+    all
+}
