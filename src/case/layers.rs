@@ -114,7 +114,7 @@ impl InterfaceStrengthKeys {
         section.only()?;
         let own = Self { normal: strength(&section, "normal")?, shear: strength(&section, "shear")? };
         if own.is_empty() {
-            return Err(value.refuse_form().help("one of both at least; the one left out is never reached"));
+            return Err(value.refuse_form().help("at least one of the two; the one left out is never reached"));
         }
         Ok(own)
     }

@@ -120,11 +120,11 @@ impl<'a> ValueAt<'a> {
     pub(super) fn tuple<const N: usize>(&self) -> Result<[ValueAt<'a>; N], Refusal> {
         let known = |form: &&'static Form| matches!(form, Form::Tuple(_, items) if items.len() == N);
         let form = self.forms.iter().find(known);
-        let (Value::List(_), Some(Form::Tuple(called, forms))) = (&self.node.value, form) else {
+        let (Value::List(_), Some(Form::Tuple(_, forms))) = (&self.node.value, form) else {
             return Err(self.refuse_with_example());
         };
         let items: Vec<ValueAt<'a>> = self.each(forms).collect();
-        items.try_into().map_err(|_| self.refuse(called).help(self.example()))
+        items.try_into().map_err(|_| self.refuse_with_example())
     }
 
     /// So many numbers in brackets.

@@ -55,7 +55,7 @@ impl View {
     /// A square around the middle of the cell, no wider than some rows of cells.
     fn square(cell: Cell, long: f64, apart: f64) -> Self {
         let most = 0.5 * ROWS * apart;
-        Self { window: around(cell, [long.min(most.max(apart)); 2]), is_part: long > most }
+        Self { window: around(cell, [long.min(most); 2]), is_part: long > 2.0 * most }
     }
 
     /// Height over width of its plot.
@@ -78,16 +78,16 @@ impl View {
         let stretch = self.stretch();
         let part = if self.is_part { " The middle of a slender cell." } else { "" };
         match stretch {
-            s if s > 1.0 + 1e-9 => format!(" Not to scale: y is stretched {} times.{part}", times(s)),
-            s if s < 1.0 - 1e-9 => format!(" Not to scale: x is stretched {} times.{part}", times(s.recip())),
+            s if s > 1.0 + 1e-9 => format!(" Not to scale: y is stretched by a factor of {}.{part}", times(s)),
+            s if s < 1.0 - 1e-9 => format!(" Not to scale: x is stretched by a factor of {}.{part}", times(s.recip())),
             _ => part.to_owned(),
         }
     }
 }
 
-/// Two digits are enough.
+/// Three digits are enough.
 fn times(stretch: f64) -> String {
-    short(format!("{stretch:.1e}").parse().unwrap_or(stretch))
+    short(format!("{stretch:.2e}").parse().unwrap_or(stretch))
 }
 
 /// A window that reaches so far around the middle of a cell.
@@ -142,7 +142,7 @@ mod tests {
         }
         let words = |x: f64, y: f64| View::one(Cell::new([x, 0.0], [0.0, y]).unwrap()).words();
         assert_eq!([words(1.0, 1.0), words(2.0, 1.0)], ["", ""]);
-        assert_eq!(words(10.0, 1.0), " Not to scale: y is stretched 4.5 times.");
-        assert_eq!(words(1.0, 8.0), " Not to scale: x is stretched 5 times.");
+        assert_eq!(words(10.0, 1.0), " Not to scale: y is stretched by a factor of 4.5.");
+        assert_eq!(words(1.0, 8.0), " Not to scale: x is stretched by a factor of 5.");
     }
 }

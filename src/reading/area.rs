@@ -64,11 +64,11 @@ fn line_fraction(n: usize, sample: impl Fn(usize) -> (f64, f64, bool)) -> [f64; 
     }
     ends.push(start + 1 + n);
     let mut total = [0.0; 2];
-    for interval in ends.windows(2).step_by(2).filter(|interval| !known(interval[0] % n)) {
+    for (index, interval) in ends.windows(2).enumerate().step_by(2).filter(|(_, interval)| !known(interval[0] % n)) {
         let [first, last] = [interval[0], interval[1]];
         total[0] += (last - first) as f64 - 1.0;
         // How far contact reaches beyond its outermost samples.
-        let (before, after) = (open_length(&ends, first, n), open_length(&ends, last, n));
+        let (before, after) = (open_length(&ends, index, n), open_length(&ends, index + 1, n));
         let count = last - first;
         for [length, error] in [
             overhang(|k| height((first + k) % n), count, |k| -height((first + n - 1 - k) % n), before),
@@ -81,11 +81,10 @@ fn line_fraction(n: usize, sample: impl Fn(usize) -> (f64, f64, bool)) -> [f64; 
     total.map(|samples| samples / n as f64)
 }
 
-/// Length of the open interval that ends or begins at the border `end`.
-fn open_length(ends: &[usize], end: usize, n: usize) -> usize {
+/// Length of the open interval that ends or begins at the border of this index.
+fn open_length(ends: &[usize], index: usize, n: usize) -> usize {
     // Borders alternate; the first and the last one are the same border of the closed line.
-    let index = ends.iter().position(|&border| border == end).unwrap_or(0);
-    let borders = ends.len() - 1;
+    let (end, borders) = (ends[index], ends.len() - 1);
     if index % 2 == 1 { ends[index + 1] - end } else { (end + n - ends[(index + borders - 1) % borders]) % n }
 }
 

@@ -2,11 +2,14 @@
 //! and stiffness.
 //!
 //! **Area.** Of N samples n are in contact, and of E pairs of neighbours one is: neighbours along the reduced basis of the
-//! samples' lattice, whichever vectors describe the cell. Counting takes every sample at the border for whole, and overestimates: V. A. Yastrebov, G. Anciaux & J.-F. Molinari (Tribol. Int. 114
-//! (2017) 161–171) take off (π − 1 + ln 2)/24 · S_d Δx with the perimeter S_d along the edges of the samples, of which every
-//! pair has one: S_d Δx is E samples, whatever the cell's shape, and
+//! samples' lattice, whichever vectors describe the cell (where three directions are tied, each counts by its weight).
+//! Counting takes every sample at the border for whole, and overestimates: V. A. Yastrebov, G. Anciaux & J.-F. Molinari
+//! (Tribol. Int. 114 (2017) 161–171) take off (π − 1 + ln 2)/24 · S_d Δx with the perimeter S_d along the edges of the
+//! samples, of which every pair has one, so that S_d Δx is E samples and
 //!
 //! A/A₀ = (n − (π − 1 + ln 2)/24 · E)/N.
+//!
+//! The factor is that of square samples, a mean over the directions of a border; on others it is taken over as it is.
 //!
 //! [`Reading::contact_fraction`](super::Reading::contact_fraction) reads the border between the samples instead, from p² and
 //! g^{2/3}; where spots have fewer than some ten samples across it has no more to read than counting has, and the corrected
@@ -32,7 +35,8 @@ pub struct RoughReading {
     pub counted_fraction: f64,
     /// The same corrected by the perimeter.
     pub corrected_fraction: f64,
-    /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length.
+    /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
+    /// direction is 4/π times as long along the edges of rectangular samples as it is.
     pub perimeter_density: f64,
     /// Contact spots, by their counted areas.
     pub spots: SpotSizes,

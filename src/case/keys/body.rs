@@ -20,7 +20,7 @@ const TENSILE: Key = Key::new("tensile_strength", "what the largest principal st
 
 pub(super) static LAYER: Keys = Keys::new(&[
     Key::new("thickness", "the thickness of the layer", &[SIZE], "0.5").unit(Unit::Length),
-    Key::new("shear_ratio", "χ = G/G_substrate", &[SIZE], "2.0"),
+    Key::new("shear_ratio", "shear modulus over that of the substrate, χ", &[SIZE], "2.0"),
     Key::new("young", "Young's modulus", &[SIZE], "300.0").unit(Unit::Pressure).instead_of("shear_ratio"),
     Key::new("poisson", "Poisson's ratio", &[POISSON], "0.25"),
     Key::new(
@@ -55,7 +55,7 @@ pub(super) static LAYER: Keys = Keys::new(&[
         "{ normal = 0.5, shear = 0.8 }",
     )
     .otherwise("never reached")
-    .rule("one of both at least"),
+    .rule("at least one of the two"),
 ]);
 
 static GRADED: Keys = Keys::new(&[
@@ -94,11 +94,11 @@ static SPRING: Keys = Keys::new(&[
     Key::new("tangential_stiffness", "how it resists sliding", &[SIZE], "10.0")
         .unit(Unit::PressurePerLength)
         .otherwise("rigid")
-        .rule("one of both at least"),
+        .rule("at least one of the two"),
     Key::new("normal_stiffness", "how it resists opening and closing", &[SIZE], "100.0")
         .unit(Unit::PressurePerLength)
         .otherwise("rigid")
-        .rule("one of both at least"),
+        .rule("at least one of the two"),
 ]);
 
 static INTERFACE_STRENGTH: Keys = Keys::new(&[

@@ -67,6 +67,9 @@ pub(super) static LEVELS: Keys = Keys {
     ],
 };
 
+/// What has nothing to act on beside `random`.
+const OF_A_FILE: &str = "of a file, not of a random surface";
+
 pub(super) static SURFACE: Keys = Keys::new(&[
     Key::new(
         "heights",
@@ -75,13 +78,14 @@ pub(super) static SURFACE: Keys = Keys::new(&[
         "\"surface.npy\"",
     ),
     Key::new("scale", "factor of its heights, negative to turn them over", &[Form::Number(Range::Factor)], "1e-3")
-        .default("1"),
+        .default("1")
+        .rule(OF_A_FILE),
     Key::new("unit", "what the heights of the file are in", &[Form::Text("a unit of length")], "\"nm\"")
         .otherwise("the case's own")
-        .rule("m, cm, mm, µm, nm, pm, Å, in or mil; needs `units.length`"),
+        .rule("m, cm, mm, µm, nm, pm, Å, in or mil; needs `units.length`; of a file, not of a random surface"),
     Key::new(
         "period",
-        "lengths of the whole file along a₁ and a₂",
+        "lengths of the whole surface along a₁ and a₂",
         &[SIZE, Form::Tuple("two of them, [L1, L2]", &[SIZE; 2])],
         "[20.0, 10.0]",
     )
@@ -97,15 +101,18 @@ pub(super) static SURFACE: Keys = Keys::new(&[
     .unit(Unit::Length)
     .otherwise("follows from `period`")
     .instead_of("period")
-    .rule("in place of [lattice]"),
-    Key::new("level", "whether its mean plane is taken away", &[Form::Boolean], "true").default("false"),
+    .rule("in place of [lattice]; of a file, not of a random surface"),
+    Key::new("level", "whether its mean plane is taken away", &[Form::Boolean], "true")
+        .default("false")
+        .rule(OF_A_FILE),
     Key::new(
         "window",
         "tapers its border; true is \"tukey\"",
         &[Form::Boolean, Form::Word(&["hann", "tukey"])],
         "\"tukey\"",
     )
-    .default("false"),
+    .default("false")
+    .rule(OF_A_FILE),
     Key::new(
         "random",
         "a self-affine surface",

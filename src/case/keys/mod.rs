@@ -2,7 +2,8 @@
 //!
 //! The reader learns here what it accepts (`key`, `range`), what holds where a key is absent and where a misplaced one
 //! belongs; an override, what it drives out; the README, its table of sections; `percoat explain`, all that it says
-//! (`explanation`, `page`, in the words of `form` and `telling`); an editor, its `schema`. The tables: `counterbody`, `body`, `run`, `stress`, and `sections`, which has all.
+//! (`explanation`, `page`, in the words of `form` and `telling`); an editor, its `schema`. The tables: `counterbody`, `body`,
+//! `run`, `stress`, and `sections`, which has all.
 
 mod body;
 mod counterbody;

@@ -63,7 +63,9 @@ impl Range {
             Self::Factor => "a number other than 0, between 1e-60 and 1e60 or the negative of one",
             _ => "a number between 1e-60 and 1e60",
         };
-        if carried { Ok(x) } else { Err(Beyond { wanted: wanted.to_owned(), help: Some(WHY) }) }
+        // 0 is none in any unit.
+        let help = (x != 0.0).then_some(WHY);
+        if carried { Ok(x) } else { Err(Beyond { wanted: wanted.to_owned(), help }) }
     }
 
     /// Its bounds before double precision is asked.

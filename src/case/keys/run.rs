@@ -79,8 +79,8 @@ pub(super) static SOLVER: Keys = Keys::new(&[
     .rule("not \"polonsky-keer\" under coupled friction"),
     Key::new(
         "tolerance",
-        "energy of the error below 20 times it and the elastic energy, penetration outside contact below 10 times it \
-         and δ, residual ε below it",
+        "energy of the error below 20 tolerance times the elastic energy, penetration outside contact below 10 \
+         tolerance times δ, residual ε below the tolerance",
         &[Form::Number(Range::between(1e-14, 1e-2))],
         "1e-10",
     )

@@ -18,8 +18,13 @@ pub(super) static STRESS: Keys = Keys::new(&[
     )
     .unit(Unit::Length)
     .default("[]"),
-    Key::new("mean", "the mean lateral stress", &[Form::Word(&["confined", "half-space"])], "\"half-space\"")
-        .default("\"confined\""),
+    Key::new(
+        "mean",
+        "the mean lateral stress: that of no mean lateral strain, or under the centre of a wide loaded disc",
+        &[Form::Word(&["confined", "half-space"])],
+        "\"half-space\"",
+    )
+    .default("\"confined\""),
     Key::new(
         "section",
         "a vertical cut from one level or place toward another, or along a direction",

@@ -32,13 +32,12 @@ impl Keys {
             let steps = if self.names.len() == 1 { row.results.len() } else { 1 };
             for (step, result) in row.results.iter().enumerate().skip(row.results.len() - steps.min(row.results.len()))
             {
-                let load = result.get("mean_pressure").and_then(Value::as_f64);
-                let own = match load {
-                    Some(load) if steps > 1 => (step, format!("p̄ = {}", short(load))),
-                    _ => (at, label.clone()),
-                };
-                let value = (shown.value)(result).unwrap_or(f64::NAN);
-                curves.entry(own).or_default().push([x, value]);
+                let load = result.get("mean_pressure").and_then(Value::as_f64).filter(|_| steps > 1);
+                let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
+                let curve = curves.entry(own).or_insert_with(|| (label, load, Vec::new()));
+                // A step whose load is not the same everywhere has a number only.
+                curve.1 = curve.1.filter(|_| curve.1 == load);
+                curve.2.push([x, (shown.value)(result).unwrap_or(f64::NAN)]);
             }
         }
         let all = curves.len();
@@ -48,7 +47,8 @@ impl Keys {
             0..=COLOURS => Ink::Number(index + 1),
             _ => Ink::Depth(index as f64 / (count - 1) as f64),
         };
-        let curves = drawn.into_iter().enumerate().map(|(index, ((_, label), mut points))| {
+        let curves = drawn.into_iter().enumerate().map(|(index, (_, (own, load, mut points)))| {
+            let label = load.map_or(own, |load| format!("p̄ = {}", short(load)));
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
             Curve { label, points, style, colour: colour(index) }

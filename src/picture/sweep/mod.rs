@@ -43,7 +43,7 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
     let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own)).unzip();
     let curves = counts.into_iter().max().unwrap_or(0);
     if one_in(curves) > 1 {
-        words.push(format!("one in {} of {curves} curves is drawn, the table has all", one_in(curves)));
+        words.push(format!("of {curves} curves one in {} is drawn, the table has all", one_in(curves)));
     }
     words.extend(left_out);
     Some(plots(&(words.join("; ") + "."), &charts))
