@@ -6,7 +6,8 @@ use super::options::Common;
 use super::progress::Progress;
 use super::terminal;
 use percoat::output::{Clock, OutputError, Recording, RunFolder};
-use percoat::run::{Finished, Last, Recorder, Run, StepRecord};
+use percoat::run::{Finished, Recorder, Run, StepRecord};
+use percoat::spectral::Checkpoint;
 use percoat::{Load, Section, Solver, Step, StressField};
 
 /// Records a run and shows how far it is.
@@ -54,8 +55,8 @@ impl Recorder for Shown<'_> {
         self.recording.finished()
     }
 
-    fn solved(&mut self, last: &Last) -> Result<(), OutputError> {
-        self.recording.solved(last)
+    fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), OutputError> {
+        self.recording.solved(checkpoint)
     }
 
     fn fits(&self, points: [usize; 2]) -> bool {

@@ -108,7 +108,7 @@ impl Checkpoints {
         points: [usize; 2],
         refined: bool,
         steps: usize,
-        last: &Last,
+        (last, seconds): (&Checkpoint, f64),
     ) -> Result<(), OutputError> {
         let soon = |(when, took): (Instant, Duration)| when.elapsed() < SHARE * took;
         // What is gathered at the end needs the last step of several; of one load alone nothing has to be kept.
@@ -119,17 +119,21 @@ impl Checkpoints {
         if skipped {
             return Ok(());
         }
-        let Report { stop, route, iterations, outer, .. } = last.checkpoint.report;
+        let Report { stop, route, iterations, outer, .. } = last.report;
         let solved = Solved {
             stop: stop.to_string(),
             route: route.name().to_owned(),
             trials: route.trials(),
             iterations,
             outer,
-            coarser: last.checkpoint.coarser,
-            grids: last.checkpoint.grids.len(),
+            coarser: last.coarser,
+            grids: last.grids.len(),
         };
-        self.write(folder, Place { points, refined, steps, solved: Some(solved), ..self.place() }, Some(last))
+        self.write(
+            folder,
+            Place { points, refined, steps, solved: Some(solved), ..self.place() },
+            Some((last, seconds)),
+        )
     }
 
     /// Before anything is solved.
@@ -138,15 +142,15 @@ impl Checkpoints {
         Place { fingerprint, points: [0; 2], refined: false, steps: 0, solved: None }
     }
 
-    fn write(&mut self, folder: &Path, place: Place, last: Option<&Last>) -> Result<(), OutputError> {
+    fn write(&mut self, folder: &Path, place: Place, last: Option<(&Checkpoint, f64)>) -> Result<(), OutputError> {
         let began = Instant::now();
         let place = serde_json::to_string(&place).expect("a place is numbers and texts under names");
         write_file(&folder.join(NAME), |writer| {
             let mut archive = Archive::new(writer);
             archive.text(PLACE, &place)?;
             archive.array("changes", &[self.changes.len()], self.changes.iter().copied())?;
-            if let Some(Last { checkpoint, seconds }) = last {
-                let numbers = [checkpoint.convolutions, checkpoint.report.residual, seconds.unwrap_or(f64::NAN)];
+            if let Some((checkpoint, seconds)) = last {
+                let numbers = [checkpoint.convolutions, checkpoint.report.residual, seconds];
                 archive.array("numbers", &[3], numbers)?;
                 for (index, Unknowns { pressure, gap, penetration, certificate }) in checkpoint.grids.iter().enumerate()
                 {
@@ -164,9 +168,9 @@ impl Checkpoints {
 }
 
 /// How long writing takes, by a disk that is not slow.
-fn foreseen(last: &Last) -> Duration {
+fn foreseen(last: &Checkpoint) -> Duration {
     const BYTES_PER_SECOND: f64 = 1e9;
-    let samples: usize = last.checkpoint.grids.iter().map(|own| own.pressure.len()).sum();
+    let samples: usize = last.grids.iter().map(|own| own.pressure.len()).sum();
     Duration::from_secs_f64(16.0 * samples as f64 / BYTES_PER_SECOND)
 }
 
@@ -246,7 +250,7 @@ impl Saved {
         let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
         let grids = (0..solved.grids).map(|index| self.unknowns(index)).collect::<io::Result<_>>()?;
         let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids };
-        Ok(Last { checkpoint, seconds: Some(seconds).filter(|seconds| seconds.is_finite()) })
+        Ok(Last { checkpoint, seconds: Some(seconds) })
     }
 
     fn unknowns(&mut self, index: usize) -> io::Result<Unknowns> {

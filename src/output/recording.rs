@@ -7,8 +7,8 @@ use super::steps_log::StepsLog;
 use super::stress::Stresses;
 use super::{OutputError, RunFolder, write_text};
 use crate::load::Load;
-use crate::run::{Finished, Last, Recorder, Run, StepRecord, StressRequest};
-use crate::spectral::{Solver, Step};
+use crate::run::{Finished, Recorder, Run, StepRecord, StressRequest};
+use crate::spectral::{Checkpoint, Solver, Step};
 use crate::stress::{Section, StressField};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct Recording<'a> {
     /// Whether fields are kept.
     fields: bool,
     clock: Clock,
+    /// When the present load began, by the clock.
+    load_began: f64,
     /// None where no later run is to go on from this one.
     checkpoints: Option<Checkpoints>,
     /// What an earlier run has finished, until this one asks for it.
@@ -69,6 +71,7 @@ impl<'a> Recording<'a> {
             standing: None,
             refined: false,
             files: None,
+            load_began: 0.0,
             set_aside: None,
         }
     }
@@ -167,10 +170,11 @@ impl Recorder for Recording<'_> {
         self.earlier.take()
     }
 
-    fn solved(&mut self, last: &Last) -> Result<(), OutputError> {
+    fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), OutputError> {
         let (Some(checkpoints), Some(files)) = (&mut self.checkpoints, &self.files) else { return Ok(()) };
+        let seconds = self.clock.seconds() - self.load_began;
         self.clock.turn(Phase::Output);
-        checkpoints.save(&self.claim.staging(), files.points, self.refined, files.steps + 1, last)?;
+        checkpoints.save(&self.claim.staging(), files.points, self.refined, files.steps + 1, (checkpoint, seconds))?;
         self.clock.turn(Phase::Solve);
         Ok(())
     }
@@ -182,6 +186,7 @@ impl Recorder for Recording<'_> {
     }
 
     fn load(&mut self, _load: Load) {
+        self.load_began = self.clock.seconds();
         self.clock.turn(Phase::Solve);
     }
 

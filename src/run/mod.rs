@@ -202,8 +202,7 @@ impl Run {
             Some(saved) => solver.restore(load, saved.checkpoint)?,
             None => {
                 let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
-                let seconds = recorder.clock().zip(began).map(|(now, began)| now - began);
-                recorder.solved(&Last { checkpoint: solver.checkpoint(&step), seconds }).map_err(RunError::Recorder)?;
+                recorder.solved(&solver.checkpoint(&step)).map_err(RunError::Recorder)?;
                 step
             }
         };

@@ -1,8 +1,8 @@
 //! What hears of a run while it goes on, and says whether it may. It hears from the threads that solve.
 
-use super::{Finished, Last, StepRecord};
+use super::{Finished, StepRecord};
 use crate::load::Load;
-use crate::spectral::{Progress, Solver, Step};
+use crate::spectral::{Checkpoint, Progress, Solver, Step};
 use crate::stress::StressField;
 use std::convert::Infallible;
 use std::error::Error;
@@ -45,7 +45,7 @@ pub trait Recorder: Send {
     ///
     /// # Errors
     /// Ends the run.
-    fn solved(&mut self, _last: &Last) -> Result<(), Self::Error> {
+    fn solved(&mut self, _checkpoint: &Checkpoint) -> Result<(), Self::Error> {
         Ok(())
     }
 

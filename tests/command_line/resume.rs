@@ -3,7 +3,8 @@
 use crate::program::{Desk, Folder};
 use percoat::case::{Case, Source};
 use percoat::output::{self, Clock, OutputError, Recording, RunFolder, solved_plan, write_scalars};
-use percoat::run::{Finished, Last, Outcome, Recorder, RunError, StepRecord};
+use percoat::run::{Finished, Outcome, Recorder, RunError, StepRecord};
+use percoat::spectral::Checkpoint;
 use percoat::{Solver, Step, StressField};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -142,8 +143,8 @@ impl Recorder for Mortal<'_> {
         self.lives(done)
     }
 
-    fn solved(&mut self, last: &Last) -> Result<(), Death> {
-        let done = self.recording.solved(last);
+    fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), Death> {
+        let done = self.recording.solved(checkpoint);
         self.lives(done)
     }
 
