@@ -5,7 +5,7 @@ mod common;
 use common::one_level;
 use percoat::body::{InterfaceStrength, Strength};
 use percoat::reading::Criterion;
-use percoat::run::{At, End, Limits, Recorder, RunError, StepRecord};
+use percoat::run::{At, End, Limit, Limits, Recorder, RunError, StepRecord};
 use percoat::{
     Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, Material, Problem, Run, Sampling, Shape, Solver, Step,
     StressField,
@@ -279,4 +279,24 @@ fn a_search_without_strengths_or_loads_is_refused() {
     assert!(matches!(run(problem(), Load::Penetration(-0.1)).limits(&mut ()), Err(RunError::NoLoads)));
     let deep = run(problem(), Load::Penetration(9.0)).limits(&mut ());
     assert!(matches!(deep, Err(RunError::BeyondFullContact(_))));
+}
+
+/// A limit is no sharper than its error, nor is what comes first.
+#[test]
+fn an_error_is_told_with_what_else_may_come_first() {
+    let limit = |material: usize, mean_pressure: f64, error: f64| Limit {
+        criterion: Criterion::Cracking { material },
+        at: At::Load { mean_pressure, error: Some(error), position: [0.0; 3] },
+    };
+    let words = |limits: Vec<Limit>| {
+        let (steps, warnings) = (Vec::new(), Vec::new());
+        Limits { limits, steps, shown: None, complete: f64::INFINITY, change: None, end: None, warnings }.to_string()
+    };
+    let sharp = [limit(1, 0.5, 1e-4), limit(2, 0.6, 1e-3)];
+    assert_eq!(words(sharp.to_vec()), "first: cracking of material 1 at the mean pressure 0.50000");
+    let blurred = [limit(1, 0.5, 0.06), limit(2, 0.7, 0.2), limit(3, 0.8, 0.1)];
+    assert_eq!(
+        words(blurred.to_vec()),
+        "first: cracking of material 1 at the mean pressure 0.50000 ± 12 %, or cracking of material 2 within the errors"
+    );
 }

@@ -1,20 +1,29 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
 use super::{Case, LayerSection, LoadSection, sublayers};
-use crate::body::{Interface, Layer, MeanStress};
+use crate::body::{Interface, Layer, Material, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
 use crate::numeric::number::number;
 use crate::run::warnings::{HIGH, STEEP, ratio};
 use std::iter::repeat_n;
 
-/// Lengths of one case that differ by more than this are hardly in one unit.
+/// Lengths of one case that differ by more than this are hardly in one unit, nor are moduli that differ by so much.
 const APART: f64 = 1e4;
+const MODULI_APART: f64 = 1e3;
+/// Coefficients of friction beyond this are hardly ones.
+const ROUGH: f64 = 2.0;
+
+/// What it is called.
+const SUBSTRATE: &str = "the substrate";
 
 /// What the case alone makes doubtful, one sentence each.
 pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(case).into_iter().collect();
+    doubts.extend(moduli(case));
+    doubts.extend(strengths(case));
+    doubts.extend(friction(case));
     doubts.extend(lengths(case, cell));
     doubts.extend(sublayers::doubt(case));
     if counterbody.indenters().is_some() {
@@ -45,7 +54,7 @@ fn pressures(case: &Case) -> Option<String> {
     let (half_space, LoadSection::MeanPressure(loads)) = (case.half_space(), &case.load) else { return None };
     let highest = loads.iter().copied().fold(0.0, f64::max);
     let layers = half_space.layers().iter().map(|layer| layer.material());
-    let materials = layers.zip(names(&case.layers)).chain([(half_space.substrate(), "the substrate".to_owned())]);
+    let materials = layers.zip(names(&case.layers)).chain([(half_space.substrate(), SUBSTRATE.to_owned())]);
     let (material, name) = materials.min_by(|a, b| a.0.young().total_cmp(&b.0.young()))?;
     let part = highest / material.young();
     (part > HIGH).then(|| {
@@ -56,6 +65,56 @@ fn pressures(case: &Case) -> Option<String> {
             ratio(part),
             number(material.young())
         )
+    })
+}
+
+/// Every material with its name.
+fn materials(case: &Case) -> impl Iterator<Item = (Material, String)> {
+    case.half_space().materials().zip(names(&case.layers).chain([SUBSTRATE.to_owned()]))
+}
+
+/// The stiffest and the most compliant material, where no coating is so much stiffer than what it lies on.
+fn moduli(case: &Case) -> Option<String> {
+    let by_young = |a: &(Material, String), b: &(Material, String)| a.0.young().total_cmp(&b.0.young());
+    let (stiff, stiff_name) = materials(case).max_by(by_young)?;
+    let (soft, soft_name) = materials(case).min_by(by_young)?;
+    let times = stiff.young() / soft.young();
+    (times > MODULI_APART).then(|| {
+        format!(
+            "Young's modulus {} of {stiff_name} is {} times the {} of {soft_name}: are both in one unit, not one in MPa and \
+             the other in GPa?",
+            number(stiff.young()),
+            ratio(times),
+            number(soft.young())
+        )
+    })
+}
+
+/// Strengths and residual stresses that no material bears.
+fn strengths(case: &Case) -> Vec<String> {
+    let half_space = case.half_space();
+    let stresses = half_space.residual_stresses().map(f64::abs);
+    let all = materials(case).zip(half_space.strengths()).zip(stresses);
+    let doubts = all.flat_map(|(((material, name), strength), residual)| {
+        let of = [("yield_strength", strength.yielding), ("tensile_strength", strength.tensile)];
+        let strengths = of.into_iter().filter_map(|(key, value)| Some((key, value?)));
+        let high = strengths.chain([("residual_stress", residual)]).filter(move |(_, value)| *value > HIGH * material.young());
+        high.map(move |(key, value)| {
+            format!(
+                "{key} of {name} is {} of its Young's modulus {}: are both in one unit, not one in MPa and the other in GPa?",
+                ratio(value / material.young()),
+                number(material.young())
+            )
+        })
+        .collect::<Vec<_>>()
+    });
+    doubts.collect()
+}
+
+fn friction(case: &Case) -> Option<String> {
+    let coefficient = case.problem().friction()?.coefficient();
+    (coefficient > ROUGH).then(|| {
+        format!("friction.coefficient = {} is more than surfaces have: is it in per cent?", number(coefficient))
     })
 }
 
@@ -194,6 +253,10 @@ mod tests {
             (&["levels.0.radius=1e-6"], &["levels[0].radius = 1.0000e-6"]),
             (&["levels.0.height=1e9"], &["only differences of heights matter"]),
             (&["levels.0.slope=3", "levels.0.shape=cone"], &["levels[0].slope", "cone"]),
+            (&["substrate.young=210", "layers.0.young=450000"], &["Young's modulus 450000", "2.1e3 times", "MPa"]),
+            (&["substrate.yield_strength=2"], &["yield_strength of the substrate is 2.0", "MPa"]),
+            (&["layers.0.residual_stress=-30"], &["residual_stress of layers[0]"]),
+            (&["friction.coefficient=15"], &["friction.coefficient = 15", "per cent"]),
             (&["levels.2.radius=0.05"], &["level 3", "of a single contact"]),
             (
                 &["lattice.period=1e-6", "levels.0.shape=power", "levels.0.coefficient=0.6", "levels.0.exponent=2"],

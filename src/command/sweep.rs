@@ -14,6 +14,7 @@ use percoat::picture;
 use percoat::sweep::{self, Asked, Axis, Combinations, Group, Log, Row, Status, Study, Task};
 use percoat::units::Units;
 use serde_json::Value;
+use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -243,21 +244,36 @@ pub fn print(rows: &[Row], description: &Value, folder: &Path, saying: &Saying) 
     Ok(())
 }
 
-/// Each warning once, with the number of combinations that have it.
+/// Each warning once, whatever its numbers, with the number of combinations that have it.
 fn tell_warnings(rows: &[Row]) {
     /// Warnings told.
     const TOLD: usize = 5;
-    let mut counted: Vec<(&str, usize)> = Vec::new();
-    for warning in rows.iter().flat_map(|row| &row.warnings) {
-        match counted.iter_mut().find(|(own, _)| own == warning) {
-            Some((_, count)) => *count += 1,
-            None => counted.push((warning, 1)),
+    let mut counted: Vec<(String, &str, HashSet<usize>)> = Vec::new();
+    for (row, warning) in rows.iter().flat_map(|row| row.warnings.iter().map(move |warning| (row.combination, warning)))
+    {
+        let words = without_numbers(warning);
+        match counted.iter_mut().find(|(own, ..)| *own == words) {
+            Some((.., combinations)) => {
+                combinations.insert(row);
+            }
+            None => counted.push((words, warning, HashSet::from([row]))),
         }
     }
-    counted.iter().take(TOLD).for_each(|(warning, count)| tell!("warning: {warning} ({count} of {})", rows.len()));
+    for (_, first, combinations) in counted.iter().take(TOLD) {
+        let count = combinations.len();
+        match count {
+            1 => tell!("warning: {first} (1 of {})", rows.len()),
+            _ => tell!("warning: {first} (this or with other numbers in {count} of {})", rows.len()),
+        }
+    }
     if counted.len() > TOLD {
         tell!("warning: and {} more, see the column `warnings` of sweep.csv", counted.len() - TOLD);
     }
+}
+
+/// A sentence without what differs from one combination to the next.
+fn without_numbers(text: &str) -> String {
+    text.split(' ').filter(|word| !word.contains(|letter: char| letter.is_ascii_digit())).collect::<Vec<_>>().join(" ")
 }
 
 /// Whether everything is as it should be.

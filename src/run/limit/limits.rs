@@ -223,11 +223,35 @@ impl Limits {
             At::Rest => ", without load, by residual stress alone".to_owned(),
             At::Tip { .. } => ", under a tip however small the load".to_owned(),
             At::Below { mean_pressure, .. } => format!(", at less than the mean pressure {}", told(mean_pressure)),
-            At::Load { .. } | At::Never { .. } => format!(" at the mean pressure {}", told(limit.mean_pressure())),
+            At::Load { mean_pressure, error, .. } => {
+                let part = error.map(|error| error / mean_pressure).filter(|part| *part > TOLD);
+                let error = part.map_or(String::new(), |part| format!(" ± {:.0} %", 100.0 * part));
+                format!(" at the mean pressure {}{error}{}", told(mean_pressure), self.rivals(limit))
+            }
+            At::Never { up_to, .. } => format!(" at the mean pressure {}", told(up_to)),
         };
         format!("first: {}{at}", limit.criterion)
     }
+
+    /// What else may come first, by the errors of both.
+    fn rivals(&self, first: &Limit) -> String {
+        let range = |limit: &Limit| match limit.at {
+            At::Load { mean_pressure, error, .. } => {
+                let error = error.unwrap_or(0.0);
+                Some([mean_pressure - error, mean_pressure + error])
+            }
+            _ => None,
+        };
+        let most = range(first).map_or(0.0, |[_, most]| most);
+        let near = |limit: &&&Limit| range(limit).is_some_and(|[least, _]| least < most);
+        let others = self.ordered();
+        let names: Vec<String> = others.iter().skip(1).filter(near).map(|limit| limit.criterion.to_string()).collect();
+        if names.is_empty() { names.concat() } else { format!(", or {} within the errors", names.join(" or ")) }
+    }
 }
+
+/// Relative errors above this are told beside what fails first.
+const TOLD: f64 = 0.005;
 
 /// What fails first, in words.
 impl fmt::Display for Limits {
