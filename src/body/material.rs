@@ -86,7 +86,9 @@ impl Material {
 impl fmt::Display for Material {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [young, shear, contact] = [self.young(), self.shear, self.contact_modulus()].map(number);
-        write!(f, "E {young}, ν {}, G {shear}, E* {contact}", self.poisson)
+        // As it was given, without what rounding has left between the ends of a graded layer.
+        let poisson = (1e9 * self.poisson).round() / 1e9;
+        write!(f, "E {young}, ν {poisson}, G {shear}, E* {contact}")
     }
 }
 

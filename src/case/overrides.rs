@@ -6,6 +6,7 @@ use super::error::Refusal;
 use super::keys::{self, Keys};
 use super::node::{Entry, Node, Table, Value};
 use super::place::Place;
+use super::words::nearest;
 
 /// Parts of the longest path; the longest of a case has four.
 const DEEPEST: usize = 16;
@@ -40,7 +41,9 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table) -> Result<(), R
     }
     let value = match Node::parse(value, source, offset) {
         Err(_) if is_bare_word(value) => Node { value: Value::Text(value.to_owned()), place },
-        parsed => parsed?,
+        parsed => {
+            parsed.map_err(|refusal| if is_decimal_comma(value) { refusal.help(WITH_A_POINT) } else { refusal })?
+        }
     };
     set_in_table(root, &keys::CASE, "", &steps, value)
 }
@@ -74,6 +77,14 @@ fn steps(key: &str, source: usize) -> Result<Vec<Step>, Refusal> {
         .collect()
 }
 
+const WITH_A_POINT: &str = "write the number with a point: 0.5; several values are a list: [0, 5]";
+
+/// Whether it is two integers with a comma between them.
+fn is_decimal_comma(value: &str) -> bool {
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    value.trim_start_matches(['-', '+']).split_once(',').is_some_and(|(whole, part)| digits(whole) && digits(part))
+}
+
 /// Whether a value that is not TOML is meant as text: it begins like a word or a path and has no TOML punctuation.
 fn is_bare_word(value: &str) -> bool {
     value.starts_with(|c: char| c.is_alphabetic() || "_./~\\".contains(c))
@@ -96,7 +107,12 @@ fn set_in_table(
         (Some(_), Some(node)) => return set_in_node(node, keys.within(&step.name), &path, rest, value),
         (Some(next), None) if next.index().is_some() => {
             let message = format!("`{path}` has no item {}: the case has no `{path}`", next.name);
-            return Err(Refusal::new(next.place, message, "no such item"));
+            let refusal = Refusal::new(next.place, message, "no such item");
+            let known: Vec<&str> = keys.all.iter().map(|key| key.name).collect();
+            return Err(match nearest(&step.name, &known) {
+                Some((near, _)) if near != step.name => refusal.help(format!("did you mean `{near}`?")),
+                _ => refusal,
+            });
         }
         (Some(_), None) => {
             let mut created = Table::default();
@@ -166,6 +182,16 @@ mod tests {
             };
         }
         Some(value)
+    }
+
+    #[test]
+    fn slips_are_told_what_to_write() {
+        let help = |case: &str, text: &str| set(case, text).unwrap_err().help.unwrap_or_default();
+        assert_eq!(help("", "layer.0.thickness=1"), "did you mean `layers`?");
+        assert_eq!(help("", "layers.0.thickness=1"), "");
+        assert!(help("", "substrate.poisson=0,3").contains("with a point"));
+        assert!(help("", "substrate.poisson=-10,25").contains("with a point"));
+        assert!(!help("", "substrate.poisson=0.3,").contains("with a point"));
     }
 
     #[test]
