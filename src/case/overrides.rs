@@ -186,12 +186,11 @@ mod tests {
 
     #[test]
     fn slips_are_told_what_to_write() {
-        let help = |case: &str, text: &str| set(case, text).unwrap_err().help.unwrap_or_default();
-        assert_eq!(help("", "layer.0.thickness=1"), "did you mean `layers`?");
-        assert_eq!(help("", "layers.0.thickness=1"), "");
-        assert!(help("", "substrate.poisson=0,3").contains("with a point"));
-        assert!(help("", "substrate.poisson=-10,25").contains("with a point"));
-        assert!(!help("", "substrate.poisson=0.3,").contains("with a point"));
+        let says = |text: &str, words: &str| format!("{:?}", set("", text).unwrap_err()).contains(words);
+        assert!(says("layer.0.thickness=1", "did you mean `layers`?"));
+        assert!(!says("layers.0.thickness=1", "did you mean"));
+        assert!(says("substrate.poisson=0,3", "with a point") && says("substrate.poisson=-10,25", "with a point"));
+        assert!(!says("substrate.poisson=0.3,", "with a point"));
     }
 
     #[test]
