@@ -15,12 +15,20 @@ const CURVES: usize = 12;
 /// Curves that have colours of their own; more are coloured in their order.
 const COLOURS: usize = 6;
 
+/// A curve that is being gathered.
+struct Found {
+    label: String,
+    /// The load of all its points, where it is one.
+    load: Option<f64>,
+    points: Vec<[f64; 2]>,
+}
+
 impl Keys {
     /// A curve for each set of the other keys, or for each load step where there are no others, in so far as they can be told
     /// apart; and how many there are.
     pub fn chart(&self, rows: &[Row], shown: &Number) -> (Chart, usize) {
         let (index, values) = &self.along;
-        let mut curves: BTreeMap<(usize, String), Vec<[f64; 2]>> = BTreeMap::new();
+        let mut curves: BTreeMap<usize, Found> = BTreeMap::new();
         let mut order: HashMap<String, usize> = HashMap::new();
         for row in rows {
             let others = row.settings.iter().enumerate().filter(|(at, _)| at != index);
@@ -34,10 +42,10 @@ impl Keys {
             {
                 let load = result.get("mean_pressure").and_then(Value::as_f64).filter(|_| steps > 1);
                 let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
-                let curve = curves.entry(own).or_insert_with(|| (label, load, Vec::new()));
+                let curve = curves.entry(own).or_insert_with(|| Found { label, load, points: Vec::new() });
                 // A step whose load is not the same everywhere has a number only.
-                curve.1 = curve.1.filter(|_| curve.1 == load);
-                curve.2.push([x, (shown.value)(result).unwrap_or(f64::NAN)]);
+                curve.load = curve.load.filter(|_| curve.load == load);
+                curve.points.push([x, (shown.value)(result).unwrap_or(f64::NAN)]);
             }
         }
         let all = curves.len();
@@ -47,8 +55,8 @@ impl Keys {
             0..=COLOURS => Ink::Number(index + 1),
             _ => Ink::Depth(index as f64 / (count - 1) as f64),
         };
-        let curves = drawn.into_iter().enumerate().map(|(index, (_, (own, load, mut points)))| {
-            let label = load.map_or(own, |load| format!("p̄ = {}", short(load)));
+        let curves = drawn.into_iter().enumerate().map(|(index, (_, Found { label, load, mut points }))| {
+            let label = load.map_or(label, |load| format!("p̄ = {}", short(load)));
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
             Curve { label, points, style, colour: colour(index) }
