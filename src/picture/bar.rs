@@ -21,8 +21,12 @@ pub struct Bar {
     /// Least and largest value shown. A diverging map is white at zero and as dark at −x as at x, unless the signs are
     /// apart.
     pub span: [f64; 2],
+    /// How values are spread along it.
+    pub scale: Scale,
     /// Whether both signs have scales of their own, half of the bar each: see [`Bar::signed`].
     pub apart: bool,
+    /// The colour where there is no value.
+    pub without: Colour,
 }
 
 /// Width of a colour bar and its distance from the plot, points.
@@ -34,19 +38,34 @@ const PALE: [f64; 2] = [0.01, 0.4];
 impl Bar {
     /// Of values from zero on.
     pub fn sequential(label: Quantity, most: f64) -> Self {
-        Self { label, colours: ColourMap::Sequential, span: [0.0, most], apart: false }
+        Self {
+            label,
+            colours: ColourMap::Sequential,
+            span: [0.0, most],
+            scale: Scale::Linear,
+            apart: false,
+            without: Colour::WHITE,
+        }
     }
 
     /// Of tension and compression, each with a scale of its own where one would be pale beside the other.
     pub fn signed(label: Quantity, [low, high]: [f64; 2]) -> Self {
         let ratio = (high / -low).min(-low / high);
-        Self { label, colours: ColourMap::Diverging, span: [low, high], apart: (PALE[0]..PALE[1]).contains(&ratio) }
+        Self {
+            label,
+            colours: ColourMap::Diverging,
+            span: [low, high],
+            scale: Scale::Linear,
+            apart: (PALE[0]..PALE[1]).contains(&ratio),
+            without: Colour::WHITE,
+        }
     }
 
     /// Where a value stands on the bar, from 0 at the bottom to 1.
     fn place(&self, value: f64) -> f64 {
         let [low, high] = self.span;
         match (self.apart, value < 0.0) {
+            (false, _) if self.scale == Scale::Log => (value / low).ln() / (high / low).ln(),
             (false, _) => (value - low) / (high - low),
             (true, true) => 0.5 - 0.5 * value / low,
             (true, false) => 0.5 + 0.5 * value / high,
@@ -57,7 +76,7 @@ impl Bar {
     fn value(&self, place: f64) -> f64 {
         let [low, high] = self.span;
         match (self.apart, place < 0.5) {
-            (false, _) => low + (high - low) * place,
+            (false, _) => self.scale.between(low, high, place),
             (true, true) => low * (1.0 - 2.0 * place),
             (true, false) => high * (2.0 * place - 1.0),
         }
@@ -85,14 +104,16 @@ impl Bar {
     }
 
     fn unit(&self) -> Prefixed {
-        self.label.unit(self.span[0].abs().max(self.span[1].abs()))
+        let [low, high] = self.span.map(f64::abs);
+        // As on an axis.
+        self.label.unit(if self.scale == Scale::Log { (low * high).sqrt() } else { low.max(high) })
     }
 
     fn ticks_of(&self, most: usize) -> Ticks {
         let unit = self.unit();
         let [low, high] = self.span.map(|end| unit.shown(end));
         if !self.apart {
-            return ticks([low, high], Scale::Linear, most).in_unit(&unit);
+            return ticks([low, high], self.scale, most).in_unit(&unit);
         }
         let halves = [[low, 0.0], [0.0, high]].map(|half| ticks(half, Scale::Linear, most.saturating_sub(1)));
         let mut numbered: Vec<(f64, String)> = halves.iter().flat_map(|half| half.numbered.clone()).collect();
@@ -106,7 +127,12 @@ impl Bar {
 
     /// Width with its numbers, however many there are, and its quantity.
     pub(super) fn width(&self) -> f64 {
-        GAP + BAR + 4.0 + self.widest() + 1.6 * LABELS
+        GAP + BAR + 4.0 + self.widest() + if self.name().is_empty() { 0.0 } else { 1.6 * LABELS }
+    }
+
+    /// Quantity and unit.
+    fn name(&self) -> String {
+        self.label.label(&self.unit())
     }
 
     fn widest(&self) -> f64 {
@@ -138,8 +164,7 @@ impl Bar {
             canvas.text(&factor, [x, top - 3.0], Anchor::Left, NUMBERS, Colour::BLACK);
         }
         let right = x + BAR + 4.0 + self.widest() + 1.35 * LABELS;
-        let label = self.label.label(&self.unit());
-        canvas.upward(&label, [right, top + 0.5 * height], LABELS, Colour::BLACK);
+        canvas.upward(&self.name(), [right, top + 0.5 * height], LABELS, Colour::BLACK);
     }
 }
 
@@ -166,6 +191,8 @@ mod tests {
             let zeros = bar.ticks(150.0).numbered.iter().filter(|(value, _)| *value == 0.0).count();
             assert_eq!(zeros, 1, "{span:?}");
         }
+        let log = Bar { scale: Scale::Log, span: [1e-3, 0.1], ..Bar::sequential("".into(), 0.1) };
+        assert!((log.place(1e-2) - 0.5).abs() < 1e-12 && (log.value(0.5) / 1e-2 - 1.0).abs() < 1e-12);
         let table = ColourMap::Diverging.table();
         let apart = bar([-10.0, 1.0]);
         assert_eq!([apart.colour(&table, 1.0), apart.colour(&table, -10.0)], [table[255], table[0]]);

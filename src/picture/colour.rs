@@ -17,6 +17,9 @@ impl Colour {
     /// The grey of captions.
     pub const GREY: Self = Self([70, 70, 70]);
 
+    /// Where a map has no value.
+    pub const PALE: Self = Self([205, 205, 205]);
+
     /// The colour of a line by its index, see [`Curve::colour`](super::Curve).
     pub fn line(index: usize) -> Self {
         const LINES: [[u8; 3]; 6] =

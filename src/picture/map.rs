@@ -44,7 +44,7 @@ pub enum Over {
 
 /// The colour of a place.
 pub enum Fill<'a> {
-    /// A value; `None` stays white.
+    /// A value; `None` has the colour that the bar has for it.
     Values(Bar, &'a (dyn Fn([f64; 2]) -> Option<f64> + Sync)),
     /// A colour without a scale.
     Colours(&'a (dyn Fn([f64; 2]) -> Colour + Sync)),
@@ -95,7 +95,7 @@ impl Map<'_> {
             Fill::Colours(_) => Vec::new(),
         };
         let colour = |place: [f64; 2]| match &self.fill {
-            Fill::Values(bar, value) => value(place).map_or(Colour::WHITE, |value| bar.colour(&table, value)),
+            Fill::Values(bar, value) => value(place).map_or(bar.without, |value| bar.colour(&table, value)),
             Fill::Colours(colour) => colour(place),
         };
         let mut pixels = vec![0; 3 * columns * rows];

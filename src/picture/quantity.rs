@@ -17,9 +17,23 @@ impl Quantity {
         self.unit.prefixed(size)
     }
 
+    /// Its words and its symbol.
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The same where its words stand elsewhere: a label of its unit alone.
+    pub(super) fn wordless(&self) -> Self {
+        Self { text: String::new(), unit: self.unit.clone() }
+    }
+
     /// The text with a unit.
     pub(super) fn label(&self, unit: &Prefixed) -> String {
-        if unit.name.is_empty() { self.text.clone() } else { format!("{}\u{a0}({})", self.text, unit.name) }
+        match (self.text.is_empty(), unit.name.is_empty()) {
+            (true, _) => unit.name.clone(),
+            (false, true) => self.text.clone(),
+            (false, false) => format!("{}\u{a0}({})", self.text, unit.name),
+        }
     }
 }
 

@@ -4,15 +4,17 @@ use super::ReportError;
 use super::asked::asked;
 use super::figures::{Named, figures};
 use super::finished::{Finished, Swept};
+use super::given::{Key, listed};
 use super::markup::{Markup, tag, with};
 use super::part::{Part, by, case_to_copy, section, title, version, warnings};
+use super::ranges::{ranges, sentences};
+use super::rows::{Limit, Line, Rows};
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
-use crate::output::number;
 use crate::output::table::{Table, percent_with_error};
-use crate::sweep::column;
+use crate::output::with_error;
 use serde::Deserialize;
-use serde_json::{Value, json};
+use serde_json::json;
 use std::collections::BTreeMap;
 
 const PICTURES: [Named; 1] =
@@ -20,10 +22,7 @@ const PICTURES: [Named; 1] =
 /// Rows of the table that are shown.
 const ROWS: usize = 300;
 /// Scalars that are shown beside the keys, as the command line calls them; the table's file has them all.
-const SCALARS: [(&str, &str); 10] = [
-    ("first_criterion", "first"),
-    ("first_material", "material"),
-    ("first_mean_pressure", "first limit, mean pressure"),
+const SCALARS: [(&str, &str); 7] = [
     ("mean_pressure", "mean pressure"),
     ("penetration", "penetration"),
     ("contact_fraction", "contact"),
@@ -40,12 +39,6 @@ struct Keys {
     combinations: usize,
     failed: usize,
     not_converged: usize,
-}
-
-#[derive(Deserialize)]
-struct Key {
-    key: String,
-    values: Vec<Value>,
 }
 
 /// The part of `sweep.json` and `sweep.csv`.
@@ -65,7 +58,10 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
         told(own.failed, "failed"),
         told(own.of.saturating_sub(own.combinations), "not among them: a part of the sweep")
     );
-    let values = own.keys.iter().map(|key| vec![key.key.clone(), key.values.len().to_string(), listed(&key.values)]);
+    let text = file["case"].as_str();
+    let read = text.and_then(|text| case_of(text, &finished.folder));
+    let units = units_of(file, read.as_ref());
+    let values = own.keys.iter().map(|key| vec![key.key.clone(), key.count().to_string(), key.values()]);
     let head = ["key", "values", "which"].map(str::to_owned).to_vec();
     let keys = Table::new(&head, values.collect(), 1);
     let mut sections = vec![
@@ -78,20 +74,19 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
                     &[("class", if own.failed + own.not_converged > 0 { "answer doubt" } else { "answer" })],
                     sentence,
                 ),
+                sentences(&rows, &own.keys, &units).into(),
+                reasons(&rows),
+                ranges(&rows, &own.keys, &units),
                 table("Keys of the case and their values", &keys),
-                rows.reasons(),
             ],
         ),
         section("pictures", "Pictures", vec![figures(finished, "sweep.json", &PICTURES)?]),
-        section("rows", "Combinations", vec![rows.shown(&own.keys)]),
+        section("rows", "Combinations", vec![shown(&rows, &own.keys)]),
         section("warnings", "Warnings", vec![warnings(file)]),
     ];
-    let text = file["case"].as_str();
     if let Some(text) = text {
-        let read = case_of(text, &finished.folder);
         // What cannot be read is told in the order of the alphabet.
         if let Some(case) = read.as_ref().map(|case| json!(case)).or_else(|| toml::from_str(text).ok()) {
-            let units = units_of(file, read.as_ref());
             let words = tag("p", "The case of which the sweep changes the keys above:");
             let asked = vec![words, asked(&case), tag("p", measured_in(&units))];
             sections.insert(1, section("asked", "What was asked", asked));
@@ -109,100 +104,72 @@ fn told(count: usize, what: &str) -> String {
     if count == 0 { String::new() } else { format!(", {count} {what}") }
 }
 
-/// A list of values; of a long one its ends.
-fn listed(values: &[Value]) -> String {
-    let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-    let texts: Vec<String> = values.iter().map(text).collect();
-    match &texts[..] {
-        [first, second, .., last] if texts.len() > 12 => format!("{first}, {second}, … {last}"),
-        _ => texts.join(", "),
+/// Why combinations are not solved, with their numbers; empty where all are.
+fn reasons(rows: &Rows<'_>) -> Markup {
+    let mut reasons: BTreeMap<(String, String), Vec<String>> = BTreeMap::new();
+    let cell = |line: Line<'_>, name: &str| line.text(name).unwrap_or_default().to_owned();
+    for line in rows.lines().filter(|line| line.text("status") != Some("done")) {
+        let of = reasons.entry((cell(line, "status").replace('_', " "), cell(line, "reason"))).or_default();
+        let number = cell(line, "combination");
+        if of.last() != Some(&number) {
+            of.push(number);
+        }
     }
+    if reasons.is_empty() {
+        return Markup::default();
+    }
+    let row = |((status, reason), numbers): (&(String, String), &Vec<String>)| {
+        let reason = if reason.is_empty() { "–" } else { reason };
+        vec![status.clone(), reason.to_owned(), listed(numbers), numbers.len().to_string()]
+    };
+    let head = ["status", "reason", "combinations", "how many"].map(str::to_owned).to_vec();
+    table("Combinations that are not solved, and why", &Table::new(&head, reasons.iter().map(row).collect(), 3))
 }
 
-/// The table of a sweep.
-struct Rows<'a> {
-    names: Vec<String>,
-    rows: Vec<Vec<&'a str>>,
-}
+/// What stands in a column of the table.
+type Cell<'a> = Box<dyn Fn(Line<'_>) -> Option<String> + 'a>;
 
-impl<'a> Rows<'a> {
-    fn read(text: &'a str) -> Result<Self, String> {
-        let mut lines = text.lines();
-        let names: Vec<String> =
-            lines.next().unwrap_or_default().split(',').map(|name| name.trim().replace('.', "_")).collect();
-        for wanted in ["combination", "status", "step"] {
-            if !names.iter().any(|name| name == wanted) {
-                return Err(format!("it has no column {wanted}"));
-            }
-        }
-        let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-        match (2..).zip(&rows).find(|(_, row)| row.len() != names.len()) {
-            Some((line, row)) => Err(format!("line {line} has {} cells, the head {}", row.len(), names.len())),
-            None => Ok(Self { names, rows }),
-        }
-    }
-
-    fn column(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|own| own == name)
-    }
-
-    /// Why combinations are not solved, with their numbers; empty where all are.
-    fn reasons(&self) -> Markup {
-        let [combination, status, reason] = ["combination", "status", "reason"].map(|name| self.column(name));
-        let cell =
-            |row: &[&str], column: Option<usize>| column.map_or(String::new(), |index| row[index].trim().to_owned());
-        let mut reasons: BTreeMap<(String, String), Vec<String>> = BTreeMap::new();
-        for row in self.rows.iter().filter(|row| cell(row, status) != "done") {
-            let of = reasons.entry((cell(row, status).replace('_', " "), cell(row, reason))).or_default();
-            let number = cell(row, combination);
-            if of.last() != Some(&number) {
-                of.push(number);
-            }
-        }
-        if reasons.is_empty() {
-            return Markup::default();
-        }
-        let row = |((status, reason), numbers): (&(String, String), &Vec<String>)| {
-            let numbers: Vec<Value> = numbers.iter().map(|number| Value::from(number.as_str())).collect();
-            let reason = if reason.is_empty() { "–" } else { reason };
-            vec![status.clone(), reason.to_owned(), listed(&numbers), numbers.len().to_string()]
+/// The first rows with the keys and the main scalars, and what is left out.
+fn shown(rows: &Rows<'_>, keys: &[Key]) -> Markup {
+    let mut columns: Vec<(String, Cell<'_>)> = Vec::new();
+    let plain = |name: &'static str| -> Cell<'_> { Box::new(|line| Some(line.text(name)?.replace('_', " "))) };
+    columns.push(("combination".to_owned(), plain("combination")));
+    columns.extend(keys.iter().map(|key| -> (String, Cell<'_>) { (key.key.clone(), Box::new(|line| key.of(line))) }));
+    columns.push(("status".to_owned(), plain("status")));
+    let limits = rows.limits();
+    if limits.is_empty() {
+        columns.push(("step".to_owned(), plain("step")));
+    } else {
+        columns.push(("first".to_owned(), Box::new(|line| line.first())));
+        let limit = |name: &str| -> Cell<'_> {
+            let name = name.to_owned();
+            Box::new(move |line| line.limit(&name).map(Limit::told))
         };
-        let head = ["status", "reason", "combinations", "how many"].map(str::to_owned).to_vec();
-        table("Combinations that are not solved, and why", &Table::new(&head, reasons.iter().map(row).collect(), 3))
+        columns.push(("first limit".to_owned(), limit("first")));
+        columns.extend(limits.into_iter().map(|name| (name.replace('_', " "), limit(name))));
     }
-
-    /// The first rows with the keys and the main scalars, and what is left out.
-    fn shown(&self, keys: &[Key]) -> Markup {
-        let own = |name: &str| (name.to_owned(), name.to_owned());
-        let mut named = vec![own("combination")];
-        named.extend(keys.iter().map(|key| (column(&key.key), key.key.clone())));
-        named.extend(["status", "step"].map(own));
-        named.extend(SCALARS.map(|(name, words)| (name.to_owned(), words.to_owned())));
-        named.extend(self.names.iter().filter_map(|name| {
-            let level = name.strip_prefix("levels_")?.strip_suffix("_load_share")?;
-            level.parse::<usize>().ok()?;
-            Some((name.clone(), format!("share {level}")))
-        }));
-        let columns: Vec<(usize, String)> =
-            named.into_iter().filter_map(|(name, words)| Some((self.column(&name)?, words))).collect();
-        let given = |name: &str| keys.iter().any(|key| column(&key.key) == name);
-        let cell = |row: &[&str], column: usize| {
-            let (text, name) = (row[column].trim(), self.names[column].as_str());
-            match text.parse::<f64>() {
-                Ok(x) if name.ends_with("_share") || name == "contact_fraction" => percent_with_error(x, None),
-                // Values stand as they were given, what counts stays a count.
-                Ok(x) if !given(name) && text.contains(['.', 'e']) => number(x),
-                _ if text.is_empty() => "–".to_owned(),
-                _ if name == "status" => text.replace('_', " "),
-                _ => text.to_owned(),
-            }
-        };
-        let rows = self.rows.iter().take(ROWS);
-        let rows = rows.map(|row| columns.iter().map(|(column, _)| cell(row, *column)).collect()).collect();
-        let head: Vec<String> = columns.into_iter().map(|(_, words)| words).collect();
-        let shown = table("One row a combination and load step", &Table::new(&head, rows, 0));
-        let more = self.rows.len().saturating_sub(ROWS);
-        let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
-        vec![shown, tag("p", format!("{more} {} columns stand in sweep.csv.", self.names.len()))].into()
-    }
+    let measured = |name: String, words: String| -> Option<(String, Cell<'_>)> {
+        let is_part = name.ends_with("_share") || name == "contact_fraction";
+        let told = if is_part { percent_with_error } else { with_error };
+        rows.has(&name).then(|| {
+            let cell: Cell<'_> = Box::new(move |line| line.measured(&name).map(|(x, error)| told(x, error)));
+            (words, cell)
+        })
+    };
+    columns.extend(SCALARS.iter().filter_map(|(name, words)| measured((*name).to_owned(), (*words).to_owned())));
+    columns.extend(rows.names().iter().filter_map(|name| {
+        let level = name.strip_prefix("levels_")?.strip_suffix("_load_share")?;
+        level.parse::<usize>().ok()?;
+        measured(name.clone(), format!("share {level}"))
+    }));
+    let cells = |line: Line<'_>| columns.iter().map(|(_, cell)| cell(line).unwrap_or("–".to_owned())).collect();
+    let head: Vec<&String> = columns.iter().map(|(words, _)| words).collect();
+    let caption = match rows.limits()[..] {
+        [] => "One row a combination and load step; ± is the estimated error of the grid",
+        _ => "One row a combination: the mean pressure of each limit; ± is the estimated error of the grid",
+    };
+    let shown = table(caption, &Table::new(&head, rows.lines().take(ROWS).map(cells).collect(), 0));
+    let more = rows.lines().len().saturating_sub(ROWS);
+    let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
+    vec![shown, tag("p", format!("{more} {} columns stand in sweep.csv.", rows.names().len()))].into()
 }

@@ -3,70 +3,115 @@
 use super::super::axis::Axis;
 use super::super::bar::Bar;
 use super::super::canvas::Canvas;
-use super::super::colour::ColourMap;
-use super::super::map::{Fill, Map};
+use super::super::colour::Colour;
+use super::super::map::{Fill, Map, Over};
 use super::super::scale::Scale;
 use super::super::sheet::{Panel, sheet};
+use super::first::{First, Named, colour};
 use super::keys::{Keys, number, scale};
-use super::numbers::Number;
+use super::numbers::{Bound, Number};
 use crate::sweep::Row;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Numbers of more than this ratio have a logarithmic bar.
+const WIDE: f64 = 20.0;
+
+/// Where the values of a map stand, and what the map shows there; `None` where a combination is not.
+type Field<T> = Vec<Option<T>>;
 
 impl Keys {
-    /// A map for each number.
+    /// A map of what comes first where limits are searched for, and one for each number.
     pub fn maps(&self, rows: &[Row], numbers: &[Number], caption: &str) -> Option<Canvas> {
         let (along, up) = (&self.along, self.pair.as_ref()?);
-        let fields: Vec<Vec<Option<f64>>> = numbers
-            .iter()
-            .map(|shown| {
-                let mut field = vec![None; along.1.len() * up.1.len()];
-                for row in rows {
-                    let place = |(index, values): &(usize, Vec<f64>)| {
-                        let own = number(row, *index)?;
-                        values.iter().position(|value| *value == own)
-                    };
-                    if let (Some(i), Some(j)) = (place(along), place(up)) {
-                        let value = row.results.last().and_then(|result| (shown.value)(result));
-                        field[j * along.1.len() + i] = value.filter(|value| value.is_finite());
-                    }
-                }
-                field
-            })
-            .collect();
+        let columns = along.1.len();
         let [x, y] = [along, up].map(|(_, values)| Cells::new(values));
-        let lookups: Vec<_> = fields
+        let cell = |[u, v]: [f64; 2]| y.at(v) * columns + x.at(u);
+        let map = |title: String, fill, over| {
+            let (x, y) = (x.axis(&self.names[along.0]), y.axis(&self.names[up.0]));
+            Map { title, x, y, aspect: 0.8, fill, over }
+        };
+        let counted = First::counted(rows.iter().filter_map(|row| row.results.last()));
+        let coloured = |(index, (first, _)): (usize, &(First, usize))| (first.clone(), colour(first, index));
+        let colours: BTreeMap<First, Colour> = counted.iter().enumerate().map(coloured).collect();
+        let firsts = self.field(rows, |result| colours.get(&First::of(result)?).copied());
+        let first = |place: [f64; 2]| firsts[cell(place)].unwrap_or(Colour::PALE);
+        let names = counted.iter().map(|(first, count)| (colours[first], format!("{} ({count})", first.name())));
+        let first = (!counted.is_empty()).then(|| Named {
+            map: map("what comes first (in how many combinations)".to_owned(), Fill::Colours(&first), Vec::new()),
+            names: names.collect(),
+        });
+        let fields: Vec<Field<f64>> = numbers
             .iter()
-            .map(|field| {
-                let columns = along.1.len();
-                let (x, y) = (&x, &y);
-                move |[u, v]: [f64; 2]| field[y.at(v) * columns + x.at(u)]
-            })
+            .map(|shown| self.field(rows, |result| (shown.value)(result).filter(|value| value.is_finite())))
             .collect();
-        let maps: Vec<Map> = numbers
-            .iter()
-            .zip(&fields)
-            .zip(&lookups)
-            .map(|((shown, field), value)| {
-                let values = || field.iter().copied().flatten();
-                let span = [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)];
-                let span = if span[0] < span[1] { span } else { [0.0, span[1].abs().max(1e-300)] };
-                let bar = Bar { label: shown.quantity.clone(), colours: ColourMap::Sequential, span, apart: false };
-                Map {
-                    title: String::new(),
-                    x: x.axis(&self.names[along.0]),
-                    y: y.axis(&self.names[up.0]),
-                    aspect: 0.8,
-                    fill: Fill::Values(bar, value),
-                    over: Vec::new(),
-                }
-            })
-            .collect();
-        let panels: Vec<&dyn Panel> = maps.iter().map(|map| map as &dyn Panel).collect();
-        Some(sheet(caption, &panels))
+        let lookups: Vec<_> = fields.iter().map(|field| move |place: [f64; 2]| field[cell(place)]).collect();
+        let maps = numbers.iter().zip(&fields).zip(&lookups).map(|((shown, field), value)| {
+            let values: Vec<f64> = field.iter().copied().flatten().collect();
+            let bar = bar(shown, &values);
+            let is_log = bar.scale == Scale::Log;
+            let bounds = self.field(rows, |result| shown.bound(result));
+            let sign = |(value, bound): (&Option<f64>, Option<Bound>)| match (value, bound) {
+                (None, Some(Bound::Below)) => Some(("<", Colour::BLACK)),
+                (None, Some(Bound::Above)) => Some((">", Colour::BLACK)),
+                // It has no place on the bar.
+                (Some(0.0), _) if is_log => Some(("0", Colour::WHITE)),
+                _ => None,
+            };
+            let signs = field.iter().zip(bounds).map(sign).enumerate().filter_map(|(at, sign)| {
+                let (word, colour) = sign?;
+                let at = [x.values[at % columns], y.values[at / columns]];
+                Some(Over::Word { word: word.to_owned(), at, colour })
+            });
+            let fill = Fill::Values(bar, value);
+            map(shown.quantity.text().to_owned(), fill, signs.collect())
+        });
+        let maps: Vec<Map> = maps.collect();
+        let panels = first.iter().map(|first| first as &dyn Panel).chain(maps.iter().map(|map| map as &dyn Panel));
+        Some(sheet(caption, &panels.collect::<Vec<_>>()))
     }
+
+    /// What the last results of the rows have, cell by cell: first the lowest row.
+    fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&Value) -> Option<T>) -> Field<T> {
+        let Some(up) = &self.pair else { return Vec::new() };
+        let mut field = vec![None; self.along.1.len() * up.1.len()];
+        for row in rows {
+            let place = |(index, values): &(usize, Vec<f64>)| {
+                let own = number(row, *index)?;
+                values.iter().position(|value| *value == own)
+            };
+            if let (Some(i), Some(j)) = (place(&self.along), place(up)) {
+                field[j * self.along.1.len() + i] = row.results.last().and_then(&value);
+            }
+        }
+        field
+    }
+}
+
+/// The bar of a map whose title has the words: logarithmic where most of a linear one would be of one colour.
+fn bar(shown: &Number, values: &[f64]) -> Bar {
+    let least = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::INFINITY, f64::min);
+    let low = least(&mut values.iter().copied());
+    let positive = least(&mut values.iter().copied().filter(|value| *value > 0.0));
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let label = shown.quantity.wordless();
+    // What is 0 has the colour of the least that is not, and a word.
+    if low >= 0.0 && high > WIDE * positive {
+        return Bar {
+            span: [positive, high],
+            scale: Scale::Log,
+            without: Colour::PALE,
+            ..Bar::sequential(label, high)
+        };
+    }
+    let span = if low < high { [low, high] } else { [0.0, high.abs().max(1e-300)] };
+    Bar { span, without: Colour::PALE, ..Bar::sequential(label, high) }
 }
 
 /// The cells of an axis around its values.
 struct Cells {
+    /// Their places.
+    values: Vec<f64>,
     /// Borders, one more than values.
     borders: Vec<f64>,
     scale: Scale,
@@ -81,7 +126,11 @@ impl Cells {
         let inner = spread.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
         let (n, half) = (spread.len(), |a: usize, b: usize| 0.5 * (spread[b] - spread[a]));
         let (first, last) = (spread[0] - half(0, 1), spread[n - 1] + half(n - 2, n - 1));
-        Self { borders: [first].into_iter().chain(inner).chain([last]).map(back).collect(), scale }
+        Self {
+            borders: [first].into_iter().chain(inner).chain([last]).map(back).collect(),
+            scale,
+            values: values.to_vec(),
+        }
     }
 
     fn at(&self, place: f64) -> usize {

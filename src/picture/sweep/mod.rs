@@ -1,6 +1,7 @@
 //! What changes with the settings of a sweep: curves over one key, or maps over two.
 
 mod curves;
+mod first;
 mod keys;
 mod maps;
 mod numbers;
@@ -10,8 +11,10 @@ use super::chart::{Chart, plots};
 use crate::sweep::Row;
 use crate::units::Units;
 use curves::one_in;
+use first::First;
 use keys::Keys;
-use numbers::numbers;
+use numbers::{Bound, Number, numbers};
+use serde_json::Value;
 
 /// Quantities that a picture shows, at most.
 const QUANTITIES: usize = 12;
@@ -36,11 +39,15 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
     if keys.pair.is_some() || keys.names.len() > 1 {
         words.extend((steps > 1).then(|| "the last load step of each".to_owned()));
     }
+    words.extend(unknown(rows, &numbers, keys.pair.is_some()));
     if keys.pair.is_some() {
         words.extend(left_out);
         return keys.maps(rows, &numbers, &(words.join("; ") + "."));
     }
     let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own)).unzip();
+    let firsts = First::counted(rows.iter().filter_map(|row| row.results.last()));
+    let firsts: Vec<String> = firsts.iter().map(|(first, count)| format!("{} in {count}", first.name())).collect();
+    words.extend((!firsts.is_empty()).then(|| format!("first comes {}", firsts.join(", "))));
     let curves = counts.into_iter().max().unwrap_or(0);
     if one_in(curves) > 1 {
         words.push(format!("of {curves} curves one in {} is drawn, the table has all", one_in(curves)));
@@ -49,12 +56,31 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
     Some(plots(&(words.join("; ") + "."), &charts))
 }
 
+/// What places without a number mean; empty where there are none.
+fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
+    let all = || rows.iter().flat_map(|row| numbers.iter().map(move |shown| (row.results.last(), shown)));
+    let value = |(result, shown): (Option<&Value>, &Number)| (shown.value)(result?).filter(|value| value.is_finite());
+    let has = |bound: Bound| all().any(|(result, shown)| result.and_then(|own| shown.bound(own)) == Some(bound));
+    let mut words = Vec::new();
+    if all().any(|own| value(own).is_none()) {
+        let place = if is_map { "grey" } else { "a gap in a curve" };
+        words.push(format!("{place}: no number, the table tells why"));
+    }
+    for (bound, sign, meaning) in [
+        (Bound::Below, "<", "it is reached below the smallest load that the grid resolves"),
+        (Bound::Above, ">", "it is not reached"),
+    ] {
+        words.extend((is_map && has(bound)).then(|| format!("{sign}: {meaning}")));
+    }
+    words
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::canvas::Mark;
     use super::*;
     use crate::sweep::Status;
-    use serde_json::{Value, json};
+    use serde_json::json;
 
     fn row(combination: usize, settings: &[(&str, String)], results: Vec<Value>) -> Row {
         Row {
@@ -121,6 +147,34 @@ mod tests {
     }
 
     #[test]
+    fn maps_of_limits_say_what_comes_first_and_where_there_is_a_bound_only() {
+        let limits = |place: usize| {
+            let first = match place {
+                0 => json!({ "criterion": "delamination", "interface": 1, "mean_pressure": null, "below": 1e-4 }),
+                1 => Value::Null,
+                _ => {
+                    json!({ "criterion": "yield", "material": 2, "mean_pressure": 0.002 * f64::powi(2.0, place as i32) })
+                }
+            };
+            json!({ "first": first })
+        };
+        let rows = |limits: &dyn Fn(usize) -> Value| -> Vec<Row> {
+            let set = |n: usize| [("a", (n % 3).to_string()), ("b", (n / 3).to_string())];
+            (0..9).map(|n| row(n + 1, &set(n), vec![limits(n)])).collect()
+        };
+        let said = words(sweep("", &Units::unknown(), &rows(&limits)));
+        for own in
+            ["yield of material 2 (7)", "delamination of interface 1 (1)", "nothing fails (1)", " < ", " > ", "grey:"]
+        {
+            assert!(said.contains(own), "no {own}: {said}");
+        }
+        // From 0.008 to 0.512.
+        assert!(said.contains("10⁻²") && said.contains("10⁻¹"), "{said}");
+        let said = words(sweep("", &Units::unknown(), &rows(&|n| step(1.0 + n as f64))));
+        assert!(!["what comes first", " < ", " > ", "grey"].iter().any(|own| said.contains(own)), "{said}");
+    }
+
+    #[test]
     fn what_is_not_drawn_is_told() {
         let rows = |kinds: usize| -> Vec<Row> {
             let pairs = (0..2).flat_map(|x| (0..kinds).map(move |kind| (x, kind)));
@@ -134,7 +188,7 @@ mod tests {
             assert_eq!((chart.curves.len(), all), (drawn, kinds));
             let text = words(sweep("", &Units::unknown(), &rows));
             assert!(text.contains("the last load step of each"));
-            assert_eq!(text.contains(&format!("of {kinds} curves is drawn")), drawn < kinds, "{kinds}");
+            assert_eq!(text.contains(&format!("of {kinds} curves one in")), drawn < kinds, "{kinds}");
         }
     }
 

@@ -12,11 +12,26 @@ type Place = Box<dyn Fn(&Value) -> Option<f64> + Sync>;
 pub struct Number {
     pub quantity: Quantity,
     pub value: Place,
+    /// Name of the limit whose number it is.
+    limit: Option<String>,
+}
+
+/// What is known where there is no number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bound {
+    /// It is reached below the smallest load that the grid resolves.
+    Below,
+    /// It is not reached.
+    Above,
 }
 
 impl Number {
     fn at(quantity: impl Into<Quantity>, pointer: &'static str) -> Self {
-        Self { quantity: quantity.into(), value: Box::new(move |result| result.pointer(pointer)?.as_f64()) }
+        Self {
+            quantity: quantity.into(),
+            value: Box::new(move |result| result.pointer(pointer)?.as_f64()),
+            limit: None,
+        }
     }
 
     /// The largest of a list.
@@ -25,7 +40,18 @@ impl Number {
             let items = result.pointer(list)?.as_array()?.iter();
             items.filter_map(|item| item.pointer(pointer)?.as_f64()).reduce(f64::max)
         };
-        Self { quantity: quantity.into(), value: Box::new(value) }
+        Self { quantity: quantity.into(), value: Box::new(value), limit: None }
+    }
+
+    /// What is known of a limit that has no number.
+    pub fn bound(&self, result: &Value) -> Option<Bound> {
+        let limit = result.get(self.limit.as_ref()?)?;
+        match (limit.get("below"), limit.get("up_to")) {
+            (Some(_), _) => Some(Bound::Below),
+            (None, Some(_)) => Some(Bound::Above),
+            // The first of all, where nothing fails.
+            (None, None) => limit.is_null().then_some(Bound::Above),
+        }
     }
 }
 
@@ -35,8 +61,13 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         let names = result.as_object().into_iter().flatten().map(|(name, _)| name.clone());
         names.filter(|name| result.get("first").is_some() && name != "first").collect()
     };
+    let limit = |words: &str, name: String| {
+        let (quantity, own) = (units.pressure_of(&format!("{words}, mean pressure"), "p̄"), name.clone());
+        let value = move |result: &Value| result.get(&own)?.get("mean_pressure")?.as_f64();
+        Number { quantity, value: Box::new(value), limit: Some(name) }
+    };
     let mut all = vec![
-        Number::at(units.pressure_of("first limit, mean pressure", "p̄"), "/first/mean_pressure"),
+        limit("first limit", "first".to_owned()),
         Number::at(units.pressure_of("peak pressure", "p"), "/max_pressure"),
         Number::at(units.length_of("penetration", "δ"), "/penetration"),
         Number::at("fraction in contact", "/contact_fraction"),
@@ -44,9 +75,7 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         Number::largest(units.pressure_of("largest shear stress", "τ₁"), "/stress/materials", "/max_tau1/value"),
     ];
     for name in rows.iter().flat_map(|row| &row.results).next().map(limits).unwrap_or_default() {
-        let quantity = units.pressure_of(&format!("{}, mean pressure", name.replace('_', " ")), "p̄");
-        let value = move |result: &Value| result.get(&name)?.get("mean_pressure")?.as_f64();
-        all.push(Number { quantity, value: Box::new(value) });
+        all.push(limit(&name.replace('_', " "), name));
     }
     let is_there = |number: &Number| {
         rows.iter().filter_map(|row| row.results.last()).any(|result| (number.value)(result).is_some())

@@ -1,0 +1,161 @@
+//! The table of a sweep read back: its numbers with their errors, and limits of which a bound alone is known.
+
+use crate::output::{number, with_error};
+use std::collections::HashMap;
+
+/// The table of a sweep.
+#[derive(Debug)]
+pub(super) struct Rows<'a> {
+    /// Columns by their names.
+    columns: HashMap<String, usize>,
+    names: Vec<String>,
+    rows: Vec<Vec<&'a str>>,
+}
+
+/// A row: a combination and load step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line<'a> {
+    columns: &'a HashMap<String, usize>,
+    cells: &'a [&'a str],
+}
+
+/// What is known of a limit, a pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Limit {
+    /// It with its error.
+    At(f64, Option<f64>),
+    /// It is less.
+    Below(f64),
+    /// It is not reached up to here.
+    Above(f64),
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn read(text: &'a str) -> Result<Self, String> {
+        let mut lines = text.lines();
+        let names: Vec<String> =
+            lines.next().unwrap_or_default().split(',').map(|name| name.trim().replace('.', "_")).collect();
+        for wanted in ["combination", "status", "step"] {
+            if !names.iter().any(|name| name == wanted) {
+                return Err(format!("it has no column {wanted}"));
+            }
+        }
+        let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').map(str::trim).collect()).collect();
+        match (2..).zip(&rows).find(|(_, row)| row.len() != names.len()) {
+            Some((line, row)) => Err(format!("line {line} has {} cells, the head {}", row.len(), names.len())),
+            None => Ok(Self { columns: names.iter().cloned().zip(0..).collect(), names, rows }),
+        }
+    }
+
+    pub(super) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.columns.contains_key(name)
+    }
+
+    pub(super) fn lines(&self) -> impl ExactSizeIterator<Item = Line<'_>> {
+        self.rows.iter().map(|cells| Line { columns: &self.columns, cells })
+    }
+
+    /// The last load step of each combination, or its limits.
+    pub(super) fn last(&self) -> impl Iterator<Item = Line<'_>> {
+        let lines: Vec<Line<'_>> = self.lines().collect();
+        let next = |at: usize| lines.get(at + 1).map(|next| next.text("combination"));
+        let ends = |at: &usize| next(*at) != Some(lines[*at].text("combination"));
+        (0..lines.len()).filter(ends).map(|at| lines[at]).collect::<Vec<_>>().into_iter()
+    }
+
+    /// Names of the limits but the first, as columns begin with them; none where loads were solved.
+    pub(super) fn limits(&self) -> Vec<&str> {
+        let limits = self.names.iter().filter_map(|name| name.strip_suffix("_reached"));
+        limits.filter(|name| *name != "first" && !name.starts_with("set_")).collect()
+    }
+}
+
+impl<'a> Line<'a> {
+    /// A cell; `None` where it or its column is empty.
+    pub(super) fn text(self, name: &str) -> Option<&'a str> {
+        self.cells.get(*self.columns.get(name)?).copied().filter(|text| !text.is_empty())
+    }
+
+    fn float(self, name: &str) -> Option<f64> {
+        self.text(name)?.parse().ok()
+    }
+
+    /// A number with its error, where one is known.
+    pub(super) fn measured(self, name: &str) -> Option<(f64, Option<f64>)> {
+        let level = name.strip_prefix("levels_").and_then(|rest| rest.split_once('_'));
+        let error = match (name.strip_suffix("_value"), level) {
+            (Some(stress), _) => format!("{stress}_error"),
+            (None, Some((level, rest))) => format!("levels_{level}_errors_{rest}"),
+            (None, None) => format!("errors_{name}"),
+        };
+        Some((self.float(name)?, self.float(&error)))
+    }
+
+    /// What is known of a limit.
+    pub(super) fn limit(self, name: &str) -> Option<Limit> {
+        let part = |part: &str| self.float(&format!("{name}_{part}"));
+        let number = part("mean_pressure").map(|load| Limit::At(load, part("error")));
+        number.or_else(|| part("below").map(Limit::Below)).or_else(|| part("up_to").map(Limit::Above))
+    }
+
+    /// Which criterion comes first.
+    pub(super) fn first(self) -> Option<String> {
+        let of = |of: &str| Some(format!(" of {of} {}", self.text(&format!("first_{of}"))?));
+        Some(format!(
+            "{}{}",
+            self.text("first_criterion")?,
+            of("material").or_else(|| of("interface")).unwrap_or_default()
+        ))
+    }
+}
+
+impl Limit {
+    /// As a table has it: 0.007 ± 0.003, < 0.01 or > 2.
+    pub(super) fn told(self) -> String {
+        match self {
+            Self::At(0.0, _) => "0".to_owned(),
+            Self::At(load, error) => with_error(load, error),
+            Self::Below(load) => format!("< {}", number(load)),
+            Self::Above(load) => format!("> {}", number(load)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_have_their_errors_or_a_bound() {
+        let text = "combination,status,step,first_criterion,first_interface,first_mean_pressure,first_error,first_reached,\
+                    first_below,a_mean_pressure,a_error,a_reached,a_up_to\n\
+                    1,done,1,delamination,2,0.0066461,0.0025,under load,,,,not up to complete contact,3.5\n\
+                    2,done,1,delamination,2,0.047299,0.116,under load,,0.0,0.0,by residual stress alone,\n\
+                    3,done,1,delamination,2,,,by a contact of a few samples,0.0012,,,,\n";
+        let rows = Rows::read(text).unwrap();
+        let told = |name: &str| -> Vec<String> {
+            rows.lines().map(|line| line.limit(name).map_or("–".to_owned(), Limit::told)).collect()
+        };
+        assert_eq!(told("first"), ["0.007 ± 0.003", "0.05 ± 0.20", "< 0.0012000"]);
+        assert_eq!(told("a"), ["> 3.5000", "0", "–"]);
+        assert_eq!(rows.limits(), ["a"]);
+        assert!(rows.lines().all(|line| line.first().as_deref() == Some("delamination of interface 2")));
+    }
+
+    #[test]
+    fn numbers_find_their_errors_and_combinations_their_last_step() {
+        let text = "combination,status,step,max_pressure,errors_max_pressure,levels_1_load_share,\
+                    levels_1_errors_load_share,stress_max_tau1_value,stress_max_tau1_error\n\
+                    1,done,1,1.0,0.1,0.5,0.01,0.3,0.03\n1,done,2,2.0,0.2,0.5,0.01,0.3,0.03\n2,done,1,,,,,,\n";
+        let rows = Rows::read(text).unwrap();
+        let last: Vec<Line<'_>> = rows.last().collect();
+        let names = ["max_pressure", "levels_1_load_share", "stress_max_tau1_value"];
+        let all = names.map(|name| last[0].measured(name).unwrap());
+        assert_eq!(all, [(2.0, Some(0.2)), (0.5, Some(0.01)), (0.3, Some(0.03))]);
+        assert!(last.len() == 2 && last[1].measured("max_pressure").is_none());
+    }
+}
