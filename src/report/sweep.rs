@@ -140,7 +140,7 @@ fn shown(rows: &Rows<'_>, keys: &[Key]) -> Markup {
     if limits.is_empty() {
         columns.push(("step".to_owned(), plain("step")));
     } else {
-        columns.push(("first".to_owned(), Box::new(|line| line.first())));
+        columns.push(("fails first".to_owned(), Box::new(|line| line.first())));
         let limit = |name: &str| -> Cell<'_> {
             let name = name.to_owned();
             Box::new(move |line| line.limit(&name).map(Limit::told))
