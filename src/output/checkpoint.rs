@@ -250,7 +250,7 @@ impl Saved {
         let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
         let grids = (0..solved.grids).map(|index| self.unknowns(index)).collect::<io::Result<_>>()?;
         let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids };
-        Ok(Last { checkpoint, seconds: Some(seconds) })
+        Ok(Last { checkpoint, seconds })
     }
 
     fn unknowns(&mut self, index: usize) -> io::Result<Unknowns> {

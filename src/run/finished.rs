@@ -26,6 +26,6 @@ pub struct Finished {
 pub struct Last {
     /// What the solver knew after it.
     pub checkpoint: Checkpoint,
-    /// Wall time of its solution, seconds, where the recorder has a clock.
-    pub seconds: Option<f64>,
+    /// Wall time of its solution, seconds.
+    pub seconds: f64,
 }

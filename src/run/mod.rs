@@ -197,7 +197,7 @@ impl Run {
     ) -> Result<(StepRecord, Step), RunError<R::Error>> {
         recorder.load(load);
         let began = recorder.clock();
-        let before = saved.as_ref().and_then(|saved| saved.seconds).unwrap_or(0.0);
+        let before = saved.as_ref().map_or(0.0, |saved| saved.seconds);
         let step = match saved {
             Some(saved) => solver.restore(load, saved.checkpoint)?,
             None => {

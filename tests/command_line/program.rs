@@ -5,6 +5,9 @@ use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// A temporary folder in which commands run.
@@ -47,6 +50,27 @@ impl Desk {
             out: String::from_utf8(output.stdout).unwrap(),
             err: String::from_utf8(output.stderr).unwrap(),
         }
+    }
+
+    /// Starts `percoat` with `arguments` and waits until its log has so many lines: on its way, and ready to be stopped.
+    pub fn begin(&self, arguments: &[&str], log: &str, lines: usize) -> Child {
+        // Whoever runs the tests may have signals ignored.
+        let mut child = Command::new("env")
+            .arg("--default-signal=HUP,INT,TERM")
+            .arg(assert_cmd::cargo::cargo_bin!("percoat"))
+            .args(arguments)
+            .current_dir(self.0.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let started = Instant::now();
+        while whole_lines(&self.path(log)) < lines {
+            assert!(child.try_wait().unwrap().is_none(), "it ended before it could be stopped");
+            assert!(started.elapsed() < Duration::from_secs(120));
+            sleep(Duration::from_millis(1));
+        }
+        child
     }
 
     /// `percoat solve` with `arguments` into the folder `name`; it must converge.
@@ -114,6 +138,11 @@ impl Folder {
     pub fn contact(&self) -> Archive {
         Archive::open(&self.0.join("contact.npz"))
     }
+}
+
+/// Number of the lines of a file that end; none where it is not.
+pub fn whole_lines(path: &Path) -> usize {
+    fs::read_to_string(path).unwrap_or_default().matches('\n').count()
 }
 
 /// A file of a result without its times: `timing` of the summary, `seconds` of its steps and of the curve's rows.

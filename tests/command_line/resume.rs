@@ -10,9 +10,6 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 
 /// Loads up and down on a coating with strengths; stresses of every kind; on one grid.
 const STRESSES: &str = r#"
@@ -241,20 +238,7 @@ fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
     let desk = Desk::new();
     let whole = desk.solve("whole", &LONG);
     let folder = Folder(desk.path("killed"));
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
-        .args(["solve", "-o", "killed"])
-        .args(LONG)
-        .current_dir(desk.path(""))
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let (log, started) = (folder.0.join("unfinished/steps.jsonl"), Instant::now());
-    while fs::read_to_string(&log).unwrap_or_default().lines().count() < 5 {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
-        assert!(started.elapsed() < Duration::from_secs(120));
-        sleep(Duration::from_millis(1));
-    }
+    let mut child = desk.begin(&[&["solve", "-o", "killed"], &LONG[..]].concat(), "killed/unfinished/steps.jsonl", 5);
     child.kill().unwrap();
     child.wait().unwrap();
     let resume = |change: &[&str]| desk.percoat(&[&["solve", "-o", "killed", "--resume"], &LONG[..], change].concat());

@@ -1,12 +1,10 @@
 //! `percoat sweep` and `percoat merge`: every combination a row, whatever happens on the way.
 
-use crate::program::{Answer, Desk, Folder, number};
+use crate::program::{Answer, Desk, Folder, number, whole_lines};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
-use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::process::Command;
 
 const CASE: &str = r#"
 title = "A small one"
@@ -145,21 +143,10 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_table() {
     let desk = desk();
     let larger = ["--set", "grid.points=96"];
     assert_eq!(sweep(&desk, "whole", &[&MANY[..], &larger].concat()).code, 0);
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("percoat"))
-        .args(["sweep", "case.toml", "-o", "killed", "--no-pictures"])
-        .args(MANY)
-        .args(larger)
-        .current_dir(desk.path(""))
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    let (log, started) = (desk.path("killed/unfinished-sweep/sweep.jsonl"), Instant::now());
-    while fs::read_to_string(&log).unwrap_or_default().lines().count() < 5 {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
-        assert!(started.elapsed() < Duration::from_secs(120));
-        sleep(Duration::from_millis(1));
-    }
+    let log = "killed/unfinished-sweep/sweep.jsonl";
+    let command = ["sweep", "case.toml", "-o", "killed", "--no-pictures"];
+    let mut child = desk.begin(&[&command[..], &MANY, &larger].concat(), log, 5);
+    let log = desk.path(log);
     child.kill().unwrap();
     child.wait().unwrap();
     // As if it had been killed within a line.
@@ -190,30 +177,16 @@ fn a_sweep_that_is_interrupted_keeps_its_rows_and_goes_on() {
     let values = ["--set", "layers.0.thickness=0.05:0.5:12", "--set", "grid.points=64"];
     assert_eq!(sweep(&desk, "out", &values).code, 0);
     let whole = Folder(desk.path("out")).text("sweep.csv");
-    let child = Command::new("env")
-        .arg("--default-signal=INT")
-        .arg(assert_cmd::cargo::cargo_bin!("percoat"))
-        .args(["sweep", "case.toml", "-o", "out", "--no-pictures"])
-        .args(values)
-        .current_dir(desk.path(""))
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let (log, started) = (desk.path("out/unfinished-sweep/sweep.jsonl"), Instant::now());
-    let rows =
-        || fs::read_to_string(&log).unwrap_or_default().split_inclusive('\n').filter(|row| row.ends_with('\n')).count();
-    while rows() < 3 {
-        assert!(started.elapsed() < Duration::from_secs(120));
-        sleep(Duration::from_millis(1));
-    }
+    let log = "out/unfinished-sweep/sweep.jsonl";
+    let command = ["sweep", "case.toml", "-o", "out", "--no-pictures"];
+    let child = desk.begin(&[&command[..], &values].concat(), log, 3);
     // What is read while it writes might not belong together.
     desk.percoat(&["report", "out"]).complains(2, &["out", "another run"]);
     Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap();
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(130), "{said}");
-    let done = rows();
+    let done = whole_lines(&desk.path(log));
     assert!(done >= 3 && said.contains(&format!("interrupted: {done} of 12 combinations")), "{said}");
     let answer = sweep(&desk, "out", &[&values[..], &["--resume"]].concat());
     assert!(

@@ -1,0 +1,114 @@
+//! Largest stresses, and what they take up of strengths.
+
+use super::number::{or_none, plain, value};
+use crate::reading::{Criterion, StressReading, Utilisation};
+use crate::stress::Peak;
+use crate::stress::maxima::{Carried, Extremes};
+use serde::Deserialize;
+
+#[derive(Deserialize)]
+pub(super) struct StressKeys {
+    materials: Vec<ExtremesKeys>,
+    faces: Vec<ExtremesKeys>,
+    interfaces: Vec<CarriedKeys>,
+    surface_error: Option<f64>,
+}
+
+#[derive(Deserialize)]
+struct ExtremesKeys {
+    max_tau1: PeakKeys,
+    max_tension: PeakKeys,
+    max_mises: PeakKeys,
+}
+
+#[derive(Deserialize)]
+struct CarriedKeys {
+    interface: usize,
+    max_normal: PeakKeys,
+    max_shear: PeakKeys,
+}
+
+#[derive(Deserialize)]
+struct PeakKeys {
+    value: Option<f64>,
+    error: Option<f64>,
+    singular: bool,
+    #[serde(deserialize_with = "or_none")]
+    x: f64,
+    #[serde(deserialize_with = "or_none")]
+    y: f64,
+    #[serde(deserialize_with = "or_none")]
+    z: f64,
+    material: usize,
+    direction: [Option<f64>; 3],
+}
+
+#[derive(Deserialize)]
+pub(super) struct UtilisationKeys {
+    criterion: String,
+    material: Option<usize>,
+    interface: Option<usize>,
+    utilisation: Option<f64>,
+    singular: bool,
+    error: Option<f64>,
+    #[serde(deserialize_with = "or_none")]
+    x: f64,
+    #[serde(deserialize_with = "or_none")]
+    y: f64,
+    #[serde(deserialize_with = "or_none")]
+    z: f64,
+}
+
+pub(super) fn stress(keys: StressKeys) -> StressReading {
+    let all = |list: Vec<ExtremesKeys>| {
+        let one = |keys: ExtremesKeys| Extremes {
+            tau1: peak(&keys.max_tau1),
+            tension: peak(&keys.max_tension),
+            mises: peak(&keys.max_mises),
+        };
+        list.into_iter().map(one).collect()
+    };
+    let carried = |keys: CarriedKeys| Carried {
+        interface: keys.interface,
+        normal: peak(&keys.max_normal),
+        shear: peak(&keys.max_shear),
+        delamination: None,
+    };
+    StressReading {
+        materials: all(keys.materials),
+        faces: all(keys.faces),
+        interfaces: keys.interfaces.into_iter().map(carried).collect(),
+        // Infinite where it cannot be told.
+        surface_error: keys.surface_error.unwrap_or(f64::INFINITY),
+    }
+}
+
+fn peak(keys: &PeakKeys) -> Peak {
+    Peak {
+        value: value(keys.value, keys.singular),
+        position: [keys.x, keys.y, keys.z],
+        material: keys.material,
+        direction: keys.direction.map(plain),
+        error: keys.error,
+    }
+}
+
+/// `None` for a criterion of a later version.
+pub(super) fn utilisation(keys: UtilisationKeys) -> Option<Utilisation> {
+    Some(Utilisation {
+        criterion: criterion(&keys.criterion, keys.material, keys.interface)?,
+        value: value(keys.utilisation, keys.singular),
+        error: keys.error,
+        position: [keys.x, keys.y, keys.z],
+    })
+}
+
+/// A criterion by its name and what it is of.
+pub(super) fn criterion(name: &str, material: Option<usize>, interface: Option<usize>) -> Option<Criterion> {
+    Some(match name {
+        "yield" => Criterion::Yield { material: material? },
+        "cracking" => Criterion::Cracking { material: material? },
+        "delamination" => Criterion::Delamination { interface: interface? },
+        _ => return None,
+    })
+}
