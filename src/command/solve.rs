@@ -58,16 +58,21 @@ pub fn run(
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let fingerprint = output::fingerprint(&case, if options.no_fields { "scalars" } else { "fields" });
     let earlier = earlier(&mut claim, &fingerprint, common.quiet)?;
-    if let (None, true, Some(ending)) = (&earlier, options.resume, finished(&case, &folder, !options.no_fields)) {
+    if options.resume
+        && earlier.is_none()
+        && let Some((ending, summary)) = finished(&case, &folder, !options.no_fields)
+    {
         claim.leave()?;
         if !common.quiet {
             tell!("note: {} is finished; leave --resume out to solve it again", folder.display());
         }
+        if common.json {
+            write!(terminal::out(), "{summary}")?;
+        }
         return Ok(ending);
     }
-    if let Some(Finished { steps, last, .. }) = &earlier {
-        let done = steps.len() + usize::from(last.is_some());
-        *interruption::hold() = Saved::Steps { done, of: run.loads.len(), folder: claim.staging() };
+    if let Some(earlier) = &earlier {
+        *interruption::hold() = Saved::Steps { done: done(earlier), of: run.loads.len(), folder: claim.staging() };
     }
     let recording = Recording::new(&claim, &run, case.to_toml(), clock).resumable(fingerprint, earlier);
     let recording = if options.no_fields { recording.without_fields() } else { recording };
@@ -106,20 +111,26 @@ fn earlier(claim: &mut RunFolder, fingerprint: &str, quiet: bool) -> Result<Opti
     if claim.resumes() && found.is_none() {
         terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
     }
-    if let (Some(Finished { points: [n1, n2], steps, last, .. }), false) = (&found, quiet) {
-        let done = steps.len() + usize::from(last.is_some());
-        tell!("note: goes on after step {done} on {n1} × {n2} samples");
+    if let (Some(found), false) = (&found, quiet) {
+        let [n1, n2] = found.points;
+        tell!("note: goes on after step {} on {n1} × {n2} samples", done(found));
     }
     Ok(found)
 }
 
-/// How the result that stands in a folder ended, if it is of this case.
-fn finished(case: &Case, folder: &Path, fields: bool) -> Option<Ending> {
+/// Number of loads that an earlier run has solved on its last grid.
+fn done(earlier: &Finished) -> usize {
+    earlier.steps.len() + usize::from(earlier.last.is_some())
+}
+
+/// How the result that stands in a folder ended, if it is of this case, and its summary.
+fn finished(case: &Case, folder: &Path, fields: bool) -> Option<(Ending, String)> {
     let is_own = |name: &str| folder.join(name).is_file() && is_beside("summary.json", folder, name).unwrap_or(false);
     if !is_own("summary.json") || fields && !is_own("contact.npz") {
         return None;
     }
-    let summary: Value = serde_json::from_slice(&fs::read(folder.join("summary.json")).ok()?).ok()?;
+    let text = fs::read_to_string(folder.join("summary.json")).ok()?;
+    let summary: Value = serde_json::from_str(&text).ok()?;
     if summary["fingerprint"] != output::fingerprint(case, "") {
         return None;
     }
@@ -128,7 +139,7 @@ fn finished(case: &Case, folder: &Path, fields: bool) -> Option<Ending> {
         Sampling::Points(_) => true,
     };
     let converged = steps_of(&summary).ok()?.iter().all(StepRecord::converged);
-    Some(if reached && converged { Ending::Done } else { Ending::NotConverged })
+    Some((if reached && converged { Ending::Done } else { Ending::NotConverged }, text))
 }
 
 fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {

@@ -254,8 +254,9 @@ fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
     assert!(found.iter().all(|(name, content)| *content == expected[name]), "{:?}", folder.names());
     // What is finished stays, and is told so.
     let before = folder.files();
-    let after = resume(&[]);
+    let after = resume(&["--json"]);
     assert!(after.code == 0 && after.err.contains("is finished"), "{}", after.err);
+    assert_eq!(after.out, folder.text("summary.json"));
     assert!(folder.files() == before && !folder.names().contains("unfinished"));
     let other = resume(&["--set", "substrate.poisson=0.2", "--set", "load.mean_pressure=0.01"]);
     assert!(other.code == 0 && !other.err.contains("is finished"), "{}", other.err);
