@@ -79,8 +79,7 @@ impl Explanation {
     fn when_absent(&self) -> String {
         match &self.default {
             Some(default) => default.clone(),
-            None if !self.kinds.is_empty() => "none, it must be given".to_owned(),
-            None if self.instead.is_empty() => "none, it must be given".to_owned(),
+            None if !self.kinds.is_empty() || self.instead.is_empty() => "none, it must be given".to_owned(),
             None => format!("none, it or {} must be given", joined(&self.instead, "or")),
         }
     }
