@@ -21,7 +21,7 @@
 //!
 //! ```text
 //! numeric → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
-//! → units → case → output → sweep → picture → report → validation
+//! → units → case → output → sweep → picture → report → validation → command
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
@@ -31,7 +31,7 @@
 //! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
 //!
 //! Nothing of these reads a file or prints. Behind the feature `cli`: `units`, `case`, `output`, `sweep`, `picture`, `report` and the
-//! command line; behind `validate`: `validation`, the studies and the closed forms they compare with.
+//! `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! [`theory`] leads from the equations of the paper to what is solved.
 //!
@@ -57,6 +57,8 @@
 pub mod body;
 #[cfg(feature = "cli")]
 pub mod case;
+#[cfg(feature = "cli")]
+pub mod command;
 pub mod comparison;
 pub mod counterbody;
 pub mod friction;

@@ -1,12 +1,7 @@
-//! The command line of percoat.
-
-mod command;
+//! The program `percoat`.
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match command::Arguments::read() {
-        Ok(arguments) => command::run(&arguments),
-        Err(code) => code,
-    }
+    ExitCode::from(percoat::command::main(std::env::args_os()))
 }

@@ -4,20 +4,23 @@ mod common;
 
 use common::{PAPER, one_level, paraboloid};
 use percoat::run::{End, Outcome, Recorder, Run, RunError, Sampling, StepRecord, StressRequest, change};
-use percoat::{Cell, Lattice, Load, Problem, Solver, Step, StressField};
+use percoat::{Cell, Lattice, Load, Method, Problem, Settings, Solver, Step, Stop, StressField};
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 
-/// Writes down what it hears, and cannot go on at the step `fails`. It has room for so many points along a side.
+/// Writes down what it hears, and cannot go on at the step `fails`, or after so many iterations. It has room for so many
+/// points along a side.
 struct Diary {
     heard: Vec<String>,
     iterations: usize,
     fails: Option<usize>,
+    most: Option<usize>,
     room: usize,
 }
 
 impl Default for Diary {
     fn default() -> Self {
-        Self { heard: Vec::new(), iterations: 0, fails: None, room: usize::MAX }
+        Self { heard: Vec::new(), iterations: 0, fails: None, most: None, room: usize::MAX }
     }
 }
 
@@ -37,8 +40,9 @@ impl Recorder for Diary {
         Ok(())
     }
 
-    fn iteration(&mut self, _: percoat::Progress) {
+    fn iteration(&mut self, _: percoat::Progress) -> Result<(), Full> {
         self.iterations += 1;
+        if self.most.is_some_and(|most| self.iterations > most) { Err(Full) } else { Ok(()) }
     }
 
     fn stresses(&mut self) {
@@ -87,6 +91,29 @@ fn a_recorder_that_cannot_go_on_ends_the_run() {
     let error = run(Sampling::Points([48, 48])).solve(&mut diary).unwrap_err();
     assert!(matches!(&error, RunError::Recorder(Full)), "{error}");
     assert_eq!(diary.heard, ["grid 48", "step 0.01"]);
+}
+
+/// Whichever method iterates, no further iteration is made, and what stands there is a consistent state.
+#[test]
+fn an_iteration_can_be_the_last() {
+    for method in [Method::Preconditioned, Method::PolonskyKeer] {
+        let settings = Settings { method, ..Settings::default() };
+        let run = Run { settings, ..run(Sampling::Points([48, 48])) };
+        let mut diary = Diary { most: Some(2), ..Diary::default() };
+        assert!(matches!(run.solve(&mut diary), Err(RunError::Recorder(Full))));
+        assert_eq!((diary.heard, diary.iterations), (vec!["grid 48".to_owned()], 3));
+
+        let mut solver = Solver::new(problem(), [48, 48], settings).unwrap();
+        let step = solver.solve_with_progress(Load::MeanPressure(0.01), &mut |_| ControlFlow::Break(()));
+        assert_eq!((step.report.stop, step.report.iterations), (Stop::Interrupted, 1));
+        let mean = step.pressure().mean().unwrap();
+        assert!((mean - 0.01).abs() < 1e-15 && (step.reading().mean_pressure - 0.01).abs() < 1e-15);
+        // The next step does not begin with it.
+        let next = solver.solve(Load::MeanPressure(0.01));
+        let fresh = Solver::new(problem(), [48, 48], settings).unwrap().solve(Load::MeanPressure(0.01));
+        assert_eq!(next.pressure(), fresh.pressure());
+        assert_eq!(next.report.stop, Stop::Converged);
+    }
 }
 
 /// Every grid holds all loads; the change is that of the last two.

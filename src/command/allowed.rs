@@ -1,9 +1,9 @@
 //! The room that a job may take.
 
 use super::ending::Failure;
-use percoat::case::resources::{Job, needs, refusal};
-use percoat::case::{Case, Room};
-use percoat::run::Recorder;
+use crate::case::resources::{Job, needs, refusal};
+use crate::case::{Case, Room};
+use crate::run::Recorder;
 use std::convert::Infallible;
 use std::path::Path;
 

@@ -9,11 +9,11 @@ use super::solve::SolveOptions;
 use super::sweep::SweepOptions;
 use super::terminal::{self, Colour, tell};
 use super::without_effect;
+use crate::case::CARRIED;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use percoat::case::CARRIED;
+use std::ffi::OsString;
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 /// Periodic contact of coated bodies: pressures, contact spots and penetrations of a doubly periodic
 /// system of rigid asperities at several heights on a layered elastic half-space.
@@ -201,20 +201,19 @@ pub enum Traction {
 }
 
 impl Arguments {
-    /// The command line as typed; what cannot be read is told, with the exit code that goes with it.
-    pub fn read() -> Result<Self, ExitCode> {
-        terminal::choose_colour(typed_colour(std::env::args()));
+    /// The command line as typed, its own name first; what cannot be read is told, with the exit code that goes with it.
+    pub fn read(typed: &[OsString]) -> Result<Self, u8> {
+        let words: Vec<String> = typed.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+        terminal::choose_colour(typed_colour(&words));
         let command = Self::command().color(terminal::parser_colour());
-        let read = command.try_get_matches().and_then(|matches| Self::from_arg_matches(&matches));
+        let read = command.try_get_matches_from(typed).and_then(|matches| Self::from_arg_matches(&matches));
         read.map_err(|error| {
-            let typed: Vec<String> =
-                std::env::args_os().skip(1).map(|arg| arg.to_string_lossy().into_owned()).collect();
-            match without_effect::explained(&error, &typed, &Self::command()) {
+            match without_effect::explained(&error, &words, &Self::command()) {
                 Some(message) => tell!("error: {message}"),
                 // Help that nobody reads is no fault.
                 None => drop(error.print()),
             }
-            ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+            u8::try_from(error.exit_code()).unwrap_or(2)
         })
     }
 
@@ -234,11 +233,12 @@ impl Arguments {
 }
 
 /// The last colour that is typed, which must be known before anything else can be told.
-fn typed_colour(typed: impl Iterator<Item = String>) -> Colour {
-    let (mut colour, mut typed) = (Colour::Auto, typed.skip(1).take_while(|word| word != "--"));
-    while let Some(word) = typed.next() {
-        let value = if word == "--color" { typed.next() } else { word.strip_prefix("--color=").map(str::to_owned) };
-        colour = value.and_then(|value| Colour::from_str(&value, false).ok()).unwrap_or(colour);
+fn typed_colour(words: &[String]) -> Colour {
+    let mut colour = Colour::Auto;
+    let mut words = words.iter().map(String::as_str).take_while(|word| *word != "--");
+    while let Some(word) = words.next() {
+        let value = if word == "--color" { words.next() } else { word.strip_prefix("--color=") };
+        colour = value.and_then(|value| Colour::from_str(value, false).ok()).unwrap_or(colour);
     }
     colour
 }

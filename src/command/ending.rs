@@ -2,10 +2,10 @@
 //! failed; 130 interrupted.
 
 use super::terminal::{self, tell};
-use percoat::case::CaseError;
-use percoat::output::{FolderError, OutputError};
-use percoat::run::RunError;
-use percoat::sweep::StudyError;
+use crate::case::CaseError;
+use crate::output::{FolderError, OutputError};
+use crate::run::RunError;
+use crate::sweep::StudyError;
 use std::convert::Infallible;
 use std::fmt;
 use std::path::PathBuf;

@@ -2,7 +2,7 @@
 
 use super::ending::{Ending, Failure};
 use super::terminal;
-use percoat::case;
+use crate::case;
 use std::io::Write;
 
 /// The sections, or all that is to be said of a key.

@@ -1,7 +1,7 @@
 //! The case that a command works on.
 
 use super::ending::Failure;
-use percoat::case::{Case, Source, embedded};
+use crate::case::{Case, Source, embedded};
 use std::io::{self, ErrorKind};
 use std::path::Path;
 

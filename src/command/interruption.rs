@@ -1,7 +1,7 @@
 //! Ctrl-C, SIGTERM and a hang-up: the command ends at once and says what it has saved.
 
 use super::terminal::{self, tell};
-use percoat::output::{OutputError, RunFolder};
+use crate::output::{OutputError, RunFolder};
 use std::fmt;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};

@@ -4,7 +4,7 @@ use super::arguments::Traction;
 use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::terminal;
-use percoat::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interior, TransferFunction};
+use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interior, TransferFunction};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::Path;

@@ -6,8 +6,8 @@ use super::options::Saying;
 use super::pictures::PictureOptions;
 use super::sweep;
 use super::terminal::{self, tell};
-use percoat::output::{RunFolder, SWEEP_LOG};
-use percoat::sweep::{Asked, Row, description, join, read};
+use crate::output::{RunFolder, SWEEP_LOG};
+use crate::sweep::{Asked, Row, description, join, read};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 

@@ -28,19 +28,22 @@ mod terminal;
 mod validate;
 mod without_effect;
 
-pub use arguments::Arguments;
-
-use arguments::Command;
-use std::process::ExitCode;
+use arguments::{Arguments, Command};
+use std::ffi::OsString;
 use terminal::tell;
 
-/// Runs the command.
-pub fn run(arguments: &Arguments) -> ExitCode {
+/// The program: reads what is `typed`, its own name first, runs the command, and gives the exit code.
+pub fn main(typed: impl IntoIterator<Item = OsString>) -> u8 {
+    let typed: Vec<OsString> = typed.into_iter().collect();
+    Arguments::read(&typed).map_or_else(|code| code, |arguments| run(&arguments))
+}
+
+fn run(arguments: &Arguments) -> u8 {
     if let Some(threads) = arguments.threads()
         && let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()
     {
         tell!("error: cannot start {threads} threads: {error}");
-        return ExitCode::from(4);
+        return 4;
     }
     let ending = match &arguments.command {
         Command::Solve { case, changes, options, pictures, common } => {
@@ -69,12 +72,12 @@ pub fn run(arguments: &Arguments) -> ExitCode {
         Command::Completions { shell } => manual::completions(*shell),
         Command::Man { command } => manual::page(command.as_deref()),
     };
-    ExitCode::from(match ending {
+    match ending {
         Ok(ending) => ending.code(),
         Err(failure) => {
             failure.tell();
             interruption::tell_saved();
             failure.code()
         }
-    })
+    }
 }

@@ -1,11 +1,11 @@
 //! The pictures of a run, drawn without being asked.
 
 use super::ending::Failure;
+use crate::Section;
+use crate::localized::isolated;
+use crate::picture::{self, Canvas, Format, Snapshot};
+use crate::run::StepRecord;
 use clap::Args;
-use percoat::Section;
-use percoat::localized::isolated;
-use percoat::picture::{self, Canvas, Format, Snapshot};
-use percoat::run::StepRecord;
 use rayon::prelude::*;
 use std::path::Path;
 

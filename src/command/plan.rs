@@ -1,8 +1,8 @@
 //! Names of the files that `percoat solve` may write, known before anything is solved.
 
 use super::pictures::PictureOptions;
-use percoat::case::Case;
-use percoat::output::{Plan, solved_plan};
+use crate::case::Case;
+use crate::output::{Plan, solved_plan};
 
 /// What a run of the case may write, with its fields or without.
 pub fn may_write(case: &Case, steps: usize, fields: bool, pictures: &PictureOptions) -> Plan {

@@ -3,8 +3,8 @@
 use super::ending::{Ending, Failure};
 use super::interruption;
 use super::terminal;
-use percoat::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
-use percoat::report::{self, ReportError};
+use crate::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
+use crate::report::{self, ReportError};
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};

@@ -2,10 +2,10 @@
 
 use super::ending::Failure;
 use super::interruption;
-use percoat::case::{Case, ORIENTATION, RandomSection, SurfaceSection};
-use percoat::counterbody::roughness::{Radial, Spectrum, Statistics};
-use percoat::output::{Plan, RunFolder, Writer, number, write_text};
-use percoat::picture::{self, Format};
+use crate::case::{Case, ORIENTATION, RandomSection, SurfaceSection};
+use crate::counterbody::roughness::{Radial, Spectrum, Statistics};
+use crate::output::{Plan, RunFolder, Writer, number, write_text};
+use crate::picture::{self, Format};
 use std::io::Write;
 use std::path::Path;
 

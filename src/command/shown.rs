@@ -5,10 +5,10 @@ use super::interruption::{self, Saved};
 use super::options::Common;
 use super::progress::Progress;
 use super::terminal;
-use percoat::output::{Clock, OutputError, Recording, RunFolder};
-use percoat::run::{Finished, Recorder, Run, StepRecord};
-use percoat::spectral::Checkpoint;
-use percoat::{Load, Section, Solver, Step, StressField};
+use crate::output::{Clock, OutputError, Recording, RunFolder};
+use crate::run::{Finished, Recorder, Run, StepRecord};
+use crate::spectral::Checkpoint;
+use crate::{Load, Section, Solver, Step, StressField};
 
 /// Records a run and shows how far it is.
 pub struct Shown<'a> {
@@ -77,8 +77,9 @@ impl Recorder for Shown<'_> {
         Ok(())
     }
 
-    fn iteration(&mut self, progress: percoat::Progress) {
+    fn iteration(&mut self, progress: crate::spectral::Progress) -> Result<(), OutputError> {
         self.progress.say(format!("iteration {}, ε = {:.1e}", progress.iteration, progress.residual));
+        Ok(())
     }
 
     fn load(&mut self, load: Load) {

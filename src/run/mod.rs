@@ -47,6 +47,7 @@ use crate::spectral::{OtherGrids, Settings, Solver, Step};
 use crate::stress::StressField;
 use std::convert::Infallible;
 use std::error::Error;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Which grid of a refinement tells where contact becomes complete, if it has as many: 768 points are enough.
@@ -201,7 +202,12 @@ impl Run {
         let step = match saved {
             Some(saved) => solver.restore(load, saved.checkpoint)?,
             None => {
-                let step = solver.solve_with_progress(load, &mut |progress| recorder.iteration(progress));
+                let mut iterated = Ok(());
+                let step = solver.solve_with_progress(load, &mut |progress| {
+                    iterated = recorder.iteration(progress);
+                    if iterated.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                });
+                iterated.map_err(RunError::Recorder)?;
                 recorder.solved(&solver.checkpoint(&step)).map_err(RunError::Recorder)?;
                 step
             }

@@ -39,7 +39,12 @@ pub trait Recorder: Send {
     }
 
     /// An iteration on the finest grid is done.
-    fn iteration(&mut self, _progress: Progress) {}
+    ///
+    /// # Errors
+    /// Ends the run.
+    fn iteration(&mut self, _progress: Progress) -> Result<(), Self::Error> {
+        Ok(())
+    }
 
     /// A load is solved; nothing is read off it yet. Not told of a load that an earlier run has solved.
     ///

@@ -17,6 +17,7 @@ use crate::numeric::fourier::fast_points;
 use crate::numeric::sums;
 use crate::problem::Problem;
 use std::fmt;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// No grid has fewer points along a vector, unless the finest one has.
@@ -119,16 +120,21 @@ impl Solver {
 
     /// Solves the next load, starting from the last one.
     pub fn solve(&mut self, load: Load) -> Step {
-        self.solve_with_progress(load, &mut |_| ())
+        self.solve_with_progress(load, &mut |_| ControlFlow::Continue(()))
     }
 
-    /// The same; `progress` hears of the iterations on the finest grid.
-    pub fn solve_with_progress(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) + Send)) -> Step {
+    /// The same; `progress` hears of the iterations on the finest grid, and ends the step, as
+    /// [interrupted](Stop::Interrupted), when it wants no more of them.
+    pub fn solve_with_progress(
+        &mut self,
+        load: Load,
+        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
+    ) -> Step {
         // Everything on the threads that share the work: none waits outside for each sweep to be done.
         rayon::scope(|_| self.solve_here(load, progress))
     }
 
-    fn solve_here(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) + Send)) -> Step {
+    fn solve_here(&mut self, load: Load, progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send)) -> Step {
         let finest = self.grid().len() as f64;
         let mut convolutions = 0.0;
         let mut coarser = None;
@@ -140,7 +146,8 @@ impl Solver {
         let Self { nests, settings, .. } = self;
         for (index, nest) in nests.iter_mut().enumerate().skip(1).rev() {
             let before = nest.unknowns.clone();
-            let (report, work) = nest.solve(coarser.take(), load, *settings, &mut working, &mut |_| ());
+            let (report, work) =
+                nest.solve(coarser.take(), load, *settings, &mut working, &mut |_| ControlFlow::Continue(()));
             convolutions += work / finest;
             if report.stop == Stop::BeyondFullContact {
                 left_out.push((index, before));
@@ -218,7 +225,7 @@ impl Nest {
         load: Load,
         settings: Settings,
         working: &mut Working,
-        progress: &mut (dyn FnMut(Progress) + Send),
+        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
     ) -> (Report, f64) {
         if let Some(coarser) = coarser {
             self.follow(&coarser, settings.tolerance);

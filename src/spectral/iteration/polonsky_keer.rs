@@ -67,6 +67,9 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
         sums::update(p, |i, p| if p == 0.0 && g[i] < 0.0 { -step * g[i] } else { p });
         conjugate = joined == 0.0;
         unknowns.admit(load);
-        (problem.progress)(Progress { iteration: iterations, residual: check.residual });
+        if (problem.progress)(Progress { iteration: iterations, residual: check.residual }).is_break() {
+            let Check { residual, .. } = Check::new(problem, unknowns);
+            return Report { stop: Stop::Interrupted, route: Route::Baseline, iterations, outer: 0, residual };
+        }
     }
 }

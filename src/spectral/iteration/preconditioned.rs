@@ -107,7 +107,11 @@ pub(super) fn solve(
                 return Report { stop, route: Route::Direct, iterations, outer: 0, residual: check.residual };
             }
             iterations += 1;
-            (problem.progress)(Progress { iteration: iterations, residual: way.check.residual });
+            if (problem.progress)(Progress { iteration: iterations, residual: way.check.residual }).is_break() {
+                unknowns.admit(problem.load);
+                let Check { residual, .. } = Check::new(problem, unknowns);
+                return Report { stop: Stop::Interrupted, route: Route::Direct, iterations, outer: 0, residual };
+            }
             let met = way.check.converged(problem.settings.tolerance);
             if met || number == RENEWAL || way.check.measure() < enough * check.measure() {
                 break;

@@ -6,6 +6,7 @@ use super::working::Working;
 use crate::load::Load;
 use crate::spectral::operator::Operator;
 use std::fmt;
+use std::ops::ControlFlow;
 
 /// One load step on one grid: everything that the methods receive.
 pub struct GridProblem<'a> {
@@ -23,8 +24,8 @@ pub struct GridProblem<'a> {
     pub settings: Settings,
     /// Outer iterations so far, see [`Report::outer`](super::Report::outer).
     pub outer: usize,
-    /// Hears of each iteration.
-    pub progress: &'a mut (dyn FnMut(Progress) + Send),
+    /// Hears of each iteration, and says whether there shall be another.
+    pub progress: &'a mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
 }
 
 impl GridProblem<'_> {

@@ -21,17 +21,20 @@ pub enum Stop {
     /// The prescribed penetration is not below the mean of the initial gap f, where contact is complete: no finite load
     /// reaches it.
     BeyondFullContact,
+    /// Whoever heard of its iterations wanted no more of them.
+    Interrupted,
 }
 
 impl Stop {
     /// Every one.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Converged,
         Self::Stalled,
         Self::IterationLimit,
         Self::NoContact,
         Self::Unresolved,
         Self::BeyondFullContact,
+        Self::Interrupted,
     ];
 
     /// Whether the returned pressure solves the problem to the tolerance.
@@ -49,6 +52,7 @@ impl fmt::Display for Stop {
             Self::NoContact => "no contact",
             Self::Unresolved => "unresolved",
             Self::BeyondFullContact => "beyond full contact",
+            Self::Interrupted => "interrupted",
         })
     }
 }
