@@ -302,7 +302,8 @@ fn holds_together(case: &Case) {
     for mean in [MeanStress::Confined, MeanStress::HalfSpace] {
         assert!(mean.lateral(half_space).iter().all(|stress| stress.is_finite()));
     }
-    let copy = Source { name: "copy".to_owned(), text: case.to_toml(), folder: "elsewhere".into() };
+    let copy =
+        Source { name: "copy".to_owned(), text: case.to_toml(), folder: "elsewhere".into(), ..Source::default() };
     let again = Case::read(&copy, &[]).unwrap_or_else(|error| panic!("does not read back: {error}"));
     assert_eq!(&again, case, "reads back as another case");
 }
@@ -310,7 +311,8 @@ fn holds_together(case: &Case) {
 /// Reads one case; gives whether it was taken.
 fn judge(text: &str, overrides: &[String], folder: &Path) -> bool {
     let started = Instant::now();
-    let source = Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned() };
+    let source =
+        Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned(), ..Source::default() };
     let outcome = catch_unwind(AssertUnwindSafe(|| match Case::read(&source, overrides) {
         Ok(case) => {
             holds_together(&case);
@@ -382,7 +384,8 @@ fn whatever_is_asked_of_the_program_ends_with_a_code_and_spares_other_files() {
         let (text, mut overrides) = mutated(&mut random);
         // Thousands of load steps end, but not soon.
         overrides.retain(|text| !text.contains("steps"));
-        let source = Source { name: String::new(), text: text.clone(), folder: folder.path().to_owned() };
+        let source =
+            Source { name: String::new(), text: text.clone(), folder: folder.path().to_owned(), ..Source::default() };
         // Most mutants are refused, which the other test sees to.
         if Case::read(&source, &overrides).is_err() && random.unit() < 0.9 {
             continue;

@@ -10,7 +10,6 @@ use crate::problem::Problem;
 use crate::reading::Reading;
 use crate::spectral::{Settings, Solver, Step};
 use ndarray::Array2;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Load steps of one problem.
@@ -58,7 +57,7 @@ impl Steps {
 
 /// A case file of `validation/`, with overrides `KEY=VALUE`.
 pub fn case(name: &str, text: &str, overrides: &[String]) -> Result<Case, StudyError> {
-    let source = Source { name: format!("validation/{name}"), text: text.to_owned(), folder: PathBuf::new() };
+    let source = Source { name: format!("validation/{name}"), text: text.to_owned(), ..Source::default() };
     Case::read(&source, overrides).map_err(|error| error.render(false).into())
 }
 

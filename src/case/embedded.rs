@@ -1,7 +1,5 @@
 //! Example cases that the program carries with it.
 
-use std::path::PathBuf;
-
 use super::Source;
 
 /// Name of the case that runs when none is given.
@@ -31,5 +29,5 @@ pub fn all() -> &'static [(&'static str, &'static str)] {
 /// An embedded case, ready to be read.
 pub fn source(name: &str) -> Option<Source> {
     let (_, text) = CASES.iter().find(|(known, _)| *known == name)?;
-    Some(Source { name: format!("embedded case {name}"), text: (*text).to_owned(), folder: PathBuf::new() })
+    Some(Source { name: format!("embedded case {name}"), text: (*text).to_owned(), ..Source::default() })
 }

@@ -106,10 +106,9 @@ fn kappa(n: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::case::Source;
-    use std::path::PathBuf;
 
     fn case(text: &str) -> Case {
-        let source = Source { name: "case".to_owned(), text: text.to_owned(), folder: PathBuf::new() };
+        let source = Source { name: "case".to_owned(), text: text.to_owned(), ..Source::default() };
         Case::read(&source, &[]).unwrap()
     }
 

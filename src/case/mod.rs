@@ -15,10 +15,12 @@
 
 pub mod embedded;
 mod error;
+mod find;
 mod foreseen;
 mod friction;
 mod grading;
 mod grid;
+mod half_space;
 mod keys;
 mod lattice;
 mod layers;
@@ -46,9 +48,11 @@ mod value;
 mod words;
 
 pub use error::CaseError;
+pub use find::{NoCase, find};
 pub use foreseen::foreseen;
 pub use friction::FrictionSection;
 pub use grading::{Ends, Grading, Law};
+pub use half_space::half_space;
 pub use keys::{CARRIED, Explanation, UnknownKey, explain, overview, schema};
 pub use lattice::LatticeSection;
 pub use layers::{Elasticity, InterfaceStrengthKeys, LayerSection, Modulus, StrengthKeys, SubstrateSection};

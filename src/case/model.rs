@@ -174,7 +174,7 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let (lattice, surface, counterbody) = match &surface_section {
         Some(section) => {
             let (lattice, grid) = (root.section("lattice")?, grid_section.clone());
-            let around = Around { folder: &source.folder, lattice, grid, length: length_unit(&root)? };
+            let around = Around { source, lattice, grid, length: length_unit(&root)? };
             let read = surface::read(section, &around)?;
             let counterbody = Counterbody::from(read.topography);
             (read.lattice, Some((read.section, read.sampling, read.doubts)), Ok(counterbody))

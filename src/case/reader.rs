@@ -15,7 +15,7 @@ static EMPTY: Table = Table { entries: Vec::new() };
 /// A table of the case with its keys and its path (empty for the whole case).
 #[derive(Debug, Clone)]
 pub(super) struct TableAt<'a> {
-    table: &'a Table,
+    pub(super) table: &'a Table,
     keys: &'static Keys,
     /// Where it begins.
     pub(super) place: Place,

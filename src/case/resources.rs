@@ -50,6 +50,8 @@ const COMPARISON: u64 = MEBIBYTE;
 /// Per sample: what is kept for a run that goes on, pressure and gap of all nested grids, twice while one takes the place of
 /// another.
 const CHECKPOINTS: u64 = 43;
+/// Per sample: a step that stays in memory, pressure and gap of all nested grids and the displacement.
+const STEP: u64 = 31;
 /// A picture on disk, in both formats.
 const PICTURE: u64 = 3 * MEBIBYTE / 10;
 
@@ -63,6 +65,8 @@ pub enum Job {
         /// Whether fields are kept.
         fields: bool,
     },
+    /// Solving into memory: every step keeps its fields, and what its stresses are read from.
+    Keep,
     /// `percoat limit`, with its pictures or without.
     Limit {
         /// Whether they are drawn.
@@ -103,6 +107,7 @@ pub fn needs(case: &Case, points: [usize; 2], job: Job) -> Needs {
     let (grids, working) = (kept as u64, working as u64);
     let needs = match job {
         Job::Solve { pictures, fields } => of_solving(case, samples, [grids, working, heights], pictures, fields),
+        Job::Keep => of_keeping(case, samples, [grids, working, heights]),
         Job::Limit { pictures } => of_limits(case, samples, [grids, working, heights], pictures),
         Job::Compare { pictures } => of_comparing(case, samples, grids + working + heights, pictures),
     };
@@ -136,6 +141,12 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
     let disk_while_running = disk + fields.max(steps * written) + coarser + CHECKPOINTS * samples;
     let solving = PROGRAM + grids + heights + working.max(READING * samples).max(stress);
     Needs { memory: solving.max(drawing), disk, disk_while_running }
+}
+
+/// Steps that stay in memory: no file holds anything.
+fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
+    let solving = of_solving(case, samples, grids, false, false).memory;
+    Needs { memory: solving + case.load.values().len() as u64 * STEP * samples, disk: 0, disk_while_running: 0 }
 }
 
 /// A search for limit loads: the solver, and the stresses of one load at a time.

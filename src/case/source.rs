@@ -1,11 +1,13 @@
 //! Where a case comes from.
 
+use std::collections::BTreeMap;
 use std::fs;
-use std::io::{self, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Text of a case and where it comes from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
     /// Name shown in errors, such as the path of the file.
     pub name: String,
@@ -13,6 +15,8 @@ pub struct Source {
     pub text: String,
     /// Folder to which a surface's file is relative.
     pub folder: PathBuf,
+    /// Files in memory, by the names that the case calls them: looked at before those of the folder.
+    pub files: BTreeMap<String, Arc<[u8]>>,
 }
 
 /// Bytes of the longest case file that is read: a case of ten thousand loads and sites has a tenth of it.
@@ -26,7 +30,7 @@ impl Source {
     /// 16 MiB or not UTF-8.
     pub fn file(path: &Path) -> io::Result<Self> {
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        Self::read(path.display().to_string(), folder, fs::File::open(path)?)
+        Self::of(path.display().to_string(), folder, fs::File::open(path)?)
     }
 
     /// A case written to standard input; a surface's file is relative to the working folder.
@@ -34,10 +38,26 @@ impl Source {
     /// # Errors
     /// As those of [`Source::file`].
     pub fn standard_input() -> io::Result<Self> {
-        Self::read("standard input".to_owned(), PathBuf::new(), io::stdin().lock())
+        Self::of("standard input".to_owned(), PathBuf::new(), io::stdin().lock())
     }
 
-    fn read(name: String, folder: PathBuf, file: impl Read) -> io::Result<Self> {
+    /// Where the file stands that the case calls `name`; `None` for one in memory.
+    pub(super) fn path(&self, name: &str) -> Option<PathBuf> {
+        let path = || self.folder.join(name);
+        (!self.files.contains_key(name)).then(|| std::path::absolute(path()).unwrap_or_else(|_| path()))
+    }
+
+    /// The file that the case calls `name`, and its length in bytes.
+    pub(super) fn open(&self, name: &str) -> io::Result<(Box<dyn BufRead + '_>, u64)> {
+        if let Some(bytes) = self.files.get(name) {
+            return Ok((Box::new(&bytes[..]), bytes.len() as u64));
+        }
+        let file = fs::File::open(self.folder.join(name))?;
+        let length = file.metadata()?.len();
+        Ok((Box::new(BufReader::new(file)), length))
+    }
+
+    fn of(name: String, folder: PathBuf, file: impl Read) -> io::Result<Self> {
         let mut bytes = Vec::new();
         file.take(LONGEST + 1).read_to_end(&mut bytes)?;
         let refused = |what: String| io::Error::new(io::ErrorKind::InvalidData, what);
@@ -45,7 +65,7 @@ impl Source {
             return Err(refused(format!("{name} is longer than 16 MiB: it is no case file")));
         }
         match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self { name, text, folder }),
+            Ok(text) => Ok(Self { name, text, folder, ..Self::default() }),
             Err(error) => Err(refused(not_utf8(&name, error.as_bytes(), error.utf8_error().valid_up_to()))),
         }
     }

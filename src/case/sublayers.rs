@@ -58,7 +58,7 @@ mod tests {
              [[layers]]\nthickness = 1\ngraded = {graded}\n[substrate]\nyoung = 1\npoisson = 0.3\n\
              [load]\nmean_pressure = 1e-3\n"
         );
-        let source = Source { name: "case.toml".to_owned(), text, folder: std::path::PathBuf::new() };
+        let source = Source { name: "case.toml".to_owned(), text, ..Source::default() };
         Case::read(&source, &[]).unwrap_or_else(|error| panic!("{error}"))
     }
 
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn a_graded_layer_is_written_as_it_was_read() {
         let own = case("{ shear_ratio = [3, 1], poisson = [0.2, 0.4], sublayers = 3 }");
-        let source = Source { name: "case.toml".to_owned(), text: own.to_toml(), folder: std::path::PathBuf::new() };
+        let source = Source { name: "case.toml".to_owned(), text: own.to_toml(), ..Source::default() };
         assert_eq!(Case::read(&source, &[]).unwrap(), own);
         assert!(own.to_toml().contains("law = \"linear\"") && !own.to_toml().contains("residual"));
     }

@@ -1,7 +1,6 @@
 //! The case as a whole: embedded cases, defaults, overrides, writing and reading back.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
 use super::*;
 use crate::body::Interface;
@@ -12,7 +11,7 @@ use serde_json::{Value, json};
 const RICH: &str = include_str!("../../tests/common/rich.toml");
 
 fn source(text: &str) -> Source {
-    Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: PathBuf::new() }
+    Source { name: "case.toml".to_owned(), text: text.to_owned(), ..Source::default() }
 }
 
 fn read(text: &str, overrides: &[&str]) -> Result<Case, CaseError> {

@@ -10,6 +10,7 @@ use super::sweep::SweepOptions;
 use super::terminal::{self, Colour, tell};
 use super::without_effect;
 use crate::case::CARRIED;
+use crate::output::Traction;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::ffi::OsString;
@@ -186,18 +187,6 @@ pub enum Command {
         /// A command
         command: Option<String>,
     },
-}
-
-/// What acts on the surface.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum Traction {
-    /// A pressure
-    #[default]
-    Normal,
-    /// A shear traction along the wavevector
-    Along,
-    /// A shear traction across the wavevector
-    Across,
 }
 
 impl Arguments {

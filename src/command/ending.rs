@@ -2,7 +2,7 @@
 //! failed; 130 interrupted.
 
 use super::terminal::{self, tell};
-use crate::case::CaseError;
+use crate::case::{CaseError, NoCase};
 use crate::output::{FolderError, OutputError};
 use crate::run::RunError;
 use crate::sweep::StudyError;
@@ -52,6 +52,15 @@ pub enum Failure {
     /// Standard output cannot be written.
     #[error("cannot write standard output: {0}")]
     Print(#[from] std::io::Error),
+}
+
+impl From<NoCase> for Failure {
+    fn from(none: NoCase) -> Self {
+        match none {
+            NoCase::Unreadable { path, error } => Self::Input { path, error },
+            refused => Self::refused(refused),
+        }
+    }
 }
 
 impl From<FolderError> for Failure {

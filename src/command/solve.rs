@@ -96,9 +96,10 @@ pub fn run(
     if common.json {
         write!(terminal::out(), "{}", summary(&case, &warnings, outcome.change, steps, timing))?;
     } else if !common.quiet {
-        print(&case, steps, outcome.change)?;
+        let mut out = terminal::out();
+        write!(out, "{}", table::outcome(&case, steps, outcome.change, terminal::width()))?;
         let (seconds, parts) = (clock.seconds(), table::timing(&timing));
-        writeln!(terminal::out(), "{seconds:.2} s ({parts}); written to {}", folder.display())?;
+        writeln!(out, "{seconds:.2} s ({parts}); written to {}", folder.display())?;
     }
     terminal::warn(&warnings, common.quiet);
     Ok(ending)
@@ -140,26 +141,4 @@ fn finished(case: &Case, folder: &Path, fields: bool) -> Option<(Ending, String)
     };
     let converged = steps_of(&summary).ok()?.iter().all(StepRecord::converged);
     Some((if reached && converged { Ending::Done } else { Ending::NotConverged }, text))
-}
-
-fn print(case: &Case, steps: &[StepRecord], change: Option<f64>) -> Result<(), Failure> {
-    let mut out = terminal::out();
-    if !case.title.is_empty() {
-        writeln!(out, "{}", case.title)?;
-    }
-    let (units, width) = (case.units(), terminal::width());
-    writeln!(out, "\n{}\n\n{}", table::steps(steps, &units).fitted(width), table::solved(steps))?;
-    if let Some(largest) = table::largest_stresses(steps, &units) {
-        writeln!(out, "\n{}\n", largest.fitted(width))?;
-    }
-    if let Some(strength) = table::utilisations(steps, Some(case.problem().half_space()), &units) {
-        writeln!(out, "\n{}\n", strength.fitted(width))?;
-    }
-    if let Some(errors) = table::largest_errors(steps) {
-        writeln!(out, "{errors}")?;
-    }
-    if let Some(change) = change {
-        writeln!(out, "change from the next coarser grid: {change:.1e}")?;
-    }
-    Ok(())
 }

@@ -176,7 +176,7 @@ pub fn finish(
     write_text(&staging.join("sweep.csv"), &sweep::table(rows))?;
     write_text(&staging.join("sweep.json"), &format!("{description:#}\n"))?;
     let text = |key: &str| description[key].as_str().unwrap_or_default().to_owned();
-    let common = Source { name: "the common case".to_owned(), text: text("case"), folder: PathBuf::new() };
+    let common = Source { name: "the common case".to_owned(), text: text("case"), ..Source::default() };
     let units = Case::read(&common, &[]).map_or_else(|_| Units::unknown(), |case| case.units());
     pictures.write(&staging, "sweep", || picture::sweep(&text("title"), &units, rows))?;
     Ok(interruption::publish(claim, folder, quiet)?)

@@ -10,9 +10,10 @@ use super::steps_log;
 use super::{OutputError, write_file};
 use crate::run::{Finished, Last, StepRecord};
 use crate::spectral::{Certificate, Checkpoint, Report, Stop, Unknowns};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
-use std::io::{self, BufReader};
+use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -119,21 +120,8 @@ impl Checkpoints {
         if skipped {
             return Ok(());
         }
-        let Report { stop, route, iterations, outer, .. } = last.report;
-        let solved = Solved {
-            stop: stop.to_string(),
-            route: route.name().to_owned(),
-            trials: route.trials(),
-            iterations,
-            outer,
-            coarser: last.coarser,
-            grids: last.grids.len(),
-        };
-        self.write(
-            folder,
-            Place { points, refined, steps, solved: Some(solved), ..self.place() },
-            Some((last, seconds)),
-        )
+        let place = Place { points, refined, steps, solved: Some(Solved::of(last)), ..self.place() };
+        self.write(folder, place, Some((last, seconds)))
     }
 
     /// Before anything is solved.
@@ -149,22 +137,62 @@ impl Checkpoints {
             let mut archive = Archive::new(writer);
             archive.text(PLACE, &place)?;
             archive.array("changes", &[self.changes.len()], self.changes.iter().copied())?;
-            if let Some((checkpoint, seconds)) = last {
-                let numbers = [checkpoint.convolutions, checkpoint.report.residual, seconds];
-                archive.array("numbers", &[3], numbers)?;
-                for (index, Unknowns { pressure, gap, penetration, certificate }) in checkpoint.grids.iter().enumerate()
-                {
-                    let Certificate { energy_gap, penetration: deepest, load } = *certificate;
-                    archive.array(&format!("proof_{index}"), &[4], [*penetration, energy_gap, deepest, load])?;
-                    archive.array(&format!("pressure_{index}"), &[pressure.len()], pressure.iter().copied())?;
-                    archive.array(&format!("gap_{index}"), &[gap.len()], gap.iter().copied())?;
-                }
-            }
+            last.map_or(Ok(()), |(checkpoint, seconds)| add(&mut archive, checkpoint, seconds))?;
             archive.finish()
         })?;
         self.written = Some((Instant::now(), began.elapsed()));
         Ok(())
     }
+}
+
+impl Solved {
+    fn of(checkpoint: &Checkpoint) -> Self {
+        let Report { stop, route, iterations, outer, .. } = checkpoint.report;
+        Self {
+            stop: stop.to_string(),
+            route: route.name().to_owned(),
+            trials: route.trials(),
+            iterations,
+            outer,
+            coarser: checkpoint.coarser,
+            grids: checkpoint.grids.len(),
+        }
+    }
+}
+
+/// Adds the numbers and fields of a checkpoint whose load took so many seconds.
+fn add<W: Write + Seek>(archive: &mut Archive<W>, checkpoint: &Checkpoint, seconds: f64) -> io::Result<()> {
+    archive.array("numbers", &[3], [checkpoint.convolutions, checkpoint.report.residual, seconds])?;
+    for (index, Unknowns { pressure, gap, penetration, certificate }) in checkpoint.grids.iter().enumerate() {
+        let Certificate { energy_gap, penetration: deepest, load } = *certificate;
+        archive.array(&format!("proof_{index}"), &[4], [*penetration, energy_gap, deepest, load])?;
+        archive.array(&format!("pressure_{index}"), &[pressure.len()], pressure.iter().copied())?;
+        archive.array(&format!("gap_{index}"), &[gap.len()], gap.iter().copied())?;
+    }
+    Ok(())
+}
+
+/// A checkpoint alone, for who keeps it elsewhere than in a folder; [`Solver::restore`](crate::Solver::restore) gives its
+/// step again.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_checkpoint(writer: impl Write + Seek, checkpoint: &Checkpoint) -> io::Result<()> {
+    let solved = serde_json::to_string(&Solved::of(checkpoint)).expect("numbers and texts under names");
+    let mut archive = Archive::new(writer);
+    archive.text(PLACE, &solved)?;
+    add(&mut archive, checkpoint, 0.0)?;
+    archive.finish()
+}
+
+/// The same, read back.
+///
+/// # Errors
+/// Those of the reader, and what is no such checkpoint.
+pub fn read_checkpoint(reader: impl Read + Seek) -> io::Result<Checkpoint> {
+    let mut saved = Saved(ZipArchive::new(reader)?);
+    let solved: Solved = saved.place()?;
+    Ok(saved.last(&solved)?.checkpoint)
 }
 
 /// How long writing takes, by a disk that is not slow.
@@ -185,7 +213,7 @@ pub fn finished(folder: &Path, fingerprint: &str) -> Result<Option<Finished>, Ca
     }
     let failed = |error: io::Error| CannotGoOn::Unreadable { path: path.clone(), reason: error.to_string() };
     let mut saved = Saved::open(&path).map_err(failed)?;
-    let place = saved.place().map_err(failed)?;
+    let place: Place = saved.place().map_err(failed)?;
     if place.fingerprint != fingerprint {
         return Err(CannotGoOn::Foreign(folder.to_owned()));
     }
@@ -219,14 +247,16 @@ fn steps(path: &Path) -> Result<Vec<StepRecord>, CannotGoOn> {
 }
 
 /// A checkpoint that is read back.
-struct Saved(ZipArchive<BufReader<File>>);
+struct Saved<R>(ZipArchive<R>);
 
-impl Saved {
+impl Saved<BufReader<File>> {
     fn open(path: &Path) -> io::Result<Self> {
         Ok(Self(ZipArchive::new(BufReader::new(File::open(path)?))?))
     }
+}
 
-    fn place(&mut self) -> io::Result<Place> {
+impl<R: Read + Seek> Saved<R> {
+    fn place<T: DeserializeOwned>(&mut self) -> io::Result<T> {
         Ok(serde_json::from_reader(self.0.by_name(PLACE)?)?)
     }
 

@@ -25,6 +25,7 @@
 //! gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone, and
 //! a single study those of its own folder ([`Scope`]).
 
+mod check;
 mod checkpoint;
 mod clock;
 pub mod columns;
@@ -34,6 +35,7 @@ mod fingerprint;
 mod folder;
 mod gathered;
 mod histograms;
+mod kernel;
 mod layout;
 mod limit;
 mod manifest;
@@ -50,12 +52,14 @@ pub mod summary;
 pub mod table;
 mod volume;
 
-pub use checkpoint::{CannotGoOn, finished};
+pub use check::Check;
+pub use checkpoint::{CannotGoOn, finished, read_checkpoint, write_checkpoint};
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
 pub use fingerprint::fingerprint;
 pub use folder::{Plan, RunFolder, release};
 pub use histograms::histograms;
+pub use kernel::{Traction, kernel};
 pub use layout::{COMBINATIONS, FolderError, SWEEP_LOG, is_beside};
 pub use limit::{limit_json, limits_json};
 pub use manifest::{Scope, Writer, checksum};

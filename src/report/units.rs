@@ -14,7 +14,8 @@ pub(super) fn units_of(file: &Value, case: Option<&Case>) -> Units {
 
 /// A case as it stands in a result. A topography that has moved away cannot be read.
 pub(super) fn case_of(text: &str, folder: &Path) -> Option<Case> {
-    let source = Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned() };
+    let source =
+        Source { name: "case.toml".to_owned(), text: text.to_owned(), folder: folder.to_owned(), ..Source::default() };
     Case::read(&source, &[]).ok()
 }
 

@@ -95,7 +95,7 @@ impl State {
     }
 
     /// τ₁, the stress of von Mises and σ₁.
-    pub(crate) fn derived(&self) -> [f64; 3] {
+    pub fn derived(&self) -> [f64; 3] {
         let [first, _, last] = self.principal();
         [0.5 * (first - last), self.mises(), first]
     }

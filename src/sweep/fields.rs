@@ -6,24 +6,34 @@ use crate::case::{Case, Room, plausibility};
 use crate::load::Load;
 use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, release, solved_plan, write_scalars};
 use crate::run::{Recorder, RunError, StepRecord};
-use crate::spectral::{Solver, Step};
+use crate::spectral::{Progress, Solver, Step};
 use crate::stress::StressField;
-use std::convert::Infallible;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Keeps nothing of a combination but that it finds room.
+/// Keeps nothing of a combination but that it finds room, and ends it when nobody waits for it any more.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fits<'a> {
     pub(super) case: &'a Case,
     pub(super) job: Job,
     pub(super) room: Room,
+    pub(super) stop: &'a AtomicBool,
 }
 
+/// Nobody waits for the combination any more.
+#[derive(Debug, thiserror::Error)]
+#[error("stopped before its end")]
+pub(super) struct Stopped;
+
 impl Recorder for Fits<'_> {
-    type Error = Infallible;
+    type Error = Stopped;
 
     fn fits(&self, points: [usize; 2]) -> bool {
         needs(self.case, points, self.job).fit(self.room)
+    }
+
+    fn iteration(&mut self, _progress: Progress) -> Result<(), Stopped> {
+        if self.stop.load(Ordering::Relaxed) { Err(Stopped) } else { Ok(()) }
     }
 }
 

@@ -14,6 +14,8 @@ use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Samples of the largest grid of which several combinations are solved at once, each by one thread. On larger ones all
@@ -41,6 +43,7 @@ pub struct Study<'a> {
     task: Task,
     room: Room,
     keeps_fields: bool,
+    stop: Arc<AtomicBool>,
     planned: Vec<Planned>,
 }
 
@@ -69,7 +72,8 @@ impl<'a> Study<'a> {
         task: Task,
         room: Room,
     ) -> Result<Self, StudyError> {
-        let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, planned: Vec::new() };
+        let (stop, planned) = (Arc::default(), Vec::new());
+        let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, stop, planned };
         let (mut first, mut results) = (None, 0);
         for (index, combination) in combinations.all.iter().enumerate() {
             let case = study.case(combination).map_err(StudyError::from);
@@ -117,6 +121,11 @@ impl<'a> Study<'a> {
     /// Keeps the fields of every combination, as a solved case in `combinations/NNNN`.
     pub fn keeping_fields(self) -> Self {
         Self { keeps_fields: true, ..self }
+    }
+
+    /// Ends what is being solved, between two iterations, as soon as `stop` is true; its rows are failures.
+    pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Self {
+        Self { stop, ..self }
     }
 
     /// The files of all combinations, relative to the folder of the result; none where fields are not kept.
@@ -250,7 +259,7 @@ impl<'a> Study<'a> {
         if let Some(why) = refusal(&case, room, self.job()) {
             return Ended::failed(why);
         }
-        let mut fits = Fits { case: &case, job: self.job(), room };
+        let mut fits = Fits { case: &case, job: self.job(), room, stop: &self.stop };
         match (self.task, self.keeps_fields) {
             (Task::Solve, true) => {
                 let folder = folder.join(folder_of(combination.number));
@@ -258,11 +267,11 @@ impl<'a> Study<'a> {
             }
             (Task::Solve, false) => match case.run().solve(&mut fits) {
                 Ok(outcome) => Ended::solved(&outcome, &case),
-                Err(error) => Ended::failed(error.to_string()),
+                Err(error) => Ended::failed(error.told()),
             },
             (Task::Limit, _) => match case.run().limits(&mut fits) {
                 Ok(limits) => Ended::limited(&limits, output::limits_json(&limits), &case),
-                Err(error) => Ended::failed(error.to_string()),
+                Err(error) => Ended::failed(error.told()),
             },
         }
     }

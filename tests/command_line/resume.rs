@@ -9,7 +9,7 @@ use percoat::{Solver, Step, StressField};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Loads up and down on a coating with strengths; stresses of every kind; on one grid.
 const STRESSES: &str = r#"
@@ -156,7 +156,7 @@ impl Recorder for Mortal<'_> {
 }
 
 fn case(text: &str) -> Case {
-    Case::read(&Source { name: "resumed".to_owned(), text: text.to_owned(), folder: PathBuf::new() }, &[]).unwrap()
+    Case::read(&Source { name: "resumed".to_owned(), text: text.to_owned(), ..Source::default() }, &[]).unwrap()
 }
 
 /// A run into a folder, going on with what stands there, killed after so many calls; `None` if it was. Else whether it went

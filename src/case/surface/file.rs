@@ -1,12 +1,11 @@
 //! `[surface]` from a file: which format it has, and its heights in the case's unit, made periodic.
 
-use std::fs::File;
-use std::io::BufReader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::super::error::Refusal;
 use super::super::node::Value;
 use super::super::reader::TableAt;
+use super::super::source::Source;
 use super::super::value::ValueAt;
 use super::fault::{Fault, Heights};
 use super::unit::{self, KNOWN};
@@ -77,14 +76,16 @@ fn unit_of(value: &ValueAt<'_>, length: Option<&str>) -> Result<f64, Refusal> {
     })
 }
 
-/// Read the file that `written` names.
-pub(super) fn read(path: &Path, written: &ValueAt<'_>, treatment: Treatment) -> Result<FromFile, Refusal> {
+/// Read the file of `source` that `written` names.
+pub(super) fn read(source: &Source, written: &ValueAt<'_>, treatment: Treatment) -> Result<FromFile, Refusal> {
+    let name = written.text()?;
+    let path = source.path(name).unwrap_or_else(|| PathBuf::from(name));
     let refuse = |fault: Fault| {
         let message = format!("`{}`: {} {}", written.path, path.display(), fault.what);
         let refusal = Refusal::new(written.node.place, message, fault.label);
         fault.help.into_iter().fold(refusal, Refusal::help)
     };
-    let (Heights { points, mut values }, period) = heights(path, written)?.map_err(refuse)?;
+    let (Heights { points, mut values }, period) = heights(source, &path, written)?.map_err(refuse)?;
     values.iter_mut().for_each(|height| *height *= treatment.scale);
     let Heights { values, .. } = Heights::new(points, values).map_err(refuse)?;
     let heights = field(points, values);
@@ -100,15 +101,14 @@ pub(super) fn read(path: &Path, written: &ValueAt<'_>, treatment: Treatment) -> 
 type Read = Result<(Heights, Option<[f64; 2]>), Fault>;
 
 /// The heights as they stand in the file, and the period of a file that tells it; refused when there is no such file.
-fn heights(path: &Path, written: &ValueAt<'_>) -> Result<Read, Refusal> {
+fn heights(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Read, Refusal> {
     let shown = path.display();
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     if !["npy", "csv", "txt", "dat", "xyz"].contains(&&extension[..]) {
         let message = format!("`{}`: {shown} has an ending by which no format is known", written.path);
         return Err(Refusal::new(written.node.place, message, "which format?").help(format!("allowed: {FORMATS}")));
     }
-    let opened = File::open(path).and_then(|file| Ok((file.metadata()?.len(), BufReader::new(file))));
-    let (bytes, reader) = opened.map_err(|error| {
+    let (reader, bytes) = source.open(written.text()?).map_err(|error| {
         let message = format!("`{}`: cannot read {shown}: {error}", written.path);
         Refusal::new(written.node.place, message, "this file").help(
             "needed: one period of heights, float64 in a `.npy` file for example; a path is relative to the case file",

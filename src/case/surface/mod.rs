@@ -11,8 +11,6 @@ mod text;
 mod unit;
 mod xyz;
 
-use std::path::Path;
-
 use serde::Serialize;
 
 use super::error::Refusal;
@@ -21,6 +19,7 @@ use super::keys::CARRIED;
 use super::lattice::{LatticeSection, build_cell};
 use super::node::Value;
 use super::reader::TableAt;
+use super::source::Source;
 use super::value::ValueAt;
 use crate::counterbody::Topography;
 use crate::counterbody::roughness::{Spectrum, Window};
@@ -46,7 +45,7 @@ pub const ORIENTATION: &str = "   a₂ ↑  [0, n₂−1]  …  [n₁−1, n₂�
 pub enum SurfaceSection {
     /// Heights from a file.
     File {
-        /// Its path, absolute, so that a copy of the case still finds it.
+        /// Its path, absolute, so that a copy of the case still finds it; its name, if it is in memory.
         heights: String,
         /// Factor of its heights.
         scale: f64,
@@ -76,8 +75,8 @@ impl SurfaceSection {
 /// What a topography is read with.
 #[derive(Debug)]
 pub(super) struct Around<'a> {
-    /// That of the case file.
-    pub(super) folder: &'a Path,
+    /// Where the case comes from, and its files.
+    pub(super) source: &'a Source,
     pub(super) lattice: Option<TableAt<'a>>,
     pub(super) grid: TableAt<'a>,
     /// `units.length`, if it is there.
@@ -107,10 +106,8 @@ pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, R
 }
 
 fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
-    let path = around.folder.join(heights.text()?);
-    let path = std::path::absolute(&path).unwrap_or(path);
     let treatment = Treatment::read(section, around.length.as_deref())?;
-    let FromFile { heights: stored, period: own, doubt } = file::read(&path, heights, treatment)?;
+    let FromFile { heights: stored, period: own, doubt } = file::read(around.source, heights, treatment)?;
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(section, around, points, own)?;
     let sampling = grid::read(&around.grid, Some(points))?;
@@ -119,9 +116,11 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
         _ => (stored, None),
     };
     let squeezed = own.and_then(|own| squeezed(own, cell));
+    let name = heights.text()?;
+    let heights = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
     let Treatment { scale, level, window, .. } = treatment;
     Ok(Read {
-        section: SurfaceSection::File { heights: path.to_string_lossy().into_owned(), scale, level, window },
+        section: SurfaceSection::File { heights, scale, level, window },
         lattice,
         topography: topography(section, cell, on_grid)?,
         sampling,

@@ -5,6 +5,7 @@ use crate::case::{Case, CaseError, Source, plausibility};
 use npyz::{Order, WriterBuilder};
 use std::f64::consts::TAU;
 use std::fs::File;
+use std::path::Path;
 
 const LATTICE: &str = "[lattice]\nkind = \"square\"\nperiod = 1\n";
 const REST: &str = "[substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
@@ -18,7 +19,7 @@ fn write<T: npyz::AutoSerialize>(folder: &Path, shape: &[u64], order: Order, val
 }
 
 fn source(folder: &Path, text: String) -> Source {
-    Source { name: "case".to_owned(), text, folder: folder.to_owned() }
+    Source { name: "case".to_owned(), text, folder: folder.to_owned(), ..Source::default() }
 }
 
 /// A case on a square cell of side 1 with this after `[surface]`, and the rest.

@@ -13,6 +13,7 @@ pub use text::{Table, Worded};
 
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
+use crate::case::Case;
 use crate::numeric::search::largest;
 use crate::reading::Reading;
 use crate::run::StepRecord;
@@ -28,6 +29,27 @@ pub const DETAILED: usize = 6;
 pub fn steps(steps: &[StepRecord], units: &Units) -> Table {
     let levels = steps.first().map_or(0, |step| step.reading.levels.len());
     if steps.len() <= DETAILED && levels > 0 { detailed(steps, units) } else { compact(steps, levels, units) }
+}
+
+/// All that is said of the steps of a case: what is read off them, their largest stresses and what those take up, and how
+/// sure that is. `change`: that from the next coarser grid, where an accuracy was asked for.
+pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: usize) -> String {
+    let units = case.units();
+    let mut text = if case.title.is_empty() { String::new() } else { format!("{}\n", case.title) };
+    text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
+    if let Some(largest) = largest_stresses(steps, &units) {
+        text += &format!("\n{}\n\n", largest.fitted(width));
+    }
+    if let Some(strength) = utilisations(steps, Some(case.problem().half_space()), &units) {
+        text += &format!("\n{}\n\n", strength.fitted(width));
+    }
+    if let Some(errors) = largest_errors(steps) {
+        text += &format!("{errors}\n");
+    }
+    if let Some(change) = change {
+        text += &format!("change from the next coarser grid: {change:.1e}\n");
+    }
+    text
 }
 
 /// The units of the mean pressure and the penetration.

@@ -66,7 +66,10 @@ impl Bases {
 
     pub fn read(&self, text: &str, overrides: &[String]) -> Result<Case, CaseError> {
         let folder = self.folder.path().to_owned();
-        Case::read(&Source { name: "case.toml".to_owned(), text: text.to_owned(), folder }, overrides)
+        Case::read(
+            &Source { name: "case.toml".to_owned(), text: text.to_owned(), folder, ..Source::default() },
+            overrides,
+        )
     }
 
     /// Every case that has the table of the key, of its kind.

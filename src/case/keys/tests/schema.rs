@@ -4,7 +4,7 @@ use super::super::schema;
 use super::bases::Bases;
 use crate::case::{Case, Source, embedded};
 use serde_json::{Map, Value, json};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::LazyLock;
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
@@ -107,7 +107,7 @@ fn unknown_and_misplaced_keys_and_those_that_exclude_each_other_do_not_follow_th
     let mut count = 0;
     for path in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
         let text = std::fs::read_to_string(&path).unwrap();
-        let source = Source { name: "case".to_owned(), text: text.clone(), folder: PathBuf::new() };
+        let source = Source { name: "case".to_owned(), text: text.clone(), ..Source::default() };
         let Err(error) = Case::read(&source, &[]) else { continue };
         let seen = ["unknown key", "has no place", "exclude each other", "poisson` is missing", "section ["];
         if seen.iter().any(|words| error.message().contains(words)) {

@@ -1,0 +1,54 @@
+//! Which case is meant by a path or a name.
+
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::{Source, embedded};
+
+/// Why there is no case where one is looked for.
+#[derive(Debug, thiserror::Error)]
+pub enum NoCase {
+    /// It is neither a file nor an embedded case.
+    #[error("{} is neither a file nor an embedded case ({})", .0.display(), names().join(", "))]
+    Unknown(PathBuf),
+    /// The file can be read, but is no text of a case.
+    #[error("{0}")]
+    NoText(io::Error),
+    /// The file cannot be read.
+    #[error("cannot read {}: {error}", path.display())]
+    Unreadable {
+        /// Which.
+        path: PathBuf,
+        /// What the system says.
+        error: io::Error,
+    },
+}
+
+impl NoCase {
+    /// What reading `path` has come to.
+    pub fn at(path: &Path, error: io::Error) -> Self {
+        match error.kind() {
+            ErrorKind::InvalidData => Self::NoText(error),
+            _ => Self::Unreadable { path: path.to_owned(), error },
+        }
+    }
+}
+
+fn names() -> Vec<&'static str> {
+    embedded::all().iter().map(|(name, _)| *name).collect()
+}
+
+/// The case file at `path`, or where there is none the embedded case of that name.
+///
+/// # Errors
+/// [`NoCase`].
+pub fn find(path: &Path) -> Result<Source, NoCase> {
+    let is_file = path.is_file();
+    if let Some(source) = path.to_str().filter(|_| !is_file).and_then(embedded::source) {
+        return Ok(source);
+    }
+    if path.extension().is_none() && !is_file {
+        return Err(NoCase::Unknown(path.to_owned()));
+    }
+    Source::file(path).map_err(|error| NoCase::at(path, error))
+}

@@ -1,0 +1,251 @@
+//! What a case means, as `percoat check` tells it: nothing is solved but the first touches.
+
+use super::number;
+use crate::case::resources::{Job, Needs, bytes, needs};
+use crate::case::{Case, ORIENTATION, RandomSection, Room, SurfaceSection, foreseen, plausibility, sublayer_error};
+use crate::counterbody::roughness::{Spectrum, Statistics};
+use crate::lattice::{Grid, LatticeError};
+use crate::reading::first_touches;
+use crate::run::{RunError, Sampling, balanced_points};
+use crate::spectral::Solver;
+use crate::units::{Unit, Units};
+use serde_json::{Value, json};
+use std::convert::Infallible;
+use std::fmt;
+use std::sync::Arc;
+
+/// Points along the shorter cell vector on which the first touches are looked for.
+const POINTS: usize = 192;
+
+/// What a case means.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// Its title, or its name where it has none.
+    pub title: String,
+    /// Counterbody and half-space in words.
+    pub problem: [String; 2],
+    /// What numbers are measured in, in words; empty where that has no name.
+    pub units: String,
+    /// Of each layer the number of its sublayers, and the error that they make of the surface compliance; `None` where no
+    /// layer is graded.
+    pub sublayers: Option<(Vec<usize>, f64)>,
+    /// The finest grid, points along a₁ and a₂.
+    pub points: [usize; 2],
+    /// The accuracy that is asked for instead of a grid.
+    pub accuracy: Option<f64>,
+    /// The grid in words.
+    pub grid: String,
+    /// What solving takes at most, with pictures.
+    pub needs: Needs,
+    /// Memory without pictures, bytes.
+    pub without_pictures: u64,
+    /// What there is.
+    pub room: Room,
+    /// `mean_pressure` or `penetration`.
+    pub quantity: &'static str,
+    /// Its values, one a load step.
+    pub loads: Vec<f64>,
+    /// The mean pressure at which each level first touches on so many points, `None` of one that never does; nothing of a topography.
+    pub touches: Option<([usize; 2], Vec<Option<f64>>)>,
+    /// What a topography is like.
+    pub surface: Option<Roughness>,
+    /// What is doubtful, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// What a topography is like.
+#[derive(Debug, Clone)]
+pub struct Roughness {
+    /// Samples along a₁ and a₂.
+    pub points: [usize; 2],
+    /// Of its heights.
+    pub statistics: Statistics,
+    /// √⟨|∇h|²⟩.
+    pub rms_slope: f64,
+    /// Whether its heights are those of a file.
+    pub from_file: bool,
+}
+
+/// Why a case cannot be solved.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckError {
+    /// There is no such run.
+    #[error(transparent)]
+    Run(#[from] RunError<Infallible>),
+    /// There is no such grid.
+    #[error(transparent)]
+    Grid(#[from] LatticeError),
+}
+
+impl Check {
+    /// Of a case with this `name`, where there is `room`.
+    ///
+    /// # Errors
+    /// [`CheckError`].
+    pub fn of(case: &Case, name: &str, room: Room) -> Result<Self, CheckError> {
+        case.run().check()?;
+        let cell = case.counterbody().cell();
+        let grids = case.grid.grids(&cell).map_err(RunError::<Infallible>::from)?;
+        let points = grids[grids.len() - 1];
+        let (accuracy, grid) = match case.grid {
+            Sampling::Points(points) => (None, Grid::new(cell, points)?.to_string()),
+            Sampling::Accuracy(accuracy) => {
+                (Some(accuracy), format!("grid: refined until results change by less than {accuracy}"))
+            }
+        };
+        let solving = |pictures| needs(case, points, Job::Solve { pictures, fields: true });
+        let touches = touches(case, grids[0])?;
+        let pressures = touches.as_ref().map_or(&[][..], |(_, pressures)| pressures);
+        let warnings = [plausibility::of_case(case), foreseen(case, pressures)].concat();
+        let counts = || case.layers.iter().map(crate::case::LayerSection::sublayers).collect();
+        Ok(Self {
+            title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
+            problem: [case.counterbody().to_string(), case.half_space().to_string()],
+            units: units(&case.units()),
+            sublayers: sublayer_error(case).map(|error| (counts(), error)),
+            points,
+            accuracy,
+            grid,
+            needs: solving(true),
+            without_pictures: solving(false).memory,
+            room,
+            quantity: case.load.quantity(),
+            loads: case.load.values().to_vec(),
+            touches,
+            surface: Roughness::of(case)?,
+            warnings,
+        })
+    }
+
+    /// The same by names: lengths, pressures and bytes.
+    pub fn json(&self) -> Value {
+        let Self { title, points, accuracy, needs, room, quantity, loads, warnings, .. } = self;
+        json!({
+            "title": title,
+            "points": points,
+            "accuracy": accuracy,
+            "memory": needs.memory,
+            "memory_available": room.memory,
+            "disk": needs.disk,
+            "load": { *quantity: loads },
+            "first_touch": self.touches.as_ref().map(|(_, pressures)| pressures),
+            "sublayer_error": self.sublayers.as_ref().map(|(_, error)| error),
+            "surface": self.surface.as_ref().map(Roughness::json),
+            "warnings": warnings,
+            "text": self.to_string(),
+        })
+    }
+}
+
+impl Roughness {
+    fn of(case: &Case) -> Result<Option<Self>, LatticeError> {
+        let Some(topography) = case.counterbody().topography() else { return Ok(None) };
+        let spectrum = Spectrum::of(topography.cell(), topography.heights())?;
+        Ok(Some(Self {
+            points: topography.points(),
+            statistics: Statistics::of(topography.heights()),
+            rms_slope: spectrum.rms_slope(),
+            from_file: case.surface.as_ref().and_then(SurfaceSection::random).map(RandomSection::surface).is_none(),
+        }))
+    }
+
+    fn json(&self) -> Value {
+        let Statistics { rms_height, range, skewness, kurtosis, .. } = self.statistics;
+        json!({
+            "points": self.points, "rms_height": rms_height, "rms_slope": self.rms_slope, "range": range,
+            "skewness": skewness, "kurtosis": kurtosis,
+        })
+    }
+}
+
+/// The mean pressures at which the levels first touch, and on which grid; `first` is the coarsest of the case, for which
+/// there is room.
+fn touches(case: &Case, first: [usize; 2]) -> Result<Option<([usize; 2], Vec<Option<f64>>)>, LatticeError> {
+    if case.counterbody().indenters().is_none() {
+        return Ok(None);
+    }
+    let [n1, n2] = balanced_points(&case.counterbody().cell(), POINTS);
+    // Along a long cell they would be many.
+    let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
+    let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
+    Ok(Some((points, first_touches(&mut solver))))
+}
+
+/// What all numbers are measured in, where units have names.
+fn units(units: &Units) -> String {
+    let named = |of: &str, unit: &Unit| unit.name().map(|name| format!("{of} in {name}"));
+    let names =
+        [named("lengths", units.length()), named("pressures", units.pressure()), named("forces", &units.force())];
+    names.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+impl fmt::Display for Check {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [counterbody, half_space] = &self.problem;
+        writeln!(f, "{}\n\n{counterbody}\n\n{half_space}\n", self.title)?;
+        if !self.units.is_empty() {
+            writeln!(f, "units: {}", self.units)?;
+        }
+        if let Some((sublayers, error)) = &self.sublayers {
+            write_sublayers(f, sublayers, *error)?;
+        }
+        writeln!(f, "{}", self.grid)?;
+        let Needs { memory, disk, disk_while_running } = self.needs;
+        let free = if self.room.disk == u64::MAX { String::new() } else { format!(", {} free", bytes(self.room.disk)) };
+        let most = if self.accuracy.is_some() { "at most " } else { "" };
+        writeln!(
+            f,
+            "memory: about {most}{} ({} without pictures), {} available",
+            bytes(memory),
+            bytes(self.without_pictures),
+            bytes(self.room.memory)
+        )?;
+        writeln!(f, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;
+        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(number);
+        match self.loads.len() {
+            1 => writeln!(f, "load: {} {first}", self.quantity)?,
+            count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
+        }
+        if let Some(([n1, n2], pressures)) = &self.touches {
+            writeln!(f, "first touch, on {n1} × {n2} samples:")?;
+            for (level, touch) in (1..).zip(pressures) {
+                match touch {
+                    Some(pressure) => writeln!(f, "  level {level}: mean pressure {}", number(*pressure))?,
+                    None => writeln!(f, "  level {level}: never, it is hidden behind the others")?,
+                }
+            }
+        }
+        self.surface.as_ref().map_or(Ok(()), |surface| surface.fmt(f))
+    }
+}
+
+/// Which materials the layers are, and how well the graded ones are laid out.
+fn write_sublayers(f: &mut fmt::Formatter<'_>, sublayers: &[usize], error: f64) -> fmt::Result {
+    let mut material = 1;
+    for (number, &count) in (1..).zip(sublayers) {
+        let last = material + count - 1;
+        match count {
+            1 => writeln!(f, "layer {number}: material {material}")?,
+            _ => writeln!(
+                f,
+                "layer {number}: materials {material} to {last}, {count} sublayers from its upper face down"
+            )?,
+        }
+        material += count;
+    }
+    writeln!(f, "surface compliance: error by the sublayers about {error:.1e}\n")
+}
+
+impl fmt::Display for Roughness {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([n1, n2], slope) = (self.points, number(self.rms_slope));
+        let Statistics { rms_height, range, skewness, kurtosis, .. } = self.statistics;
+        writeln!(f, "surface on {n1} × {n2} samples: rms height {}, rms slope {slope}", number(rms_height))?;
+        writeln!(
+            f,
+            "  range {}, skewness {skewness:.3}, kurtosis {kurtosis:.3} (a Gaussian has 0 and 3)",
+            number(range)
+        )?;
+        if self.from_file { writeln!(f, "{ORIENTATION}") } else { Ok(()) }
+    }
+}
