@@ -126,6 +126,16 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
     complete(shape, count)
 }
 
+/// The same in memory: the content of a `.npy` file.
+///
+/// # Errors
+/// When there are fewer or more values than the shape says.
+pub fn npy_bytes(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    npy(&mut bytes, shape, values)?;
+    Ok(bytes)
+}
+
 /// What stands before the values of an array. The library would write those one by one, which takes longer than the disk.
 pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> io::Result<()> {
     let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();

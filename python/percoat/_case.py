@@ -1,0 +1,104 @@
+"""What a case is, and what is asked of it before anything is solved."""
+
+from __future__ import annotations
+
+import json
+from os import PathLike
+from typing import Any, List, Mapping, Optional, Union
+
+from percoat import _core
+from percoat._record import Record
+
+CaseLike = Union[str, "PathLike[str]", Mapping[str, Any], _core.Case]
+"""A path, the name of an embedded case, a dict of the same shape as the TOML, or what :func:`case` gave."""
+
+Settings = Union[None, Mapping[str, Any], List[str]]
+"""``{"layers.0.thickness": 0.2}``, or ``["layers.0.thickness=0.2"]`` as the command line has it."""
+
+
+class Check(Record):
+    """What a case means. It prints as ``percoat check`` does."""
+
+    title: str
+    points: list[int]
+    accuracy: Optional[float]
+    memory: int
+    memory_available: int
+    disk: int
+    load: Record
+    first_touch: Optional[list[Optional[float]]]
+    sublayer_error: Optional[float]
+    surface: Optional[Record]
+    warnings: list[str]
+    text: str
+
+    def __str__(self) -> str:
+        return self["text"]
+
+    def __repr__(self) -> str:
+        return f"<percoat.Check {self.title!r}: {self.points[0]} × {self.points[1]} samples>"
+
+
+def case(case: CaseLike, *, set: Settings = None) -> dict[str, Any]:
+    """A case as a dict, complete with its defaults: to be looked at, changed and solved.
+
+    Parameters
+    ----------
+    case
+        A path, the name of an embedded case, or a dict of the same shape as the TOML.
+    set
+        Values to change first, ``{"layers.0.thickness": 0.2}``.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> fig2 = percoat.case("fig2")
+    >>> fig2["layers"][0]["thickness"]
+    0.5
+    >>> fig2["layers"][0]["thickness"] = 0.2
+    >>> percoat.case(fig2)["layers"][0]["thickness"]
+    0.2
+    """
+    return json.loads(_core.Case(case, set).json)
+
+
+def check(case: CaseLike, *, set: Settings = None, threads: Optional[int] = None) -> Check:
+    """What a case means: cell, materials, memory, first touches. Nothing is solved.
+
+    Lengths and pressures are in the units of the case, memory and disk in bytes.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> told = percoat.check("fig2")
+    >>> told.points, len(told.first_touch)
+    ([512, 512], 3)
+    >>> print(told)  # doctest: +ELLIPSIS
+    Fig. 2: relatively hard coating, three levels in contact
+    ...
+    """
+    return Check(json.loads(_core.Case(case, set).check(threads)))
+
+
+def cases() -> dict[str, str]:
+    """Names and titles of the embedded cases.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> percoat.cases()["fig2"]
+    'Fig. 2: relatively hard coating, three levels in contact'
+    """
+    return {name: title for name, title, _ in _core.cases()}
+
+
+def explain(key: Optional[str] = None) -> None:
+    """Say what a key of a case is: type, unit, range, default and an example; without a key, the sections.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> percoat.explain("layers.thickness")  # doctest: +ELLIPSIS
+    layers.thickness...
+    """
+    print(_core.explain(key), end="")

@@ -1,0 +1,147 @@
+"""The layered half-space alone."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Mapping, Optional, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from percoat import _core
+from percoat._case import CaseLike, Settings
+from percoat._record import Record
+
+
+class HalfSpace:
+    """Layers on a substrate, for who needs the transfer function alone.
+
+    Parameters
+    ----------
+    layers
+        Dicts with the keys of ``[[layers]]``, from the surface down; none: uncoated.
+    substrate
+        A dict with the keys of ``[substrate]``.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> coated = percoat.HalfSpace(
+    ...     layers=[{"thickness": 0.5, "shear_ratio": 2.0, "poisson": 0.2}],
+    ...     substrate={"young": 1.0, "poisson": 0.3},
+    ... )
+    >>> float(coated.compliance(2.0)).__round__(6)
+    0.639607
+    >>> coated.compliance([1.0, 2.0, 4.0]).shape
+    (3,)
+    """
+
+    def __init__(
+        self, layers: Sequence[Mapping[str, Any]] = (), substrate: Optional[Mapping[str, Any]] = None
+    ) -> None:
+        sections: dict[str, Any] = {"layers": list(layers)} if len(layers) > 0 else {}
+        if substrate is not None:
+            sections["substrate"] = substrate
+        self._core = _core.HalfSpace(sections)
+
+    @classmethod
+    def of(cls, case: CaseLike, *, set: Settings = None) -> HalfSpace:
+        """That of a case.
+
+        >>> import percoat
+        >>> percoat.HalfSpace.of("fig2").correction(1e3).round(12)
+        1.0
+        """
+        own = cls.__new__(cls)
+        own._core = _core.HalfSpace(_core.Case(case, set))
+        return own
+
+    def compliance(self, wavenumber: ArrayLike) -> Any:
+        """ŵ/p̂: displacement of the surface over a harmonic pressure, a length over a pressure.
+
+        ``wavenumber`` q > 0 is angular, 1/length, of any shape; the result has the same.
+        """
+        return self._of(wavenumber, self._core.compliance)
+
+    def correction(self, wavenumber: ArrayLike) -> Any:
+        """T(q): the compliance over that of a half-space of the surface's material, 2/(E* q); T → 1 for short waves."""
+        return self._of(wavenumber, self._core.correction)
+
+    def kernel(
+        self, wavenumber: ArrayLike, depth: Optional[ArrayLike] = None, traction: str = "normal"
+    ) -> Record:
+        """Response to a harmonic traction, see :func:`percoat.kernel`."""
+        q = np.asarray(wavenumber, dtype=float)
+        depths = [] if depth is None else np.atleast_1d(np.asarray(depth, dtype=float)).ravel().tolist()
+        lines = [json.loads(line) for line in self._core.kernel(q.ravel(), depths, traction)]
+
+        def column(name: str) -> Any:
+            return _shaped(np.array([line[name] for line in lines], dtype=float), q.shape)
+
+        names = [name for name in (lines[0] if lines else ()) if name != "depths"]
+        record = Record({name: column(name) for name in names})
+        if depths and lines:
+            rows = lines[0]["depths"]
+            record["z"] = np.array([row["z"] for row in rows])
+            record["side"] = np.array([row["side"] for row in rows])
+            for name in rows[0]:
+                if name not in ("z", "side"):
+                    values = np.array([[row[name] for row in line["depths"]] for line in lines], dtype=float)
+                    record[name] = values.reshape(*q.shape, len(rows))
+        return record
+
+    def _of(self, wavenumber: ArrayLike, values: Any) -> Any:
+        q = np.asarray(wavenumber, dtype=float)
+        return _shaped(values(np.ascontiguousarray(q.ravel())), q.shape)
+
+    def __str__(self) -> str:
+        return str(self._core)
+
+    def __repr__(self) -> str:
+        return f"<percoat.HalfSpace: {str(self).splitlines()[0]}>"
+
+
+def _shaped(values: NDArray[np.float64], shape: tuple[int, ...]) -> Any:
+    return values.reshape(shape)[()]
+
+
+def kernel(
+    case: CaseLike,
+    wavenumber: ArrayLike,
+    depth: Optional[ArrayLike] = None,
+    traction: str = "normal",
+    *,
+    set: Settings = None,
+) -> Record:
+    """The layered half-space's response to a harmonic traction.
+
+    Parameters
+    ----------
+    case
+        A path, the name of an embedded case, or a dict of the same shape as the TOML.
+    wavenumber
+        q > 0, angular, 1/length; any shape.
+    depth
+        z ≥ 0, lengths; one on an interface gives both sides.
+    traction
+        ``"normal"`` for the pressure cos(qx), ``"along"`` or ``"across"`` for a shear traction along or across the
+        wavevector.
+
+    Returns
+    -------
+    Record
+        ``wavenumber``, ``compliance`` (length/pressure), ``correction`` (T) and, but for ``"across"``, ``coupling``, of
+        the shape of ``wavenumber``. With depths ``z`` and ``side`` (1-based material), one a row, and amplitudes of that
+        shape and a last axis of rows: ``szz``, ``sqz``, ``sqq``, ``stt``, ``uz``, ``uq``; under ``"across"`` ``stz``,
+        ``sqt``, ``ut``.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> response = percoat.kernel("fig2", [1.0, 10.0], depth=[0.0, 0.5])
+    >>> response.compliance.shape, response.szz.shape  # the interface has two sides
+    ((2,), (2, 3))
+    >>> response.szz[:, 0]
+    array([-1., -1.])
+    """
+    return HalfSpace.of(case, set=set).kernel(wavenumber, depth, traction)

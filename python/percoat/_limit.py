@@ -1,0 +1,68 @@
+"""Limit loads."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from typing import Any, Optional
+
+from percoat import _core
+from percoat._case import CaseLike, Settings
+from percoat._record import Record
+from percoat._solve import Listener, listener
+from percoat._warnings import NotConverged, warn
+
+
+class Limits(Record):
+    """Limit loads, as ``limit.json`` has them. They print the table of the command line.
+
+    ``first`` is the one that is reached first, ``None`` where nothing fails; ``limits`` has all of them, each with
+    ``criterion``, ``material`` or ``interface``, ``mean_pressure`` and its ``error``, ``x``, ``y``, ``z``.
+    """
+
+    title: str
+    first: Optional[Record]
+    limits: list[Record]
+    steps: list[Record]
+    warnings: list[str]
+    converged: bool
+
+    def __init__(self, entries: Any, case: Optional[_core.Case] = None) -> None:
+        super().__init__(entries)
+        self.__dict__["_case"] = case
+
+    def __str__(self) -> str:
+        width = shutil.get_terminal_size().columns
+        return _core.limit_text(self.__dict__["_case"], json.dumps(self.to_dict()), width).rstrip()
+
+    def __repr__(self) -> str:
+        if self.first is None:
+            return f"<percoat.Limits {self.title!r}: nothing fails>"
+        what = f"material {self.first.material}" if "material" in self.first else f"interface {self.first.interface}"
+        return f"<percoat.Limits {self.title!r}: {self.first.criterion} of {what} at {self.first.mean_pressure}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Limits, (dict(self), self.__dict__["_case"])
+
+
+def limit(
+    case: CaseLike, *, set: Settings = None, threads: Optional[int] = None, progress: Listener = None
+) -> Limits:
+    """The mean pressure at which something first fails, and what: each criterion's own limit load too.
+
+    Parameters are those of :func:`percoat.solve`; the case needs strengths.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> limits = percoat.limit("dlc-on-steel", set={"grid.points": 64})
+    >>> limits.first.criterion, len(limits.limits)
+    ('delamination', 3)
+    """
+    own = _core.Case(case, set)
+    text, converged = _core.limit(own, threads, listener(progress))
+    limits = Limits({**json.loads(text), "converged": converged}, own)
+    warn(limits.warnings)
+    if not converged:
+        warn(["a load or the accuracy did not converge"], NotConverged)
+    return limits

@@ -1,0 +1,573 @@
+"""Solving a case: results, steps, and what is inside the body."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from percoat import _core
+from percoat._case import CaseLike, Settings
+from percoat._record import Record
+from percoat._warnings import NotConverged, warn
+
+if TYPE_CHECKING:
+    import xarray
+
+Array = NDArray[np.float64]
+Listener = Union[None, bool, Callable[["_core.Progress"], object]]
+
+COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz", "ux", "uy", "uz", "tau1", "mises", "s1")
+"""Stresses σ_xx … σ_yz, displacements u_x, u_y, u_z, largest shear τ₁, von Mises' stress and the largest tension σ₁."""
+
+
+class Level(Record):
+    """What is read off the contact of one level; ``load`` and areas are those of one indenter."""
+
+    level: int
+    load: float
+    load_share: float
+    max_pressure: Optional[float]
+    contact_area: float
+    contact_radius: Optional[float]
+    radius_min: Optional[float]
+    radius_max: Optional[float]
+    asymmetry: Optional[float]
+    centre: list[Optional[float]]
+    errors: Record
+
+
+class Slice(Record):
+    """Stresses and displacements on a plane: arrays (n₁, n₂) under the names of :data:`COMPONENTS`, at ``x`` and ``y``."""
+
+    x: Array
+    y: Array
+    z: float
+    material: int
+    xx: Array
+    yy: Array
+    zz: Array
+    xy: Array
+    xz: Array
+    yz: Array
+    ux: Array
+    uy: Array
+    uz: Array
+    tau1: Array
+    mises: Array
+    s1: Array
+
+    def __repr__(self) -> str:
+        n1, n2 = self.xx.shape
+        return f"<percoat.Slice: {n1} × {n2} points at z = {self.z}, in material {self.material}>"
+
+
+class Section(Record):
+    """Stresses and displacements on a vertical cut: arrays (rows, points) under the names of :data:`COMPONENTS`.
+
+    ``s`` is the distance along the cut, ``x`` and ``y`` its points; ``z`` and ``material`` those of the rows. A depth on
+    an interface has two rows, one for each side.
+    """
+
+    s: Array
+    x: Array
+    y: Array
+    z: Array
+    material: NDArray[np.int32]
+    xx: Array
+    yy: Array
+    zz: Array
+    xy: Array
+    xz: Array
+    yz: Array
+    ux: Array
+    uy: Array
+    uz: Array
+    tau1: Array
+    mises: Array
+    s1: Array
+
+    def __repr__(self) -> str:
+        rows, points = self.xx.shape
+        return f"<percoat.Section: {rows} rows × {points} points, s = {self.s[0]:g} … {self.s[-1]:g}>"
+
+
+class Step:
+    """A solved load step: everything that ``summary.json`` has of it is an attribute, and so are its fields.
+
+    Attributes
+    ----------
+    pressure, gap, displacement
+        Arrays (n₁, n₂), axes along a₁ and a₂; a pressure ≥ 0, and lengths. They cannot be written to, and none is a copy:
+        take ``step.pressure.copy()`` to change one.
+    mean_pressure, penetration, contact_fraction, max_pressure, levels, certificate, converged, …
+        As in ``summary.json``; ``levels``, ``certificate`` and the like have attributes in turn.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[-1]
+    >>> step.pressure.shape, step.levels[0].level, step.converged
+    ((96, 96), 1, True)
+    >>> float(step.pressure.mean()).__round__(12) == step.mean_pressure
+    True
+    >>> stress = step.stress([[0.0, 0.0, 0.1], [0.0, 0.0, 0.2]])  # xx, yy, zz, xy, xz, yz
+    >>> stress.shape
+    (2, 6)
+    """
+
+    mean_pressure: float
+    penetration: float
+    additional_displacement: float
+    contact_fraction: float
+    max_pressure: Optional[float]
+    converged: bool
+    stop_reason: str
+    iterations: int
+    convolutions: float
+    residual: float
+    certificate: Record
+    points: list[int]
+    levels: list[Level]
+    errors: Record
+    seconds: float
+
+    def __init__(self, result: Result, index: int, core: Any) -> None:
+        self._result = result
+        self._index = index
+        self._own: Optional[_core.Step] = core if isinstance(core, _core.Step) else None
+        self._kept: Optional[bytes] = None if self._own else core
+        self._record: Record = result._steps[index]
+
+    @property
+    def _core(self) -> _core.Step:
+        if self._own is None:
+            self._own = _core.step(self._result._case, self._index, self._record.points, self._kept)
+            self._kept = None
+        return self._own
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._record, name)
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._record]
+
+    @property
+    def x(self) -> Array:
+        """Places of the samples (n₁, n₂), a length."""
+        return self._result.x
+
+    @property
+    def y(self) -> Array:
+        """Places of the samples (n₁, n₂), a length."""
+        return self._result.y
+
+    @cached_property
+    def pressure(self) -> Array:
+        """Contact pressure p ≥ 0 (n₁, n₂), in the unit of Young's modulus."""
+        return self._core.pressure
+
+    @cached_property
+    def gap(self) -> Array:
+        """Gap between body and counterbody (n₁, n₂), a length; 0 in contact."""
+        return self._core.gap
+
+    @cached_property
+    def displacement(self) -> Array:
+        """Displacement of the surface into the body (n₁, n₂), a length; its mean is zero."""
+        displacement = self._core.displacement()
+        displacement.flags.writeable = False
+        return displacement
+
+    def stress(self, points: ArrayLike, *, material: Optional[int] = None) -> Array:
+        """Stresses at points inside the body, by the sum over waves itself.
+
+        Parameters
+        ----------
+        points
+            (…, 3): x, y, z, lengths; z ≥ 0 grows into the body.
+        material
+            Of the two that meet at an interface, from 1; else the upper one.
+
+        Returns
+        -------
+        array (…, 6)
+            σ_xx, σ_yy, σ_zz, σ_xy, σ_xz, σ_yz, positive in tension; :func:`percoat.tau1`, :func:`percoat.mises` and
+            :func:`percoat.s1` take it.
+
+        Examples
+        --------
+        >>> import numpy as np, percoat
+        >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+        >>> z = np.linspace(0.0, 1.0, 11)
+        >>> stress = step.stress(np.stack([0 * z, 0 * z, z], axis=-1))
+        >>> percoat.mises(stress).shape
+        (11,)
+        """
+        points = np.asarray(points, dtype=float)
+        if points.ndim == 0 or points.shape[-1] != 3:
+            raise _core.CaseError(f"points have three coordinates x, y, z along their last axis, not {points.shape}")
+        flat = np.ascontiguousarray(points.reshape(-1, 3))
+        return self._core.stress(flat, material).reshape(*points.shape[:-1], 6)
+
+    def plane(
+        self, z: float, *, points: Union[None, int, Sequence[int]] = None, material: Optional[int] = None
+    ) -> Slice:
+        """Stresses and displacements on the horizontal plane at the depth z.
+
+        Parameters
+        ----------
+        z
+            Depth ≥ 0, a length.
+        points
+            Along a₁ and a₂; those of the contact if it is not said.
+        material
+            Of the two that meet at an interface, from 1; else the upper one.
+
+        Examples
+        --------
+        >>> import percoat
+        >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+        >>> step.plane(0.5, material=2).tau1.shape
+        (96, 96)
+        """
+        wanted = [points, points] if isinstance(points, (int, np.integer)) else points
+        components, material = self._core.plane(z, None if wanted is None else list(wanted), material)
+        x, y = self._result._places(*components.shape[1:])
+        return Slice({"x": x, "y": y, "z": float(z), "material": material, **dict(zip(COMPONENTS, components))})
+
+    def section(
+        self,
+        start: Union[None, str, Sequence[float]] = None,
+        toward: Union[None, str, Sequence[float]] = None,
+        *,
+        length: Optional[float] = None,
+        depth: Optional[float] = None,
+        behind: Optional[float] = None,
+    ) -> Section:
+        """Stresses and displacements on a vertical cut; without arguments, on that of the case.
+
+        Parameters
+        ----------
+        start
+            Where s = 0: ``"level 1"``, an indenter of that level, or a place (x, y).
+        toward
+            ``"level 2"``, the nearest other indenter of that level, or a direction (x, y).
+        length, depth
+            How long and how deep it is, lengths; one period and a half of it if they are not said.
+        behind
+            How much of the length lies before ``start``.
+
+        Examples
+        --------
+        >>> import percoat
+        >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+        >>> step.section("level 1", "level 2", length=1.0, depth=1.0)
+        <percoat.Section: 202 rows × 401 points, s = 0 … 1>
+        """
+        cut = None
+        if not (start is None and toward is None and length is None and depth is None and behind is None):
+            period = float(np.hypot(*self._result.a1))
+            cut = {
+                "from": "level 1" if start is None else start,
+                "toward": toward,
+                "length": period if length is None else length,
+                "depth": 0.5 * period if depth is None else depth,
+                "behind": behind,
+            }
+        (s, x, y, z), material, components = self._core.section(cut)
+        return Section(
+            {"s": s, "x": x, "y": y, "z": z, "material": material, **dict(zip(COMPONENTS, components))}
+        )
+
+    def maxima(self) -> Optional[Record]:
+        """The largest stresses over each material, on each face and interface, with their places and errors.
+
+        As ``stress`` in ``summary.json``; ``None`` without contact.
+
+        Examples
+        --------
+        >>> import percoat
+        >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+        >>> step.maxima().max_tau1.material
+        1
+        """
+        if "stress" in self._record:
+            return self._record.stress
+        found = self._core.maxima()
+        return None if found is None else Record(json.loads(found))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Every scalar, as ``summary.json`` has it."""
+        return self._record.to_dict()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Fields and scalars as an :class:`xarray.Dataset` over the dimensions ``i``, ``j`` along a₁, a₂."""
+        return self._result._with([self]).to_xarray().isel(step=0)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _step_of, (self._result._with([self]),)
+
+    def __repr__(self) -> str:
+        n1, n2 = self.points
+        return (
+            f"<percoat.Step: mean pressure {self.mean_pressure:.5g}, penetration {self.penetration:.5g}, "
+            f"contact {100 * self.contact_fraction:.3g} %, {n1} × {n2} samples, {self.stop_reason}>"
+        )
+
+    def __str__(self) -> str:
+        return str(self._result._with([self]))
+
+
+class Result:
+    """Every load step of a case, solved. It prints the table of the command line.
+
+    Attributes
+    ----------
+    steps
+        The load steps, in their order; ``result[0]`` and ``for step in result`` work as well.
+    x, y
+        Places of the samples (n₁, n₂), lengths.
+    a1, a2
+        Vectors of the cell (2,), lengths.
+    owner
+        The level whose indenter faces the sample (n₁, n₂), from 1; 0 for a topography.
+    summary
+        All scalars, as ``summary.json`` has them.
+    warnings
+        What a reader should know before trusting the numbers.
+    converged
+        Whether all steps are, and the accuracy is reached, if one was asked for.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> result = percoat.solve("fig2", set={"grid.points": 96, "load.mean_pressure": [0.03, 0.06]})
+    >>> result
+    <percoat.Result 'Fig. 2: relatively hard coating, three levels in contact': 2 steps, 96 × 96 samples, converged>
+    >>> [step.mean_pressure for step in result]
+    [0.03, 0.06]
+    >>> print(result)  # doctest: +ELLIPSIS
+    Fig. 2: relatively hard coating, three levels in contact
+    ...
+    """
+
+    x: Array
+    y: Array
+    a1: Array
+    a2: Array
+    owner: NDArray[np.int32]
+    summary: Record
+    steps: list[Step]
+
+    def __init__(
+        self, case: _core.Case, summary: Any, places: tuple[Array, Array, NDArray[np.int32]], cores: Sequence[Any]
+    ) -> None:
+        self._case = case
+        self.summary = Record(summary)
+        self._steps: list[Record] = self.summary.steps
+        for record in self._steps:
+            record["levels"] = [Level(level) for level in record["levels"]]
+        self.x, self.y, self.owner = places
+        for array in places:
+            array.flags.writeable = False
+        self.a1, self.a2 = map(np.array, case.cell)
+        self.steps = [Step(self, index, core) for index, core in enumerate(cores)]
+
+    def _places(self, n1: int, n2: int) -> tuple[Array, Array]:
+        if (n1, n2) == self.x.shape:
+            return self.x, self.y
+        u, v = np.meshgrid(np.arange(n1) / n1, np.arange(n2) / n2, indexing="ij")
+        return u * self.a1[0] + v * self.a2[0], u * self.a1[1] + v * self.a2[1]
+
+    @property
+    def title(self) -> str:
+        """Title of the case."""
+        return self.summary.title
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The case as run, complete with defaults."""
+        return json.loads(self._case.json)
+
+    @property
+    def units(self) -> Record:
+        """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
+        return self.summary.units
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader should know before trusting the numbers."""
+        return self.summary.warnings
+
+    @property
+    def accuracy(self) -> Optional[float]:
+        """Change from the next coarser grid, where an accuracy was asked for."""
+        return self.summary.get("accuracy")
+
+    @property
+    def converged(self) -> bool:
+        """Whether all steps are, and the accuracy is reached, if one was asked for."""
+        asked = self.case["grid"].get("accuracy")
+        reached = asked is None or (self.accuracy is not None and self.accuracy < asked)
+        return reached and all(record.converged for record in self._steps)
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.steps[index]
+
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self.steps)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All scalars as plain dicts and lists, as ``summary.json`` has them."""
+        return self.summary.to_dict()
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Fields and scalars as an :class:`xarray.Dataset`.
+
+        Dimensions ``step`` and ``i``, ``j`` along a₁, a₂; coordinates ``x``, ``y`` (i, j) and ``mean_pressure`` (step).
+
+        Examples
+        --------
+        >>> import percoat, pytest
+        >>> _ = pytest.importorskip("xarray")
+        >>> data = percoat.solve("fig2", set={"grid.points": 96}).to_xarray()
+        >>> dict(data.pressure.sizes)
+        {'step': 1, 'i': 96, 'j': 96}
+        """
+        import xarray
+
+        length = {"units": self.units.length} if self.units.length else {}
+        pressure = {"units": self.units.pressure} if self.units.pressure else {}
+        scalars = {
+            "penetration": length, "contact_fraction": {}, "max_pressure": pressure, "converged": {}, "residual": {},
+        }
+        fields = {"pressure": pressure, "displacement": length, "gap": length}
+        data: dict[str, Any] = {
+            name: (("step", "i", "j"), np.stack([getattr(step, name) for step in self.steps]), attributes)
+            for name, attributes in fields.items()
+        }
+        for name, attributes in scalars.items():
+            values = [record[name] for record in self._steps]
+            data[name] = ("step", np.array([np.nan if value is None else value for value in values]), attributes)
+        data["owner"] = (("i", "j"), self.owner)
+        coordinates = {
+            "x": (("i", "j"), self.x, length),
+            "y": (("i", "j"), self.y, length),
+            "mean_pressure": ("step", np.array([record.mean_pressure for record in self._steps]), pressure),
+        }
+        attributes = {"title": self.title, "percoat": self.summary.percoat, "a1": self.a1, "a2": self.a2}
+        return xarray.Dataset(data, coordinates, attributes)
+
+    def _with(self, steps: list[Step]) -> Result:
+        """The same with these steps alone."""
+        own = Result.__new__(Result)
+        own.__dict__.update(self.__dict__)
+        own.summary = Record({**self.summary, "steps": [step._record for step in steps]})
+        own._steps = own.summary.steps
+        own.steps = []
+        for step in steps:
+            again = Step.__new__(Step)
+            again.__dict__.update(step.__dict__)
+            again._result = own
+            own.steps.append(again)
+        return own
+
+    def __getstate__(self) -> dict[str, Any]:
+        kept = [(step._index, step._kept if step._own is None else step._own.checkpoint()) for step in self.steps]
+        return {"case": self._case, "summary": self.to_dict(), "places": (self.x, self.y, self.owner), "steps": kept}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__init__(state["case"], state["summary"], state["places"], [])  # type: ignore[misc]
+        for position, (index, kept) in enumerate(state["steps"]):
+            step = Step.__new__(Step)
+            step._result, step._index, step._own, step._kept = self, index, None, kept
+            step._record = self._steps[position]
+            self.steps.append(step)
+
+    def __repr__(self) -> str:
+        count = f"{len(self)} step" + ("" if len(self) == 1 else "s")
+        n1, n2 = self.x.shape
+        state = "converged" if self.converged else "not converged"
+        return f"<percoat.Result {self.title!r}: {count}, {n1} × {n2} samples, {state}>"
+
+    def __str__(self) -> str:
+        width = shutil.get_terminal_size().columns
+        return _core.outcome_text(self._case, json.dumps(self.to_dict()), width).rstrip()
+
+
+def _step_of(result: Result) -> Step:
+    return result.steps[0]
+
+
+def listener(progress: Listener) -> Optional[Callable[[_core.Progress], object]]:
+    """The callable that ``progress`` stands for."""
+    if progress is True:
+        return _print
+    return progress or None
+
+
+def _print(progress: _core.Progress) -> None:
+    import sys
+
+    print(f"\r{progress!s:79}", end="\n" if progress.of and progress.done == progress.of else "", file=sys.stderr)
+
+
+def solve(
+    case: CaseLike, *, set: Settings = None, threads: Optional[int] = None, progress: Listener = None
+) -> Result:
+    """Solve every load step of a case.
+
+    Parameters
+    ----------
+    case
+        A path, the name of an embedded case, or a dict of the same shape as the TOML. ``surface.heights`` of a dict may
+        be an array (n₁, n₂), larger = nearer to the body.
+    set
+        Values to change first, ``{"layers.0.thickness": 0.2}``.
+    threads
+        Threads to use, all cores if it is not said; results do not depend on it.
+    progress
+        A callable that hears how far it is (it prints as a line, and has ``done``, ``of``, ``phase``, …), or ``True`` to
+        have that printed on standard error.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    CaseError
+        The case is refused, with the message of the command line.
+    KeyboardInterrupt
+        Ctrl-C ends the solution between two iterations.
+
+    Warns
+    -----
+    NotConverged
+        When a step did not converge, or the accuracy was not reached.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> result = percoat.solve("fig2", set={"grid.points": 96})
+    >>> round(result.steps[0].penetration, 4)
+    0.0554
+    """
+    own = _core.Case(case, set)
+    summary, places, cores = _core.solve(own, threads, listener(progress))
+    result = Result(own, json.loads(summary), places, cores)
+    warn(result.warnings)
+    if not result.converged:
+        reasons = [f"step {n}: {record.stop_reason}" for n, record in enumerate(result._steps, 1) if not record.converged]
+        warn(["not converged: " + (", ".join(reasons) or "the accuracy is not reached")], NotConverged)
+    return result

@@ -1,0 +1,96 @@
+"""Sweeps: a case, solved for many settings of its keys."""
+
+from __future__ import annotations
+
+import csv
+import io
+from typing import Any, Callable, Mapping, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from percoat import _core
+from percoat._case import CaseLike
+from percoat._solve import Listener, listener
+from percoat._warnings import NotConverged, warn
+
+
+class Columns(dict):
+    """The table of a sweep: arrays of equal length under their names, ready for ``pandas.DataFrame(columns)``."""
+
+    def __len__(self) -> int:
+        return super().__len__()
+
+    @property
+    def rows(self) -> int:
+        """How many rows it has."""
+        return len(next(iter(self.values()), ()))
+
+    def __repr__(self) -> str:
+        return f"<percoat.Columns: {self.rows} rows of {', '.join(list(self)[:8])}{', …' if len(self) > 8 else ''}>"
+
+
+def sweep(
+    case: CaseLike,
+    set: Mapping[str, Any],
+    *,
+    zip: bool = False,
+    limit: bool = False,
+    threads: Optional[int] = None,
+    progress: Listener = None,
+) -> Columns:
+    """Solve a case for every combination of values.
+
+    Parameters
+    ----------
+    case
+        As for :func:`percoat.solve`.
+    set
+        Keys and their values: ``{"layers.0.thickness": [0.1, 0.2], "friction.coefficient": np.linspace(0, 0.5, 6)}``; one
+        value alone holds for all, and ``"0.1:1:5:log"`` gives five geometric ones, as on the command line.
+    zip
+        Pair the values of the keys, instead of all their combinations.
+    limit
+        Look for the limit loads of each combination instead of solving its load steps.
+    threads, progress
+        As for :func:`percoat.solve`.
+
+    Returns
+    -------
+    Columns
+        One row a combination and load step: ``combination``, ``set_<key>`` of what was set, ``status``, ``step``, and the
+        scalars of ``curve.csv``; numbers that are not there are NaN.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> table = percoat.sweep("fig2", {"layers.0.thickness": [0.2, 0.5], "grid.points": 96})
+    >>> table["set_layers_0_thickness"], table["status"].tolist()
+    (array([0.2, 0.5]), ['done', 'done'])
+    """
+    text, unsettled = _core.sweep(case, dict(set), zip, limit, threads, listener(progress))
+    warn((f"{name}: {status.replace('_', ' ')}: {reason}" for name, status, reason in unsettled), NotConverged)
+    head, *rows = csv.reader(io.StringIO(text))
+    return Columns({name: _column([row[index] for row in rows]) for index, name in enumerate(head)})
+
+
+def _column(cells: list[str]) -> NDArray[Any]:
+    """Cells as whole numbers, numbers, truths, or texts, whatever all of them are."""
+    if any(cells):
+        if all(cell in ("true", "false", "") for cell in cells):
+            truths = [{"true": True, "false": False}.get(cell) for cell in cells]
+            return np.array(truths, dtype=object if None in truths else bool)
+        for kind in (int, float):
+            numbers = _numbers(cells, kind)
+            if numbers is not None:
+                return numbers
+    return np.array(cells, dtype=object)
+
+
+def _numbers(cells: list[str], kind: Callable[[str], Any]) -> Optional[NDArray[Any]]:
+    if kind is int and "" in cells:
+        return None
+    try:
+        return np.array([np.nan if cell == "" else kind(cell) for cell in cells])
+    except ValueError:
+        return None

@@ -1,0 +1,215 @@
+//! A case: from a file, by its name, or from a dict.
+
+use crate::errors::{no_case, refused, unreadable};
+use crate::toml;
+use crate::work;
+use ::toml::Value;
+use numpy::PyArrayLikeDyn;
+use percoat::case::resources::{Job, refusal};
+use percoat::case::{self, Room, Source, SurfaceSection, embedded};
+use percoat::output::{self, Check};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyMapping, PyTuple};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Name under which heights of a dict are a file of the case.
+const HEIGHTS: &str = "heights.npy";
+
+/// A case that has been read, with every default resolved.
+#[pyclass(frozen, module = "percoat._core")]
+#[derive(Debug, Clone)]
+pub struct Case {
+    pub own: Arc<case::Case>,
+    pub name: String,
+    /// What it was read from.
+    pub source: Arc<Source>,
+}
+
+#[pymethods]
+impl Case {
+    /// The case that `case` stands for, changed by `set`.
+    #[new]
+    #[pyo3(signature = (case, set = None))]
+    pub fn new(case: &Bound<'_, PyAny>, set: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let settings = toml::settings(set)?;
+        let (source, name) = source(case)?;
+        if let (Ok(known), true) = (case.cast::<Self>(), settings.is_empty()) {
+            return Ok(known.get().clone());
+        }
+        let own = case::Case::read(&source, &settings).map_err(refused)?;
+        Ok(Self { own: Arc::new(own), name, source: Arc::new(source) })
+    }
+
+    /// Its name: that of its file, or of the embedded case.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The whole case as TOML, as `case.toml` has it.
+    #[getter]
+    pub fn toml(&self) -> String {
+        self.own.to_toml()
+    }
+
+    /// The same as JSON.
+    #[getter]
+    fn json(&self) -> String {
+        serde_json::to_string(&*self.own).expect("a case is numbers and texts under names")
+    }
+
+    /// Vectors a₁ and a₂ of its cell.
+    #[getter]
+    fn cell(&self) -> [[f64; 2]; 2] {
+        self.own.counterbody().cell().vectors()
+    }
+
+    /// What `percoat check` says, as JSON.
+    #[pyo3(signature = (threads = None))]
+    fn check(&self, py: Python<'_>, threads: Option<usize>) -> PyResult<String> {
+        let Self { own, name, .. } = self.clone();
+        let room = self.allow(Job::Keep)?;
+        let checked = work::run(py, threads, None, move |_| {
+            Check::of(&own, &name, room).map(|check| check.json().to_string()).map_err(|error| error.to_string())
+        })?;
+        checked.map_err(refused)
+    }
+
+    /// Two cases are equal when their results are.
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let print = |case: &Self| output::fingerprint(&case.own, "");
+        other.cast::<Self>().is_ok_and(|other| print(self) == print(other.get()))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, case) = (slf.py(), slf.get());
+        let source = case.portable()?;
+        let files = PyDict::new(py);
+        for (name, bytes) in &source.files {
+            files.set_item(name, PyBytes::new(py, bytes))?;
+        }
+        let state = (source.text, files, &case.name).into_pyobject(py)?;
+        Ok((slf.get_type().getattr("_restore")?, state))
+    }
+
+    #[staticmethod]
+    fn _restore(text: String, files: &Bound<'_, PyDict>, name: String) -> PyResult<Self> {
+        let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
+            Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
+        };
+        let files = files.iter().map(file).collect::<PyResult<BTreeMap<_, _>>>()?;
+        let source = Source { name: name.clone(), text, files, ..Source::default() };
+        let own = case::Case::read(&source, &[]).map_err(refused)?;
+        Ok(Self { own: Arc::new(own), name, source: Arc::new(source) })
+    }
+}
+
+impl Case {
+    /// Room for a job, which is refused where there is not enough.
+    pub fn allow(&self, job: Job) -> PyResult<Room> {
+        let room = Room { disk: u64::MAX, ..Room::on_this_machine(Path::new(".")) };
+        refusal(&self.own, room, job).map_or(Ok(room), |why| Err(refused(why)))
+    }
+
+    /// The same case as text with all its files, to be read on any machine.
+    fn portable(&self) -> PyResult<Source> {
+        let mut source = Source {
+            name: self.name.clone(),
+            text: self.own.to_toml(),
+            files: self.source.files.clone(),
+            ..Source::default()
+        };
+        if let Some(SurfaceSection::File { heights, .. }) = &self.own.surface
+            && !source.files.contains_key(heights)
+        {
+            let bytes = std::fs::read(heights).map_err(|error| unreadable(Path::new(heights), &error))?;
+            source.files.insert(heights.clone(), bytes.into());
+            let again = case::Case::read(&source, &[]).map_err(refused)?;
+            if output::fingerprint(&again, "") != output::fingerprint(&self.own, "") {
+                return Err(refused(format!(
+                    "{heights} has changed since it was read: what was solved cannot be kept without it"
+                )));
+            }
+        }
+        Ok(source)
+    }
+}
+
+/// The text that `case` stands for, and its name.
+pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
+    if let Ok(known) = case.cast::<Case>() {
+        let Case { own, name, source } = known.get();
+        return Ok((Source { text: own.to_toml(), ..(**source).clone() }, name.clone()));
+    }
+    if let Ok(path) = case.extract::<PathBuf>() {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        return Ok((case::find(&path).map_err(no_case)?, name));
+    }
+    let Ok(mapping) = case.cast::<PyMapping>() else {
+        let kind = case.get_type().name()?;
+        return Err(PyTypeError::new_err(format!(
+            "a case is a path, the name of an embedded case or a dict of the same shape as the file, not a {kind}"
+        )));
+    };
+    let mut files = BTreeMap::new();
+    let mut table = ::toml::Table::new();
+    for pair in mapping.items()?.iter() {
+        let (key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
+        let heights = match (key.extract::<String>().as_deref(), own.cast::<PyMapping>()) {
+            (Ok("surface"), Ok(section)) => {
+                section.get_item("heights").ok().filter(|own| own.extract::<PathBuf>().is_err())
+            }
+            _ => None,
+        };
+        let Some(heights) = heights else {
+            let single = PyDict::new(case.py());
+            single.set_item(key, own)?;
+            table.extend(toml::table(single.as_mapping(), "")?);
+            continue;
+        };
+        files.insert(HEIGHTS.to_owned(), npy(&heights)?);
+        let section = PyDict::new(case.py());
+        section.update(own.cast::<PyMapping>()?)?;
+        section.set_item("heights", HEIGHTS)?;
+        table.insert("surface".to_owned(), Value::Table(toml::table(section.as_mapping(), "surface")?));
+    }
+    let text = ::toml::to_string(&table).map_err(refused)?;
+    Ok((Source { name: "dict".to_owned(), text, files, ..Source::default() }, "dict".to_owned()))
+}
+
+/// An array as a file of NumPy.
+fn npy(heights: &Bound<'_, PyAny>) -> PyResult<Arc<[u8]>> {
+    let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights
+        .extract()
+        .map_err(|_| PyTypeError::new_err("`surface.heights` is an array of numbers, one period of the cell"))?;
+    let view = heights.as_array();
+    output::npy_bytes(view.shape(), view.iter().copied()).map(Arc::from).map_err(refused)
+}
+
+/// Names and titles of the embedded cases, and the text of each.
+#[pyfunction]
+pub fn cases() -> Vec<(&'static str, String, &'static str)> {
+    let title = |text: &str| {
+        let source = Source { text: text.to_owned(), ..Source::default() };
+        case::Case::read(&source, &[]).map_or_else(|_| String::new(), |case| case.title)
+    };
+    embedded::all().iter().map(|(name, text)| (*name, title(text), *text)).collect()
+}
+
+/// What `percoat explain` says.
+#[pyfunction]
+#[pyo3(signature = (key = None))]
+pub fn explain(key: Option<&str>) -> PyResult<String> {
+    let Some(key) = key else { return Ok(case::overview()) };
+    let told = case::explain(key).map_err(refused)?;
+    Ok(told.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
+}
+
+/// The JSON schema of a case.
+#[pyfunction]
+pub fn schema() -> String {
+    case::schema().to_string()
+}

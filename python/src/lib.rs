@@ -1,0 +1,45 @@
+//! percoat from Python: what the package `percoat` is made of.
+//!
+//! Cases, numbers and tables cross as text, TOML one way and JSON the other, in the very form that the command line reads and
+//! writes; fields cross as arrays that stay where they are. The package in `percoat/` gives them the shape that users see.
+
+mod case;
+mod command;
+mod errors;
+mod half_space;
+mod interior;
+mod limit;
+mod progress;
+mod solve;
+mod step;
+mod sweep;
+mod toml;
+mod work;
+
+#[pyo3::pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::case::{Case, cases, explain, schema};
+    #[pymodule_export]
+    use super::command::main;
+    #[pymodule_export]
+    use super::errors::CaseError;
+    #[pymodule_export]
+    use super::half_space::HalfSpace;
+    #[pymodule_export]
+    use super::limit::{limit, limit_text};
+    #[pymodule_export]
+    use super::progress::Progress;
+    #[pymodule_export]
+    use super::solve::{outcome_text, solve};
+    #[pymodule_export]
+    use super::step::{Step, step};
+    #[pymodule_export]
+    use super::sweep::sweep;
+
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        use pyo3::prelude::*;
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}
