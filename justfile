@@ -2,6 +2,12 @@
 test:
     cargo test --locked
 
+# The Python package in a virtual environment of its own, with its tests.
+python:
+    python3 -m venv target/venv
+    target/venv/bin/pip install --quiet '.[test]'
+    target/venv/bin/python -m pytest -q python/tests
+
 # Everything that runs before a change is accepted.
 ci:
     .ci/run

@@ -17,6 +17,7 @@ points into the body, pressures are positive, stresses positive in tension.
 from __future__ import annotations
 
 from percoat._case import Check, case, cases, check, explain
+from percoat._compare import Comparison, compare
 from percoat._core import CaseError, Progress, __version__
 from percoat._half_space import HalfSpace, kernel
 from percoat._limit import Limits, limit
@@ -31,6 +32,7 @@ __all__ = [
     "CaseError",
     "Check",
     "Columns",
+    "Comparison",
     "HalfSpace",
     "Limits",
     "NotConverged",
@@ -45,6 +47,7 @@ __all__ = [
     "case",
     "cases",
     "check",
+    "compare",
     "explain",
     "kernel",
     "limit",

@@ -33,7 +33,7 @@ class Check(Record):
     text: str
 
     def __str__(self) -> str:
-        return self["text"]
+        return self.text
 
     def __repr__(self) -> str:
         return f"<percoat.Check {self.title!r}: {self.points[0]} × {self.points[1]} samples>"
@@ -59,7 +59,8 @@ def case(case: CaseLike, *, set: Settings = None) -> dict[str, Any]:
     >>> percoat.case(fig2)["layers"][0]["thickness"]
     0.2
     """
-    return json.loads(_core.Case(case, set).json)
+    own: dict[str, Any] = json.loads(_core.Case(case, set).json)
+    return own
 
 
 def check(case: CaseLike, *, set: Settings = None, threads: Optional[int] = None) -> Check:

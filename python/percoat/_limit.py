@@ -55,9 +55,9 @@ def limit(
     Examples
     --------
     >>> import percoat
-    >>> limits = percoat.limit("dlc-on-steel", set={"grid.points": 64})
-    >>> limits.first.criterion, len(limits.limits)
-    ('delamination', 3)
+    >>> limits = percoat.limit("dlc-on-steel", set={"grid.points": 64})  # coarse, and it warns
+    >>> limits.first.criterion, limits.first.material, len(limits.limits)
+    ('yield', 2, 6)
     """
     own = _core.Case(case, set)
     text, converged = _core.limit(own, threads, listener(progress))

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Dict
 
 
-class Record(dict):
+class Record(Dict[str, Any]):
     """A dict whose entries are attributes, too.
 
     >>> from percoat import Record

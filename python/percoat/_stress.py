@@ -45,4 +45,5 @@ def mises(stress: ArrayLike) -> Array:
     """
     xx, yy, zz, xy, xz, yz = np.moveaxis(np.asarray(stress, dtype=float), -1, 0)
     normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
-    return np.sqrt(0.5 * normal + 3.0 * (xy**2 + xz**2 + yz**2))
+    squared: Array = 0.5 * normal + 3.0 * (xy**2 + xz**2 + yz**2)
+    return np.sqrt(squared)

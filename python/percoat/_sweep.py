@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import Any, Callable, Mapping, Optional
+from typing import Any, Callable, Dict, Mapping, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +15,8 @@ from percoat._solve import Listener, listener
 from percoat._warnings import NotConverged, warn
 
 
-class Columns(dict):
+class Columns(Dict[str, NDArray[Any]]):
     """The table of a sweep: arrays of equal length under their names, ready for ``pandas.DataFrame(columns)``."""
-
-    def __len__(self) -> int:
-        return super().__len__()
 
     @property
     def rows(self) -> int:

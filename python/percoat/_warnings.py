@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 import warnings
 from pathlib import Path
-from typing import Iterable
+from types import FrameType
+from typing import Iterable, Optional
 
 HERE = str(Path(__file__).parent)
 
@@ -20,7 +21,8 @@ class NotConverged(PercoatWarning):
 
 def warn(messages: Iterable[str], category: type[Warning] = PercoatWarning) -> None:
     """Warn at the line that called this package."""
-    level, frame = 1, sys._getframe()
+    level = 1
+    frame: Optional[FrameType] = sys._getframe()
     while frame is not None and frame.f_code.co_filename.startswith(HERE):
         level, frame = level + 1, frame.f_back
     for message in messages:

@@ -26,7 +26,7 @@ pub fn unreadable(path: &Path, error: &io::Error) -> PyErr {
         Some(code) => {
             let told = error.to_string();
             let told = told.split(" (os error").next().unwrap_or_default().to_owned();
-            PyOSError::new_err((code, told, path.to_path_buf()))
+            PyOSError::new_err((code, told, path.display().to_string()))
         }
         None => PyOSError::new_err(format!("cannot read {}: {error}", path.display())),
     }

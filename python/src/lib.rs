@@ -5,6 +5,7 @@
 
 mod case;
 mod command;
+mod compare;
 mod errors;
 mod half_space;
 mod interior;
@@ -22,6 +23,8 @@ mod _core {
     use super::case::{Case, cases, explain, schema};
     #[pymodule_export]
     use super::command::main;
+    #[pymodule_export]
+    use super::compare::compare;
     #[pymodule_export]
     use super::errors::CaseError;
     #[pymodule_export]

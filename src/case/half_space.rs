@@ -31,3 +31,35 @@ fn read(source: &Source) -> Result<HalfSpace, Refusal> {
     let substrate = SubstrateSection::read(&substrate_section)?;
     layers::build(&layers, &layer_sections, &substrate, &substrate_section)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, embedded};
+
+    fn read(text: &str) -> Result<HalfSpace, CaseError> {
+        half_space(&Source { name: "body.toml".to_owned(), text: text.to_owned(), ..Source::default() })
+    }
+
+    #[test]
+    fn it_is_that_of_a_case_with_the_same_sections() {
+        let source = embedded::source("dlc-on-steel").unwrap();
+        let case = Case::read(&source, &[]).unwrap();
+        let text: toml::Table = toml::from_str(&source.text).unwrap();
+        let sections = text.into_iter().filter(|(key, _)| ["layers", "substrate"].contains(&&key[..]));
+        let alone = read(&toml::to_string(&sections.collect::<toml::Table>()).unwrap()).unwrap();
+        assert_eq!(&alone, case.half_space());
+        assert!(alone.layers().len() == 2);
+    }
+
+    #[test]
+    fn anything_else_is_refused_where_it_stands() {
+        let substrate = "[substrate]\nyoung = 1\npoisson = 0.3\n";
+        let refused = |text: &str| read(text).unwrap_err().to_string();
+        let told = refused(&format!("{substrate}[load]\nmean_pressure = 1\n"));
+        assert!(told.contains("`load` has no place in a half-space") && told.contains("body.toml:4"), "{told}");
+        let told = refused(&format!("{substrate}[[layer]]\nthickness = 1\n"));
+        assert!(told.contains("did you mean `layers`?"), "{told}");
+        assert!(refused("").contains("`substrate` is missing"));
+    }
+}

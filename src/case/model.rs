@@ -12,7 +12,8 @@ use super::{
     SubstrateSection, SurfaceSection, UnitsSection,
 };
 use super::{grid, keys, lattice, layers, magnitude, overrides, solver};
-use crate::body::HalfSpace;
+use crate::body::{HalfSpace, MeanStress};
+use crate::comparison::Task;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
 use crate::problem::Problem;
 use crate::run::{Run, Sampling};
@@ -102,6 +103,22 @@ impl Case {
     /// What was found doubtful when its surface was read, a sentence each.
     pub(super) fn surface_doubts(&self) -> &[String] {
         &self.surface_doubts
+    }
+
+    /// What `percoat compare` does: the last load by both methods.
+    pub fn comparison(&self) -> Task {
+        let LocalizedSection { indenters, elements, radius, mutual_effect } = &self.localized;
+        let loads = self.load.loads();
+        Task {
+            problem: Arc::clone(&self.problem),
+            load: loads[loads.len() - 1],
+            settings: self.solver,
+            indenters: indenters.clone(),
+            elements: *elements,
+            rule: *radius,
+            mutual_effect: *mutual_effect,
+            mean: self.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean),
+        }
     }
 
     /// What `percoat solve` does.

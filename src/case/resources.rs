@@ -52,6 +52,8 @@ const COMPARISON: u64 = MEBIBYTE;
 const CHECKPOINTS: u64 = 43;
 /// Per sample: a step that stays in memory, pressure and gap of all nested grids and the displacement.
 const STEP: u64 = 31;
+/// Per sample: where it is, and whose.
+const PLACES: u64 = 20;
 /// A picture on disk, in both formats.
 const PICTURE: u64 = 3 * MEBIBYTE / 10;
 
@@ -146,7 +148,8 @@ fn of_solving(case: &Case, samples: u64, [grids, working, heights]: [u64; 3], pi
 /// Steps that stay in memory: no file holds anything.
 fn of_keeping(case: &Case, samples: u64, grids: [u64; 3]) -> Needs {
     let solving = of_solving(case, samples, grids, false, false).memory;
-    Needs { memory: solving + case.load.values().len() as u64 * STEP * samples, disk: 0, disk_while_running: 0 }
+    let kept = case.load.values().len() as u64 * STEP + PLACES;
+    Needs { memory: solving + kept * samples, disk: 0, disk_while_running: 0 }
 }
 
 /// A search for limit loads: the solver, and the stresses of one load at a time.

@@ -10,13 +10,11 @@ use super::progress::Progress;
 use super::terminal;
 use crate::case::plausibility;
 use crate::case::resources::Job;
-use crate::comparison::Task;
 use crate::output::{Plan, RunFolder, Writer, compare_json, table, write_text};
+use crate::picture;
 use crate::run::{End, Run, Sampling};
-use crate::{MeanStress, picture};
 use std::io::Write;
 use std::path::Path;
-use std::sync::Arc;
 use std::time::Instant;
 
 pub fn run(
@@ -34,23 +32,11 @@ pub fn run(
     }
     let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
     let started = Instant::now();
-    let loads = case.load.loads();
-    let load = loads[loads.len() - 1];
-    let run = Run { loads: vec![load], stress: None, ..case.run() };
+    let (task, steps) = (case.comparison(), case.load.values().len());
+    let run = Run { loads: vec![task.load], stress: None, ..case.run() };
     let job = Job::Compare { pictures: pictures.wanted() };
     let mut allowed = Allowed::new(&case, &folder, job)?;
     run.check()?;
-    let localized = &case.localized;
-    let task = Task {
-        problem: Arc::clone(case.problem()),
-        load,
-        settings: case.solver,
-        indenters: localized.indenters.clone(),
-        elements: localized.elements,
-        rule: localized.radius,
-        mutual_effect: localized.mutual_effect,
-        mean: case.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean),
-    };
     task.check().map_err(Failure::refused)?;
     interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
@@ -73,7 +59,7 @@ pub fn run(
     progress.finish();
     let comparison = comparison.map_err(Failure::refused)?;
 
-    let json = compare_json(&comparison, &case, loads.len());
+    let json = compare_json(&comparison, &case, steps);
     write_text(&claim.staging().join("compare.json"), &json)?;
     pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
     interruption::publish(claim, &folder, common.quiet)?;
@@ -84,8 +70,8 @@ pub fn run(
         if !case.title.is_empty() {
             writeln!(out, "{}", case.title)?;
         }
-        if loads.len() > 1 {
-            writeln!(out, "the last of {} load steps", loads.len())?;
+        if steps > 1 {
+            writeln!(out, "the last of {steps} load steps")?;
         }
         let width = terminal::width();
         let readings = table::readings(&comparison, &case.units()).fitted(width);

@@ -297,3 +297,32 @@ impl<R: Read + Seek> Saved<R> {
 fn unlike(reason: String) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, reason)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, embedded};
+    use crate::spectral::Solver;
+    use std::io::Cursor;
+
+    /// What was kept gives the step again: its fields, how it was solved, and the coarser grids that errors are read from.
+    #[test]
+    fn a_checkpoint_alone_gives_its_step_again() {
+        let case = Case::read(&embedded::source("fig2").unwrap(), &["grid.points=96".to_owned()]).unwrap();
+        let solver = || Solver::new(Arc::clone(case.problem()), [96, 96], case.solver).unwrap();
+        let (load, mut first) = (case.load.loads()[0], solver());
+        let step = first.solve(load);
+        let mut bytes = Cursor::new(Vec::new());
+        write_checkpoint(&mut bytes, &first.checkpoint(&step)).unwrap();
+        let read = |bytes: &[u8]| read_checkpoint(Cursor::new(bytes));
+        let again = solver().restore(load, read(bytes.get_ref()).unwrap()).unwrap();
+        assert_eq!((again.pressure(), again.gap()), (step.pressure(), step.gap()));
+        assert_eq!((again.report, again.certificate), (step.report, step.certificate));
+        assert_eq!((again.reading(), again.coarser().len()), (step.reading(), step.coarser().len()));
+
+        let mut spoilt = bytes.get_ref().clone();
+        spoilt[bytes.get_ref().len() / 2] ^= 1;
+        assert!(read(&spoilt).is_err(), "a checksum tells");
+        assert!(read(&bytes.get_ref()[..1000]).is_err());
+    }
+}

@@ -304,4 +304,26 @@ mod tests {
         // 283 MiB of them.
         assert_eq!(study(400).unwrap(), 116);
     }
+
+    #[test]
+    fn what_is_being_solved_ends_when_nobody_waits_for_it() {
+        let source = embedded::source("fig2").unwrap();
+        let fixed = ["grid.points=48".to_owned()];
+        let axis = Axis::parse("layers.0.poisson=0.1,0.2,0.3").unwrap();
+        let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
+        let room = Room { memory: 1 << 30, disk: u64::MAX };
+        for task in [Task::Solve, Task::Limit] {
+            // Limits need strengths.
+            let fixed = [&fixed[..], &["layers.0.yield_strength=1".to_owned()]].concat();
+            let study = Study::new(&source, &fixed, &combinations, task, room).unwrap();
+            let stop = Arc::new(AtomicBool::new(true));
+            let (study, mut reasons) = (study.stopped_by(Arc::clone(&stop)), Vec::new());
+            let done = study.run(&HashSet::new(), Path::new("."), |row| -> Result<(), ()> {
+                reasons.push(row.reason);
+                Ok(())
+            });
+            assert_eq!(done, Ok(()));
+            assert_eq!(reasons, vec![Some("stopped before its end".to_owned()); 3]);
+        }
+    }
 }

@@ -6,6 +6,7 @@ use npyz::{Order, WriterBuilder};
 use std::f64::consts::TAU;
 use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
 
 const LATTICE: &str = "[lattice]\nkind = \"square\"\nperiod = 1\n";
 const REST: &str = "[substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
@@ -259,4 +260,27 @@ fn what_is_no_random_surface_is_refused() {
     let text = format!("{LATTICE}[surface]\n{NPY}\n{RANDOM}\n{REST}");
     let told = Case::read(&source(Path::new("."), text), &[]).unwrap_err().to_string();
     assert!(told.contains("exclude each other"), "{told}");
+}
+
+/// A file in memory is read as one on disk, comes before it, and keeps its name.
+#[test]
+fn a_file_in_memory_is_read_as_one_on_disk() {
+    let folder = tempfile::tempdir().unwrap();
+    let heights: Vec<f64> = (0..48).map(|k| (0.3 * f64::from(k)).sin()).collect();
+    write(folder.path(), &[6, 8], Order::C, &heights);
+    let text = format!("surface = {{ heights = \"surface.npy\", scale = 2, level = true }}\n{LATTICE}{REST}");
+    let on_disk = Case::read(&source(folder.path(), text.clone()), &[]).unwrap();
+    let bytes = crate::output::npy_bytes(&[6, 8], heights.iter().copied()).unwrap();
+    assert_eq!(bytes, std::fs::read(folder.path().join("surface.npy")).unwrap());
+    let nowhere =
+        Source { files: [("surface.npy".to_owned(), bytes.into())].into(), ..source(Path::new("nowhere"), text) };
+    let in_memory = Case::read(&nowhere, &[]).unwrap();
+    let heights = |case: &Case| case.counterbody().topography().unwrap().heights().to_owned();
+    assert_eq!(heights(&in_memory), heights(&on_disk));
+    assert!(in_memory.to_toml().contains("heights = \"surface.npy\""), "{}", in_memory.to_toml());
+    let again = Case::read(&Source { text: in_memory.to_toml(), ..nowhere.clone() }, &[]).unwrap();
+    assert_eq!(again, in_memory);
+
+    let other = Source { files: [("other.npy".to_owned(), Arc::from([0; 4]))].into(), ..nowhere };
+    assert!(Case::read(&other, &[]).unwrap_err().to_string().contains("cannot read"));
 }

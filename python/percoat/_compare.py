@@ -1,0 +1,57 @@
+"""Both methods side by side."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from typing import Optional
+
+from percoat import _core
+from percoat._case import CaseLike, Settings
+from percoat._record import Record
+from percoat._solve import Listener, listener
+from percoat._warnings import NotConverged, warn
+
+
+class Comparison(Record):
+    """The spectral and the localized solution of the last load, as ``compare.json`` has them.
+
+    ``spectral`` is a step; ``localized`` has an entry a circle, with ``indenters``, ``radius``, ``penetration``,
+    ``levels`` and the largest relative ``difference``.
+    """
+
+    title: str
+    spectral: Record
+    localized: list[Record]
+    text: str
+    warnings: list[str]
+    converged: bool
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"<percoat.Comparison {self.title!r}: circles of {[own.indenters for own in self.localized]}>"
+
+
+def compare(
+    case: CaseLike, *, set: Settings = None, threads: Optional[int] = None, progress: Listener = None
+) -> Comparison:
+    """The spectral solution and the paper's localized boundary elements side by side, under the last load of a case.
+
+    Parameters are those of :func:`percoat.solve`; the case needs levels of indenters.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> both = percoat.compare("fig2", set={"grid.points": 96, "localized.indenters": [13]})
+    >>> both.localized[0].difference.penetration < 0.01
+    True
+    """
+    width = shutil.get_terminal_size().columns
+    text, table, warnings, converged = _core.compare(_core.Case(case, set), width, threads, listener(progress))
+    own = Comparison({**json.loads(text), "text": table.rstrip(), "warnings": warnings, "converged": converged})
+    warn(warnings)
+    if not converged:
+        warn(["a solution or the accuracy did not converge"], NotConverged)
+    return own

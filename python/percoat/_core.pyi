@@ -1,0 +1,109 @@
+"""What is compiled: cases and numbers as TOML and JSON, fields as arrays."""
+
+from os import PathLike
+from typing import Any, Callable, List, Mapping, Optional, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+_Array = NDArray[np.float64]
+_Listener = Optional[Callable[["Progress"], object]]
+_Settings = Union[None, str, Mapping[str, Any], List[str]]
+
+class CaseError(ValueError):
+    """A case, or what is asked of it, is refused: nothing has been computed."""
+
+class Case:
+    """A case that has been read, with every default resolved."""
+
+    def __init__(
+        self, case: Union[str, PathLike[str], Mapping[str, Any], Case], set: _Settings = None
+    ) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def toml(self) -> str: ...
+    @property
+    def json(self) -> str: ...
+    @property
+    def cell(self) -> List[List[float]]: ...
+    def check(self, threads: Optional[int] = None) -> str: ...
+
+class HalfSpace:
+    """Layers on a substrate, and what they answer to a harmonic traction."""
+
+    def __init__(self, sections: Union[Mapping[str, Any], Case]) -> None: ...
+    def compliance(self, wavenumbers: _Array) -> _Array: ...
+    def correction(self, wavenumbers: _Array) -> _Array: ...
+    def kernel(self, wavenumbers: _Array, depths: List[float], traction: str) -> List[str]: ...
+
+class Step:
+    """A solved load step."""
+
+    @property
+    def pressure(self) -> _Array: ...
+    @property
+    def gap(self) -> _Array: ...
+    def displacement(self) -> _Array: ...
+    def stress(self, points: _Array, material: Optional[int] = None) -> _Array: ...
+    def plane(
+        self, z: float, points: Optional[List[int]] = None, material: Optional[int] = None
+    ) -> Tuple[_Array, int]: ...
+    def section(
+        self, cut: Optional[Mapping[str, Any]] = None
+    ) -> Tuple[List[_Array], NDArray[np.int32], _Array]: ...
+    def maxima(self) -> Optional[str]: ...
+    def checkpoint(self) -> bytes: ...
+
+class Progress:
+    """How far a computation is. It prints as a line."""
+
+    @property
+    def unit(self) -> str:
+        """What is counted: ``step`` or ``combination``; ``load`` where the end is not known."""
+    @property
+    def done(self) -> int:
+        """How many are done."""
+    @property
+    def of(self) -> int:
+        """Of how many; 0 where that is not known."""
+    @property
+    def points(self) -> Optional[Tuple[int, int]]:
+        """The grid that is worked on, points along a₁ and a₂; ``None`` for a sweep."""
+    @property
+    def iteration(self) -> int:
+        """Iterations so far on it."""
+    @property
+    def residual(self) -> float:
+        """ε of the last one; NaN before the first."""
+    @property
+    def phase(self) -> str:
+        """What goes on right now, in words."""
+    @property
+    def seconds(self) -> float:
+        """Wall time so far."""
+
+def cases() -> List[Tuple[str, str, str]]: ...
+def explain(key: Optional[str] = None) -> str: ...
+def schema() -> str: ...
+def solve(
+    case: Case, threads: Optional[int] = None, progress: _Listener = None
+) -> Tuple[str, Tuple[_Array, _Array, NDArray[np.int32]], List[Step]]: ...
+def outcome_text(case: Case, summary: str, width: int) -> str: ...
+def step(case: Case, index: int, points: List[int], bytes: bytes) -> Step: ...
+def limit(case: Case, threads: Optional[int] = None, progress: _Listener = None) -> Tuple[str, bool]: ...
+def limit_text(case: Case, limits: str, width: int) -> str: ...
+def sweep(
+    case: Union[str, PathLike[str], Mapping[str, Any], Case],
+    set: Mapping[str, Any],
+    zip: bool = False,
+    limit: bool = False,
+    threads: Optional[int] = None,
+    progress: _Listener = None,
+) -> Tuple[str, List[Tuple[str, str, str]]]: ...
+def compare(
+    case: Case, width: int, threads: Optional[int] = None, progress: _Listener = None
+) -> Tuple[str, str, List[str], bool]: ...
+def main(typed: List[str]) -> int: ...

@@ -1,0 +1,81 @@
+//! `percoat.compare`: the spectral and the localized solution side by side.
+
+use crate::case::Case;
+use crate::errors::refused;
+use crate::progress::Progress;
+use crate::work;
+use percoat::Sampling;
+use percoat::case::plausibility;
+use percoat::case::resources::{Job, needs};
+use percoat::output::{compare_json, table};
+use percoat::run::{End, Recorder, Run};
+use pyo3::prelude::*;
+use std::convert::Infallible;
+use std::sync::Arc;
+
+/// Room for a finer grid, where one is looked for.
+struct Fits<F>(F);
+
+impl<F: Fn([usize; 2]) -> bool + Send> Recorder for Fits<F> {
+    type Error = Infallible;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        self.0(points)
+    }
+}
+
+/// Compares both methods under the last load: `compare.json`, its tables as the command line prints them in so many letters,
+/// what is doubtful, and whether all has converged.
+#[pyfunction]
+#[pyo3(signature = (case, width, threads = None, progress = None))]
+pub fn compare(
+    py: Python<'_>,
+    case: &Bound<'_, Case>,
+    width: usize,
+    threads: Option<usize>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(String, String, Vec<String>, bool)> {
+    let job = Job::Compare { pictures: false };
+    let own = Arc::clone(&case.get().own);
+    let task = own.comparison();
+    task.check().map_err(refused)?;
+    let room = case.get().allow(job)?;
+    let compared = work::run(py, threads, progress, move |listener| {
+        let run = Run { loads: vec![task.load], stress: None, ..own.run() };
+        run.check().map_err(|error| error.told())?;
+        let (points, end) = match own.grid {
+            Sampling::Points(points) => (points, End::Reached),
+            Sampling::Accuracy(_) => {
+                let mut fits = Fits(|points| needs(&own, points, job).fit(room));
+                let refined = run.solve(&mut fits).map_err(|error| error.told())?;
+                (refined.points, refined.end.unwrap_or(End::Reached))
+            }
+        };
+        let [n1, n2] = points;
+        let comparison = task.compare(points, &mut |what| {
+            let (unit, points, phase) = ("part", Some((n1, n2)), what.to_owned());
+            listener.tell(true, |seconds| Progress {
+                unit,
+                done: 0,
+                of: 0,
+                points,
+                iteration: 0,
+                residual: f64::NAN,
+                phase,
+                seconds,
+            });
+        });
+        let comparison = comparison.map_err(|error| error.to_string())?;
+        let units = own.units();
+        let mut text = table::readings(&comparison, &units).fitted(width).to_string();
+        text += &format!("\n\n{}\n", table::differences(&comparison).fitted(width));
+        text += &table::stresses(&comparison, &units).map_or(String::new(), |stresses| format!("\n{stresses}\n"));
+        let mut warnings = [comparison.warnings(), plausibility::of_case(&own)].concat();
+        if end != End::Reached {
+            warnings.push(format!("grid.accuracy is not reached: {end}"));
+        }
+        let converged = comparison.converged() && end == End::Reached;
+        Ok::<_, String>((compare_json(&comparison, &own, own.load.values().len()), text, warnings, converged))
+    })?;
+    compared.map_err(refused)
+}
