@@ -69,7 +69,7 @@ impl Case {
 
     /// What `percoat check` says, as JSON.
     #[pyo3(signature = (threads = None))]
-    fn check(&self, py: Python<'_>, threads: Option<usize>) -> PyResult<String> {
+    fn check(&self, py: Python<'_>, threads: Option<i64>) -> PyResult<String> {
         let Self { own, name, .. } = self.clone();
         let room = self.allow(Job::Keep)?;
         let checked = work::run(py, threads, None, move |_| {

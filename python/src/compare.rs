@@ -32,7 +32,7 @@ pub fn compare(
     py: Python<'_>,
     case: &Bound<'_, Case>,
     width: usize,
-    threads: Option<usize>,
+    threads: Option<i64>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, String, Vec<String>, bool)> {
     let job = Job::Compare { pictures: false };

@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub fn limit(
     py: Python<'_>,
     case: &Bound<'_, Case>,
-    threads: Option<usize>,
+    threads: Option<i64>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, bool)> {
     let job = Job::Limit { pictures: false };

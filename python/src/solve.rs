@@ -134,7 +134,7 @@ type Places<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<
 pub fn solve<'py>(
     py: Python<'py>,
     case: &Bound<'py, Case>,
-    threads: Option<usize>,
+    threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<(String, Places<'py>, Vec<Step>)> {
     let room = case.get().allow(Job::Keep)?;

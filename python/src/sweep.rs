@@ -23,7 +23,7 @@ pub fn sweep(
     set: &Bound<'_, PyDict>,
     zip: bool,
     limit: bool,
-    threads: Option<usize>,
+    threads: Option<i64>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, Vec<(String, &'static str, String)>)> {
     let (source, _) = case::source(case)?;

@@ -21,6 +21,9 @@ const PATIENCE: Duration = Duration::from_millis(50);
 /// Between two calls of the callable while the same thing goes on.
 const PAUSE: Duration = Duration::from_millis(50);
 
+/// More threads than any machine has cores do harm.
+const MOST: i64 = 1024;
+
 /// What goes from the work to the thread that waits for it.
 enum Event<T> {
     Progress(Progress),
@@ -59,12 +62,12 @@ impl Listener {
 /// Does the work on so many threads, all cores if it is not said.
 pub fn run<T: Send + 'static>(
     py: Python<'_>,
-    threads: Option<usize>,
+    threads: Option<i64>,
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&mut Listener) -> T + Send + 'static,
 ) -> PyResult<T> {
-    if threads == Some(0) {
-        return Err(refused("threads must be 1 or more"));
+    if let Some(threads) = threads.filter(|threads| !(1..=MOST).contains(threads)) {
+        return Err(refused(format!("threads must be between 1 and {MOST}, not {threads}")));
     }
     let pool = pool(threads)?;
     let stop = Arc::new(AtomicBool::new(false));
@@ -117,20 +120,20 @@ fn wait<T>(receive: Receiver<T>) -> (Result<T, RecvTimeoutError>, Receiver<T>) {
 /// The threads of a process: those of a parent are not there after a fork.
 struct Pool {
     process: u32,
-    threads: Option<usize>,
+    threads: Option<i64>,
     pool: Arc<ThreadPool>,
 }
 
 static POOLS: Mutex<Vec<Pool>> = Mutex::new(Vec::new());
 
 /// As many threads as asked for; the last ones asked for, and as many as there are cores, are kept.
-fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
+fn pool(threads: Option<i64>) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     if let Some(own) = pools.iter().find(|own| own.process == process && own.threads == threads) {
         return Ok(Arc::clone(&own.pool));
     }
-    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0)).build();
+    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize).build();
     let pool = Arc::new(pool.map_err(|error| PyRuntimeError::new_err(format!("cannot start threads: {error}")))?);
     let (here, gone): (Vec<Pool>, Vec<Pool>) = pools.drain(..).partition(|own| own.process == process);
     // Nobody is there who could be told to end.
