@@ -13,6 +13,9 @@ use pyo3::types::PyDict;
 use std::collections::HashSet;
 use std::path::Path;
 
+/// A combination that did not end well: its name, how it ended, and why.
+type Unsettled = (String, &'static str, String);
+
 /// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the table as CSV, and of what
 /// did not end well its name and why.
 #[pyfunction]
@@ -25,7 +28,7 @@ pub fn sweep(
     limit: bool,
     threads: Option<i64>,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(String, Vec<(String, &'static str, String)>)> {
+) -> PyResult<(String, Vec<Unsettled>)> {
     let (source, _) = case::source(case)?;
     let axes =
         set.iter().map(|(key, values)| axis(&key.extract::<String>()?, &values)).collect::<PyResult<Vec<_>>>()?;

@@ -45,12 +45,21 @@ pub struct Check {
     pub quantity: &'static str,
     /// Its values, one a load step.
     pub loads: Vec<f64>,
-    /// The mean pressure at which each level first touches on so many points, `None` of one that never does; nothing of a topography.
-    pub touches: Option<([usize; 2], Vec<Option<f64>>)>,
+    /// When the levels first touch; nothing of a topography.
+    pub touches: Option<Touches>,
     /// What a topography is like.
     pub surface: Option<Roughness>,
     /// What is doubtful, a sentence each.
     pub warnings: Vec<String>,
+}
+
+/// When the levels first touch.
+#[derive(Debug, Clone)]
+pub struct Touches {
+    /// The grid on which that is so, points along a₁ and a₂.
+    pub points: [usize; 2],
+    /// Mean pressure of each level; `None` of one that is hidden behind the others.
+    pub pressures: Vec<Option<f64>>,
 }
 
 /// What a topography is like.
@@ -95,7 +104,7 @@ impl Check {
         };
         let solving = |pictures| needs(case, points, Job::Solve { pictures, fields: true });
         let touches = touches(case, grids[0])?;
-        let pressures = touches.as_ref().map_or(&[][..], |(_, pressures)| pressures);
+        let pressures = touches.as_ref().map_or(&[][..], |touches| &touches.pressures);
         let warnings = [plausibility::of_case(case), foreseen(case, pressures)].concat();
         let counts = || case.layers.iter().map(crate::case::LayerSection::sublayers).collect();
         Ok(Self {
@@ -128,7 +137,7 @@ impl Check {
             "memory_available": room.memory,
             "disk": needs.disk,
             "load": { *quantity: loads },
-            "first_touch": self.touches.as_ref().map(|(_, pressures)| pressures),
+            "first_touch": self.touches.as_ref().map(|touches| &touches.pressures),
             "sublayer_error": self.sublayers.as_ref().map(|(_, error)| error),
             "surface": self.surface.as_ref().map(Roughness::json),
             "warnings": warnings,
@@ -160,7 +169,7 @@ impl Roughness {
 
 /// The mean pressures at which the levels first touch, and on which grid; `first` is the coarsest of the case, for which
 /// there is room.
-fn touches(case: &Case, first: [usize; 2]) -> Result<Option<([usize; 2], Vec<Option<f64>>)>, LatticeError> {
+fn touches(case: &Case, first: [usize; 2]) -> Result<Option<Touches>, LatticeError> {
     if case.counterbody().indenters().is_none() {
         return Ok(None);
     }
@@ -168,7 +177,7 @@ fn touches(case: &Case, first: [usize; 2]) -> Result<Option<([usize; 2], Vec<Opt
     // Along a long cell they would be many.
     let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
     let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
-    Ok(Some((points, first_touches(&mut solver))))
+    Ok(Some(Touches { points, pressures: first_touches(&mut solver) }))
 }
 
 /// What all numbers are measured in, where units have names.
@@ -206,7 +215,7 @@ impl fmt::Display for Check {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
             count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
         }
-        if let Some(([n1, n2], pressures)) = &self.touches {
+        if let Some(Touches { points: [n1, n2], pressures }) = &self.touches {
             writeln!(f, "first touch, on {n1} × {n2} samples:")?;
             for (level, touch) in (1..).zip(pressures) {
                 match touch {

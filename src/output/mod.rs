@@ -52,7 +52,7 @@ pub mod summary;
 pub mod table;
 mod volume;
 
-pub use check::Check;
+pub use check::{Check, CheckError, Roughness, Touches};
 pub use checkpoint::{CannotGoOn, finished, read_checkpoint, write_checkpoint};
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
