@@ -82,8 +82,17 @@ pub fn written(value: &Value) -> String {
     match value {
         // Shorter than 0.0000002, and the same number.
         Value::Float(x) if x.is_finite() && *x != 0.0 && !(1e-3..1e6).contains(&x.abs()) => format!("{x:e}"),
+        // A word needs no quotes, and stands in tables without them.
+        Value::String(text) if is_word(text) => text.clone(),
         other => other.to_string(),
     }
+}
+
+/// Whether nothing else than a text can be meant: a letter before letters, digits, `-` and `_`, and no value of TOML.
+fn is_word(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic())
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c))
+        && !["true", "false", "inf", "nan"].contains(&text)
 }
 
 fn join(path: &str, key: &str) -> String {
