@@ -35,7 +35,10 @@ impl HalfSpace {
         let (source, _) = case::source(sections)?;
         if let Ok(known) = sections.cast::<case::Case>() {
             let own = known.get().own.half_space().clone();
-            return Ok(Self { transfer: TransferFunction::new(&own), own, text: source.text });
+            let mut sections: toml::Table = toml::from_str(&source.text).map_err(refused)?;
+            sections.retain(|key, _| ["layers", "substrate"].contains(&key));
+            let text = toml::to_string(&sections).map_err(refused)?;
+            return Ok(Self { transfer: TransferFunction::new(&own), own, text });
         }
         let own = half_space(&source).map_err(refused)?;
         Ok(Self { transfer: TransferFunction::new(&own), own, text: source.text })
