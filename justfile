@@ -26,8 +26,8 @@ doc:
 
 # Formatting and lints.
 lint:
-    cargo fmt --check
-    cargo clippy --all-targets --locked -- -D warnings
+    cargo fmt --all --check
+    cargo clippy --workspace --all-targets --locked -- -D warnings
 
 # Compute the multiprecision reference of the kernel again (needs mpmath).
 kernel-reference:

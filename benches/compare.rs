@@ -7,6 +7,7 @@ use percoat::comparison::Task;
 use percoat::localized::CircleRadius;
 use percoat::{MeanStress, Settings};
 use shared::{THREE_LEVELS, three_levels};
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 fn main() {
@@ -26,5 +27,5 @@ fn elements(bencher: Bencher, elements: usize) {
         mutual_effect: true,
         mean: MeanStress::default(),
     };
-    bencher.bench_local(|| task.compare([256, 256], &mut |_| ()).expect("indenters"));
+    bencher.bench_local(|| task.compare([256, 256], &mut |_| ControlFlow::Continue(())).expect("indenters"));
 }

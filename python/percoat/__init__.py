@@ -16,13 +16,13 @@ points into the body, pressures are positive, stresses positive in tension.
 
 from __future__ import annotations
 
-from percoat._case import Check, case, cases, check, explain
+from percoat._case import Check, case, cases, check, explain, schema
 from percoat._compare import Comparison, compare
 from percoat._core import CaseError, Progress, __version__
 from percoat._half_space import HalfSpace, kernel
 from percoat._limit import Limits, limit
 from percoat._record import Record
-from percoat._solve import COMPONENTS, Result, Section, Slice, Step, solve
+from percoat._solve import COMPONENTS, Plane, Result, Section, Step, solve
 from percoat._stress import mises, principal, s1, tau1
 from percoat._sweep import Columns, sweep
 from percoat._warnings import NotConverged, PercoatWarning
@@ -37,11 +37,11 @@ __all__ = [
     "Limits",
     "NotConverged",
     "PercoatWarning",
+    "Plane",
     "Progress",
     "Record",
     "Result",
     "Section",
-    "Slice",
     "Step",
     "__version__",
     "case",
@@ -54,6 +54,7 @@ __all__ = [
     "mises",
     "principal",
     "s1",
+    "schema",
     "solve",
     "sweep",
     "tau1",

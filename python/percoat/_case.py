@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import json
 from os import PathLike
 from typing import Any, List, Mapping, Optional, Union
+
+import numpy as np
 
 from percoat import _core
 from percoat._record import Record
@@ -59,7 +62,15 @@ def case(case: CaseLike, *, set: Settings = None) -> dict[str, Any]:
     >>> percoat.case(fig2)["layers"][0]["thickness"]
     0.2
     """
-    own: dict[str, Any] = json.loads(_core.Case(case, set).json)
+    return as_dict(_core.Case(case, set))
+
+
+def as_dict(case: _core.Case) -> dict[str, Any]:
+    """The case as run, complete with defaults; heights that are in memory as an array."""
+    own: dict[str, Any] = json.loads(case.json)
+    heights = own.get("surface", {}).get("heights")
+    if heights in case.files:
+        own["surface"]["heights"] = np.load(io.BytesIO(case.files[heights]))
     return own
 
 
@@ -90,7 +101,7 @@ def cases() -> dict[str, str]:
     >>> percoat.cases()["fig2"]
     'Fig. 2: relatively hard coating, three levels in contact'
     """
-    return {name: title for name, title, _ in _core.cases()}
+    return dict(_core.cases())
 
 
 def explain(key: Optional[str] = None) -> None:
@@ -103,3 +114,16 @@ def explain(key: Optional[str] = None) -> None:
     layers.thickness...
     """
     print(_core.explain(key), end="")
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of a case.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> percoat.schema()["properties"]["title"]["type"]
+    'string'
+    """
+    own: dict[str, Any] = json.loads(_core.schema())
+    return own

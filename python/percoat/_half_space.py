@@ -78,10 +78,10 @@ class HalfSpace:
         def column(name: str) -> Any:
             return _shaped(np.array([line[name] for line in lines], dtype=float), q.shape)
 
-        names = [name for name in (lines[0] if lines else ()) if name != "depths"]
+        names = ["wavenumber", "compliance", "correction"] + ([] if traction == "across" else ["coupling"])
         record = Record({name: column(name) for name in names})
-        if depths and lines:
-            rows = lines[0]["depths"]
+        if depths:
+            rows = json.loads(self._core.kernel(np.ones(1), depths, traction)[0])["depths"]
             record["z"] = np.array([row["z"] for row in rows])
             record["side"] = np.array([row["side"] for row in rows])
             for name in rows[0]:

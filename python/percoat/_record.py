@@ -26,6 +26,9 @@ class Record(Dict[str, Any]):
             known = ", ".join(map(str, self))
             raise AttributeError(f"no {name!r} here; there are {known}") from None
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        self[name] = _recorded(value)
+
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *map(str, self)]
 

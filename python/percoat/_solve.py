@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from percoat import _core
-from percoat._case import CaseLike, Settings
+from percoat._case import CaseLike, Settings, as_dict
 from percoat._record import Record
 from percoat._warnings import NotConverged, warn
 
@@ -41,8 +41,15 @@ class Level(Record):
     errors: Record
 
 
-class Slice(Record):
-    """Stresses and displacements on a plane: arrays (n₁, n₂) under the names of :data:`COMPONENTS`, at ``x`` and ``y``."""
+class Plane(Record):
+    """Stresses and displacements on a plane: arrays (n₁, n₂) under the names of :data:`COMPONENTS`, at ``x`` and ``y``.
+
+    Examples
+    --------
+    >>> import percoat
+    >>> percoat.solve("fig2", set={"grid.points": 96})[0].plane(0.1)
+    <percoat.Plane: 96 × 96 points at z = 0.1, in material 1>
+    """
 
     x: Array
     y: Array
@@ -63,7 +70,7 @@ class Slice(Record):
 
     def __repr__(self) -> str:
         n1, n2 = self.xx.shape
-        return f"<percoat.Slice: {n1} × {n2} points at z = {self.z}, in material {self.material}>"
+        return f"<percoat.Plane: {n1} × {n2} points at z = {self.z}, in material {self.material}>"
 
 
 class Section(Record):
@@ -96,6 +103,39 @@ class Section(Record):
         return f"<percoat.Section: {rows} rows × {points} points, s = {self.s[0]:g} … {self.s[-1]:g}>"
 
 
+class Common:
+    """What the steps of a result share: the case, its cell and samples, and the head of the summary."""
+
+    def __init__(
+        self,
+        case: _core.Case,
+        summary: dict[str, Any],
+        accurate: bool,
+        places: tuple[Array, Array, NDArray[np.int32]],
+    ) -> None:
+        self.case, self.summary, self.accurate = case, Record(summary), accurate
+        self.x, self.y, self.owner = places
+        self.a1, self.a2 = map(np.array, case.cell)
+        for array in (*places, self.a1, self.a2):
+            array.flags.writeable = False
+
+    @property
+    def units(self) -> Record:
+        """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
+        names: Record = self.summary.units
+        return names
+
+    def places(self, n1: int, n2: int) -> tuple[Array, Array]:
+        """x and y of so many points along a₁ and a₂."""
+        if (n1, n2) == self.x.shape:
+            return self.x, self.y
+        u, v = np.meshgrid(np.arange(n1) / n1, np.arange(n2) / n2, indexing="ij")
+        return u * self.a1[0] + v * self.a2[0], u * self.a1[1] + v * self.a2[1]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Common, (self.case, self.summary.to_dict(), self.accurate, (self.x, self.y, self.owner))
+
+
 class Step:
     """A solved load step: everything that ``summary.json`` has of it is an attribute, and so are its fields.
 
@@ -105,7 +145,8 @@ class Step:
         Arrays (n₁, n₂), axes along a₁ and a₂; a pressure ≥ 0, and lengths. They cannot be written to, and none is a copy:
         take ``step.pressure.copy()`` to change one.
     mean_pressure, penetration, contact_fraction, max_pressure, levels, certificate, converged, …
-        As in ``summary.json``; ``levels``, ``certificate`` and the like have attributes in turn.
+        As in ``summary.json``; ``levels``, ``certificate`` and the like have attributes in turn. Its ``stress`` is what
+        :meth:`maxima` returns.
 
     Examples
     --------
@@ -136,18 +177,19 @@ class Step:
     errors: Record
     seconds: float
 
-    def __init__(self, result: Result, index: int, core: Any) -> None:
-        self._result = result
+    def __init__(self, common: Common, index: int, record: Record, core: Union[_core.Step, bytes]) -> None:
+        # Not the result: it has its steps, and what goes around in a circle is not gone when nobody has it.
+        self._common = common
         self._index = index
+        self._record = record
         self._own: Optional[_core.Step] = core if isinstance(core, _core.Step) else None
-        self._kept: Optional[bytes] = None if self._own else core
-        self._record: Record = result._steps[index]
+        self._kept: Optional[bytes] = core if isinstance(core, bytes) else None
 
     @property
     def _core(self) -> _core.Step:
         if self._own is None:
             assert self._kept is not None, "a step is here or kept"
-            self._own = _core.step(self._result._case, self._index, self._record.points, self._kept)
+            self._own = _core.step(self._common.case, self._index, self._record.points, self._kept)
             self._kept = None
         return self._own
 
@@ -156,18 +198,33 @@ class Step:
             raise AttributeError(name)
         return getattr(self._record, name)
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AttributeError(f"a step is what was solved: {name!r} cannot be set")
+        super().__setattr__(name, value)
+
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._record]
 
     @property
     def x(self) -> Array:
         """Places of the samples (n₁, n₂), a length."""
-        return self._result.x
+        return self._common.x
 
     @property
     def y(self) -> Array:
         """Places of the samples (n₁, n₂), a length."""
-        return self._result.y
+        return self._common.y
+
+    @property
+    def owner(self) -> NDArray[np.int32]:
+        """The level whose indenter faces the sample (n₁, n₂), from 1; 0 for a topography."""
+        return self._common.owner
+
+    @property
+    def units(self) -> Record:
+        """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
+        return self._common.units
 
     @cached_property
     def pressure(self) -> Array:
@@ -219,7 +276,7 @@ class Step:
 
     def plane(
         self, z: float, *, points: Union[None, int, Sequence[int]] = None, material: Optional[int] = None
-    ) -> Slice:
+    ) -> Plane:
         """Stresses and displacements on the horizontal plane at the depth z.
 
         Parameters
@@ -240,8 +297,8 @@ class Step:
         """
         wanted = [points, points] if isinstance(points, (int, np.integer)) else points
         components, material = self._core.plane(z, None if wanted is None else list(wanted), material)
-        x, y = self._result._places(*components.shape[1:])
-        return Slice({"x": x, "y": y, "z": float(z), "material": material, **dict(zip(COMPONENTS, components))})
+        x, y = self._common.places(*components.shape[1:])
+        return Plane({"x": x, "y": y, "z": float(z), "material": material, **dict(zip(COMPONENTS, components))})
 
     def section(
         self,
@@ -261,7 +318,7 @@ class Step:
         toward
             ``"level 2"``, the nearest other indenter of that level, or a direction (x, y).
         length, depth
-            How long and how deep it is, lengths; one period and a half of it if they are not said.
+            How long and how deep it is, lengths; that of a₁ and half of it if they are not said.
         behind
             How much of the length lies before ``start``.
 
@@ -274,7 +331,7 @@ class Step:
         """
         cut = None
         if not (start is None and toward is None and length is None and depth is None and behind is None):
-            period = float(np.hypot(*self._result.a1))
+            period = float(np.hypot(*self._common.a1))
             cut = {
                 "from": "level 1" if start is None else start,
                 "toward": toward,
@@ -311,11 +368,18 @@ class Step:
 
     def to_xarray(self) -> xarray.Dataset:
         """Fields and scalars as an :class:`xarray.Dataset` over the dimensions ``i``, ``j`` along a₁, a₂."""
-        alone: xarray.Dataset = self._result._with([self]).to_xarray().isel(step=0)
+        alone: xarray.Dataset = Result(self._common, [self]).to_xarray().isel(step=0)
         return alone
 
+    def _bytes(self) -> bytes:
+        """What the step is made again of."""
+        if self._own is not None:
+            return self._own.checkpoint()
+        assert self._kept is not None, "a step is here or kept"
+        return self._kept
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return _step_of, (self._result._with([self]),)
+        return _step, (self._common, self._index, self.to_dict(), self._bytes())
 
     def __repr__(self) -> str:
         n1, n2 = self.points
@@ -325,7 +389,7 @@ class Step:
         )
 
     def __str__(self) -> str:
-        return str(self._result._with([self]))
+        return str(Result(self._common, [self]))
 
 
 class Result:
@@ -361,68 +425,74 @@ class Result:
     ...
     """
 
-    x: Array
-    y: Array
-    a1: Array
-    a2: Array
-    owner: NDArray[np.int32]
-    summary: Record
     steps: list[Step]
 
-    def __init__(
-        self, case: _core.Case, summary: Any, places: tuple[Array, Array, NDArray[np.int32]], cores: Sequence[Any]
-    ) -> None:
-        self._case = case
-        self.summary = Record(summary)
-        self._steps: list[Record] = self.summary.steps
-        for record in self._steps:
-            record["levels"] = [Level(level) for level in record["levels"]]
-        self.x, self.y, self.owner = places
-        for array in places:
-            array.flags.writeable = False
-        self.a1, self.a2 = map(np.array, case.cell)
-        self.steps = [Step(self, index, core) for index, core in enumerate(cores)]
+    def __init__(self, common: Common, steps: Sequence[Step]) -> None:
+        self._common = common
+        self.steps = list(steps)
 
-    def _places(self, n1: int, n2: int) -> tuple[Array, Array]:
-        if (n1, n2) == self.x.shape:
-            return self.x, self.y
-        u, v = np.meshgrid(np.arange(n1) / n1, np.arange(n2) / n2, indexing="ij")
-        return u * self.a1[0] + v * self.a2[0], u * self.a1[1] + v * self.a2[1]
+    @property
+    def summary(self) -> Record:
+        """All scalars, as ``summary.json`` has them."""
+        head = self._common.summary
+        entries = {name: head[name] for name in head if name != "timing"}
+        return Record({**entries, "steps": [step._record for step in self.steps], "timing": head.timing})
+
+    @property
+    def x(self) -> Array:
+        """Places of the samples (n₁, n₂), a length."""
+        return self._common.x
+
+    @property
+    def y(self) -> Array:
+        """Places of the samples (n₁, n₂), a length."""
+        return self._common.y
+
+    @property
+    def a1(self) -> Array:
+        """Vector of the cell (2,), a length."""
+        return self._common.a1
+
+    @property
+    def a2(self) -> Array:
+        """Vector of the cell (2,), a length."""
+        return self._common.a2
+
+    @property
+    def owner(self) -> NDArray[np.int32]:
+        """The level whose indenter faces the sample (n₁, n₂), from 1; 0 for a topography."""
+        return self._common.owner
 
     @property
     def title(self) -> str:
         """Title of the case."""
-        return str(self.summary.title)
+        return str(self._common.summary.title)
 
     @property
     def case(self) -> dict[str, Any]:
         """The case as run, complete with defaults."""
-        own: dict[str, Any] = json.loads(self._case.json)
-        return own
+        return as_dict(self._common.case)
 
     @property
     def units(self) -> Record:
         """Names of the units of ``length`` and ``pressure``, ``None`` where they have none."""
-        names: Record = self.summary.units
-        return names
+        return self._common.units
 
     @property
     def warnings(self) -> list[str]:
         """What a reader should know before trusting the numbers."""
-        doubts: list[str] = self.summary.warnings
+        doubts: list[str] = self._common.summary.warnings
         return doubts
 
     @property
     def accuracy(self) -> Optional[float]:
         """Change from the next coarser grid, where an accuracy was asked for."""
-        return self.summary.get("accuracy")
+        return self._common.summary.get("accuracy")
 
     @property
     def converged(self) -> bool:
         """Whether all steps are, and the accuracy is reached, if one was asked for."""
-        asked = self.case["grid"].get("accuracy")
-        reached = asked is None or (self.accuracy is not None and self.accuracy < asked)
-        return reached and all(record.converged for record in self._steps)
+        return self._common.accurate and all(step.converged for step in self.steps)
 
     def __len__(self) -> int:
         return len(self.steps)
@@ -463,42 +533,20 @@ class Result:
             for name, attributes in fields.items()
         }
         for name, attributes in scalars.items():
-            values = [record[name] for record in self._steps]
+            values = [step._record[name] for step in self.steps]
             data[name] = ("step", np.array([np.nan if value is None else value for value in values]), attributes)
         data["owner"] = (("i", "j"), self.owner)
         coordinates = {
             "x": (("i", "j"), self.x, length),
             "y": (("i", "j"), self.y, length),
-            "mean_pressure": ("step", np.array([record.mean_pressure for record in self._steps]), pressure),
+            "mean_pressure": ("step", np.array([step.mean_pressure for step in self.steps]), pressure),
         }
-        attributes = {"title": self.title, "percoat": self.summary.percoat, "a1": self.a1, "a2": self.a2}
+        attributes = {"title": self.title, "percoat": self._common.summary.percoat, "a1": self.a1, "a2": self.a2}
         return xarray.Dataset(data, coordinates, attributes)
 
-    def _with(self, steps: list[Step]) -> Result:
-        """The same with these steps alone."""
-        own = Result.__new__(Result)
-        own.__dict__.update(self.__dict__)
-        own.summary = Record({**self.summary, "steps": [step._record for step in steps]})
-        own._steps = own.summary.steps
-        own.steps = []
-        for step in steps:
-            again = Step.__new__(Step)
-            again.__dict__.update(step.__dict__)
-            again._result = own
-            own.steps.append(again)
-        return own
-
-    def __getstate__(self) -> dict[str, Any]:
-        kept = [(step._index, step._kept if step._own is None else step._own.checkpoint()) for step in self.steps]
-        return {"case": self._case, "summary": self.to_dict(), "places": (self.x, self.y, self.owner), "steps": kept}
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__init__(state["case"], state["summary"], state["places"], [])  # type: ignore[misc]
-        for position, (index, kept) in enumerate(state["steps"]):
-            step = Step.__new__(Step)
-            step._result, step._index, step._own, step._kept = self, index, None, kept
-            step._record = self._steps[position]
-            self.steps.append(step)
+    def __reduce__(self) -> tuple[Any, ...]:
+        kept = [(step._index, step.to_dict(), step._bytes()) for step in self.steps]
+        return _result, (self._common, kept)
 
     def __repr__(self) -> str:
         count = f"{len(self)} step" + ("" if len(self) == 1 else "s")
@@ -508,11 +556,17 @@ class Result:
 
     def __str__(self) -> str:
         width = shutil.get_terminal_size().columns
-        return _core.outcome_text(self._case, json.dumps(self.to_dict()), width).rstrip()
+        return _core.outcome_text(self._common.case, json.dumps(self.to_dict()), width).rstrip()
 
 
-def _step_of(result: Result) -> Step:
-    return result.steps[0]
+def _step(common: Common, index: int, entries: dict[str, Any], core: Union[_core.Step, bytes]) -> Step:
+    record = Record(entries)
+    record["levels"] = [Level(level) for level in record["levels"]]
+    return Step(common, index, record, core)
+
+
+def _result(common: Common, kept: Sequence[tuple[int, dict[str, Any], bytes]]) -> Result:
+    return Result(common, [_step(common, *step) for step in kept])
 
 
 def listener(progress: Listener) -> Optional[Callable[[_core.Progress], object]]:
@@ -525,7 +579,10 @@ def listener(progress: Listener) -> Optional[Callable[[_core.Progress], object]]
 def _print(progress: _core.Progress) -> None:
     import sys
 
-    print(f"\r{progress!s:79}", end="\n" if progress.of and progress.done == progress.of else "", file=sys.stderr)
+    if sys.stderr.isatty():
+        print(f"\r{progress!s:79}", end="\n" if progress.done == progress.of else "", file=sys.stderr)
+    else:
+        print(progress, file=sys.stderr)
 
 
 def solve(
@@ -555,7 +612,7 @@ def solve(
     CaseError
         The case is refused, with the message of the command line.
     KeyboardInterrupt
-        Ctrl-C ends the solution between two iterations.
+        At once on Ctrl-C; the solution ends between two iterations.
 
     Warns
     -----
@@ -570,10 +627,14 @@ def solve(
     0.0554
     """
     own = _core.Case(case, set)
-    summary, places, cores = _core.solve(own, threads, listener(progress))
-    result = Result(own, json.loads(summary), places, cores)
+    summary, accurate, places, cores = _core.solve(own, threads, listener(progress))
+    head = json.loads(summary)
+    records = head.pop("steps")
+    common = Common(own, head, accurate, places)
+    steps = [_step(common, index, record, core) for index, (record, core) in enumerate(zip(records, cores))]
+    result = Result(common, steps)
     warn(result.warnings)
     if not result.converged:
-        reasons = [f"step {n}: {record.stop_reason}" for n, record in enumerate(result._steps, 1) if not record.converged]
+        reasons = [f"step {n}: {step.stop_reason}" for n, step in enumerate(result, 1) if not step.converged]
         warn(["not converged: " + (", ".join(reasons) or "the accuracy is not reached")], NotConverged)
     return result

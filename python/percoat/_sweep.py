@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
-from typing import Any, Callable, Dict, Mapping, Optional
+import re
+from typing import Any, Callable, Dict, Iterable, Mapping, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,10 @@ from percoat import _core
 from percoat._case import CaseLike
 from percoat._solve import Listener, listener
 from percoat._warnings import NotConverged, warn
+
+
+TEXTS = ("status", "reason", "warnings", "route", "criterion", "reached")
+"""How the columns of texts end; what they do not have is an empty one."""
 
 
 class Columns(Dict[str, NDArray[Any]]):
@@ -43,8 +48,8 @@ def sweep(
     case
         As for :func:`percoat.solve`.
     set
-        Keys and their values: ``{"layers.0.thickness": [0.1, 0.2], "friction.coefficient": np.linspace(0, 0.5, 6)}``; one
-        value alone holds for all, and ``"0.1:1:5:log"`` gives five geometric ones, as on the command line.
+        Keys and their values: ``{"layers.0.thickness": [0.1, 0.2], "friction.coefficient": np.linspace(0, 0.5, 6)}``; a
+        value that is no list holds for all, and ``"0.1:1:5:log"`` gives five geometric ones, as on the command line.
     zip
         Pair the values of the keys, instead of all their combinations.
     limit
@@ -56,7 +61,13 @@ def sweep(
     -------
     Columns
         One row a combination and load step: ``combination``, ``set_<key>`` of what was set, ``status``, ``step``, and the
-        scalars of ``curve.csv``; numbers that are not there are NaN.
+        scalars of ``curve.csv``. Numbers that are not there are NaN, truths ``None``; whole numbers of which one is not
+        there are floats.
+
+    Warns
+    -----
+    NotConverged
+        Of each combination that did not; of one that failed, and of doubts, a :class:`percoat.PercoatWarning`.
 
     Examples
     --------
@@ -65,15 +76,35 @@ def sweep(
     >>> table["set_layers_0_thickness"], table["status"].tolist()
     (array([0.2, 0.5]), ['done', 'done'])
     """
-    text, unsettled = _core.sweep(case, dict(set), zip, limit, threads, listener(progress))
-    warn((f"{name}: {status.replace('_', ' ')}: {reason}" for name, status, reason in unsettled), NotConverged)
+    if not isinstance(set, Mapping):
+        raise TypeError("what is swept over is a dict of keys and their values, {'layers.0.thickness': [0.1, 0.2]}")
+    text, told = _core.sweep(case, dict(set), zip, limit, threads, listener(progress))
+    warn(_merged(told))
+    warn((f"{name}: failed: {reason}" for name, status, reason, _ in told if status == "failed"))
+    unsettled = (f"{name}: not converged: {reason}" for name, status, reason, _ in told if status == "not_converged")
+    warn(unsettled, NotConverged)
     head, *rows = csv.reader(io.StringIO(text))
-    return Columns({name: _column([row[index] for row in rows]) for index, name in enumerate(head)})
+    return Columns({name: _column(name, [row[index] for row in rows]) for index, name in enumerate(head)})
 
 
-def _column(cells: list[str]) -> NDArray[Any]:
+def _merged(told: list[tuple[str, str, str, list[str]]]) -> Iterable[str]:
+    """Each doubt once, whatever its numbers, with the number of combinations that have it."""
+    found: dict[str, tuple[str, list[str]]] = {}
+    for name, _, _, doubts in told:
+        for doubt in doubts:
+            _, names = found.setdefault(re.sub(r"[\s0-9.,e+-]+", " ", doubt), (doubt, []))
+            if name not in names:
+                names.append(name)
+    for doubt, names in found.values():
+        others = f" (and {len(names) - 1} more)" if len(names) > 1 else ""
+        yield f"{names[0]}{others}: {doubt}"
+
+
+def _column(name: str, cells: list[str]) -> NDArray[Any]:
     """Cells as whole numbers, numbers, truths, or texts, whatever all of them are."""
-    if any(cells):
+    if not name.endswith(TEXTS):
+        if all(cell == "" for cell in cells):
+            return np.full(len(cells), np.nan)
         if all(cell in ("true", "false", "") for cell in cells):
             truths = [{"true": True, "false": False}.get(cell) for cell in cells]
             return np.array(truths, dtype=object if None in truths else bool)

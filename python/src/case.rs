@@ -15,8 +15,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Name under which heights of a dict are a file of the case.
-const HEIGHTS: &str = "heights.npy";
+/// Name under which heights of a dict are a file of the case, one that nobody gives a file on disk.
+const HEIGHTS: &str = "<array>.npy";
 
 /// A case that has been read, with every default resolved.
 #[pyclass(frozen, module = "percoat._core")]
@@ -39,23 +39,16 @@ impl Case {
         if let (Ok(known), true) = (case.cast::<Self>(), settings.is_empty()) {
             return Ok(known.get().clone());
         }
-        let own = case::Case::read(&source, &settings).map_err(refused)?;
-        Ok(Self { own: Arc::new(own), name, source: Arc::new(source) })
+        Self::read(case.py(), source, settings, name)
     }
 
-    /// Its name: that of its file, or of the embedded case.
+    /// Files that it has in memory, by the names it calls them.
     #[getter]
-    fn name(&self) -> &str {
-        &self.name
+    fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        files(py, &self.source)
     }
 
-    /// The whole case as TOML, as `case.toml` has it.
-    #[getter]
-    pub fn toml(&self) -> String {
-        self.own.to_toml()
-    }
-
-    /// The same as JSON.
+    /// The whole case as JSON.
     #[getter]
     fn json(&self) -> String {
         serde_json::to_string(&*self.own).expect("a case is numbers and texts under names")
@@ -78,36 +71,45 @@ impl Case {
         checked.map_err(refused)
     }
 
-    /// Two cases are equal when their results are.
-    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        let print = |case: &Self| output::fingerprint(&case.own, "");
-        other.cast::<Self>().is_ok_and(|other| print(self) == print(other.get()))
-    }
-
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let (py, case) = (slf.py(), slf.get());
-        let source = case.portable()?;
-        let files = PyDict::new(py);
-        for (name, bytes) in &source.files {
-            files.set_item(name, PyBytes::new(py, bytes))?;
-        }
+        let own = case.clone();
+        let source = work::run(py, None, None, move |_| own.portable())??;
+        let files = files(py, &source)?;
         let state = (source.text, files, &case.name).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restore")?, state))
     }
 
     #[staticmethod]
-    fn _restore(text: String, files: &Bound<'_, PyDict>, name: String) -> PyResult<Self> {
+    fn _restore(text: String, files_of: &Bound<'_, PyDict>, name: String) -> PyResult<Self> {
         let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
             Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
         };
-        let files = files.iter().map(file).collect::<PyResult<BTreeMap<_, _>>>()?;
+        let files = files_of.iter().map(file).collect::<PyResult<BTreeMap<_, _>>>()?;
         let source = Source { name: name.clone(), text, files, ..Source::default() };
-        let own = case::Case::read(&source, &[]).map_err(refused)?;
-        Ok(Self { own: Arc::new(own), name, source: Arc::new(source) })
+        Self::read(files_of.py(), source, Vec::new(), name)
     }
 }
 
+/// The files of a source that are in memory.
+fn files<'py>(py: Python<'py>, source: &Source) -> PyResult<Bound<'py, PyDict>> {
+    let files = PyDict::new(py);
+    for (name, bytes) in &source.files {
+        files.set_item(name, PyBytes::new(py, bytes))?;
+    }
+    Ok(files)
+}
+
 impl Case {
+    /// Reads a case, where surfaces are made and files read, on threads of its own.
+    fn read(py: Python<'_>, source: Source, settings: Vec<String>, name: String) -> PyResult<Self> {
+        let (source, read) = work::run(py, None, None, move |_| {
+            let read = case::Case::read(&source, &settings);
+            (source, read)
+        })?;
+        Ok(Self { own: Arc::new(read.map_err(refused)?), name, source: Arc::new(source) })
+    }
+
     /// Room for a job, which is refused where there is not enough.
     pub fn allow(&self, job: Job) -> PyResult<Room> {
         let room = Room { disk: u64::MAX, ..Room::on_this_machine(Path::new(".")) };
@@ -160,7 +162,7 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
         let (key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
         let heights = match (key.extract::<String>().as_deref(), own.cast::<PyMapping>()) {
             (Ok("surface"), Ok(section)) => {
-                section.get_item("heights").ok().filter(|own| own.extract::<PathBuf>().is_err())
+                section.get_item("heights").ok().filter(|own| !own.is_none() && own.extract::<PathBuf>().is_err())
             }
             _ => None,
         };
@@ -182,6 +184,14 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
 
 /// An array as a file of NumPy.
 fn npy(heights: &Bound<'_, PyAny>) -> PyResult<Arc<[u8]>> {
+    if heights.hasattr("mask")? {
+        return Err(refused(
+            "`surface.heights` is masked: a surface has a height everywhere; fill what was not measured",
+        ));
+    }
+    if heights.hasattr("dtype")? && heights.getattr("dtype")?.getattr("kind")?.eq("c")? {
+        return Err(PyTypeError::new_err("`surface.heights` is complex: heights are real numbers"));
+    }
     let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights
         .extract()
         .map_err(|_| PyTypeError::new_err("`surface.heights` is an array of numbers, one period of the cell"))?;
@@ -189,14 +199,15 @@ fn npy(heights: &Bound<'_, PyAny>) -> PyResult<Arc<[u8]>> {
     output::npy_bytes(view.shape(), view.iter().copied()).map(Arc::from).map_err(refused)
 }
 
-/// Names and titles of the embedded cases, and the text of each.
+/// Names and titles of the embedded cases.
 #[pyfunction]
-pub fn cases() -> Vec<(&'static str, String, &'static str)> {
-    let title = |text: &str| {
-        let source = Source { text: text.to_owned(), ..Source::default() };
-        case::Case::read(&source, &[]).map_or_else(|_| String::new(), |case| case.title)
+pub fn cases() -> PyResult<Vec<(&'static str, String)>> {
+    // Their surfaces need not be made.
+    let title = |text: &str| -> PyResult<String> {
+        let table: ::toml::Table = ::toml::from_str(text).map_err(refused)?;
+        Ok(table.get("title").and_then(Value::as_str).unwrap_or_default().to_owned())
     };
-    embedded::all().iter().map(|(name, text)| (*name, title(text), *text)).collect()
+    embedded::all().iter().map(|(name, text)| Ok((*name, title(text)?))).collect()
 }
 
 /// What `percoat explain` says.

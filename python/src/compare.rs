@@ -11,6 +11,7 @@ use percoat::output::{compare_json, table};
 use percoat::run::{End, Recorder, Run};
 use pyo3::prelude::*;
 use std::convert::Infallible;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Room for a finer grid, where one is looked for.
@@ -64,12 +65,10 @@ pub fn compare(
                 phase,
                 seconds,
             });
+            if listener.stops() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         let comparison = comparison.map_err(|error| error.to_string())?;
-        let units = own.units();
-        let mut text = table::readings(&comparison, &units).fitted(width).to_string();
-        text += &format!("\n\n{}\n", table::differences(&comparison).fitted(width));
-        text += &table::stresses(&comparison, &units).map_or(String::new(), |stresses| format!("\n{stresses}\n"));
+        let text = table::compared(&own, &comparison, width);
         let mut warnings = [comparison.warnings(), plausibility::of_case(&own)].concat();
         if end != End::Reached {
             warnings.push(format!("grid.accuracy is not reached: {end}"));

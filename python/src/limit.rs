@@ -51,10 +51,5 @@ pub fn limit(
 pub fn limit_text(case: &Bound<'_, Case>, limits: &str, width: usize) -> PyResult<String> {
     let file: serde_json::Value = serde_json::from_str(limits).map_err(refused)?;
     let limits = limits_of(&file).map_err(refused)?;
-    let case = &case.get().own;
-    let title = if case.title.is_empty() { String::new() } else { format!("{}\n\n", case.title) };
-    let table = table::limits(&limits, &case.units()).fitted(width);
-    let change =
-        limits.change.map_or(String::new(), |change| format!("\nchange from the next coarser grid: {change:.1e}"));
-    Ok(format!("{title}{table}\n{change}"))
+    Ok(table::limited(&case.get().own, &limits, width))
 }

@@ -36,8 +36,10 @@ pub struct Progress {
 impl Progress {
     fn __str__(&self) -> String {
         let mut parts = Vec::new();
-        if self.of > 0 {
-            parts.push(format!("{} {} of {}", self.unit, (self.done + 1).min(self.of), self.of));
+        match self.of {
+            0 => {}
+            of if self.done == of => parts.push(format!("{of} of {of} {}s", self.unit)),
+            of => parts.push(format!("{} {} of {of}", self.unit, self.done + 1)),
         }
         parts.extend(self.points.map(|(n1, n2)| format!("{n1} × {n2} samples")));
         parts.extend(Some(self.phase.clone()).filter(|phase| !phase.is_empty()));

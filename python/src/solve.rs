@@ -120,7 +120,7 @@ impl Recorder for Keeping<'_> {
         self.done += 1;
         self.clock.turn(Phase::Setup);
         let pressure = record.reading.mean_pressure;
-        self.tell(true, || format!("mean pressure {} is done", percoat::output::number(pressure)), None);
+        self.tell(true, || format!("after mean pressure {}", percoat::output::number(pressure)), None);
         self.goes_on()
     }
 }
@@ -128,7 +128,8 @@ impl Recorder for Keeping<'_> {
 /// Fields of a surface: x, y, and the level that owns each sample.
 type Places<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>);
 
-/// Solves a case: its summary as JSON, the places of its samples, and its steps.
+/// Solves a case: its summary as JSON, whether the accuracy is reached if one was asked for, the places of its samples, and
+/// its steps.
 #[pyfunction]
 #[pyo3(signature = (case, threads = None, progress = None))]
 pub fn solve<'py>(
@@ -136,7 +137,7 @@ pub fn solve<'py>(
     case: &Bound<'py, Case>,
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
-) -> PyResult<(String, Places<'py>, Vec<Step>)> {
+) -> PyResult<(String, bool, Places<'py>, Vec<Step>)> {
     let room = case.get().allow(Job::Keep)?;
     let own = Arc::clone(&case.get().own);
     let solved = work::run(py, threads, progress, move |listener| {
@@ -161,11 +162,11 @@ pub fn solve<'py>(
         let warnings = [outcome.warnings.clone(), plausibility::of_case(&own)].concat();
         let text = summary(&own, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
         let surface = keeping.surface.take().expect("a run begins a grid before its steps");
-        Ok::<_, String>((text, places(&surface), keeping.steps))
+        Ok::<_, String>((text, outcome.is_accurate(), places(&surface), keeping.steps))
     })?;
-    let (summary, (x, y, owner), kept) = solved.map_err(refused)?;
+    let (summary, accurate, (x, y, owner), kept) = solved.map_err(refused)?;
     let places = (x.into_pyarray(py), y.into_pyarray(py), owner.into_pyarray(py));
-    Ok((summary, places, kept.into_iter().map(Step::from).collect()))
+    Ok((summary, accurate, places, kept.into_iter().map(Step::from).collect()))
 }
 
 fn places(surface: &Surface) -> (Array2<f64>, Array2<f64>, Array2<i32>) {

@@ -6,6 +6,7 @@ use crate::interior;
 use crate::work;
 use ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
+use percoat::case::resources::Job;
 use percoat::output::{read_checkpoint, write_checkpoint};
 use percoat::reading::StressReading;
 use percoat::run::{Cut, StressRequest};
@@ -64,8 +65,9 @@ impl Step {
     }
 
     /// Displacement, an array of its own.
-    fn displacement<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        py.detach(|| self.0.step.displacement()).into_pyarray(py)
+    fn displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let kept = Arc::clone(&self.0);
+        Ok(work::run(py, None, None, move |_| kept.step.displacement())?.into_pyarray(py))
     }
 
     /// Stresses at points (n, 3), of the material of this number where a depth is an interface.
@@ -74,10 +76,10 @@ impl Step {
         &self,
         py: Python<'py>,
         points: PyReadonlyArray2<'py, f64>,
-        material: Option<usize>,
+        material: Option<i64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let (kept, points) = (Arc::clone(&self.0), points.as_array().to_owned());
-        let states = work::run(py, None, None, move |_| interior::at(&kept, points.view(), material))?;
+        let states = work::run(py, None, None, move |listener| interior::at(&kept, points.view(), material, listener))?;
         Ok(states.map_err(refused)?.into_pyarray(py))
     }
 
@@ -87,11 +89,11 @@ impl Step {
         &self,
         py: Python<'py>,
         z: f64,
-        points: Option<[usize; 2]>,
-        material: Option<usize>,
+        points: Option<Vec<i64>>,
+        material: Option<i64>,
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, usize)> {
         let kept = Arc::clone(&self.0);
-        let plane = work::run(py, None, None, move |_| interior::plane(&kept, z, points, material))?;
+        let plane = work::run(py, None, None, move |listener| interior::plane(&kept, z, points, material, listener))?;
         let (components, material) = plane.map_err(refused)?;
         Ok((components.into_pyarray(py), material))
     }
@@ -102,7 +104,10 @@ impl Step {
     fn section<'py>(&self, py: Python<'py>, cut: Option<&Bound<'py, PyAny>>) -> PyResult<Cross<'py>> {
         let kept = Arc::clone(&self.0);
         let request = match cut {
-            Some(cut) => interior::request(&kept.case, &crate::toml::value(cut, "stress.section")?)?,
+            Some(cut) => {
+                let (case, cut) = (Arc::clone(&kept.case), crate::toml::value(cut, "stress.section")?);
+                work::run(py, None, None, move |_| interior::request(&case, &cut))?.map_err(refused)?
+            }
             None => kept.case.run().stress.unwrap_or_default(),
         };
         let StressRequest { cut: Some(cut), .. } = request else {
@@ -143,6 +148,7 @@ impl Step {
 
 impl Step {
     /// A field of a step, where it is.
+    #[expect(unsafe_code, reason = "NumPy is shown memory that belongs to the step")]
     fn shared<'py>(slf: &Bound<'py, Self>, field: ArrayView2<'_, f64>) -> Bound<'py, PyArray2<f64>> {
         // SAFETY: the array keeps the step alive, which neither changes nor moves its fields; nobody can write through it.
         let array = unsafe { PyArray2::borrow_from_array(&field, slf.clone().into_any()) };
@@ -154,6 +160,7 @@ impl Step {
 /// A step of a case again, of what was kept of it: `index` is that of its load, from 0.
 #[pyfunction]
 pub fn step(py: Python<'_>, case: &Bound<'_, Case>, index: usize, points: [usize; 2], bytes: &[u8]) -> PyResult<Step> {
+    case.get().allow(Job::Keep)?;
     let (case, bytes) = (Arc::clone(&case.get().own), bytes.to_vec());
     let kept = work::run(py, None, None, move |_| {
         let checkpoint = read_checkpoint(Cursor::new(bytes)).map_err(|error| error.to_string())?;

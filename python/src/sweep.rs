@@ -7,17 +7,18 @@ use crate::toml::{value, written};
 use crate::work;
 use ::toml::Value;
 use percoat::case::Room;
-use percoat::sweep::{Axis, Combinations, Group, Row, Status, Study, Task, table};
+use percoat::sweep::{Axis, Combinations, Group, Row, Study, Task, table};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashSet;
 use std::path::Path;
 
-/// A combination that did not end well: its name, how it ended, and why.
-type Unsettled = (String, &'static str, String);
+/// A combination: its name, how it ended, why if not well, and what is doubtful about it.
+type Told = (String, &'static str, String, Vec<String>);
 
-/// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the table as CSV, and of what
-/// did not end well its name and why.
+/// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the table as CSV, and what is
+/// told of each.
 #[pyfunction]
 #[pyo3(signature = (case, set, zip = false, limit = false, threads = None, progress = None))]
 pub fn sweep(
@@ -28,12 +29,19 @@ pub fn sweep(
     limit: bool,
     threads: Option<i64>,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(String, Vec<Unsettled>)> {
+) -> PyResult<(String, Vec<Told>)> {
     let (source, _) = case::source(case)?;
-    let axes =
-        set.iter().map(|(key, values)| axis(&key.extract::<String>()?, &values)).collect::<PyResult<Vec<_>>>()?;
-    let (fixed, axes): (Vec<Axis>, Vec<Axis>) = axes.into_iter().partition(|axis| axis.values.len() == 1);
-    let fixed: Vec<String> = fixed.iter().flat_map(Axis::settings).collect();
+    let (mut fixed, mut axes) = (Vec::new(), Vec::new());
+    for (key, values) in set.iter() {
+        let key: String = key
+            .extract()
+            .map_err(|_| PyTypeError::new_err(format!("a key of what is swept over is no text: {key}")))?;
+        // One value alone holds for all; a list of one is an axis like any other.
+        match axis(&key, &values)? {
+            (axis, false) => axes.push(axis),
+            (axis, true) => fixed.extend(axis.settings()),
+        }
+    }
     let groups = match zip && !axes.is_empty() {
         true => vec![Group::zip(&axes).map_err(refused)?],
         false => axes.iter().map(Group::of).collect(),
@@ -66,23 +74,24 @@ pub fn sweep(
         Ok::<_, String>(rows)
     })?;
     let rows = rows.map_err(refused)?;
-    let unsettled = rows.iter().filter(|row| row.status != Status::Done);
-    let told = |row: &Row| (row.named(), row.status.name(), row.reason.clone().unwrap_or_default());
-    let unsettled = unsettled.map(told).collect();
-    Ok((table(&rows), unsettled))
+    let told =
+        |row: &Row| (row.named(), row.status.name(), row.reason.clone().unwrap_or_default(), row.warnings.clone());
+    Ok((table(&rows), rows.iter().map(told).collect()))
 }
 
-/// The values of a key: a list, a text as the command line takes it, or one value alone.
-fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<Axis> {
+/// The values of a key: a list, a text as the command line takes it, or one value alone, which is told.
+fn axis(key: &str, values: &Bound<'_, PyAny>) -> PyResult<(Axis, bool)> {
     if let Ok(text) = values.extract::<String>() {
-        return Axis::parse(&format!("{key}={text}")).map_err(refused);
+        let axis = Axis::parse(&format!("{key}={text}")).map_err(refused)?;
+        let alone = axis.values.len() == 1;
+        return Ok((axis, alone));
     }
-    let values = match value(values, key)? {
-        Value::Array(items) => items.iter().map(written).collect(),
-        single => vec![written(&single)],
+    let (values, alone): (Vec<String>, bool) = match value(values, key)? {
+        Value::Array(items) => (items.iter().map(written).collect(), false),
+        single => (vec![written(&single)], true),
     };
     if values.is_empty() {
         return Err(refused(format!("`{key}` has no values to sweep over")));
     }
-    Ok(Axis { key: key.to_owned(), values })
+    Ok((Axis { key: key.to_owned(), values }, alone))
 }

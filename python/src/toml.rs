@@ -3,7 +3,7 @@
 use crate::errors::refused;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString};
+use pyo3::types::{PyBool, PyFloat, PyInt, PyMapping, PyString};
 use toml::{Table, Value};
 
 /// A value that stands at `path` in a case.
@@ -65,12 +65,14 @@ pub fn settings(set: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
     if let Ok(text) = set.extract::<String>() {
         return Ok(vec![text]);
     }
-    if let Ok(dict) = set.cast::<PyDict>() {
-        let pair = |(key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-            let key: String = key.extract()?;
+    if let Ok(mapping) = set.cast::<PyMapping>() {
+        let pair = |pair: Bound<'_, PyAny>| {
+            let (key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
+            let key: String =
+                key.extract().map_err(|_| PyTypeError::new_err(format!("a key of set is no text: {key}")))?;
             Ok(format!("{key}={}", written(&value(&own, &key)?)))
         };
-        return dict.iter().map(pair).collect();
+        return mapping.items()?.iter().map(pair).collect();
     }
     set.extract().map_err(|_| {
         PyTypeError::new_err("set is a dict such as {\"layers.0.thickness\": 0.2}, or a list of texts KEY=VALUE")

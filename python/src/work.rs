@@ -1,14 +1,15 @@
 //! Work that takes time: the interpreter is free meanwhile, hears of it, and can end it.
 //!
 //! The work is done by threads of their own, which never touch the interpreter. The thread that asked for it waits, calls the
-//! callable that wants to hear, and looks for Ctrl-C. When that comes it raises at once, and the work ends between two of
-//! its iterations.
+//! callable that wants to hear, and looks for Ctrl-C. When that comes it raises at once; solutions then end between two
+//! iterations, stresses between two rows or points, and what is neither when it is done, unheard.
 
 use crate::errors::refused;
 use crate::progress::Progress;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
@@ -26,14 +27,18 @@ const MOST: i64 = 1024;
 
 /// What goes from the work to the thread that waits for it.
 enum Event<T> {
-    Progress(Progress),
+    /// With whether it must be heard even when more has come since.
+    Progress(Progress, bool),
     Done(thread::Result<T>),
 }
+
+/// Events in the order in which they came.
+type Events<T> = VecDeque<Event<T>>;
 
 /// What hears of the work from within.
 pub struct Listener {
     stop: Arc<AtomicBool>,
-    tell: Option<Box<dyn Fn(Progress) + Send>>,
+    tell: Option<Box<dyn Fn(Progress, bool) + Send>>,
     began: Instant,
     told: Option<Instant>,
 }
@@ -54,7 +59,7 @@ impl Listener {
         let Some(tell) = &self.tell else { return };
         if new || self.told.is_none_or(|told| told.elapsed() > PAUSE) {
             self.told = Some(Instant::now());
-            tell(progress(self.began.elapsed().as_secs_f64()));
+            tell(progress(self.began.elapsed().as_secs_f64()), new);
         }
     }
 }
@@ -75,7 +80,8 @@ pub fn run<T: Send + 'static>(
     let tell = progress.is_some_and(|progress| !progress.is_none()).then(|| {
         let send: Sender<Event<T>> = send.clone();
         // Whoever waits may have gone.
-        Box::new(move |progress| drop(send.send(Event::Progress(progress)))) as Box<dyn Fn(Progress) + Send>
+        Box::new(move |progress, new| drop(send.send(Event::Progress(progress, new))))
+            as Box<dyn Fn(Progress, bool) + Send>
     });
     let mut listener = Listener { stop: Arc::clone(&stop), tell, began: Instant::now(), told: None };
     let spawned = thread::Builder::new().name("percoat".to_owned()).spawn(move || {
@@ -84,16 +90,25 @@ pub fn run<T: Send + 'static>(
         drop(send.send(Event::Done(done)));
     });
     spawned.map_err(|error| PyRuntimeError::new_err(format!("cannot start a thread: {error}")))?;
+    let mut events = Events::new();
     let ended = loop {
-        // A receiver belongs to one thread at a time.
-        let waiting = receive;
-        let (event, back) = py.detach(move || wait(waiting));
-        receive = back;
-        let heard = py.check_signals().and_then(|()| match event {
-            Ok(Event::Progress(own)) => progress.map_or(Ok(None), |callable| callable.call1((own,)).map(|_| None)),
-            Ok(Event::Done(done)) => Ok(Some(done)),
-            Err(RecvTimeoutError::Timeout) => Ok(None),
-            Err(RecvTimeoutError::Disconnected) => Err(PyRuntimeError::new_err("a thread of percoat has ended")),
+        if events.is_empty() {
+            // A receiver belongs to one thread at a time.
+            let waiting = receive;
+            let (come, back) = py.detach(move || wait(waiting));
+            receive = back;
+            match come {
+                Ok(come) => events = come,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(PyRuntimeError::new_err("a thread of percoat has ended"));
+                }
+            }
+        }
+        let heard = py.check_signals().and_then(|()| match next(&mut events) {
+            Some(Event::Progress(own, _)) => progress.map_or(Ok(None), |callable| callable.call1((own,)).map(|_| None)),
+            Some(Event::Done(done)) => Ok(Some(done)),
+            None => Ok(None),
         });
         match heard {
             Ok(None) => {}
@@ -113,8 +128,22 @@ pub fn run<T: Send + 'static>(
     })
 }
 
-fn wait<T>(receive: Receiver<T>) -> (Result<T, RecvTimeoutError>, Receiver<T>) {
-    (receive.recv_timeout(PATIENCE), receive)
+/// What has come, at least one event unless none comes for a while.
+fn wait<T>(receive: Receiver<Event<T>>) -> (Result<Events<T>, RecvTimeoutError>, Receiver<Event<T>>) {
+    let first = receive.recv_timeout(PATIENCE);
+    (first.map(|first| std::iter::once(first).chain(receive.try_iter()).collect()), receive)
+}
+
+/// The next of them. Whoever hears slowly is spared what is out of date.
+fn next<T>(events: &mut Events<T>) -> Option<Event<T>> {
+    let stale = |events: &Events<T>| {
+        matches!(events.front(), Some(Event::Progress(_, false)))
+            && matches!(events.get(1), Some(Event::Progress(_, false)))
+    };
+    while stale(events) {
+        events.pop_front();
+    }
+    events.pop_front()
 }
 
 /// The threads of a process: those of a parent are not there after a fork.

@@ -14,6 +14,7 @@ use crate::output::{Plan, RunFolder, Writer, compare_json, table, write_text};
 use crate::picture;
 use crate::run::{End, Run, Sampling};
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
@@ -55,6 +56,7 @@ pub fn run(
             progress.tell(what);
         }
         progress.say(what);
+        ControlFlow::Continue(())
     });
     progress.finish();
     let comparison = comparison.map_err(Failure::refused)?;
@@ -67,18 +69,7 @@ pub fn run(
         write!(terminal::out(), "{json}")?;
     } else if !common.quiet {
         let mut out = terminal::out();
-        if !case.title.is_empty() {
-            writeln!(out, "{}", case.title)?;
-        }
-        if steps > 1 {
-            writeln!(out, "the last of {steps} load steps")?;
-        }
-        let width = terminal::width();
-        let readings = table::readings(&comparison, &case.units()).fitted(width);
-        writeln!(out, "\n{readings}\n\n{}\n", table::differences(&comparison).fitted(width))?;
-        if let Some(text) = table::stresses(&comparison, &case.units()) {
-            writeln!(out, "{text}")?;
-        }
+        write!(out, "{}", table::compared(&case, &comparison, terminal::width()))?;
         writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
     }
     let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();

@@ -106,13 +106,7 @@ pub fn run(
         write!(terminal::out(), "{json}")?;
     } else if !common.quiet {
         let mut out = terminal::out();
-        if !case.title.is_empty() {
-            writeln!(out, "{}\n", case.title)?;
-        }
-        writeln!(out, "{}\n", table::limits(&limits, &case.units()).fitted(terminal::width()))?;
-        if let Some(change) = limits.change {
-            writeln!(out, "change from the next coarser grid: {change:.1e}")?;
-        }
+        write!(out, "{}", table::limited(&case, &limits, terminal::width()))?;
         let (loads, seconds) = (limits.steps.len(), started.elapsed().as_secs_f64());
         writeln!(out, "{loads} loads solved; {seconds:.2} s; written to {}", folder.display())?;
     }

@@ -13,6 +13,7 @@ use crate::reading::Reading;
 use crate::run::StepRecord;
 use crate::spectral::{Settings, Solver, Step};
 use crate::stress::StressField;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 /// Why two methods cannot be compared.
@@ -31,6 +32,9 @@ pub enum ComparisonError {
     /// There is no such grid.
     #[error(transparent)]
     Grid(#[from] LatticeError),
+    /// Whoever heard of it wanted no more.
+    #[error("stopped before its end")]
+    Interrupted,
 }
 
 /// What is compared.
@@ -70,13 +74,22 @@ impl Task {
         if couples { Err(ComparisonError::CoupledFriction) } else { Ok(indenters) }
     }
 
-    /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` hears what is begun.
+    /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` hears what is to begin, and
+    /// says whether it shall.
     ///
     /// # Errors
-    /// [`ComparisonError`]: see [`Self::check`], or when a number of points is zero.
-    pub fn compare(&self, points: [usize; 2], progress: &mut dyn FnMut(&str)) -> Result<Comparison, ComparisonError> {
+    /// [`ComparisonError`]: see [`Self::check`], when a number of points is zero, or `progress` wants no more.
+    pub fn compare(
+        &self,
+        points: [usize; 2],
+        progress: &mut dyn FnMut(&str) -> ControlFlow<()>,
+    ) -> Result<Comparison, ComparisonError> {
         let indenters = self.indenters()?;
-        progress("spectral solution");
+        let mut begin = |what: &str| match progress(what) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(ComparisonError::Interrupted),
+        };
+        begin("spectral solution")?;
         let solve = |points: [usize; 2]| -> Result<Step, LatticeError> {
             Ok(Solver::new(Arc::clone(&self.problem), points, self.settings)?.solve(self.load))
         };
@@ -93,7 +106,8 @@ impl Task {
         let mut last = start;
         let counts: &[usize] = if self.mutual_effect { &self.indenters } else { &[1] };
         for &inside in counts {
-            progress(&format!("localized solution, {inside} indenters in the circle"));
+            let what = format!("localized solution, {inside} indenters in the circle");
+            begin(&what)?;
             let coupled = |mesh| Coupled::new(localized.system(), mesh, inside, self.mutual_effect);
             let [fine, coarse] = [mesh, half].map(coupled);
             let compared = |rule: CircleRadius| {
@@ -126,14 +140,16 @@ impl Task {
             let (chosen, found) = compared(self.rule);
             circles.push(chosen);
             if self.mutual_effect {
+                begin(&format!("{what}, {}", self.rule.other().name()))?;
                 other_rule.push(compared(self.rule.other()).0);
             }
             if self.mutual_effect && self.rule != CircleRadius::LatticeSum && lattice_sum.is_none() {
+                begin(&format!("{what}, {}", CircleRadius::LatticeSum.name()))?;
                 lattice_sum = Some(compared(CircleRadius::LatticeSum).0);
             }
             last = found;
         }
-        progress("stresses");
+        begin("stresses")?;
         let stresses = self.stresses(indenters, &last, &step);
         let (task, spectral) = (self.clone(), StepRecord::new(&step, reading));
         Ok(Comparison { task, spectral, grid_error, circles, other_rule, lattice_sum, stresses })

@@ -21,6 +21,7 @@ use crate::problem::Problem;
 use crate::spectral::Settings;
 use leftover::{Leftover, Shells};
 use one_level::one_level;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub const STUDY: Study = Study {
@@ -122,7 +123,7 @@ fn coated(
         mutual_effect: SETUP.mutual_effect,
         mean: MeanStress::Confined,
     };
-    let compared = task.compare([POINTS; 2], &mut |_| ())?;
+    let compared = task.compare([POINTS; 2], &mut |_| ControlFlow::Continue(()))?;
     if !compared.spectral.report.stop.solved() {
         return Err(format!("{name}: {}", compared.spectral.report).into());
     }

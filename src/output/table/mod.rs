@@ -14,9 +14,10 @@ pub use text::{Table, Worded};
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
 use crate::case::Case;
+use crate::comparison::Comparison;
 use crate::numeric::search::largest;
 use crate::reading::Reading;
-use crate::run::StepRecord;
+use crate::run::{Limits, StepRecord};
 use crate::units::{Prefixed, Units};
 
 /// Relative errors up to this are rounding.
@@ -50,6 +51,28 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
         text += &format!("change from the next coarser grid: {change:.1e}\n");
     }
     text
+}
+
+/// All that is said of the limit loads of a case.
+pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
+    let mut text = if case.title.is_empty() { String::new() } else { format!("{}\n\n", case.title) };
+    text += &format!("{}\n\n", limits(found, &case.units()).fitted(width));
+    if let Some(change) = found.change {
+        text += &format!("change from the next coarser grid: {change:.1e}\n");
+    }
+    text
+}
+
+/// All that is said of the comparison of both methods under the last load of a case.
+pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
+    let (units, steps) = (case.units(), case.load.values().len());
+    let mut text = if case.title.is_empty() { String::new() } else { format!("{}\n", case.title) };
+    if steps > 1 {
+        text += &format!("the last of {steps} load steps\n");
+    }
+    let readings = readings(comparison, &units).fitted(width);
+    text += &format!("\n{readings}\n\n{}\n\n", differences(comparison).fitted(width));
+    text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n"))
 }
 
 /// The units of the mean pressure and the penetration.

@@ -1,0 +1,354 @@
+"""Pictures of results, on the axes of Matplotlib: ``pip install "percoat[plot]"``.
+
+Every function draws on ``ax``, or on a new figure, and returns the axes; further arguments go to Matplotlib's
+artist.
+
+>>> import percoat.plot
+>>> result = percoat.solve("fig2", set={"grid.points": 96})
+>>> ax = percoat.plot.pressure(result.steps[0])
+>>> ax.figure.savefig("pressure.png", dpi=300)  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from typing import Any, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from percoat._solve import COMPONENTS, Array, Result, Section, Plane, Step
+
+try:
+    import matplotlib.pyplot as plt
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import BoundaryNorm, CenteredNorm, ListedColormap
+    from matplotlib.patches import Patch
+except ModuleNotFoundError as error:
+    raise ImportError('percoat.plot needs Matplotlib: pip install "percoat[plot]"') from error
+
+__all__ = ["contact", "curve", "plane", "pressure", "section"]
+
+Window = Tuple[float, float, float, float]
+Units = Optional[Mapping[str, Optional[str]]]
+
+DRAWN = 400_000
+"""Samples drawn in a window, at most: finer than the dots of most pictures, and drawn within a second."""
+
+LABELS = {
+    **{name: rf"$\sigma_{{{name}}}$" for name in ("xx", "yy", "zz", "xy", "xz", "yz")},
+    **{f"u{axis}": f"$u_{axis}$" for axis in "xyz"},
+    "tau1": r"largest shear $\tau_1$",
+    "mises": "von Mises' stress",
+    "s1": r"largest tension $\sigma_1$",
+}
+
+KINDS = {
+    **dict.fromkeys(COMPONENTS, "pressure"),
+    **dict.fromkeys(("ux", "uy", "uz", "penetration", "additional_displacement"), "length"),
+    **dict.fromkeys(("contact_radius", "radius_min", "radius_max", "radius_inner", "radius_outer"), "length"),
+    **dict.fromkeys(("mean_pressure", "max_pressure", "value"), "pressure"),
+    "contact_area": "area",
+    "load": "force",
+}
+"""What a quantity is; ``value`` is that of a stress, and what is not here has no unit."""
+
+
+def pressure(
+    step: Step, *, ax: Optional[Axes] = None, window: Optional[Window] = None, **artist: Any
+) -> Axes:
+    """Draw a map of the contact pressure; blank where nothing touches.
+
+    Parameters
+    ----------
+    step
+        A load step, ``result.steps[i]``.
+    ax
+        Where to draw; a new figure if it is not said.
+    window
+        x₀, x₁, y₀, y₁, lengths: the rectangle that is shown, filled with copies of the cell; about two
+        periods around the origin if it is not said.
+    artist
+        For :meth:`matplotlib.axes.Axes.pcolormesh`: ``cmap``, ``norm``, ``vmin``, ….
+
+    Examples
+    --------
+    >>> import percoat.plot
+    >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+    >>> ax = percoat.plot.pressure(step, window=(-1, 1, -1, 1), cmap="magma")
+    >>> ax.get_xlabel(), ax.get_ylabel()
+    ('x', 'y')
+    """
+    values = np.ma.masked_equal(step.pressure, 0.0)
+    units = step._common.summary.units
+    scale = _scale(values, {"vmin": 0.0, **artist} if "norm" not in artist else artist)
+    ax = _map(ax, step, values, scale, units, window, artist)
+    return _bar(ax, scale, _label("pressure", "pressure", units))
+
+
+def contact(step: Step, *, ax: Optional[Axes] = None, window: Optional[Window] = None, **artist: Any) -> Axes:
+    """Draw the contact spots in the colours of their levels; those of a topography in one colour.
+
+    Parameters
+    ----------
+    step, ax, window
+        As for :func:`pressure`.
+    artist
+        For :meth:`matplotlib.axes.Axes.pcolormesh`; ``cmap`` with one colour a level.
+
+    Examples
+    --------
+    >>> import percoat.plot
+    >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+    >>> ax = percoat.plot.contact(step)
+    >>> [text.get_text() for text in ax.get_legend().get_texts()]
+    ['level 1', 'level 2', 'level 3']
+    """
+    owner = step._common.owner
+    levels = max(1, int(owner.max()))
+    spots = np.ma.masked_where(step.pressure == 0.0, np.maximum(owner, 1))
+    colours = artist.get("cmap", ListedColormap([f"C{level % 10}" for level in range(levels)]))
+    scale = ScalarMappable(BoundaryNorm(np.arange(levels + 1) + 0.5, levels), colours)
+    ax = _map(ax, step, spots, scale, step._common.summary.units, window, artist)
+    if owner.any():
+        touching = np.unique(spots.compressed())
+        keys = [Patch(color=tuple(scale.to_rgba(level)), label=f"level {level}") for level in touching]
+        ax.legend(handles=keys, ncol=4, frameon=False, loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    return ax
+
+
+def plane(
+    plane: Plane,
+    quantity: str = "tau1",
+    *,
+    ax: Optional[Axes] = None,
+    window: Optional[Window] = None,
+    units: Units = None,
+    **artist: Any,
+) -> Axes:
+    """Draw a map of a stress or a displacement at one depth, which stands above it.
+
+    Parameters
+    ----------
+    plane
+        From :meth:`percoat.Step.plane`.
+    quantity
+        One of :data:`percoat.COMPONENTS`. What takes both signs has white for zero.
+    ax, window, artist
+        As for :func:`pressure`.
+    units
+        ``result.units``, for the labels.
+
+    Examples
+    --------
+    >>> import percoat.plot
+    >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+    >>> ax = percoat.plot.plane(step.plane(0.5, material=2), "zz")
+    >>> ax.get_title()
+    'z = 0.5, material 2'
+    """
+    values = _component(plane, quantity)
+    scale = _scale(values, artist)
+    ax = _map(ax, plane, values, scale, units, window, artist)
+    depth = f"{plane.z:g} {_unit('length', units)}".rstrip()
+    ax.set_title(f"z = {depth}, material {plane.material}", fontsize="medium")
+    return _bar(ax, scale, _label(LABELS[quantity], KINDS[quantity], units))
+
+
+def section(
+    section: Section, quantity: str = "tau1", *, ax: Optional[Axes] = None, units: Units = None, **artist: Any
+) -> Axes:
+    """Draw a vertical cut, z downward; interfaces are lines, across which a field may jump.
+
+    Both axes have one scale; ``ax.set_aspect("auto")`` stretches a cut that is long and shallow.
+
+    Parameters
+    ----------
+    section
+        From :meth:`percoat.Step.section`.
+    quantity
+        One of :data:`percoat.COMPONENTS`. What takes both signs has white for zero.
+    ax, artist
+        As for :func:`pressure`.
+    units
+        ``result.units``, for the labels.
+
+    Examples
+    --------
+    >>> import percoat.plot
+    >>> step = percoat.solve("fig2", set={"grid.points": 96}).steps[0]
+    >>> ax = percoat.plot.section(step.section("level 1", "level 2", length=1.0, depth=1.0), "xx")
+    >>> [float(line.get_ydata()[0]) for line in ax.lines]
+    [0.5]
+    """
+    ax = _axes(ax)
+    values, z, s = _component(section, quantity), section.z, section.s
+    scale = _scale(values, artist)
+    # Rows are nodes, colours run from one to the next: material by material, none runs across an interface.
+    ends = np.flatnonzero(np.diff(section.material)) + 1
+    for rows in np.split(np.arange(len(z)), ends):
+        if len(rows) > 1:
+            ax.pcolormesh(s, z[rows], values[rows], **{"shading": "gouraud", **_shared(scale, artist)})
+    for end in ends:
+        ax.axhline(z[end], color="0.6", linewidth=1.0)
+    ax.set(xlim=(s[0], s[-1]), ylim=(z[-1], z[0]), aspect="equal")
+    ax.set(xlabel=_label("s", "length", units), ylabel=_label("z", "length", units))
+    return _bar(ax, scale, _label(LABELS[quantity], KINDS[quantity], units))
+
+
+def curve(
+    result: Result,
+    x: str = "penetration",
+    y: str = "mean_pressure",
+    *,
+    ax: Optional[Axes] = None,
+    **artist: Any,
+) -> Axes:
+    """Draw one number of every load step over another; steps that have not converged are crossed out.
+
+    Parameters
+    ----------
+    result
+        Whose load steps.
+    x, y
+        Names of numbers in ``step.to_dict()``, dotted where they lie deeper, ``"certificate.load"``. One that
+        leads through a list, ``"levels.load"``, gives a line for each entry, with a legend.
+    ax
+        Where to draw; a new figure if it is not said.
+    artist
+        For :meth:`matplotlib.axes.Axes.plot`.
+
+    Examples
+    --------
+    >>> import percoat.plot
+    >>> result = percoat.solve("fig2", set={"grid.points": 96, "load.mean_pressure": [0.04, 0.05, 0.06]})
+    >>> ax = percoat.plot.curve(result, "mean_pressure", "levels.load")
+    >>> ax.get_xlabel(), [line.get_label() for line in ax.lines]
+    ('mean pressure', ['level 1', 'level 2', 'level 3'])
+    """
+    ax = _axes(ax)
+    (across, entries_x), (up, entries_y) = (_numbers(result, name) for name in (x, y))
+    across, up = np.broadcast_arrays(across, up)
+    entries = entries_y or entries_x
+    for abscissas, ordinates, entry in zip(across.T, up.T, entries or [""]):
+        ax.plot(abscissas, ordinates, **{"marker": ".", "label": entry or None, **artist})
+    failed = np.array([not step.converged for step in result])
+    if failed.any():
+        ax.plot(across[failed].ravel(), up[failed].ravel(), "x", color="red", zorder=3, label="not converged")
+    if entries or failed.any():
+        ax.legend()
+    labels = []
+    for *path, last in (x.split("."), y.split(".")):
+        words = path[-1] if path and last == "value" else last
+        labels.append(_label(words.replace("_", " "), KINDS.get(last), result.units))
+    ax.set(xlabel=labels[0], ylabel=labels[1])
+    return ax
+
+
+def _numbers(result: Result, name: str) -> tuple[Array, Optional[list[str]]]:
+    """What a dotted name stands for, (steps, lines), and the lines' names where it leads through a list."""
+    entries: Optional[list[str]] = None
+
+    def read(value: Any, words: Sequence[str], before: str) -> list[float]:
+        nonlocal entries
+        if isinstance(value, list) and words:
+            entries = [f"{before[:-1]} {number}" for number in range(1, len(value) + 1)]  # levels: level 1, …
+            return [number for entry in value for number in read(entry, words, "")]
+        if value is None:
+            return [np.nan]
+        if words:
+            return read(getattr(value, words[0]), words[1:], words[0])
+        if not isinstance(value, (int, float)):
+            raise ValueError(f"{name!r} is no number of a step")
+        return [float(value)]
+
+    return np.array([read(step, name.split("."), "") for step in result.summary.steps]), entries
+
+
+def _component(record: Union[Plane, Section], quantity: str) -> Array:
+    if quantity not in COMPONENTS:
+        raise ValueError(f"no quantity {quantity!r}; there are {', '.join(COMPONENTS)}")
+    return np.asarray(record[quantity])
+
+
+def _unit(kind: Optional[str], units: Units) -> str:
+    """Name of the unit of a length, area, pressure or force; empty where it has none."""
+    length, pressure = ((units or {}).get(name) for name in ("length", "pressure"))
+    area = length and f"{length}²"
+    force = pressure and area and f"{pressure} {area}"
+    return {"length": length, "area": area, "pressure": pressure, "force": force}.get(kind or "") or ""
+
+
+def _label(words: str, kind: Optional[str], units: Units) -> str:
+    unit = _unit(kind, units)
+    return f"{words} ({unit})" if unit else words
+
+
+def _axes(ax: Optional[Axes]) -> Axes:
+    return plt.subplots(layout="constrained")[1] if ax is None else ax
+
+
+def _scale(values: Array, artist: Mapping[str, Any]) -> ScalarMappable:
+    """One scale of colours for every copy of the cell and every material."""
+    signed = bool(np.any(values < 0.0) and np.any(values > 0.0))
+    norm = artist.get("norm", CenteredNorm() if signed and not {"vmin", "vmax"} & set(artist) else None)
+    scale = ScalarMappable(norm, artist.get("cmap", "RdBu_r" if signed else "viridis"))
+    scale.set_clim(artist.get("vmin"), artist.get("vmax"))
+    scale.set_array(values if np.ma.count(values) else np.array([1.0]))
+    scale.autoscale_None()
+    return scale
+
+
+def _shared(scale: ScalarMappable, artist: Mapping[str, Any]) -> dict[str, Any]:
+    """What each mesh takes; it is pixels in PDF and SVG files too, which have no seams then and are small."""
+    rest = {name: value for name, value in artist.items() if name not in ("vmin", "vmax")}
+    return {"rasterized": True, **rest, "norm": scale.norm, "cmap": scale.cmap}
+
+
+def _bar(ax: Axes, scale: ScalarMappable, label: str) -> Axes:
+    """A colour bar as high as the map, whatever its aspect."""
+    ax.figure.colorbar(scale, cax=ax.inset_axes((1.03, 0.0, 0.05, 1.0)), label=label)
+    return ax
+
+
+def _map(
+    ax: Optional[Axes],
+    places: Union[Step, Plane],
+    values: NDArray[Any],
+    scale: ScalarMappable,
+    units: Units,
+    window: Optional[Window],
+    artist: Mapping[str, Any],
+) -> Axes:
+    """Fill the window with copies of the cell; a sample (i, j) is the middle of a parallelogram."""
+    ax = _axes(ax)
+    n = np.array(values.shape)
+    spacings = [(c[1, 0] - c[0, 0], c[0, 1] - c[0, 0]) for c in (places.x, places.y)]
+    cell = n * np.array(spacings)  # its columns are a₁, a₂
+    if window is None:
+        widths = np.maximum(2.0 * np.hypot(*cell).min(), np.abs(cell).sum(axis=1))  # at least the cell
+        window = (-widths[0] / 2, widths[0] / 2, -widths[1] / 2, widths[1] / 2)
+    x0, x1, y0, y1 = window
+    # A large grid is thinned to DRAWN. Samples are left out, never averaged: the edge of a contact stays
+    # sharp, and is off by less than one of the parallelograms drawn.
+    shown = n.prod() * (x1 - x0) * (y1 - y0) / abs(np.linalg.det(cell))
+    m = np.ceil(n * min(1.0, np.sqrt(DRAWN / shown))).astype(int)
+    values = values[np.ix_(*(np.rint(np.arange(of) * whole / of).astype(int) for of, whole in zip(m, n)))]
+
+    fractions = np.meshgrid(*((np.arange(of + 1) - 0.5) / of for of in m), indexing="ij")
+    corners = np.tensordot(cell, fractions, axes=1)
+    reach = np.abs(cell) @ (1.0 / m)  # of a parallelogram, along x and y
+    centre, half = np.array([x0 + x1, y0 + y1]) / 2, np.array([x1 - x0, y1 - y0]) / 2 + reach
+    ends = np.linalg.solve(cell, [[x0, x0, x1, x1], [y0, y1, y0, y1]])
+    first, last = np.floor(ends.min(axis=1)).astype(int), np.floor(ends.max(axis=1) + 0.5 / m).astype(int)
+    for copy in np.ndindex(*(last - first + 1)):
+        x, y = corners + (cell @ (first + copy))[:, None, None]
+        visible = (np.abs(x - centre[0]) <= half[0]) & (np.abs(y - centre[1]) <= half[1])
+        rows, columns = (np.flatnonzero(visible.any(axis=axis)) for axis in (1, 0))
+        if len(rows) > 1 and len(columns) > 1:
+            between = np.s_[rows[0] : rows[-1], columns[0] : columns[-1]]
+            around = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+            ax.pcolormesh(x[around], y[around], values[between], **_shared(scale, artist))
+    ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
+    ax.set(xlabel=_label("x", "length", units), ylabel=_label("y", "length", units))
+    return ax

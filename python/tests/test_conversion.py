@@ -1,0 +1,116 @@
+"""Results as what others work with: dicts, datasets of xarray, frames of pandas, JSON."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+import percoat
+
+
+@pytest.fixture(scope="module")
+def sliding() -> percoat.Result:
+    return percoat.solve("dlc-on-steel", set={"grid.points": [48, 64], "load.mean_pressure": [0.0, 0.1, 0.2]})
+
+
+def plain(value: Any) -> bool:
+    """Whether there are dicts, lists, numbers and texts alone."""
+    if type(value) is dict:
+        return all(type(key) is str and plain(own) for key, own in value.items())
+    if type(value) is list:
+        return all(map(plain, value))
+    return value is None or type(value) in (str, int, float, bool)
+
+
+def test_to_dict_is_plain_and_json(sliding: percoat.Result) -> None:
+    for own in (sliding, sliding[1], percoat.check("fig2", set={"grid.points": 48}), sliding[1].maxima()):
+        assert own is not None
+        entries = own.to_dict()
+        assert plain(entries) and json.loads(json.dumps(entries, allow_nan=False)) == entries
+    assert plain(percoat.case("dlc-on-steel")) and plain(sliding.case)
+
+
+def test_to_dict_is_a_copy(sliding: percoat.Result) -> None:
+    entries = sliding.to_dict()
+    entries["steps"][1]["levels"][0]["load"] = -1.0
+    entries["steps"].clear()
+    assert sliding[1].levels[0].load > 0.0 and len(sliding.to_dict()["steps"]) == 3
+
+
+def test_datasets_have_dimensions_coordinates_and_units(sliding: percoat.Result) -> None:
+    xarray = pytest.importorskip("xarray")
+    data = sliding.to_xarray()
+    assert isinstance(data, xarray.Dataset) and dict(data.sizes) == {"step": 3, "i": 48, "j": 64}
+    for name, unit in (("pressure", "GPa"), ("displacement", "µm"), ("gap", "µm")):
+        assert data[name].dims == ("step", "i", "j") and data[name].attrs["units"] == unit
+        for index, step in enumerate(sliding):
+            assert data[name][index].values.tobytes() == getattr(step, name).tobytes()
+    assert data.x.dims == data.y.dims == data.owner.dims == ("i", "j") and data.x.attrs["units"] == "µm"
+    assert np.array_equal(data.x, sliding.x) and np.array_equal(data.y, sliding.y)
+    assert np.array_equal(data.owner, sliding.owner)
+    assert set(data.coords) == {"x", "y", "mean_pressure"}
+    assert data.mean_pressure.dims == ("step",) and data.mean_pressure.attrs["units"] == "GPa"
+    for name in ("mean_pressure", "penetration", "contact_fraction", "max_pressure", "residual", "converged"):
+        assert data[name].values.tolist() == [getattr(step, name) for step in sliding], name
+    assert data.penetration.attrs["units"] == "µm" and data.max_pressure.attrs["units"] == "GPa"
+    assert data.converged.dtype == bool and "units" not in data.contact_fraction.attrs
+    assert data.attrs["title"] == sliding.title and data.attrs["percoat"] == percoat.__version__
+    assert np.array_equal(data.attrs["a1"], sliding.a1) and np.array_equal(data.attrs["a2"], sliding.a2)
+
+
+def test_datasets_of_cases_without_units(three_levels: percoat.Result) -> None:
+    pytest.importorskip("xarray")
+    data = three_levels.to_xarray()
+    assert all("units" not in data[name].attrs for name in (*data.data_vars, *data.coords))
+    # They select by load, as xarray does.
+    chosen = data.swap_dims(step="mean_pressure").sel(mean_pressure=0.05, method="nearest")
+    assert np.array_equal(chosen.pressure, three_levels[1].pressure)
+
+
+def test_datasets_of_one_step(sliding: percoat.Result) -> None:
+    pytest.importorskip("xarray")
+    whole = sliding.to_xarray()
+    for index, step in enumerate(sliding):
+        own = step.to_xarray()
+        assert dict(own.sizes) == {"i": 48, "j": 64} and own.identical(whole.isel(step=index))
+
+
+def test_datasets_may_be_written_to(sliding: percoat.Result) -> None:
+    pytest.importorskip("xarray")
+    data = sliding.to_xarray()
+    data["pressure"] += 1.0
+    assert sliding[0].pressure.max() == 0.0 and data.pressure[0].min() == 1.0
+
+
+def test_a_sweep_becomes_a_frame() -> None:
+    pandas = pytest.importorskip("pandas")
+    values = {"grid.points": 48, "load.mean_pressure": [[0.01, 0.03]], "layers.0.thickness": [0.1, 0.2, 0.4]}
+    table = percoat.sweep("fig2", values)
+    frame = pandas.DataFrame(table)
+    assert frame.shape == (6, len(list(table))) and list(frame.columns) == list(table)
+    assert all(np.array_equal(frame[name].to_numpy(), table[name], equal_nan=table[name].dtype.kind == "f") for name in table)
+    last = frame[frame.step == 2].set_index("set_layers_0_thickness").penetration
+    assert last.loc[0.2] == percoat.solve("fig2", set={"grid.points": 48, "load.mean_pressure": [0.01, 0.03],
+                                                       "layers.0.thickness": 0.2})[1].penetration  # fmt: skip
+    assert frame.groupby("combination").mean_pressure.max().tolist() == pytest.approx([0.03] * 3)
+
+
+def test_steps_become_a_frame(sliding: percoat.Result) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.json_normalize(sliding.to_dict()["steps"])
+    assert frame["certificate.load"].tolist() == [step.certificate.load for step in sliding]
+
+
+def test_a_kernel_becomes_a_frame() -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(percoat.kernel("fig2", [1.0, 2.0, 4.0]))
+    assert frame.shape == (3, 4) and frame.compliance.is_monotonic_decreasing
+
+
+def test_without_xarray_it_is_asked_for(sliding: percoat.Result, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(__import__("sys").modules, "xarray", None)
+    with pytest.raises(ImportError, match="xarray"):
+        sliding.to_xarray()

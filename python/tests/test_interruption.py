@@ -1,0 +1,305 @@
+"""Ctrl-C, and an error of who listens, end the work at once; the interpreter is free meanwhile."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from contextlib import contextmanager
+from typing import Any, Callable, Iterator
+
+import numpy as np
+import pytest
+
+import percoat
+from conftest import environment
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="signals are those of POSIX")
+
+# Each would take ten seconds and more on two cores.
+LONG: dict[str, Callable[..., object]] = {
+    "solve": lambda **more: percoat.solve("fig5", set={"grid.points": 512}, **more),
+    "a single large step": lambda **more: percoat.solve("fig3a", set={"grid.points": 2048, "solver.tolerance": 1e-14}, **more),
+    "a rough surface": lambda **more: percoat.solve("rough", set={"grid.points": 1024}, **more),
+    "limit": lambda **more: percoat.limit("dlc-on-steel", set={"grid.points": 384}, **more),
+    "sweep": lambda **more: percoat.sweep("fig5", {"grid.points": 256, "layers.0.thickness": "0.1:1:20"}, **more),
+    "sweep of small ones": lambda **more: percoat.sweep("fig2", {"grid.points": 64, "layers.0.thickness": "0.1:1:5000"}, **more),
+    "sweep of limits": lambda **more: percoat.sweep(
+        "dlc-on-steel", {"grid.points": 128, "layers.0.thickness": "1:2:30"}, limit=True, **more
+    ),
+}
+
+# Between two looks for Ctrl-C lie 50 ms; on a busy machine threads wait for a core, too.
+AT_ONCE = 0.5
+# How long an iteration, or what else goes on between two looks, may take.
+SOON = 3.0
+
+
+@contextmanager
+def interrupted(after: float) -> Iterator[list[float]]:
+    """SIGINT for this process after some seconds; holds when."""
+    sent: list[float] = []
+
+    def send() -> None:
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(after, send)
+    timer.start()
+    try:
+        yield sent
+    finally:
+        timer.cancel()
+        timer.join()
+
+
+def used() -> float:
+    """Processor time of this process so far, all threads."""
+    times = os.times()
+    return times.user + times.system
+
+
+def falls_idle(within: float) -> bool:
+    """Whether the process stops computing: less than a tenth of one core for a fifth of a second."""
+    ends = time.monotonic() + within
+    while time.monotonic() < ends:
+        before = used()
+        time.sleep(0.2)
+        if used() - before <= 0.02:
+            return True
+    return False
+
+
+@pytest.fixture(scope="module")
+def expected() -> Any:
+    return percoat.solve("fig2", set={"grid.points": 48})[0].pressure.copy()
+
+
+@pytest.mark.parametrize("name", list(LONG))
+@pytest.mark.parametrize("listens", [False, True], ids=["", "with progress"])
+def test_ctrl_c_ends_the_work_at_once(name: str, listens: bool, expected: Any) -> None:
+    more: dict[str, Any] = {"progress": lambda own: None} if listens else {}
+    with interrupted(after=0.3) as sent:
+        with pytest.raises(KeyboardInterrupt):
+            LONG[name](**more)
+        raised = time.monotonic()
+    assert sent and raised - sent[0] < AT_ONCE
+    assert falls_idle(SOON), "the work goes on though nobody waits for it"
+    again = percoat.solve("fig2", set={"grid.points": 48})[0]
+    assert np.array_equal(again.pressure, expected)
+
+
+def test_ctrl_c_ends_a_program() -> None:
+    # As a terminal sends it, with the handler that Python itself has.
+    text = """
+import percoat, signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+def begun(progress):
+    print("begun", flush=True)
+percoat.solve("fig5", set={"grid.points": 512}, progress=begun)
+"""
+    started = subprocess.Popen(
+        [sys.executable, "-c", text], env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8"
+    )
+    assert started.stdout is not None
+    try:
+        assert started.stdout.readline() == "begun\n"
+        sent = time.monotonic()
+        started.send_signal(signal.SIGINT)
+        _, told = started.communicate(timeout=20.0)
+    finally:
+        started.kill()
+        started.wait()
+    # As Python ends after an interruption that nobody catches.
+    assert started.returncode == -signal.SIGINT and "KeyboardInterrupt" in told
+    assert time.monotonic() - sent < AT_ONCE + SOON
+
+
+WITHOUT_ITERATIONS = {
+    "compare": 'percoat.compare("fig2", set={"grid.points": 512})',
+    "stress": "step.stress(np.random.default_rng(1).uniform(0.0, 0.4, (10_000, 3)))",
+    "maxima": "step.maxima()",
+    "check": 'percoat.check("fig5", set={"grid.points": 2048})',
+}
+
+
+@pytest.mark.parametrize("name", list(WITHOUT_ITERATIONS))
+def test_ctrl_c_ends_what_has_no_iterations(name: str) -> None:
+    # In a process of its own, which ends with it: what went on would slow the tests that follow.
+    text = f"""
+import os, signal, threading, time, warnings
+import numpy as np
+import percoat
+
+warnings.simplefilter("ignore")
+signal.signal(signal.SIGINT, signal.default_int_handler)
+step = percoat.solve("fig2", set={{"grid.points": 1024}})[0]
+threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    {WITHOUT_ITERATIONS[name]}
+    time.sleep({SOON})
+    print("ended")
+except KeyboardInterrupt:
+    print("interrupted")
+ends = time.monotonic() + {SOON}
+while time.monotonic() < ends:
+    before = sum(os.times()[:2])
+    time.sleep(0.2)
+    if sum(os.times()[:2]) - before <= 0.02:
+        print("idle")
+        break
+os._exit(0)
+"""
+    ended = subprocess.run(
+        [sys.executable, "-uc", text], env=environment(), capture_output=True, encoding="utf-8", timeout=60, check=True
+    )
+    assert ended.stdout.split() == ["interrupted", "idle"], ended.stderr
+
+
+class Enough(Exception):
+    """What the listener raises."""
+
+
+# Of a sweep they hear after each combination: those that take long are left out.
+@pytest.mark.parametrize("name", ["solve", "a single large step", "a rough surface", "limit", "sweep of small ones"])
+def test_an_error_of_the_listener_comes_through(name: str, expected: Any) -> None:
+    heard: list[float] = []
+
+    def listener(progress: percoat.Progress) -> None:
+        heard.append(time.monotonic())
+        if len(heard) == 3:
+            raise Enough(progress.phase)
+
+    with pytest.raises(Enough):
+        LONG[name](progress=listener)
+    count = len(heard)
+    assert time.monotonic() - heard[-1] < AT_ONCE and falls_idle(SOON)
+    assert len(heard) == count, "nobody is told any more"
+    assert np.array_equal(percoat.solve("fig2", set={"grid.points": 48})[0].pressure, expected)
+
+
+def test_the_listener_may_interrupt() -> None:
+    def listener(progress: percoat.Progress) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        LONG["solve"](progress=listener)
+    assert falls_idle(SOON)
+
+
+def test_a_signal_handler_of_the_user_may_raise() -> None:
+    def handler(*_: object) -> None:
+        raise Enough
+
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(Enough):
+            LONG["solve"]()
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+    assert falls_idle(SOON)
+
+
+def test_a_signal_that_is_handled_does_not_end_the_work(expected: Any) -> None:
+    heard: list[int] = []
+    before = signal.signal(signal.SIGALRM, lambda number, _: heard.append(number))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.02, 0.02)
+        result = percoat.solve("fig2", set={"grid.points": 512, "load.mean_pressure": [0.02, 0.04, 0.06]})
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+    assert len(result) == 3 and result.converged and heard
+
+
+def test_other_threads_run_meanwhile() -> None:
+    ticks: list[float] = []
+    ends = threading.Event()
+
+    def count() -> None:
+        while not ends.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    try:
+        began = time.monotonic()
+        percoat.solve("fig2", set={"grid.points": 720, "load.mean_pressure": [0.02, 0.04, 0.06]})
+        took = time.monotonic() - began
+    finally:
+        ends.set()
+        thread.join()
+    own = [tick for tick in ticks if began <= tick <= began + took]
+    # Were the interpreter held, there would be one gap as long as the work. Threads compute on all cores meanwhile, so that
+    # a thousandth of a second may become a tenth.
+    assert took > 0.3 and max(np.diff([began, *own, began + took])) < 0.5 * took
+    assert len(own) > took / 0.1
+
+
+def progress_of(**more: Any) -> list[percoat.Progress]:
+    heard: list[percoat.Progress] = []
+    percoat.solve("fig2", progress=heard.append, **more)
+    return heard
+
+
+def test_progress_tells_how_far_it_is() -> None:
+    heard = progress_of(set={"grid.points": 96, "load.mean_pressure": [0.02, 0.04, 0.06]})
+    assert all(type(own) is percoat.Progress for own in heard)
+    assert {own.unit for own in heard} == {"step"} and {own.of for own in heard} == {3}
+    assert {own.points for own in heard} == {(96, 96)}
+    assert [own.done for own in heard] == sorted(own.done for own in heard)
+    assert {own.done for own in heard} == {0, 1, 2, 3} and heard[-1].done == heard[-1].of
+    assert [own.seconds for own in heard] == sorted(own.seconds for own in heard) and heard[0].seconds >= 0.0
+    for own in heard:
+        assert own.iteration >= 0 and (own.iteration == 0) == np.isnan(own.residual)
+        begins = "3 of 3 steps" if own.done == 3 else f"step {own.done + 1} of 3"
+        assert str(own).startswith(f"{begins}, 96 × 96 samples, ") and str(own).endswith(" s")
+        assert repr(own) == f"<percoat.Progress: {own}>" and own.phase in str(own)
+
+
+def test_progress_of_grids_that_are_refined() -> None:
+    heard = progress_of(set={"grid": {"accuracy": 0.002}})
+    grids = list(dict.fromkeys(own.points for own in heard))
+    assert len(grids) >= 2 and all(own is not None for own in grids)
+    for grid in grids:
+        done = [own.done for own in heard if own.points == grid]
+        assert done == sorted(done) and done[-1] == 1
+    sizes = [own.points[0] for own in heard if own.points is not None]
+    assert sizes == sorted(sizes)
+
+
+def test_progress_tells_of_iterations() -> None:
+    heard = progress_of(set={"grid.points": 1024})  # one of which takes longer than it is silent, 50 ms
+    iterating = [own for own in heard if own.iteration]
+    assert iterating and all(own.residual > 0.0 and f"iteration {own.iteration}, ε = " in own.phase for own in iterating)
+
+
+def test_progress_prints(capsys: pytest.CaptureFixture[str]) -> None:
+    percoat.solve("fig2", set={"grid.points": 48}, progress=print)
+    told = capsys.readouterr()
+    assert told.out.splitlines()[-1].startswith("1 of 1 steps, 48 × 48 samples, after mean pressure 0.06") and not told.err
+    percoat.solve("fig2", set={"grid.points": 48}, progress=True)
+    told = capsys.readouterr()
+    # Where nothing can be written over, line by line.
+    assert not told.out and told.err.startswith("step 1 of 1, 48 × 48 samples") and "\r" not in told.err
+    assert told.err.splitlines()[-1].startswith("1 of 1 steps")
+    percoat.solve("fig2", set={"grid.points": 48}, progress=False)
+    percoat.solve("fig2", set={"grid.points": 48}, progress=None)
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_listener_may_solve_in_turn(expected: Any) -> None:
+    found: list[Any] = []
+
+    def listener(progress: percoat.Progress) -> None:
+        if not found:
+            found.append(percoat.solve("fig2", set={"grid.points": 48}, threads=1)[0].pressure)
+
+    outer = percoat.solve("fig2", set={"grid.points": 48}, threads=1, progress=listener)
+    assert np.array_equal(found[0], expected) and np.array_equal(outer[0].pressure, expected)
