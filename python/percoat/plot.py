@@ -242,6 +242,9 @@ def curve(
         words = path[-1] if path and last == "value" else last
         labels.append(_label(words.replace("_", " "), KINDS.get(last), result.units))
     ax.set(xlabel=labels[0], ylabel=labels[1])
+    if ax.get_xscale() == "linear":
+        # Numbers such as 0.0475 stand side by side.
+        ax.locator_params(axis="x", nbins=5)
     return ax
 
 

@@ -17,7 +17,8 @@ Program = Callable[..., "subprocess.CompletedProcess[str]"]
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    # Coarse grids are doubtful, and say so; everything else that warns is a failure, what has not converged included.
+    # Coarse grids are doubtful, and say so; everything else that warns is a failure, what has not converged
+    # included.
     for line in ("error", "ignore::percoat.PercoatWarning", "error::percoat.NotConverged"):
         config.addinivalue_line("filterwarnings", line)
 
@@ -33,12 +34,17 @@ def environment(**more: str) -> dict[str, str]:
 def program() -> Program:
     """Runs the command line with arguments, and demands an exit code."""
     own = Path(sys.executable).with_name("percoat.exe" if os.name == "nt" else "percoat")
-    command = [str(own)] if own.exists() else [sys.executable, "-m", "percoat._command"]
+    command = [str(own)] if own.exists() else [sys.executable, "-m", "percoat"]
 
     def run(*arguments: object, code: int = 0) -> subprocess.CompletedProcess[str]:
         typed = [*command, *map(str, arguments)]
         ended = subprocess.run(
-            typed, env=environment(), stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", timeout=60
+            typed,
+            env=environment(),
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            encoding="utf-8",
+            timeout=60,
         )
         assert ended.returncode == code, f"{typed} ended with {ended.returncode}: {ended.stderr}"
         return ended
@@ -80,7 +86,8 @@ def three_levels() -> percoat.Result:
 def wave(points: int = 32, **sections: Any) -> dict[str, Any]:
     """A case: a wave of wavelength 2 and amplitude 0.01 along x, pressed flat.
 
-    Uncoated with E = 1 and ν = 0.3, contact is complete above p* = E* k Δ/2 (Westergaard 1939): π/(0.91 · 200) = 0.01726.
+    Uncoated with E = 1 and ν = 0.3, contact is complete above p* = E* k Δ/2 (Westergaard 1939), that is
+    π/(0.91 · 200) = 0.01726.
     """
     x = np.arange(points) / points
     heights = np.repeat(0.01 * np.cos(2.0 * np.pi * x)[:, None], 8, axis=1)

@@ -184,7 +184,7 @@ def timeless(summary: dict[str, Any]) -> dict[str, Any]:
     """A summary without what takes another time every time."""
     own = {key: value for key, value in summary.items() if key not in ("timing", "seconds")}
     if "steps" in own:
-        own["steps"] = [{key: value for key, value in step.items() if key != "seconds"} for step in own["steps"]]
+        own["steps"] = [timeless(step) for step in own["steps"]]
     return own
 
 
@@ -307,9 +307,8 @@ def test_heights_of_an_array_are_those_of_a_file(
 
 def test_limit(tmp_path: Path, program: Program, as_piped: None) -> None:
     settings = ["grid.points=48", "load.mean_pressure=[0.05, 0.2]"]
-    ended = program(
-        "limit", "dlc-on-steel", "-o", tmp_path / "out", *(word for own in settings for word in ("--set", own))
-    )
+    words = [word for own in settings for word in ("--set", own)]
+    ended = program("limit", "dlc-on-steel", "-o", tmp_path / "out", *words)
     written = json.loads((tmp_path / "out" / "limit.json").read_text("utf-8"))
     limits = percoat.limit("dlc-on-steel", set=settings)
     ours = limits.to_dict()
@@ -329,7 +328,9 @@ def test_compare(tmp_path: Path, program: Program, as_piped: None) -> None:
     written = json.loads((tmp_path / "out" / "compare.json").read_text("utf-8"))
     both = percoat.compare("fig2", set=settings)
     # What is told beside the file.
-    ours = {key: value for key, value in both.to_dict().items() if key not in ("text", "warnings", "converged")}
+    ours = {
+        key: value for key, value in both.to_dict().items() if key not in ("text", "warnings", "converged")
+    }
     assert timeless(ours) == timeless(written)
     assert both.converged and [circle.indenters for circle in both.localized] == [7]
     assert str(both) in told and len(str(both)) > 1000
@@ -357,7 +358,8 @@ def test_kernel(program: Program, traction: str) -> None:
     rows = lines[0]["depths"]
     assert [row["z"] for row in rows] == [0.0, 0.2, 0.5, 0.5, 3.0]
     assert set(response) == set(names) | set(rows[0])
-    assert same(response.z, [row["z"] for row in rows]) and response.side.tolist() == [row["side"] for row in rows]
+    assert same(response.z, [row["z"] for row in rows])
+    assert response.side.tolist() == [row["side"] for row in rows]
     for name in set(rows[0]) - {"z", "side"}:
         assert same(response[name], [[row[name] for row in line["depths"]] for line in lines]), name
 
@@ -389,7 +391,12 @@ SWEEPS: list[tuple[list[str], dict[str, Any], dict[str, bool]]] = [
         {"zip": True},
     ),
     (
-        ["--set", "load.mean_pressure=[0.01, 0.03],[0.05]", "--set", "layers.0.interface=bonded,frictionless"],
+        [
+            "--set",
+            "load.mean_pressure=[0.01, 0.03],[0.05]",
+            "--set",
+            "layers.0.interface=bonded,frictionless",
+        ],
         {"load.mean_pressure": [[0.01, 0.03], [0.05]], "layers.0.interface": ["bonded", "frictionless"]},
         {},
     ),

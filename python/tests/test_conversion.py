@@ -91,7 +91,10 @@ def test_a_sweep_becomes_a_frame() -> None:
     table = percoat.sweep("fig2", values)
     frame = pandas.DataFrame(table)
     assert frame.shape == (6, len(list(table))) and list(frame.columns) == list(table)
-    assert all(np.array_equal(frame[name].to_numpy(), table[name], equal_nan=table[name].dtype.kind == "f") for name in table)
+    assert all(
+        np.array_equal(frame[name].to_numpy(), table[name], equal_nan=table[name].dtype.kind == "f")
+        for name in table
+    )
     last = frame[frame.step == 2].set_index("set_layers_0_thickness").penetration
     assert last.loc[0.2] == percoat.solve("fig2", set={"grid.points": 48, "load.mean_pressure": [0.01, 0.03],
                                                        "layers.0.thickness": 0.2})[1].penetration  # fmt: skip

@@ -63,10 +63,22 @@ def test_a_case_error_is_a_value_error() -> None:
     "path, value, message",
     [
         (["substrate", "young"], -1.0, "`substrate.young` must be a finite number greater than 0, not -1"),
-        (["substrate", "young"], float("nan"), "`substrate.young` must be a finite number greater than 0, not nan"),
+        (
+            ["substrate", "young"],
+            float("nan"),
+            "`substrate.young` must be a finite number greater than 0, not nan",
+        ),
         (["substrate", "young"], np.inf, "`substrate.young` must be a finite number greater than 0, not inf"),
-        (["substrate", "young"], "soft", '`substrate.young` must be a finite number greater than 0, not the text "soft"'),
-        (["substrate", "young"], [1.0], "`substrate.young` must be a finite number greater than 0, not a list of one item"),
+        (
+            ["substrate", "young"],
+            "soft",
+            '`substrate.young` must be a finite number greater than 0, not the text "soft"',
+        ),
+        (
+            ["substrate", "young"],
+            [1.0],
+            "`substrate.young` must be a finite number greater than 0, not a list of one item",
+        ),
         (["substrate", "young"], True, "`substrate.young` must be a finite number greater than 0, not true"),
         (["substrate", "yong"], 1.0, "unknown key `substrate.yong`"),
         (["substrat"], {"young": 1.0}, "unknown key `substrat`"),
@@ -74,7 +86,11 @@ def test_a_case_error_is_a_value_error() -> None:
         (["substrate", "young"], None, "`substrate.young` is missing"),
         (["substrate"], ..., "the section [substrate] is missing"),
         (["layers", 0, "poisson"], 0.51, "`layers[0].poisson` must be a number"),
-        (["layers", 0, "interface"], "glued", '`layers[0].interface` must be "bonded" or "frictionless", not the text "glued"'),
+        (
+            ["layers", 0, "interface"],
+            "glued",
+            '`layers[0].interface` must be "bonded" or "frictionless", not the text "glued"',
+        ),
         (["load", "mean_pressure"], [0.01, -0.01], "`load.mean_pressure[1]` must be"),
         (["load", "mean_pressure"], np.array([0.01, np.nan]), "`load.mean_pressure[1]` must be"),
         (["load", "mean_pressure"], [], "`load.mean_pressure` must be"),
@@ -106,7 +122,9 @@ def test_a_dict_is_refused_where_its_file_would_be(
     ],
     ids=lambda settings: next(iter(settings)),
 )
-def test_settings_are_refused_in_the_words_of_the_command_line(program: Program, settings: dict[str, Any]) -> None:
+def test_settings_are_refused_in_the_words_of_the_command_line(
+    program: Program, settings: dict[str, Any]
+) -> None:
     ((key, value),) = settings.items()
     written = {True: "{ mean_pressure = 0.1, penetration = 0.1 }"}.get(isinstance(value, dict), value)
     told = program("solve", "fig2", "--set", f"{key}={written}", code=2).stderr
@@ -118,10 +136,11 @@ def test_settings_are_refused_in_the_words_of_the_command_line(program: Program,
 
 @pytest.mark.skipif(not REFUSED.is_dir(), reason="the cases are in the repository alone")
 def test_files_are_refused_in_the_words_of_the_command_line(program: Program) -> None:
-    # As many as show every kind of refusal, of reading, of syntax and of meaning; each takes the start of a program.
+    # As many as show every kind of refusal, of reading, of syntax and of meaning; each takes the start of a
+    # program.
     names = [
-        "misspelt_key", "radius_is_nan", "surface_file_absent", "syntax_unclosed_section", "oblique_without_sites",
-        "spring_too_soft", "missing_load", "set_without_value",
+        "misspelt_key", "radius_is_nan", "surface_file_absent", "syntax_unclosed_section",
+        "oblique_without_sites", "spring_too_soft", "missing_load", "set_without_value",
     ]
     for name in names:
         file = REFUSED / f"{name}.toml"
@@ -144,7 +163,9 @@ def test_all_that_is_refused_as_a_file_is_refused() -> None:
             assert expected in told, file
 
 
-def test_a_solution_that_is_out_of_reach_is_refused(program: Program, tmp_path: Path, fig2: dict[str, Any]) -> None:
+def test_a_solution_that_is_out_of_reach_is_refused(
+    program: Program, tmp_path: Path, fig2: dict[str, Any]
+) -> None:
     deep = changed(fig2, "load", to={"penetration": 10.0})
     ours = refusal(lambda: percoat.solve(deep))
     settings = ["grid.points=48", "load={ penetration = 10.0 }"]
@@ -165,10 +186,14 @@ def memory() -> float:
 @pytest.mark.skipif(memory() > 100.0, reason="the largest grid may fit")
 def test_memory_is_refused_before_it_is_taken(program: Program, tmp_path: Path) -> None:
     for call in CALLS.values():
-        assert re.search("take about [0-9.]+ GiB of memory, and ", refusal(lambda: call("fig2", set={"grid.points": 32768})))
+        assert re.search(
+            "take about [0-9.]+ GiB of memory, and ",
+            refusal(lambda: call("fig2", set={"grid.points": 32768})),
+        )
     told = program("solve", "fig2", "--set", "grid.points=32768", "-o", tmp_path / "out", code=2).stderr
     ours = refusal(lambda: percoat.solve("fig2", set={"grid.points": 32768}))
-    # What it takes differs, as pictures and files are left out, and what is there differs from moment to moment.
+    # What it takes differs, as pictures and files are left out, and what is there differs from moment to
+    # moment.
     assert re.sub("[0-9]+", "#", words(ours)) == re.sub("[0-9]+", "#", words(told))
 
 
@@ -212,14 +237,18 @@ def test_a_file_that_may_not_be_read(tmp_path: Path) -> None:
 def test_a_case_of_another_type(case: Any) -> None:
     kind = type(case).__name__
     for call in (percoat.case, *CALLS.values(), percoat.HalfSpace.of, lambda case: percoat.kernel(case, 1.0)):
-        with pytest.raises(TypeError, match=f"a case is a path, the name of an embedded case or a dict .*, not an? {kind}"):
+        with pytest.raises(
+            TypeError, match=f"a case is a path, the name of an embedded case or a dict .*, not an? {kind}"
+        ):
             call(case)
 
 
 @pytest.mark.parametrize("value", [object(), 1j, len, dict])
 def test_a_value_of_another_type(fig2: dict[str, Any], value: Any) -> None:
     kind = type(value).__name__
-    with pytest.raises(TypeError, match=f"`substrate.young` is an? {kind}: a case has numbers, texts, true and false"):
+    with pytest.raises(
+        TypeError, match=f"`substrate.young` is an? {kind}: a case has numbers, texts, true and false"
+    ):
         percoat.solve(changed(fig2, "substrate", "young", to=value))
     with pytest.raises(TypeError, match=f"`substrate.young` is an? {kind}: a case has numbers"):
         percoat.solve("fig2", set={"substrate.young": value})
@@ -287,7 +316,9 @@ def test_points_that_are_no_numbers(three_levels: percoat.Result, points: Any) -
 
 
 def test_complex_points_are_not_cut_short(three_levels: percoat.Result) -> None:
-    with pytest.raises((TypeError, ValueError, np.exceptions.ComplexWarning if hasattr(np, "exceptions") else Warning)):
+    with pytest.raises(
+        (TypeError, ValueError, np.exceptions.ComplexWarning if hasattr(np, "exceptions") else Warning)
+    ):
         three_levels[0].stress(np.array([1j, 0.0, 0.1]))
 
 
@@ -301,7 +332,9 @@ def test_depths_above_the_body(three_levels: percoat.Result, z: float) -> None:
         lambda: percoat.kernel("fig2", 1.0, depth=[0.1, z]),
     ]
     for call in calls:
-        assert re.search("not in the body|no finite number|must be a finite number|depth is a number", refusal(call))
+        assert re.search(
+            "not in the body|no finite number|must be a finite number|depth is a number", refusal(call)
+        )
 
 
 def test_places_that_are_no_numbers(three_levels: percoat.Result) -> None:
@@ -312,15 +345,21 @@ def test_places_that_are_no_numbers(three_levels: percoat.Result) -> None:
 @pytest.mark.parametrize("material", [0, 2, 3, -1])
 def test_a_depth_in_another_material(three_levels: percoat.Result, material: int) -> None:
     step = three_levels[0]
-    for call in (lambda: step.stress([0.0, 0.0, 0.4], material=material), lambda: step.plane(0.4, material=material)):
+    for call in (
+        lambda: step.stress([0.0, 0.0, 0.4], material=material), lambda: step.plane(0.4, material=material)
+    ):
         assert refusal(call) == f"z = 0.4 is in material 1, not in {material}"
     if material != 2:
-        assert f"is in material 1 and 2, not in {material}" in refusal(lambda: step.plane(0.5, material=material))
+        assert f"is in material 1 and 2, not in {material}" in refusal(
+            lambda: step.plane(0.5, material=material)
+        )
 
 
 @pytest.mark.parametrize("points", [0, -1, [0, 4], [4, -4]])
 def test_planes_of_no_points(three_levels: percoat.Result, points: Any) -> None:
-    assert "two numbers above 0, those along a₁ and a₂" in refusal(lambda: three_levels[0].plane(0.1, points=points))
+    assert "two numbers above 0, those along a₁ and a₂" in refusal(
+        lambda: three_levels[0].plane(0.1, points=points)
+    )
 
 
 @pytest.mark.parametrize("points", [[], [4], [1, 2, 3], [[4, 4]]])
@@ -353,7 +392,9 @@ def test_sections_that_lead_nowhere(three_levels: percoat.Result) -> None:
 def test_wavenumbers_out_of_range(wavenumber: Any) -> None:
     body = percoat.HalfSpace.of("fig2")
     for call in (body.compliance, body.correction, body.kernel, lambda q: percoat.kernel("fig2", q)):
-        assert "a wavenumber is a number greater than 0, between 1e-60 and 1e60" in refusal(lambda: call(wavenumber))
+        assert "a wavenumber is a number greater than 0, between 1e-60 and 1e60" in refusal(
+            lambda: call(wavenumber)
+        )
 
 
 def test_tractions_that_are_not_there() -> None:
@@ -367,21 +408,28 @@ def test_tractions_that_are_not_there() -> None:
 def test_half_spaces_that_are_refused() -> None:
     substrate = {"young": 1.0, "poisson": 0.3}
     assert "the section [substrate] is missing" in refusal(percoat.HalfSpace)
-    assert "unknown key `substrate.yong`" in refusal(lambda: percoat.HalfSpace(substrate={"yong": 1.0, "poisson": 0.3}))
+    assert "unknown key `substrate.yong`" in refusal(
+        lambda: percoat.HalfSpace(substrate={"yong": 1.0, "poisson": 0.3})
+    )
     assert "either `shear_ratio` or `young`" in refusal(
         lambda: percoat.HalfSpace([{"thickness": 1.0, "poisson": 0.3}], substrate)
     )
-    assert "`layers[0]` must be a table" in refusal(lambda: percoat.HalfSpace(["hard"], substrate))  # type: ignore[list-item]
+    words_alone: Any = ["hard"]
+    assert "`layers[0]` must be a table" in refusal(lambda: percoat.HalfSpace(words_alone, substrate))
     with pytest.raises(TypeError):
         percoat.HalfSpace(3, substrate)  # type: ignore[arg-type]
 
 
 def test_sweeps_that_are_refused() -> None:
     assert "a sweep needs a key with several values" in refusal(lambda: percoat.sweep("fig2", {}))
-    assert "`grid.points` has no values to sweep over" in refusal(lambda: percoat.sweep("fig2", {"grid.points": []}))
+    assert "`grid.points` has no values to sweep over" in refusal(
+        lambda: percoat.sweep("fig2", {"grid.points": []})
+    )
     assert "unknown key `grid.pints`" in refusal(lambda: percoat.sweep("fig2", {"grid.pints": [48, 64]}))
     pairs = {"grid.points": [48, 64], "layers.0.thickness": [0.1, 0.2, 0.3]}
-    assert "`grid.points` has 2 of them, `layers.0.thickness` 3" in refusal(lambda: percoat.sweep("fig2", pairs, zip=True))
+    assert "`grid.points` has 2 of them, `layers.0.thickness` 3" in refusal(
+        lambda: percoat.sweep("fig2", pairs, zip=True)
+    )
     with pytest.raises(TypeError):
         percoat.sweep("fig2", None)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="a case is a path"):
@@ -413,7 +461,9 @@ def test_heights_that_are_no_surface(heights: Any, message: str) -> None:
     assert message in refusal(lambda: percoat.solve(wave(surface={"heights": heights, "period": [2.0, 0.5]})))
 
 
-@pytest.mark.parametrize("heights", [np.array([["a", "b"], ["c", "d"]]), np.ones((8, 8), complex), object(), [[1.0], [2.0, 3.0]]])
+@pytest.mark.parametrize(
+    "heights", [np.array([["a", "b"], ["c", "d"]]), np.ones((8, 8), complex), object(), [[1.0], [2.0, 3.0]]]
+)
 def test_heights_that_are_no_numbers(heights: Any) -> None:
     with pytest.raises(TypeError, match="`surface.heights` is (an array of numbers|complex)"):
         percoat.solve(wave(surface={"heights": heights, "period": [2.0, 0.5]}))

@@ -11,8 +11,9 @@ import pytest
 
 import percoat
 
-# ANCHORS 2.6: G₂ = 1, k = 1, p = cos x. χ, ν₁, ν₂, thickness, interface; T, p₁ = −σ_zz and t₁ = τ_xz at the interface, and
-# σ_xx at the surface, at the interface in the coating and in the substrate. Twelve digits are printed.
+# ANCHORS 2.6: G₂ = 1, k = 1, p = cos x. χ, ν₁, ν₂, thickness, interface; T, p₁ = −σ_zz and t₁ = τ_xz at the
+# interface, and σ_xx at the surface, at the interface in the coating and in the substrate. Twelve digits are
+# printed.
 SPRING = {"tangential_stiffness": 1.0, "normal_stiffness": 1.0}
 AMPLITUDES: list[tuple[float, float, float, float, Any, tuple[float, ...]]] = [
     (2.0, 0.20, 0.30, 0.1, "bonded",
@@ -54,13 +55,16 @@ def test_a_layer_has_the_amplitudes_of_many_digits(
     response = layered.kernel(1.0, [0.0, thickness])
     assert response.z.tolist() == [0.0, thickness, thickness] and response.side.tolist() == [1, 1, 2]
     found = [
-        response.correction, -response.szz[1], response.sqz[1], response.sqq[0], response.sqq[1], response.sqq[2],
+        response.correction, -response.szz[1], response.sqz[1],
+        response.sqq[0], response.sqq[1], response.sqq[2],
     ]
     # Twelve digits of numbers of the order of one.
     assert np.allclose(found, amplitudes, rtol=1e-11, atol=1e-12)
     assert response.szz[0] == -1.0 and response.sqz[0] == 0.0
     # The interface hands on what it bears.
-    assert np.allclose([response.szz[1], response.sqz[1]], [response.szz[2], response.sqz[2]], rtol=1e-12, atol=1e-14)
+    assert np.allclose(
+        [response.szz[1], response.sqz[1]], [response.szz[2], response.sqz[2]], rtol=1e-12, atol=1e-14
+    )
     assert layered.correction(1.0) == response.correction and layered.compliance(1.0) == response.compliance
 
 
@@ -139,7 +143,8 @@ def test_a_half_space_is_that_of_its_case() -> None:
     assert np.array_equal(own.compliance(q), of.compliance(q)) and str(own) == str(of)
     assert np.array_equal(percoat.kernel("dlc-on-steel", q).compliance, of.compliance(q))
     kernel = percoat.kernel("dlc-on-steel", q, set={"layers.0.thickness": 3.0})
-    assert np.array_equal(kernel.compliance, changed.compliance(q)) and not np.array_equal(kernel.compliance, of.compliance(q))
+    assert np.array_equal(kernel.compliance, changed.compliance(q))
+    assert not np.array_equal(kernel.compliance, of.compliance(q))
 
 
 def test_layers_may_come_in_any_sequence() -> None:
@@ -147,7 +152,8 @@ def test_layers_may_come_in_any_sequence() -> None:
     substrate = {"young": 1, "poisson": 0.3}
     expected = percoat.HalfSpace([layer], substrate).compliance(1.0)
     assert percoat.HalfSpace((layer,), substrate).compliance(1.0) == expected
-    assert percoat.HalfSpace(np.array([layer]), substrate).compliance(1.0) == expected  # type: ignore[arg-type]
+    array: Any = np.array([layer])
+    assert percoat.HalfSpace(array, substrate).compliance(1.0) == expected
     assert percoat.HalfSpace(layers=(), substrate=substrate).correction(1.0) == 1.0
 
 
@@ -178,8 +184,11 @@ def test_a_half_space_of_a_surface_needs_no_surface_to_be_pickled() -> None:
     again = pickle.loads(pickle.dumps(surface))
     assert again.compliance(1.0) == surface.compliance(1.0)
     heights = np.outer(np.cos(np.arange(512)), np.cos(np.arange(512)))
-    case = {"surface": {"heights": heights, "period": [1.0, 1.0]}, "substrate": {"young": 1.0, "poisson": 0.3},
-            "load": {"mean_pressure": 1.0}}  # fmt: skip
+    case = {
+        "surface": {"heights": heights, "period": [1.0, 1.0]},
+        "substrate": {"young": 1.0, "poisson": 0.3},
+        "load": {"mean_pressure": 1.0},
+    }
     # Two megabytes of heights are not in what says three numbers.
     state = pickle.dumps(percoat.HalfSpace.of(case))
     assert len(state) < 10_000 and pickle.loads(state).correction(1.0) == 1.0

@@ -22,11 +22,17 @@ pytestmark = pytest.mark.skipif(os.name == "nt", reason="signals are those of PO
 # Each would take ten seconds and more on two cores.
 LONG: dict[str, Callable[..., object]] = {
     "solve": lambda **more: percoat.solve("fig5", set={"grid.points": 512}, **more),
-    "a single large step": lambda **more: percoat.solve("fig3a", set={"grid.points": 2048, "solver.tolerance": 1e-14}, **more),
+    "a single large step": lambda **more: percoat.solve(
+        "fig3a", set={"grid.points": 2048, "solver.tolerance": 1e-14}, **more
+    ),
     "a rough surface": lambda **more: percoat.solve("rough", set={"grid.points": 1024}, **more),
     "limit": lambda **more: percoat.limit("dlc-on-steel", set={"grid.points": 384}, **more),
-    "sweep": lambda **more: percoat.sweep("fig5", {"grid.points": 256, "layers.0.thickness": "0.1:1:20"}, **more),
-    "sweep of small ones": lambda **more: percoat.sweep("fig2", {"grid.points": 64, "layers.0.thickness": "0.1:1:5000"}, **more),
+    "sweep": lambda **more: percoat.sweep(
+        "fig5", {"grid.points": 256, "layers.0.thickness": "0.1:1:20"}, **more
+    ),
+    "sweep of small ones": lambda **more: percoat.sweep(
+        "fig2", {"grid.points": 64, "layers.0.thickness": "0.1:1:5000"}, **more
+    ),
     "sweep of limits": lambda **more: percoat.sweep(
         "dlc-on-steel", {"grid.points": 128, "layers.0.thickness": "1:2:30"}, limit=True, **more
     ),
@@ -102,7 +108,11 @@ def begun(progress):
 percoat.solve("fig5", set={"grid.points": 512}, progress=begun)
 """
     started = subprocess.Popen(
-        [sys.executable, "-c", text], env=environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8"
+        [sys.executable, "-c", text],
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
     )
     assert started.stdout is not None
     try:
@@ -116,6 +126,32 @@ percoat.solve("fig5", set={"grid.points": 512}, progress=begun)
     # As Python ends after an interruption that nobody catches.
     assert started.returncode == -signal.SIGINT and "KeyboardInterrupt" in told
     assert time.monotonic() - sent < AT_ONCE + SOON
+
+
+def test_ctrl_c_ends_the_command_line(tmp_path: Any) -> None:
+    words = ["solve", "fig5", "--set", "grid.points=512", "-o", str(tmp_path / "out")]
+    started = subprocess.Popen(
+        [sys.executable, "-m", "percoat", *words],
+        env=environment(),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        encoding="utf-8",
+        # Whoever runs the tests may have it ignored.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    try:
+        ends = time.monotonic() + 20.0
+        while not list(tmp_path.rglob("steps.jsonl")) and time.monotonic() < ends:
+            time.sleep(0.02)
+        sent = time.monotonic()
+        started.send_signal(signal.SIGINT)
+        started.communicate(timeout=20.0)
+    finally:
+        started.kill()
+        started.wait()
+    # As the program without Python: it says 130 or ends by the signal, and leaves what can be gone on from.
+    assert started.returncode in (130, -signal.SIGINT) and time.monotonic() - sent < AT_ONCE + SOON
+    assert list(tmp_path.rglob("steps.jsonl"))
 
 
 WITHOUT_ITERATIONS = {
@@ -154,7 +190,12 @@ while time.monotonic() < ends:
 os._exit(0)
 """
     ended = subprocess.run(
-        [sys.executable, "-uc", text], env=environment(), capture_output=True, encoding="utf-8", timeout=60, check=True
+        [sys.executable, "-uc", text],
+        env=environment(),
+        capture_output=True,
+        encoding="utf-8",
+        timeout=60,
+        check=True,
     )
     assert ended.stdout.split() == ["interrupted", "idle"], ended.stderr
 
@@ -164,7 +205,9 @@ class Enough(Exception):
 
 
 # Of a sweep they hear after each combination: those that take long are left out.
-@pytest.mark.parametrize("name", ["solve", "a single large step", "a rough surface", "limit", "sweep of small ones"])
+@pytest.mark.parametrize(
+    "name", ["solve", "a single large step", "a rough surface", "limit", "sweep of small ones"]
+)
 def test_an_error_of_the_listener_comes_through(name: str, expected: Any) -> None:
     heard: list[float] = []
 
@@ -236,8 +279,8 @@ def test_other_threads_run_meanwhile() -> None:
         ends.set()
         thread.join()
     own = [tick for tick in ticks if began <= tick <= began + took]
-    # Were the interpreter held, there would be one gap as long as the work. Threads compute on all cores meanwhile, so that
-    # a thousandth of a second may become a tenth.
+    # Were the interpreter held, there would be one gap as long as the work. Threads compute on all cores
+    # meanwhile, so that a thousandth of a second may become a tenth.
     assert took > 0.3 and max(np.diff([began, *own, began + took])) < 0.5 * took
     assert len(own) > took / 0.1
 
@@ -277,13 +320,15 @@ def test_progress_of_grids_that_are_refined() -> None:
 def test_progress_tells_of_iterations() -> None:
     heard = progress_of(set={"grid.points": 1024})  # one of which takes longer than it is silent, 50 ms
     iterating = [own for own in heard if own.iteration]
-    assert iterating and all(own.residual > 0.0 and f"iteration {own.iteration}, ε = " in own.phase for own in iterating)
+    assert iterating
+    assert all(own.residual > 0.0 and f"iteration {own.iteration}, ε = " in own.phase for own in iterating)
 
 
 def test_progress_prints(capsys: pytest.CaptureFixture[str]) -> None:
     percoat.solve("fig2", set={"grid.points": 48}, progress=print)
     told = capsys.readouterr()
-    assert told.out.splitlines()[-1].startswith("1 of 1 steps, 48 × 48 samples, after mean pressure 0.06") and not told.err
+    assert told.out.splitlines()[-1].startswith("1 of 1 steps, 48 × 48 samples, after mean pressure 0.06")
+    assert not told.err
     percoat.solve("fig2", set={"grid.points": 48}, progress=True)
     told = capsys.readouterr()
     # Where nothing can be written over, line by line.
@@ -292,6 +337,16 @@ def test_progress_prints(capsys: pytest.CaptureFixture[str]) -> None:
     percoat.solve("fig2", set={"grid.points": 48}, progress=False)
     percoat.solve("fig2", set={"grid.points": 48}, progress=None)
     assert capsys.readouterr() == ("", "")
+
+
+def test_progress_is_a_line_of_a_terminal(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    percoat.solve("fig2", set={"grid.points": 48}, progress=True)
+    told = capsys.readouterr().err
+    # Written over, and ended when all is done.
+    assert told.startswith("\rstep 1 of 1, 48 × 48 samples") and told.count("\n") == 1 and told.endswith("\n")
 
 
 def test_a_listener_may_solve_in_turn(expected: Any) -> None:

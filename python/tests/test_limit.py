@@ -32,9 +32,9 @@ def test_limits_are_sorted_and_the_first_is_first(limits: percoat.Limits) -> Non
 
 
 def test_at_its_limit_a_material_is_used_up(limits: percoat.Limits) -> None:
-    # The load of each limit, solved: what bears up to it has a utilisation of one, within the stated error of the load.
-    # Utilisation grows no faster than the load, for under Hertz stresses grow as its third root, by which what is
-    # residual does not grow.
+    # The load of each limit, solved: what bears up to it has a utilisation of one, within the stated error of
+    # the load. Utilisation grows no faster than the load, for under Hertz stresses grow as its third root, by
+    # which what is residual does not grow.
     inside = [own for own in limits.limits if own.z > 0.0]
     assert len(inside) == 4
     for own in inside:
@@ -61,8 +61,9 @@ def paraboloids(strength: float, **sections: Any) -> dict[str, Any]:
 
 @pytest.mark.parametrize("strength", [0.03, 0.04])
 def test_the_yield_of_a_half_space_is_that_of_hertz(strength: float) -> None:
-    # Von Mises' stress is twice the largest shear, 0.310021 p₀ (ν = 0.3, ANCHORS 3.1), with p₀ = 2 E* a/(π R) and
-    # P = 2 p₀ π a²/3. Neighbours change p₀ by less than S₃ a³ = 11.03 a³ of it (1.5), the mean stress adds p̄ at most.
+    # Von Mises' stress is twice the largest shear, 0.310021 p₀ (ν = 0.3, ANCHORS 3.1), with p₀ = 2 E* a/(π R)
+    # and P = 2 p₀ π a²/3. Neighbours change p₀ by less than S₃ a³ = 11.03 a³ of it (1.5), the mean stress
+    # adds p̄ at most.
     peak = strength / (2.0 * 0.310021)
     a = 0.5 * np.pi * 0.8 * peak
     mean = 2.0 / 3.0 * np.pi * a**2 * peak / np.sqrt(0.75)
@@ -73,16 +74,18 @@ def test_the_yield_of_a_half_space_is_that_of_hertz(strength: float) -> None:
     assert first is not None and (first.criterion, first.material) == ("yield", 1)
     assert first.mean_pressure == pytest.approx(mean, abs=neighbours * mean + first.error)
     assert first.error < 0.03 * mean
-    # At a depth of 0.480864 a (3.1); where the stress is largest it is flat, so that the place is known less well: to a
-    # tenth of a, by which it falls by less than 2 %.
+    # At a depth of 0.480864 a (3.1); where the stress is largest it is flat, so that the place is known less
+    # well: to a tenth of a, by which it falls by less than 2 %.
     assert first.z == pytest.approx(0.480864 * a, abs=0.1 * a) and np.hypot(first.x, first.y) < 0.1 * a
 
 
 def test_what_never_fails_has_no_limit() -> None:
-    # The largest tension under Hertz is at the edge; a coating pulled tight by its own stress is beyond it without a load.
+    # The largest tension under Hertz is at the edge; a coating pulled tight by its own stress is beyond it
+    # without a load.
     layer = {"thickness": 0.5, "young": 0.91, "poisson": 0.3, "tensile_strength": 0.1, "residual_stress": 0.2}
     cracked = percoat.limit(paraboloids(1.0, layers=[layer]))
-    assert cracked.first is not None and (cracked.first.criterion, cracked.first.mean_pressure) == ("cracking", 0.0)
+    assert cracked.first is not None
+    assert (cracked.first.criterion, cracked.first.mean_pressure) == ("cracking", 0.0)
     # An interface under compression alone does not open, up to complete contact.
     layer = {"thickness": 0.5, "young": 0.91, "poisson": 0.3, "interface_strength": {"normal": 100.0}}
     sound = percoat.limit(paraboloids(1e6, layers=[layer], grid={"points": 64}))

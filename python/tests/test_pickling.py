@@ -15,9 +15,13 @@ from conftest import Program, wave
 from test_command_line import INCOMPRESSIBLE, OBLIQUE
 
 CASES: dict[str, Callable[[], percoat.Result]] = {
-    "three levels": lambda: percoat.solve("fig2", set={"grid.points": 64, "load.mean_pressure": [0.0, 0.01, 0.06]}),
+    "three levels": lambda: percoat.solve(
+        "fig2", set={"grid.points": 64, "load.mean_pressure": [0.0, 0.01, 0.06]}
+    ),
     "accuracy": lambda: percoat.solve("fig2", set={"grid": {"accuracy": 0.01}}),
-    "coupled friction": lambda: percoat.solve("dlc-on-steel", set={"grid.points": 64, "load.mean_pressure": [0.1, 0.2]}),
+    "coupled friction": lambda: percoat.solve(
+        "dlc-on-steel", set={"grid.points": 64, "load.mean_pressure": [0.1, 0.2]}
+    ),
     "a surface from a seed": lambda: percoat.solve(
         "rough", set={"grid.points": 64, "surface.random.shortest": 5.0, "load.mean_pressure": [0.1]}
     ),
@@ -60,10 +64,12 @@ def same(ours: percoat.Result, theirs: percoat.Result) -> None:
     assert type(ours) is percoat.Result and ours is not theirs
     assert ours.to_dict() == theirs.to_dict() and without_heights(ours) == without_heights(theirs)
     assert repr(ours) == repr(theirs) and str(ours) == str(theirs)
-    assert ours.warnings == theirs.warnings and ours.accuracy == theirs.accuracy and ours.units == theirs.units
+    assert ours.warnings == theirs.warnings and ours.accuracy == theirs.accuracy
+    assert ours.units == theirs.units
     for name in ("x", "y", "a1", "a2", "owner"):
         own, other = getattr(ours, name), getattr(theirs, name)
-        assert own.tobytes() == other.tobytes() and own.dtype == other.dtype and own.shape == other.shape, name
+        assert own.tobytes() == other.tobytes(), name
+        assert own.dtype == other.dtype and own.shape == other.shape, name
         assert own.flags.writeable == other.flags.writeable, name
     assert len(ours) == len(theirs)
     for own, other in zip(ours, theirs):
@@ -151,7 +157,9 @@ def test_a_surface_of_a_file_is_kept_with_the_result(surface: Path, monkeypatch:
     same(pickle.loads(pickle.dumps(pickle.loads(kept))), result)
 
 
-def test_a_surface_of_a_file_is_kept_for_another_process(surface: Path, python: Program, tmp_path: Path) -> None:
+def test_a_surface_of_a_file_is_kept_for_another_process(
+    surface: Path, python: Program, tmp_path: Path
+) -> None:
     result = percoat.solve(surface)
     (tmp_path / "kept").write_bytes(pickle.dumps(result))
     surface.with_name("heights.npy").unlink()
@@ -185,7 +193,9 @@ def test_a_surface_that_is_gone_is_not_kept(surface: Path) -> None:
         pickle.dumps(result)
 
 
-def test_the_working_folder_does_not_matter(surface: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_the_working_folder_does_not_matter(
+    surface: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     monkeypatch.chdir(surface.parent)
     result = percoat.solve("own.toml")
     (tmp_path / "elsewhere").mkdir()
@@ -205,17 +215,21 @@ def test_a_surface_of_an_array_is_that_of_its_time() -> None:
 def test_records_and_checks_pickle() -> None:
     told = percoat.check("fig2", set={"grid.points": 96})
     for again in (pickle.loads(pickle.dumps(told)), copy.deepcopy(told), copy.copy(told)):
-        assert type(again) is percoat.Check and again == told and str(again) == str(told) and again.points == [96, 96]
+        assert type(again) is percoat.Check and again == told and str(again) == str(told)
+        assert again.points == [96, 96]
     both = percoat.compare("fig2", set={"grid.points": 48, "localized": {"indenters": [7], "elements": 12}})
     again = pickle.loads(pickle.dumps(both))
     assert type(again) is type(both) and again == both and str(again) == str(both)
     response = percoat.kernel("fig2", [1.0, 2.0], depth=[0.5])
     again = pickle.loads(pickle.dumps(response))
-    assert type(again) is percoat.Record and all(np.array_equal(again[name], response[name]) for name in response)
+    assert type(again) is percoat.Record
+    assert all(np.array_equal(again[name], response[name]) for name in response)
     table = percoat.sweep("fig2", {"grid.points": 48, "layers.0.thickness": [0.1, 0.2]})
     again = pickle.loads(pickle.dumps(table))
     assert type(again) is percoat.Columns and repr(again) == repr(table)
-    assert all(np.array_equal(again[name], table[name], equal_nan=table[name].dtype.kind == "f") for name in table)
+    assert all(
+        np.array_equal(again[name], table[name], equal_nan=table[name].dtype.kind == "f") for name in table
+    )
 
 
 def test_slices_and_sections_pickle(three_levels: percoat.Result) -> None:

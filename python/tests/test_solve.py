@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import numpy as np
 import pytest
 
 import percoat
-from conftest import wave
+from conftest import Program, wave
 
-# One level of paraboloids on the triangular lattice, uncoated: E* = 1, R = 0.8 l, l = 1 (ANCHORS 1.5). Mean pressure, peak
-# pressure and approach as an independent solver and the lattice sums give them, radius of contact as the sums do.
-PARABOLOIDS = [(0.002, 0.08074, 0.010519, 0.10121), (0.010, 0.13897, 0.026131, 0.17249), (0.030, 0.20383, 0.044710, 0.24664)]
+# One level of paraboloids on the triangular lattice, uncoated: E* = 1, R = 0.8 l, l = 1 (ANCHORS 1.5). Mean
+# pressure, peak pressure and approach as an independent solver and the lattice sums give them, radius of
+# contact as the sums do.
+PARABOLOIDS = [
+    (0.002, 0.08074, 0.010519, 0.10121),
+    (0.010, 0.13897, 0.026131, 0.17249),
+    (0.030, 0.20383, 0.044710, 0.24664),
+]
 
-# The parameters printed for the figures of Goryacheva & Torskaya (2019), on 756 points along 3 l: peak pressures, load
-# shares, additional displacement (ANCHORS 4.3).
+# The parameters printed for the figures of Goryacheva & Torskaya (2019), on 756 points along 3 l: peak
+# pressures, load shares, additional displacement (ANCHORS 4.3).
 FIGURES: dict[str, tuple[list[float], list[float], float]] = {
     "fig2": ([0.42169, 0.39448, 0.36528], [0.41085, 0.33067, 0.25848], 0.055395),
     "fig3a": ([0.11677, 0.10094, 0.08326], [0.49490, 0.32258, 0.18252], 0.037197),
@@ -38,8 +44,9 @@ def test_paraboloids_are_those_of_the_lattice_sums() -> None:
     result = percoat.solve(paraboloids())
     for step, (mean_pressure, peak, approach, radius) in zip(result, PARABOLOIDS):
         (level,) = step.levels
-        # Every number lies within its stated error of the anchor, whose last digit is rounded; and the stated errors are
-        # small: a sample is 1/13 of the smallest radius, its hundredth is what the boundary is known to.
+        # Every number lies within its stated error of the anchor, whose last digit is rounded; and the stated
+        # errors are small: a sample is 1/13 of the smallest radius, its hundredth is what the boundary is
+        # known to.
         assert abs(step.max_pressure - peak) <= level.errors.max_pressure + 5e-6
         assert abs(step.additional_displacement - approach) <= step.errors.penetration + 5e-7
         assert abs(level.contact_radius - radius) <= level.errors.contact_radius + 5e-6
@@ -51,15 +58,16 @@ def test_paraboloids_are_those_of_the_lattice_sums() -> None:
 
 
 def test_a_light_load_is_the_one_of_hertz() -> None:
-    # Hertz (1882): p₀ = (6 P E*²/(π³ R²))^(1/3). The neighbours change it by a factor of which the lattice sums give
-    # 1 + S₃ a³/(3π)·(…) < 1 + S₃ a³ (ANCHORS 1.5, S₃ = 11.03), 1.1e-3 at a = 0.0463.
+    # Hertz (1882): p₀ = (6 P E*²/(π³ R²))^(1/3). The neighbours change it by a factor of which the lattice
+    # sums give 1 + S₃ a³/(3π)·(…) < 1 + S₃ a³ (ANCHORS 1.5, S₃ = 11.03), 1.1e-3 at a = 0.0463.
     step = percoat.solve(paraboloids(load={"mean_pressure": 2e-4}, grid={"points": 210})).steps[0]
     load = 2e-4 * np.sqrt(3.0) / 2.0
     radius = (3.0 * load * 0.8 / 4.0) ** (1.0 / 3.0)
     peak = (6.0 * load / (np.pi**3 * 0.8**2)) ** (1.0 / 3.0)
     neighbours = 11.03 * radius**3
     assert abs(step.max_pressure - peak) <= step.levels[0].errors.max_pressure + neighbours * peak
-    assert abs(step.levels[0].contact_radius - radius) <= step.levels[0].errors.contact_radius + neighbours * radius
+    (level,) = step.levels
+    assert abs(level.contact_radius - radius) <= level.errors.contact_radius + neighbours * radius
 
 
 @pytest.mark.parametrize("name", list(FIGURES))
@@ -75,8 +83,9 @@ def test_figures_of_the_paper(name: str) -> None:
 
 
 def test_a_wave_in_complete_contact_has_the_pressure_of_westergaard(flat_wave: percoat.Result) -> None:
-    # p = p̄ + (E* k Δ/2) cos(kx), exact on any grid that has the wave; what is left is the solver's tolerance, 1e-12
-    # of the energy, hence its root of the pressures at worst. It converges at once: roundings of 1e-15.
+    # p = p̄ + (E* k Δ/2) cos(kx), exact on any grid that has the wave; what is left is the solver's
+    # tolerance, 1e-12 of the energy, hence its root of the pressures at worst. It converges at once:
+    # roundings of 1e-15.
     amplitude = np.pi * 0.01 / (2.0 * 0.91)
     for step in flat_wave:
         exact = step.mean_pressure + amplitude * np.cos(np.pi * flat_wave.x)
@@ -121,7 +130,8 @@ def test_pressure_and_gap_exclude_each_other(three_levels: percoat.Result) -> No
         touches = 10.0 * 1e-8 * step.penetration
         assert step.pressure.min() == 0.0 and step.gap.min() >= -touches
         assert np.abs(step.gap[step.pressure > 0.0]).max() <= touches < np.median(step.gap)
-        # Counting samples is off by half a sample along the boundaries, at most; cell of side √3 and area 3√3/2.
+        # Counting samples is off by half a sample along the boundaries, at most; cell of side √3 and area
+        # 3√3/2.
         boundaries = sum(2.0 * np.pi * level.contact_radius for level in step.levels)
         counting = 0.5 * (np.sqrt(3.0) / 96) * boundaries / (1.5 * np.sqrt(3.0))
         assert np.mean(step.pressure > 0.0) == pytest.approx(step.contact_fraction, abs=counting)
@@ -134,8 +144,8 @@ def test_gap_displacement_and_heights_add_up() -> None:
     result = percoat.solve(case)
     (step,) = result
     assert 0.0 < step.contact_fraction < 1.0
-    # Body at u, counterbody at its height over a plane: their distance is the gap but for that plane. In contact, the
-    # solver's ten tolerances of the penetration are allowed: 10 · 1e-12 · 0.01.
+    # Body at u, counterbody at its height over a plane: their distance is the gap but for that plane. In
+    # contact, the solver's ten tolerances of the penetration are allowed: 10 · 1e-12 · 0.01.
     plane = step.gap - step.displacement + case["surface"]["heights"]
     assert np.ptp(plane) < 1e-13
 
@@ -146,7 +156,8 @@ def test_the_grid_is_that_of_the_cell(three_levels: percoat.Result) -> None:
     assert np.allclose(result.x, i * result.a1[0] + j * result.a2[0], rtol=0.0, atol=1e-15)
     assert np.allclose(result.y, i * result.a1[1] + j * result.a2[1], rtol=0.0, atol=1e-15)
     # Three levels on the lattice of period 1: a cell of side √3, a third of it each.
-    assert np.hypot(*result.a1) == pytest.approx(np.sqrt(3.0)) and np.hypot(*result.a2) == pytest.approx(np.sqrt(3.0))
+    assert np.hypot(*result.a1) == pytest.approx(np.sqrt(3.0))
+    assert np.hypot(*result.a2) == pytest.approx(np.sqrt(3.0))
     assert set(np.unique(result.owner)) == {1, 2, 3}
 
 
@@ -200,7 +211,8 @@ def test_results_print_what_they_are(three_levels: percoat.Result) -> None:
     assert repr(three_levels[0]).startswith("<percoat.Step: mean pressure 0.03, penetration 0.0425")
     # The table of a step has its load and not that of the other.
     assert "0.030000" in str(three_levels[0]) and "0.060000" not in str(three_levels[0])
-    assert str(three_levels).startswith(three_levels.title) and "2 of 2 load steps converged" in str(three_levels)
+    assert str(three_levels).startswith(three_levels.title)
+    assert "2 of 2 load steps converged" in str(three_levels)
 
 
 def test_what_a_result_says_of_itself(three_levels: percoat.Result) -> None:
@@ -255,7 +267,11 @@ SAME = {"grid.points": 48, "load.mean_pressure": [0.01, 0.02], "layers.0.thickne
             "load.mean_pressure": np.array([0.01, 0.02]),
             "layers.0.thickness": np.float32(0.25),
         },
-        {"grid.points": np.array([48, 48]), "load.mean_pressure": [np.float64(0.01), 0.02], "layers.0.thickness": 0.25},
+        {
+            "grid.points": np.array([48, 48]),
+            "load.mean_pressure": [np.float64(0.01), 0.02],
+            "layers.0.thickness": 0.25,
+        },
     ],
     ids=["list of texts", "tuple of texts", "dicts", "numbers of NumPy", "arrays of NumPy"],
 )
@@ -272,7 +288,9 @@ def test_a_dict_may_have_numbers_and_arrays_of_numpy() -> None:
         level["radius"] = np.float64(level["radius"])
     case["grid"]["points"] = np.array(case["grid"]["points"], dtype=np.int16)
     case["load"]["mean_pressure"] = np.array(case["load"]["mean_pressure"])
-    case["friction"] = {"coefficient": np.float32(0.25), "coupling": np.bool_(False), "direction": np.array([0, 1])}
+    case["friction"] = {
+        "coefficient": np.float32(0.25), "coupling": np.bool_(False), "direction": np.array([0, 1])
+    }
     case["localized"] = None  # what is None is left out
     result = percoat.solve(case)
     plain = {"coefficient": 0.25, "coupling": False, "direction": [0.0, 1.0]}
@@ -339,7 +357,8 @@ def test_a_check_tells_what_a_surface_is_like() -> None:
     assert told.surface is not None and told.first_touch is None
     assert told.surface.rms_height == pytest.approx(0.01 / np.sqrt(2.0), rel=1e-12)
     assert told.surface.rms_slope == pytest.approx(np.pi * 0.01 / np.sqrt(2.0), rel=1e-12)
-    assert told.surface.kurtosis == pytest.approx(1.5, rel=1e-12) and told.surface.range == pytest.approx(0.02)
+    assert told.surface.kurtosis == pytest.approx(1.5, rel=1e-12)
+    assert told.surface.range == pytest.approx(0.02)
 
 
 def test_both_methods_agree() -> None:
@@ -359,6 +378,25 @@ def test_a_record_is_a_dict_with_attributes() -> None:
     assert type(plain) is dict and type(plain["errors"]) is dict and type(plain["levels"][0]) is dict
     with pytest.raises(AttributeError, match="no 'loads' here; there are load, errors, levels"):
         record.loads
+
+
+def test_the_schema_is_that_of_the_command_line(program: Program) -> None:
+    schema = percoat.schema()
+    assert schema == json.loads(program("explain", "--schema").stdout)
+    assert set(percoat.case("fig2")) <= set(schema["properties"])
+
+
+def test_what_was_solved_cannot_be_set(three_levels: percoat.Result) -> None:
+    step = three_levels[0]
+    for name in ("pressure", "mean_pressure", "penetraton"):
+        with pytest.raises(AttributeError):
+            setattr(step, name, 0.0)
+    for name in ("x", "converged", "title"):
+        with pytest.raises(AttributeError):
+            setattr(three_levels, name, 0.0)
+    record = percoat.Record(load=0.5)
+    record.load = 0.25
+    assert record["load"] == record.load == 0.25
 
 
 def test_everything_public_is_there_and_explained() -> None:

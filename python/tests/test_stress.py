@@ -14,7 +14,7 @@ Q = np.pi  # of the wave, of wavelength 2
 
 
 def exact(x: Any, z: Any, mean: float, poisson: float = 0.3) -> dict[str, Any]:
-    """Under p̄ + P cos(qx) on a half-space without mean lateral strain (Johnson 1985, 2.3; ANCHORS 3.2), where E = 1."""
+    """Under p̄ + P cos(qx) on a half-space of E = 1 without mean lateral strain (ANCHORS 3.2)."""
     p = Q * 0.01 / (2.0 * 0.91)
     decay, cos, sin = p * np.exp(-Q * z), np.cos(Q * x), np.sin(Q * x)
     shear = 1.0 / 2.6
@@ -47,7 +47,8 @@ def test_a_wave_has_the_stresses_of_its_closed_form(flat_wave: percoat.Result, z
 
 
 def test_a_wave_has_the_shear_of_its_closed_form(flat_wave: percoat.Result) -> None:
-    # Where cos(qx) = 0 the mean stress has σ_xx = σ_yy, and the wave adds pure shear qz e^(−qz): its circle is exact.
+    # Where cos(qx) = 0 the mean stress has σ_xx = σ_yy, and the wave adds pure shear qz e^(−qz): its circle
+    # is exact.
     mean, z, p = flat_wave[0].mean_pressure, 1.0 / Q, Q * 0.01 / (2.0 * 0.91)
     stress = flat_wave[0].stress([0.5, 0.0, z])
     half = 0.5 * mean * (1.0 - 3.0 / 7.0)
@@ -78,7 +79,8 @@ def test_points_are_those_of_the_closed_form(flat_wave: percoat.Result) -> None:
 
 def test_the_mean_stress_is_confined_or_that_of_a_half_space() -> None:
     confined, free = (percoat.solve(wave(stress={"mean": mean}))[0] for mean in ("confined", "half-space"))
-    # Under a wide disc of pressure: σ_r = −(1 + 2ν) p̄/2 at the surface (ANCHORS 3.1); without mean strain −ν/(1 − ν) p̄.
+    # Under a wide disc of pressure: σ_r = −(1 + 2ν) p̄/2 at the surface (ANCHORS 3.1); without mean strain
+    # −ν/(1 − ν) p̄.
     difference = free.plane(0.4).xx - confined.plane(0.4).xx
     assert np.allclose(difference, -0.02 * (0.8 - 3.0 / 7.0), rtol=1e-11)
 
@@ -111,7 +113,8 @@ def test_the_sides_of_an_interface(three_levels: percoat.Result) -> None:
     assert np.array_equal(step.plane(0.5).xx, upper.xx) and (upper.material, lower.material) == (1, 2)
     for name in ("zz", "xz", "yz", "ux", "uy", "uz"):
         assert np.abs(upper[name] - lower[name]).max() < 1e-13, name
-    # What is bonded is strained alike: σ_xx + σ_yy = 4 G ε/(1 − ν) + 2 ν σ_zz/(1 − ν) with 2ε = ε_xx + ε_yy of both.
+    # What is bonded is strained alike: σ_xx + σ_yy = 4 G ε/(1 − ν) + 2 ν σ_zz/(1 − ν) with 2ε = ε_xx + ε_yy
+    # of both.
     (g1, nu1), (g2, nu2) = (2.0 / 2.6, 0.2), (1.0 / 2.6, 0.3)
     strains = [
         ((side.xx + side.yy) * (1.0 - nu) - 2.0 * nu * side.zz) / (2.0 * g * (1.0 + nu))
@@ -143,7 +146,8 @@ def test_a_plane_has_the_points_asked_for(flat_wave: percoat.Result, points: Any
     plane = flat_wave[0].plane(0.25, points=points)
     n1, n2 = (int(points), int(points)) if np.ndim(points) == 0 else map(int, points)
     assert plane.x.shape == plane.y.shape == plane.mises.shape == (n1, n2)
-    assert np.allclose(plane.x[:, 0], 2.0 * np.arange(n1) / n1) and np.allclose(plane.y[0], 0.5 * np.arange(n2) / n2)
+    assert np.allclose(plane.x[:, 0], 2.0 * np.arange(n1) / n1)
+    assert np.allclose(plane.y[0], 0.5 * np.arange(n2) / n2)
     values = exact(plane.x, 0.25, flat_wave[0].mean_pressure)
     assert np.abs(plane.zz - values["zz"]).max() < ROUNDING
     assert f"{n1} × {n2} points at z = 0.25, in material 1" in repr(plane)
@@ -192,15 +196,16 @@ def test_invariants_of_a_stress() -> None:
     mises = np.sqrt(0.5 * sum((principal[..., i] - principal[..., i - 1]) ** 2 for i in range(3)))
     assert np.allclose(percoat.mises(stress), mises, rtol=1e-12)
     # Lists of whole numbers, and one tensor alone.
-    assert percoat.mises([2, 0, 0, 0, 0, 0]) == 2.0 and percoat.principal([1, 2, 3, 0, 0, 0]).tolist() == [3.0, 2.0, 1.0]
+    assert percoat.mises([2, 0, 0, 0, 0, 0]) == 2.0
+    assert percoat.principal([1, 2, 3, 0, 0, 0]).tolist() == [3.0, 2.0, 1.0]
 
 
 def test_invariants_of_points_are_those_of_planes(three_levels: percoat.Result) -> None:
     plane = three_levels[1].plane(0.3)
     stress = np.stack([plane[name] for name in percoat.COMPONENTS[:6]], axis=-1)
     assert np.abs(percoat.mises(stress) - plane.mises).max() < 1e-14
-    # On the axis of a contact two principal stresses are equal, and the closed formula for the roots of a cubic loses
-    # half of the digits there: √(2⁻⁵²) = 1.5e-8 of the deviator, at most 0.2.
+    # On the axis of a contact two principal stresses are equal, and the closed formula for the roots of a
+    # cubic loses half of the digits there: √(2⁻⁵²) = 1.5e-8 of the deviator, at most 0.2.
     assert np.abs(percoat.tau1(stress) - plane.tau1).max() < 1.5e-8 * 0.2
     assert np.abs(percoat.s1(stress) - plane.s1).max() < 1.5e-8 * 0.2
 
@@ -213,7 +218,9 @@ def test_points_of_any_shape(three_levels: percoat.Result, shape: tuple[int, ...
 def test_points_in_any_memory(three_levels: percoat.Result) -> None:
     points = np.random.default_rng(1).uniform(0.0, 0.4, (6, 3))
     expected = three_levels[0].stress(points)
-    for form in (points.tolist(), np.asfortranarray(points), points[::-1][::-1], np.repeat(points, 2, axis=0)[::2]):
+    for form in (
+        points.tolist(), np.asfortranarray(points), points[::-1][::-1], np.repeat(points, 2, axis=0)[::2]
+    ):
         assert np.array_equal(three_levels[0].stress(form), expected)
     whole = np.array([[0, 0, 1], [1, 1, 2]])
     assert np.array_equal(three_levels[0].stress(whole), three_levels[0].stress(whole.astype(float)))

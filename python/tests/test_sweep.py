@@ -14,7 +14,12 @@ SMALL: dict[str, Any] = {"grid.points": 48}
 
 def test_rows_are_the_steps_of_their_cases() -> None:
     thicknesses, ratios = [0.1, 0.4], [0.5, 2.0, 8.0]
-    values = {**SMALL, "load.mean_pressure": [[0.02, 0.05]], "layers.0.thickness": thicknesses, "layers.0.shear_ratio": ratios}
+    values = {
+        **SMALL,
+        "load.mean_pressure": [[0.02, 0.05]],
+        "layers.0.thickness": thicknesses,
+        "layers.0.shear_ratio": ratios,
+    }
     table = percoat.sweep("fig2", values)
     assert table.rows == 12 and table["combination"].tolist() == sorted([1, 2, 3, 4, 5, 6] * 2)
     assert table["step"].tolist() == [1, 2] * 6 and set(table["status"]) == {"done"}
@@ -22,17 +27,23 @@ def test_rows_are_the_steps_of_their_cases() -> None:
     assert table["set_layers_0_thickness"].tolist() == [0.1] * 6 + [0.4] * 6
     assert table["set_layers_0_shear_ratio"].tolist() == [0.5, 0.5, 2.0, 2.0, 8.0, 8.0] * 2
     for row in range(12):
-        own = {key: table[f"set_{key.replace('.', '_')}"][row] for key in ("layers.0.thickness", "layers.0.shear_ratio")}
+        own = {
+            key: table[f"set_{key.replace('.', '_')}"][row]
+            for key in ("layers.0.thickness", "layers.0.shear_ratio")
+        }
         result = percoat.solve("fig2", set={**SMALL, "load.mean_pressure": [0.02, 0.05], **own})
         step = result[int(table["step"][row]) - 1]
-        assert table["penetration"][row] == step.penetration and table["mean_pressure"][row] == step.mean_pressure
+        assert table["penetration"][row] == step.penetration
+        assert table["mean_pressure"][row] == step.mean_pressure
         assert table["levels_2_max_pressure"][row] == step.levels[1].max_pressure
         assert table["levels_1_errors_load"][row] == step.levels[0].errors.load
         assert table["points_1"][row] == 48 and bool(table["converged"][row]) == step.converged
 
 
 def test_pairs_are_zipped() -> None:
-    table = percoat.sweep("fig2", {**SMALL, "layers.0.thickness": [0.1, 0.4], "substrate.poisson": [0.2, 0.45]}, zip=True)
+    table = percoat.sweep(
+        "fig2", {**SMALL, "layers.0.thickness": [0.1, 0.4], "substrate.poisson": [0.2, 0.45]}, zip=True
+    )
     assert table["set_layers_0_thickness"].tolist() == [0.1, 0.4]
     assert table["set_substrate_poisson"].tolist() == [0.2, 0.45]
     for row, (thickness, poisson) in enumerate([(0.1, 0.2), (0.4, 0.45)]):
@@ -67,19 +78,32 @@ def test_values_in_every_form(values: Any, expected: Any) -> None:
 
 
 def test_columns_have_the_types_of_their_numbers() -> None:
-    values = {**SMALL, "load.mean_pressure": [[0.0, 0.0005], [0.05]], "layers.0.interface": ["bonded", "frictionless"]}
+    values = {
+        **SMALL,
+        "load.mean_pressure": [[0.0, 0.0005], [0.05]],
+        "layers.0.interface": ["bonded", "frictionless"],
+    }
     table = percoat.sweep("fig2", values)
-    kinds = {"combination": "i", "step": "i", "points_1": "i", "penetration": "f", "converged": "b", "levels_1_merged": "b"}
+    kinds = {
+        "combination": "i",
+        "step": "i",
+        "points_1": "i",
+        "penetration": "f",
+        "converged": "b",
+        "levels_1_merged": "b",
+    }
     for name, kind in kinds.items():
         assert table[name].dtype.kind == kind, name
     assert set(table["set_layers_0_interface"]) == {"bonded", "frictionless"}
     # What is not in contact has no boundary: not a number.
     untouched = np.isnan(table["levels_3_radius_min"])
-    assert np.array_equal(untouched, table["mean_pressure"] < 0.003) and untouched.any() and not untouched.all()
+    assert np.array_equal(untouched, table["mean_pressure"] < 0.003) and untouched.any()
+    assert not untouched.all()
 
 
 def test_a_column_of_no_numbers_is_not_a_number() -> None:
-    # No contact here is a ring: "numbers that are not there are NaN", whether or not others of the column are.
+    # No contact here is a ring: "numbers that are not there are NaN", whether or not others of the column
+    # are.
     table = percoat.sweep("fig2", {**SMALL, "layers.0.thickness": [0.1, 0.2]})
     column = table["levels_1_radius_inner"]
     assert column.dtype.kind == "f" and np.isnan(column).all()
@@ -90,7 +114,9 @@ def test_what_a_sweep_gives_is_a_dict_of_columns() -> None:
     assert isinstance(table, dict) and isinstance(table, percoat.Columns)
     assert all(isinstance(column, np.ndarray) and column.shape == (2,) for column in table.values())
     assert len(table) == len(list(table)) > 20 and table.rows == 2
-    assert repr(table).startswith("<percoat.Columns: 2 rows of combination, set_layers_0_thickness, status, step, ")
+    assert repr(table).startswith(
+        "<percoat.Columns: 2 rows of combination, set_layers_0_thickness, status, step, "
+    )
 
 
 def test_a_combination_that_fails_has_a_row_and_a_warning() -> None:
@@ -100,13 +126,16 @@ def test_a_combination_that_fails_has_a_row_and_a_warning() -> None:
     assert [own.filename for own in caught if "failed" in str(own.message)] == [__file__]
     with pytest.warns(percoat.NotConverged, match="not converged"):
         table = percoat.sweep("fig2", {**SMALL, "solver.max_iterations": [2, 1000]})
-    assert table["status"].tolist() == ["not_converged", "done"] and table["converged"].tolist() == [False, True]
+    assert table["status"].tolist() == ["not_converged", "done"]
+    assert table["converged"].tolist() == [False, True]
 
 
 def test_doubts_about_a_combination_are_told() -> None:
     # As `percoat sweep` says on standard error, and `percoat.solve` warns of the same case.
-    with pytest.warns(percoat.PercoatWarning, match="less than 10 samples"):
-        percoat.sweep("fig2", {**SMALL, "layers.0.thickness": [0.1, 0.2]})
+    with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
+        percoat.sweep("fig2", {**SMALL, "layers.0.thickness": [0.1, 0.2, 0.3]})
+    # Each doubt once, and how many others have it.
+    assert len(caught) == 1 and "2 more" in str(caught[0].message) and caught[0].filename == __file__
 
 
 def test_limits_are_swept() -> None:
@@ -115,7 +144,11 @@ def test_limits_are_swept() -> None:
     for row, strength in enumerate([0.1, 0.2]):
         limits = percoat.limit(case, set={"substrate.yield_strength": strength})
         assert limits.first is not None
-        names = [name for name in table if "mean_pressure" in name and table[name][row] == limits.first.mean_pressure]
+        names = [
+            name
+            for name in table
+            if "mean_pressure" in name and table[name][row] == limits.first.mean_pressure
+        ]
         assert names, list(table)
 
 
@@ -137,12 +170,17 @@ def test_the_order_of_rows_does_not_depend_on_threads() -> None:
     one, three = (percoat.sweep("fig2", values, threads=threads) for threads in (1, 3))
     assert list(one) == list(three)
     for name in one:
-        assert one[name].tolist() == three[name].tolist() or np.array_equal(one[name], three[name], equal_nan=True), name
+        assert one[name].tolist() == three[name].tolist() or np.array_equal(
+            one[name], three[name], equal_nan=True
+        ), name
     assert one["combination"].tolist() == list(range(1, 13))
 
 
 def test_progress_of_a_sweep() -> None:
     heard: list[percoat.Progress] = []
     percoat.sweep("fig2", {**SMALL, "layers.0.thickness": "0.1:1:7"}, progress=heard.append)
-    assert [(own.unit, own.done, own.of) for own in heard] == [("combination", done, 7) for done in range(1, 8)]
+    assert [(own.unit, own.done, own.of) for own in heard] == [
+        ("combination", done, 7)
+        for done in range(1, 8)
+    ]
     assert all(own.points is None and "done" in own.phase for own in heard)

@@ -28,9 +28,8 @@ def prints(result: percoat.Result) -> list[bytes]:
     """Every bit of the fields, and of the stresses under them."""
     step = result[-1]
     inside = [step.stress([[0.1, 0.2, 0.3], [0.0, 0.0, 0.7]]), step.plane(0.3).mises]
-    return [getattr(own, name).tobytes() for own in result for name in ("pressure", "gap", "displacement")] + [
-        own.tobytes() for own in inside
-    ]
+    fields = [getattr(own, name) for own in result for name in ("pressure", "gap", "displacement")]
+    return [own.tobytes() for own in (*fields, *inside)]
 
 
 @pytest.fixture(scope="module")
@@ -193,7 +192,9 @@ def worker(points: int) -> tuple[int, bytes]:
         return points, percoat.solve("fig2", set={"grid.points": points})[0].pressure.tobytes()
 
 
-@pytest.mark.parametrize("method", [own for own in ("fork", "spawn") if own in multiprocessing.get_all_start_methods()])
+@pytest.mark.parametrize(
+    "method", [own for own in ("fork", "spawn") if own in multiprocessing.get_all_start_methods()]
+)
 def test_a_pool_of_processes_solves(method: str) -> None:
     sizes = [48, 64, 72]
     expected = [worker(points) for points in sizes]

@@ -61,7 +61,18 @@ some: List[percoat.Step] = result.steps[1:]
 number: int = len(result)
 owner: NDArray[np.int32] = result.owner
 table: Dict[str, Any] = result.to_dict()
-print(result.x, result.a1, result.summary.timing.solve, first.owner, first.units.length, result.title, result.units.length, result.accuracy, result.converged, result.warnings)
+print(
+    result.x,
+    result.a1,
+    result.summary.timing.solve,
+    first.owner,
+    first.units.length,
+    result.title,
+    result.units.length,
+    result.accuracy,
+    result.converged,
+    result.warnings,
+)
 
 limits: percoat.Limits = percoat.limit(case, set={"substrate.yield_strength": 0.1})
 if limits.first is not None:

@@ -270,8 +270,7 @@ fn a_file_in_memory_is_read_as_one_on_disk() {
     write(folder.path(), &[6, 8], Order::C, &heights);
     let text = format!("surface = {{ heights = \"surface.npy\", scale = 2, level = true }}\n{LATTICE}{REST}");
     let on_disk = Case::read(&source(folder.path(), text.clone()), &[]).unwrap();
-    let bytes = crate::output::npy_bytes(&[6, 8], heights.iter().copied()).unwrap();
-    assert_eq!(bytes, std::fs::read(folder.path().join("surface.npy")).unwrap());
+    let bytes = std::fs::read(folder.path().join("surface.npy")).unwrap();
     let nowhere =
         Source { files: [("surface.npy".to_owned(), bytes.into())].into(), ..source(Path::new("nowhere"), text) };
     let in_memory = Case::read(&nowhere, &[]).unwrap();
