@@ -16,7 +16,7 @@ from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from percoat._solve import COMPONENTS, Array, Result, Section, Plane, Step
+from percoat._solve import COMPONENTS, Array, Plane, Result, Section, Step
 
 try:
     import matplotlib.pyplot as plt
@@ -80,7 +80,7 @@ def pressure(
     ('x', 'y')
     """
     values = np.ma.masked_equal(step.pressure, 0.0)
-    units = step._common.summary.units
+    units = step.units
     scale = _scale(values, {"vmin": 0.0, **artist} if "norm" not in artist else artist)
     ax = _map(ax, step, values, scale, units, window, artist)
     return _bar(ax, scale, _label("pressure", "pressure", units))
@@ -104,12 +104,12 @@ def contact(step: Step, *, ax: Optional[Axes] = None, window: Optional[Window] =
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
     ['level 1', 'level 2', 'level 3']
     """
-    owner = step._common.owner
+    owner = step.owner
     levels = max(1, int(owner.max()))
     spots = np.ma.masked_where(step.pressure == 0.0, np.maximum(owner, 1))
     colours = artist.get("cmap", ListedColormap([f"C{level % 10}" for level in range(levels)]))
     scale = ScalarMappable(BoundaryNorm(np.arange(levels + 1) + 0.5, levels), colours)
-    ax = _map(ax, step, spots, scale, step._common.summary.units, window, artist)
+    ax = _map(ax, step, spots, scale, step.units, window, artist)
     if owner.any():
         touching = np.unique(spots.compressed())
         keys = [Patch(color=tuple(scale.to_rgba(level)), label=f"level {level}") for level in touching]

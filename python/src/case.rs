@@ -184,7 +184,8 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
 
 /// An array as a file of NumPy.
 fn npy(heights: &Bound<'_, PyAny>) -> PyResult<Arc<[u8]>> {
-    if heights.hasattr("mask")? {
+    let masked = heights.py().import("numpy.ma")?.getattr("MaskedArray")?;
+    if heights.is_instance(&masked)? {
         return Err(refused(
             "`surface.heights` is masked: a surface has a height everywhere; fill what was not measured",
         ));

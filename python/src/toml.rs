@@ -6,8 +6,14 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyMapping, PyString};
 use toml::{Table, Value};
 
+/// Parts of the longest path: nothing of a case lies so deep but what has itself within.
+const DEEPEST: usize = 32;
+
 /// A value that stands at `path` in a case.
 pub fn value(object: &Bound<'_, PyAny>, path: &str) -> PyResult<Value> {
+    if path.matches('.').count() > DEEPEST {
+        return Err(refused("no value of a case lies as deep as this: does it have itself within?"));
+    }
     if object.is_instance_of::<PyBool>() {
         return Ok(Value::Boolean(object.extract()?));
     }

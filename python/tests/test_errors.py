@@ -264,6 +264,22 @@ def test_a_key_of_another_type(fig2: dict[str, Any]) -> None:
             call()
 
 
+@pytest.mark.parametrize(
+    "value", ["own = {}; own['substrate'] = own", "own = []; own.append(own); own = {'substrate': {'young': own}}"]
+)
+def test_a_case_within_itself(python: Program, value: str) -> None:
+    # In a process of its own, which must live on.
+    text = f"""
+import percoat
+{value}
+try:
+    percoat.case(own)
+except (RecursionError, ValueError, TypeError) as error:
+    print("refused:", error)
+"""
+    assert python(text).stdout.startswith("refused: ")
+
+
 @pytest.mark.parametrize("settings", [3, 1.5, object(), [1, 2], [("grid.points", 48)]])
 def test_settings_of_another_type(settings: Any) -> None:
     with pytest.raises(TypeError, match="set is a dict such as .*, or a list of texts KEY=VALUE"):
@@ -467,6 +483,12 @@ def test_heights_that_are_no_surface(heights: Any, message: str) -> None:
 def test_heights_that_are_no_numbers(heights: Any) -> None:
     with pytest.raises(TypeError, match="`surface.heights` is (an array of numbers|complex)"):
         percoat.solve(wave(surface={"heights": heights, "period": [2.0, 0.5]}))
+
+
+def test_heights_that_were_not_measured_everywhere() -> None:
+    heights = wave()["surface"]["heights"]
+    holes = np.ma.masked_greater(heights, 0.009)
+    assert "masked" in refusal(lambda: percoat.solve(wave(surface={"heights": holes, "period": [2.0, 0.5]})))
 
 
 def test_heights_in_a_file_that_is_not_there(tmp_path: Path) -> None:

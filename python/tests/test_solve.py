@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from typing import Any
 
 import numpy as np
@@ -230,6 +231,18 @@ def test_an_accuracy_is_reached_and_said() -> None:
     assert result.x.shape == tuple(result[0].points) == result[0].pressure.shape
 
 
+def test_an_accuracy_that_is_not_reached_is_told() -> None:
+    # Changes of a grid fall no faster than its spacing, and there are grids up to 4096 points: never to 1e-9.
+    with pytest.warns(percoat.PercoatWarning) as caught:
+        result = percoat.solve("fig2", set={"grid": {"accuracy": 1e-9}, "solver.tolerance": 1e-6})
+    told = {own.category: str(own.message) for own in caught}
+    assert told[percoat.PercoatWarning].startswith("grid.accuracy is not reached: the last change was ")
+    assert told[percoat.NotConverged] == "not converged: the accuracy is not reached"
+    assert not result.converged and all(step.converged for step in result)
+    assert result.accuracy is not None and result.accuracy > 1e-9
+    assert repr(result).endswith("not converged>") and not pickle.loads(pickle.dumps(result)).converged
+
+
 def test_what_has_not_converged_warns_at_the_line_of_the_user() -> None:
     with pytest.warns(percoat.NotConverged, match="not converged: step 1: .*iteration") as caught:
         result = percoat.solve("fig2", set={"grid.points": 96, "solver.max_iterations": 2})
@@ -318,6 +331,15 @@ def test_heights_of_any_kind_are_the_same_surface() -> None:
     for form in forms:
         result = percoat.solve(wave(surface={"heights": form, "period": [2.0, 0.5]}))
         assert np.array_equal(result[0].pressure, expected)
+
+
+def test_heights_of_other_libraries_are_the_same_surface() -> None:
+    heights = wave()["surface"]["heights"]
+    expected = percoat.solve(wave())[0].pressure
+    for library, kind in (("pandas", "DataFrame"), ("xarray", "DataArray")):
+        table = getattr(pytest.importorskip(library), kind)(heights)
+        result = percoat.solve(wave(surface={"heights": table, "period": [2.0, 0.5]}))
+        assert np.array_equal(result[0].pressure, expected), library
 
 
 def test_the_case_is_not_changed_by_solving_it() -> None:

@@ -117,7 +117,7 @@ def test_types_are_strict(tmp_path: Path, request: pytest.FixtureRequest) -> Non
     lines = [f"{mistake}  # mistake {index}" for index, mistake in enumerate(MISTAKES)]
     (tmp_path / "mistakes.py").write_text("import percoat\n" + "\n".join(lines) + "\n", "utf-8")
     package = Path(percoat.__file__).parent
-    cache = request.config.cache
+    cache = getattr(request.config, "cache", None)
     kept = tmp_path / "cache" if cache is None else Path(cache.mkdir("mypy"))
     # Where a wheel has put it, it is found by its mark `py.typed`.
     path = {} if "site-packages" in package.parts else {"MYPYPATH": str(package.parent)}
