@@ -94,6 +94,21 @@ def test_what_never_fails_has_no_limit() -> None:
     assert repr(sound).endswith(": nothing fails>") and "nothing fails up to the mean pressure" in str(sound)
 
 
+def test_doubts_about_limits_are_told_at_the_line_of_the_user() -> None:
+    with pytest.warns(percoat.PercoatWarning, match="less than 10 samples") as caught:
+        limits = percoat.limit(paraboloids(0.04, grid={"points": 48}))
+    assert [str(own.message) for own in caught] == limits.warnings and limits.converged
+    assert {own.filename for own in caught} == {__file__}
+
+
+def test_limits_of_what_has_not_converged_are_told() -> None:
+    case = paraboloids(0.04, grid={"points": 96}, solver={"max_iterations": 2})
+    with pytest.warns(percoat.NotConverged) as caught:
+        limits = percoat.limit(case)
+    assert not limits.converged
+    assert {own.filename for own in caught} == {__file__}
+
+
 def test_limits_print_their_table(limits: percoat.Limits) -> None:
     assert str(limits).startswith(limits.title) and "delamination of interface 2" in str(limits)
     assert repr(limits).startswith(f"<percoat.Limits {limits.title!r}: yield of material 2 at 0.04")

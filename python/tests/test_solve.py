@@ -392,6 +392,14 @@ def test_both_methods_agree() -> None:
     assert both.spectral.levels[0].max_pressure == pytest.approx(circle.levels[0].max_pressure, rel=0.01)
 
 
+def test_doubts_about_a_comparison_are_told_at_the_line_of_the_user() -> None:
+    settings = {"grid.points": 48, "localized": {"indenters": [7], "elements": 12}}
+    with pytest.warns(percoat.PercoatWarning, match="samples in the spectral solution") as caught:
+        both = percoat.compare("fig2", set=settings)
+    assert [str(own.message) for own in caught] == both.warnings
+    assert {own.filename for own in caught} == {__file__}
+
+
 def test_a_record_is_a_dict_with_attributes() -> None:
     record = percoat.Record(load=0.5, errors={"load": 1e-3}, levels=[{"level": 1}])
     assert record.errors.load == record["errors"]["load"] == 1e-3 and record.levels[0].level == 1
