@@ -233,7 +233,7 @@ class Step:
 
     @cached_property
     def gap(self) -> Array:
-        """Gap between body and counterbody (n₁, n₂), a length; 0 in contact."""
+        """Gap between body and counterbody (n₁, n₂), a length; 0 in contact, within the tolerance."""
         return self._core.gap
 
     @cached_property
@@ -310,6 +310,9 @@ class Step:
         behind: Optional[float] = None,
     ) -> Section:
         """Stresses and displacements on a vertical cut; without arguments, on that of the case.
+
+        On the surface and just below it stresses are sharp at the edge of contact, where the sum over waves that
+        :meth:`plane` and :meth:`stress` give overshoots.
 
         Parameters
         ----------

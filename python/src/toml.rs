@@ -58,6 +58,10 @@ pub fn table(mapping: &Bound<'_, PyMapping>, path: &str) -> PyResult<Table> {
         let key: String = key
             .extract()
             .map_err(|_| PyTypeError::new_err(format!("a key of `{}` is no text: {key}", or_case(path))))?;
+        // No path would tell how deep what it has lies.
+        if key.is_empty() {
+            return Err(refused(format!("a key of `{}` is empty", or_case(path))));
+        }
         if !own.is_none() {
             table.insert(key.clone(), value(&own, &join(path, &key))?);
         }

@@ -265,7 +265,12 @@ def test_a_key_of_another_type(fig2: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(
-    "value", ["own = {}; own['substrate'] = own", "own = []; own.append(own); own = {'substrate': {'young': own}}"]
+    "value",
+    [
+        "own = {}; own['substrate'] = own",
+        "own = {}; own[''] = own",
+        "items = []; items.append(items); own = {'substrate': {'young': items}}",
+    ],
 )
 def test_a_case_within_itself(python: Program, value: str) -> None:
     # In a process of its own, which must live on.

@@ -113,8 +113,8 @@ def test_a_result_goes_when_nobody_has_it_any_more() -> None:
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="resident memory is read under Linux")
 def test_a_thousand_solutions_take_no_memory() -> None:
     # One array of 48² doubles that is left behind each time would add up to 1000 · 18 KiB = 18 MB; half of it
-    # is allowed for what the allocator keeps of the pieces it hands out. The twelve fields of a plane, asked for
-    # every twentieth time, would add up to 1000/20 · 12 · 18 KiB = 11 MB.
+    # is allowed for what the allocator keeps of the pieces it hands out. The twelve fields of a plane, asked
+    # for every twentieth time, would add up to 1000/20 · 12 · 18 KiB = 11 MB.
     points, repeats = 48, 1000
     bound = repeats * points**2 * 8 // 2
     case: dict[str, Any] = {
