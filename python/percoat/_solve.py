@@ -41,7 +41,24 @@ class Level(Record):
     errors: Record
 
 
-class Plane(Record):
+class Field(Record):
+    """Arrays under the names of :data:`COMPONENTS`."""
+
+    xx: Array
+    yy: Array
+    zz: Array
+    xy: Array
+    xz: Array
+    yz: Array
+    ux: Array
+    uy: Array
+    uz: Array
+    tau1: Array
+    mises: Array
+    s1: Array
+
+
+class Plane(Field):
     """Stresses and displacements on a plane: arrays (n₁, n₂) under the names of :data:`COMPONENTS`, at ``x`` and ``y``.
 
     Examples
@@ -55,25 +72,13 @@ class Plane(Record):
     y: Array
     z: float
     material: int
-    xx: Array
-    yy: Array
-    zz: Array
-    xy: Array
-    xz: Array
-    yz: Array
-    ux: Array
-    uy: Array
-    uz: Array
-    tau1: Array
-    mises: Array
-    s1: Array
 
     def __repr__(self) -> str:
         n1, n2 = self.xx.shape
         return f"<percoat.Plane: {n1} × {n2} points at z = {self.z}, in material {self.material}>"
 
 
-class Section(Record):
+class Section(Field):
     """Stresses and displacements on a vertical cut: arrays (rows, points) under the names of :data:`COMPONENTS`.
 
     ``s`` is the distance along the cut, ``x`` and ``y`` its points; ``z`` and ``material`` those of the rows. A depth on
@@ -85,18 +90,6 @@ class Section(Record):
     y: Array
     z: Array
     material: NDArray[np.int32]
-    xx: Array
-    yy: Array
-    zz: Array
-    xy: Array
-    xz: Array
-    yz: Array
-    ux: Array
-    uy: Array
-    uz: Array
-    tau1: Array
-    mises: Array
-    s1: Array
 
     def __repr__(self) -> str:
         rows, points = self.xx.shape

@@ -11,7 +11,7 @@ use percoat::Progress;
 use percoat::case::resources::{Job, needs};
 use percoat::case::{self, Room, plausibility};
 use percoat::output::{Clock, Phase, steps_of, summary::summary, table};
-use percoat::run::{Finished, Recorder, StepRecord};
+use percoat::run::{Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
 use percoat::{Load, Solver, StressField, Surface};
 use pyo3::prelude::*;
@@ -71,10 +71,6 @@ impl Keeping<'_> {
 
 impl Recorder for Keeping<'_> {
     type Error = Stopped;
-
-    fn finished(&mut self) -> Option<Finished> {
-        None
-    }
 
     fn fits(&self, points: [usize; 2]) -> bool {
         needs(self.case, points, self.job).fit(self.room)
