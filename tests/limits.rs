@@ -63,7 +63,7 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
     ];
     assert_eq!(found.limits.iter().map(|limit| limit.criterion).collect::<Vec<_>>(), expected);
     for limit in &found.limits {
-        let At::Load { mean_pressure, position, error } = limit.at else { panic!("{limit:?}") };
+        let At::Load { mean_pressure, position, error, .. } = limit.at else { panic!("{limit:?}") };
         let run = Run::new(problem.clone(), vec![Load::MeanPressure(mean_pressure)], Sampling::Points([96; 2]));
         let step = run.solve(&mut ()).unwrap().steps.remove(0);
         let own = step.strength.iter().find(|own| own.criterion == limit.criterion).unwrap();
@@ -112,7 +112,7 @@ fn what_is_never_reached_or_at_once_is_said() {
         (found.limits[0].at, found.to_string(), found)
     };
     let (never, words, found) = at(bare(paraboloid, 100.0));
-    let At::Never { up_to, utilisation, at: load } = never else { panic!("{never:?}") };
+    let At::Never { up_to, utilisation, at: load, .. } = never else { panic!("{never:?}") };
     assert!((up_to / found.complete - 1.0).abs() < 1e-12 && 0.0 < utilisation && utilisation < 1.0 && load <= up_to);
     assert!(found.steps.last().unwrap().reading.contact_fraction > 0.99);
     assert!(words.contains("nothing fails") && words.contains("contact is complete"), "{words}");
@@ -120,7 +120,9 @@ fn what_is_never_reached_or_at_once_is_said() {
 
     let (below, words, found) = at(bare(paraboloid, 1e-5));
     let At::Below { mean_pressure, .. } = below else { panic!("{below:?}") };
-    assert!(mean_pressure < 0.01 && found.steps[0].reading.contact_fraction * 48.0 * 48.0 < 12.0, "{below:?}");
+    // Three samples along the radius, and the load is halved: 2^⅓ times as many at most.
+    let samples = found.steps[0].reading.contact_fraction * 48.0 * 48.0;
+    assert!(mean_pressure < 0.01 && (28.0..45.0).contains(&samples), "{below:?} {samples}");
     assert!(words.contains("less than"), "{words}");
 
     let (tip, words, found) = at(bare(Shape::Cone { slope: 0.1 }, 0.2));
@@ -168,50 +170,48 @@ fn peeling(strength: f64) -> Problem {
     Problem::new(indenters, HalfSpace::new(vec![stiff], material(10.0, 0.3)))
 }
 
-/// What opens an interface falls towards complete contact: from there on too the load at which it opens is found.
+/// What opens an interface falls towards complete contact: whatever the loads of the run, the least load is found at which it
+/// opens.
 #[test]
 fn what_fails_at_lesser_loads_only_is_found_from_larger_ones() {
     let from = |start: f64| {
-        let found = limits(peeling(1e-3), Load::MeanPressure(start), 48);
+        let found = limits(peeling(1e-3), Load::MeanPressure(start), 96);
         let At::Load { mean_pressure, position, .. } = found.limits[0].at else { panic!("from {start}: {found}") };
         assert_eq!(found.shown.as_ref().unwrap().limit.position(), Some(position));
         (mean_pressure, found.complete)
     };
     let (known, complete) = from(0.05);
     assert!(known < 1e-3 * complete);
-    for start in [5.0, 80.0, complete, 10.0 * complete] {
-        assert!((from(start).0 / known - 1.0).abs() < 2e-3, "from {start}: {:?}, not {known}", from(start));
+    for start in [5.0, 10.0 * complete] {
+        assert_eq!(from(start).0, known, "from {start}");
     }
 }
 
 /// An opening that rises with the load and falls again is found at its top, between the loads of a search that doubles them.
 #[test]
 fn a_largest_utilisation_is_found_between_the_loads() {
-    let starts = [0.0, 0.25, 0.5, 0.75].map(|part| 0.05 * 2f64.powf(part));
-    // Of an unbreakable bond nothing is sought: these are the doublings.
-    let tops = starts.map(|start| {
-        let found = limits(peeling(1e3), Load::MeanPressure(start), 48);
-        let At::Never { up_to, utilisation, at } = found.limits[0].at else { panic!("{found}") };
-        assert!(at < 0.5 * up_to, "it falls again: {at} {up_to}");
-        1e3 * utilisation
-    });
-    let [least, most] = [tops.into_iter().fold(f64::INFINITY, f64::min), tops.into_iter().fold(0.0, f64::max)];
-    assert!(least < 0.99 * most, "{tops:?}");
-    // No doubling of the worst start fails.
-    let reached = starts.map(|start| {
-        let found = limits(peeling((least * most).sqrt()), Load::MeanPressure(start), 48);
-        let At::Load { mean_pressure, .. } = found.limits[0].at else { panic!("from {start}: {found}") };
-        mean_pressure
-    });
-    for load in reached {
-        assert!((load / reached[0] - 1.0).abs() < 5e-3, "{reached:?}");
-    }
-    // Just above the top nothing fails, and how near it comes is told alike.
-    for start in starts {
-        let found = limits(peeling(1.02 * most), Load::MeanPressure(start), 48);
-        let At::Never { utilisation, .. } = found.limits[0].at else { panic!("from {start}: {found}") };
-        assert!((0.96..0.99).contains(&utilisation), "from {start}: {utilisation}");
-    }
+    let start = Load::MeanPressure(0.05);
+    let found = limits(peeling(1e3), start, 48);
+    let At::Never { up_to, .. } = found.limits[0].at else { panic!("{found}") };
+    // Of an unbreakable bond nothing is searched for: these are the doublings.
+    let taken = |step: &StepRecord| (1e3 * step.strength[0].value, step.reading.mean_pressure);
+    let (doubled, at) = found.steps.iter().map(taken).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+    assert!(at < 0.5 * up_to, "it falls again: {at} {up_to}");
+    let paths = (0..60).map(|k| Load::MeanPressure(0.5 * at * 4f64.powf(f64::from(k) / 60.0))).collect();
+    let path = Run::new(peeling(1e3), paths, Sampling::Points([48; 2])).solve(&mut ()).unwrap().steps;
+    let fine: Vec<(f64, f64)> = path.iter().map(taken).collect();
+    let top = fine.iter().map(|(value, _)| *value).fold(0.0, f64::max);
+    assert!(doubled < 0.995 * top, "{doubled} {top}");
+    // Between the best doubling and the top it is reached, where the fine path is.
+    let strength = (doubled * top).sqrt();
+    let found = limits(peeling(strength), start, 48);
+    let At::Load { mean_pressure, .. } = found.limits[0].at else { panic!("{found}") };
+    let (_, reached) = fine.iter().find(|(value, _)| *value >= strength).unwrap();
+    assert!((mean_pressure..1.025 * mean_pressure).contains(reached), "{mean_pressure} {reached}");
+    // Above the top nothing fails, and how near it comes is known to a hundredth.
+    let found = limits(peeling(1.2 * top), start, 48);
+    let At::Never { utilisation, .. } = found.limits[0].at else { panic!("{found}") };
+    assert!((1.2 * utilisation - 1.0).abs() < 0.01, "{utilisation}");
 }
 
 /// Keeps what it hears; it has room for so many points.
@@ -286,7 +286,12 @@ fn a_search_without_strengths_or_loads_is_refused() {
 fn an_error_is_told_with_what_else_may_come_first() {
     let limit = |material: usize, mean_pressure: f64, error: f64| Limit {
         criterion: Criterion::Cracking { material },
-        at: At::Load { mean_pressure, error: Some(error), position: [0.0; 3] },
+        at: At::Load {
+            mean_pressure,
+            error: Some(error),
+            interval: [mean_pressure - error, mean_pressure + error],
+            position: [0.0; 3],
+        },
     };
     let words = |limits: Vec<Limit>| {
         let (steps, warnings) = (Vec::new(), Vec::new());
@@ -299,4 +304,37 @@ fn an_error_is_told_with_what_else_may_come_first() {
         words(blurred.to_vec()),
         "first: cracking of material 1 at the mean pressure 0.50000 ± 12 %, or cracking of material 2 within the errors"
     );
+}
+
+/// Equal moduli, an interface at a twentieth of the radius, sliding: its shear and tension rise above 1, fall below it and rise
+/// again. From a load between both crossings the search once found the second, 0.171.
+#[test]
+fn the_first_failure_is_that_of_a_hump_below_the_load_of_the_case() {
+    let material = Material::from_young(1.0, 0.3).unwrap();
+    let bond = InterfaceStrength { normal: Some(0.002), shear: Some(0.2) };
+    let layer = Layer::new(material, 0.05, Interface::Bonded).unwrap();
+    let layer = layer.with_strengths(Strength::default(), bond).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0).unwrap();
+    let problem =
+        Problem::new(one_level(Lattice::square(1.0, 1).unwrap(), level), HalfSpace::new(vec![layer], material));
+    let problem = problem.sliding(Friction::new(0.6, [1.0, 0.0]).unwrap()).unwrap();
+    let found = [1e-3, 0.1, 0.3].map(|start| limits(problem.clone(), Load::MeanPressure(start), 96));
+    for own in &found {
+        assert_eq!(own.limits, found[0].limits);
+    }
+    let At::Load { mean_pressure, interval: [from, to], .. } = found[0].limits[0].at else { panic!("{}", found[0]) };
+    assert!((0.027..0.035).contains(&mean_pressure) && from < mean_pressure && mean_pressure < to, "{}", found[0]);
+    // A fine path, solved on its own, first reaches 1 within the interval, and 1 − u is at least its error before.
+    let loads = (0..60).map(|k| Load::MeanPressure(0.01 * 1.06f64.powi(k))).collect();
+    let path = Run::new(problem, loads, Sampling::Points([96; 2])).solve(&mut ()).unwrap().steps;
+    let taken =
+        |step: &StepRecord| (step.reading.mean_pressure, step.strength[0].value, step.strength[0].error.unwrap());
+    let (least, ..) = path.iter().map(taken).find(|(_, u, e)| u + e >= 1.0).unwrap();
+    let (reached, ..) = path.iter().map(taken).find(|(_, u, _)| *u >= 1.0).unwrap();
+    let (sure, ..) = path.iter().map(taken).find(|(_, u, e)| u - e >= 1.0).unwrap();
+    assert!(
+        least * 1.001 > from && (mean_pressure..mean_pressure * 1.061).contains(&reached),
+        "{least} {from} {reached}"
+    );
+    assert!(sure < 1.07 * to && sure > to / 1.07, "{sure} {to}");
 }

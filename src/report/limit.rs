@@ -70,10 +70,17 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     Ok(Part { name: "limit", kind: "Limit loads", title: title(file), sections })
 }
 
-/// What fails first with its error, where a load makes it.
+/// Relative errors below this stand beside the load.
+const SHARP: f64 = 0.3;
+
+/// What fails first with its error, where a load makes it and nothing else comes first within the errors.
 fn first(limits: &Limits, units: &Units) -> Option<String> {
     let first = limits.first()?;
     let At::Load { mean_pressure, error, .. } = first.at else { return None };
+    let is_sharp = error.is_some_and(|error| error < SHARP * mean_pressure) && limits.contenders().is_empty();
+    if !is_sharp {
+        return None;
+    }
     let load = told(units.pressure(), mean_pressure, error);
     Some(format!("First: {} at the mean pressure {load}.", first.criterion))
 }

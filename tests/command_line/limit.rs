@@ -105,7 +105,9 @@ fn the_place_that_fails_is_marked_whatever_the_first_load() {
         let words: Vec<&str> = picture.split('<').filter_map(|tag| Some(tag.split_once('>')?.1.trim())).collect();
         let words = words.join(" ").split_whitespace().collect::<Vec<&str>>().join(" ");
         assert!(words.contains("At or beyond its strength, 1: delamination of interface 1"), "{load}: {words}");
-        assert_eq!(found["first"], found["limits"][0]);
+        let mut first = found["first"].clone();
+        assert_eq!(first.as_object_mut().unwrap().shift_remove("rivals"), Some(Value::Array(Vec::new())));
+        assert_eq!(first, found["limits"][0]);
     }
 }
 

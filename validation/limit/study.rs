@@ -116,7 +116,7 @@ impl Slider {
     /// What is found of a criterion, against the contact that the closed form fails under.
     fn found(&self, limits: &[Limit], wanted: Criterion, exact: &Contact) -> Result<Found, StudyError> {
         let limit = limits.iter().find(|limit| limit.criterion == wanted).ok_or("a limit of each criterion")?;
-        let At::Load { mean_pressure, error, position: [x, y, z] } = limit.at else {
+        let At::Load { mean_pressure, error, position: [x, y, z], .. } = limit.at else {
             return Err(format!("{wanted}: {:?}", limit.at).into());
         };
         let cell = Cell::hexagonal(1.0)?;

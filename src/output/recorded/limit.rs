@@ -47,6 +47,7 @@ struct LimitKeys {
     interface: Option<usize>,
     mean_pressure: Option<f64>,
     error: Option<f64>,
+    interval: Option<[Option<f64>; 2]>,
     x: Option<f64>,
     y: Option<f64>,
     z: Option<f64>,
@@ -54,21 +55,30 @@ struct LimitKeys {
     below: Option<f64>,
     up_to: Option<f64>,
     utilisation: Option<f64>,
+    utilisation_error: Option<f64>,
     utilisation_at: Option<f64>,
 }
 
 impl LimitKeys {
     fn at(&self) -> Option<At> {
         let position = || Some([self.x?, self.y?, self.z?]);
+        // An end that is null is infinite.
+        let interval = || Some(self.interval?.map(|end| end.unwrap_or(f64::INFINITY)));
+        let error = self.utilisation_error;
         Some(match (self.reached.as_str(), self.below, self.up_to) {
+            ("undecided", _, Some(up_to)) => {
+                let (utilisation, at) = (self.utilisation?, self.utilisation_at?);
+                At::Undecided { from: interval()?[0], up_to, utilisation, error, at, position: position()? }
+            }
             (_, Some(mean_pressure), _) => {
                 At::Below { mean_pressure, utilisation: self.utilisation?, position: position()? }
             }
-            (_, _, Some(up_to)) => At::Never { up_to, utilisation: self.utilisation?, at: self.utilisation_at? },
+            (_, _, Some(up_to)) => At::Never { up_to, utilisation: self.utilisation?, error, at: self.utilisation_at? },
             ("by residual stress alone", ..) => At::Rest,
             ("under a tip however small the load", ..) => At::Tip { position: position()? },
             ("under load", ..) => {
-                At::Load { mean_pressure: self.mean_pressure?, error: self.error, position: position()? }
+                let (mean_pressure, error) = (self.mean_pressure?, self.error);
+                At::Load { mean_pressure, error, interval: interval()?, position: position()? }
             }
             _ => return None,
         })

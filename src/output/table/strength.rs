@@ -3,10 +3,10 @@
 use super::by_step::{Row, by_step, place};
 use super::{Table, Worded, in_unit};
 use crate::body::HalfSpace;
-use crate::output::number::number;
+use crate::output::number::{number, with_error};
 use crate::reading::{Criterion, Utilisation};
 use crate::run::{At, Limit, Limits, StepRecord};
-use crate::units::{Unit, Units};
+use crate::units::{Prefixed, Unit, Units};
 
 /// The utilisations of the load steps, one row a criterion, what governs the last one first; `None` without any. What
 /// residual stress alone breaks is told where the half-space is known.
@@ -47,27 +47,53 @@ fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units)
     })
 }
 
+/// Relative errors above this are shown as the interval of the limit.
+const WIDE: f64 = 0.3;
+
+/// The interval of a limit; an end that is not known is left open.
+fn range(pressure: &Prefixed, [from, to]: [f64; 2]) -> String {
+    let shown = |load: f64| number(pressure.shown(load));
+    match (from > 0.0, to.is_finite()) {
+        (true, true) => format!("{} … {}", shown(from), shown(to)),
+        (true, false) => format!("from {}", shown(from)),
+        (false, true) => format!("up to {}", shown(to)),
+        (false, false) => "any load".to_owned(),
+    }
+}
+
 /// The limit loads, the first of them first.
 pub fn limits(limits: &Limits, units: &Units) -> Worded {
     let pressures = limits.limits.iter().map(|limit| match limit.at {
-        At::Never { up_to, .. } => up_to,
+        At::Never { up_to, .. } | At::Undecided { up_to, .. } => up_to,
         _ => limit.mean_pressure(),
     });
     let places = limits.limits.iter().filter_map(Limit::position).flatten();
     let (pressure, length) = (units.pressure().suited(pressures), units.length().suited(places));
     let place = |position: [f64; 3]| place(&length, position);
+    let most = |utilisation: f64, error: Option<f64>, at: f64| {
+        let utilisation = with_error(utilisation, error);
+        format!("takes up {utilisation} at p̄ = {}", units.pressure().told(at, number))
+    };
     let row = |limit: &&Limit| {
         let (pressure, place) = match limit.at {
             At::Rest => ("0".to_owned(), "by residual stress alone".to_owned()),
             At::Tip { position } => ("0".to_owned(), format!("{}, a tip", place(position))),
-            At::Load { mean_pressure, error, position } => (in_unit(&pressure, mean_pressure, error), place(position)),
+            At::Load { mean_pressure, error, interval: [from, to], position } => {
+                let is_wide =
+                    from == 0.0 || to.is_infinite() || error.is_some_and(|error| error > WIDE * mean_pressure);
+                let range = || format!("{} ({})", number(pressure.shown(mean_pressure)), range(&pressure, [from, to]));
+                (if is_wide { range() } else { in_unit(&pressure, mean_pressure, error) }, place(position))
+            }
             At::Below { mean_pressure, position, .. } => (
                 format!("< {}", number(pressure.shown(mean_pressure))),
                 format!("{}, a contact of a few samples", place(position)),
             ),
-            At::Never { up_to, utilisation, at } => {
-                let most = format!("takes up {} at p̄ = {}", number(utilisation), units.pressure().told(at, number));
-                (format!("> {}", number(pressure.shown(up_to))), most)
+            At::Never { up_to, utilisation, error, at } => {
+                (format!("> {}", number(pressure.shown(up_to))), most(utilisation, error, at))
+            }
+            At::Undecided { from, utilisation, error, at, .. } => {
+                let range = range(&pressure, [from, f64::INFINITY]);
+                (format!("undecided ({range})"), most(utilisation, error, at))
             }
         };
         vec![limit.criterion.to_string(), pressure, place]

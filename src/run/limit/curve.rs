@@ -4,15 +4,18 @@
 const TOLERANCE: f64 = 1e-3;
 /// So much of it may be left between a load that was solved and the root that the secant foretells from there.
 const NEAR: f64 = 0.3;
-/// Utilisations whose ratio is nearer to one do not tell which of them is larger.
-const ALIKE: f64 = 1e-3;
-/// A largest utilisation below this part of a failure is not looked for between the loads: with twice the load stresses are
-/// twice as large at most.
+/// A largest utilisation below this part of a failure is not searched for between the loads.
 const WORTH: f64 = 0.5;
-/// So well a largest utilisation that is no failure is told, relatively.
-const TOLD: f64 = 0.01;
-/// Loads around a largest utilisation that are closer tell it well enough.
+/// Relative accuracy of a largest utilisation below 1.
+const TOP_TOLERANCE: f64 = 0.01;
+/// Ratio of neighbouring loads below which a hump between them is not searched for, nor a largest utilisation.
 const CLOSE: f64 = 1.05;
+/// The same ratio for the ends of the interval of a limit, which the error of the utilisation sets.
+const BLURRED: f64 = 1.1;
+/// Slopes beside an interval, times this, bound those within it.
+const STEEPER: f64 = 1.5;
+/// |du/d ln p̄| within an interval is at least taken to be this part of u.
+const FLAT: f64 = 0.1;
 /// Where a utilisation grows faster than p̄ to this power, it may as well jump: a root beside a load that was solved needs a
 /// load on its other side.
 const STEEP: f64 = 2.0;
@@ -23,6 +26,25 @@ const APART: f64 = 1.2;
 /// Mean pressures that were solved, ascending, and the utilisation under each.
 #[derive(Debug, Clone)]
 pub(super) struct Curve(pub Vec<[f64; 2]>);
+
+/// A utilisation u with its error e over the load: u, u + e and u − e.
+#[derive(Debug, Clone)]
+pub(super) struct Band {
+    pub value: Curve,
+    pub upper: Curve,
+    pub lower: Curve,
+}
+
+/// Mean pressures at which a utilisation becomes 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Crossing {
+    /// The least load at which u + e may reach 1; 0 where it does at the least load that was solved.
+    pub from: f64,
+    /// The least load at which u does; infinite where it never does.
+    pub at: f64,
+    /// The least load at which u − e does; infinite where it never does.
+    pub to: f64,
+}
 
 /// Two loads between which a utilisation becomes one.
 #[derive(Debug, Clone, Copy)]
@@ -45,33 +67,63 @@ impl Curve {
         Enclosure { loads: [low, high], values: [under, over] }
     }
 
-    /// Whether the first utilisation that differs from that at the lowest load is larger.
-    pub fn falls_with_the_load(&self) -> bool {
-        let [_, first] = self.0[0];
-        self.0.iter().find(|[_, u]| (u - first).abs() > ALIKE * first).is_some_and(|[_, u]| *u > first)
-    }
-
     /// The load of the largest utilisation.
     pub fn largest(&self) -> usize {
         let value = |index: usize| self.0[index][1];
         (0..self.0.len()).max_by(|&i, &j| value(i).total_cmp(&value(j)).then(j.cmp(&i))).unwrap_or(0)
     }
 
-    /// The load to solve next in search of a larger utilisation, as long as there may be one of 1, or the top between the
-    /// loads is badly known. A parabola through the largest one and its neighbours at equal distances of ln p̄ rises by an
-    /// eighth of the larger drop to them at most; twice that is reckoned with.
+    /// The load to solve next where the largest utilisation below 1 is not known to [`TOP_TOLERANCE`]. A parabola through it
+    /// and its neighbours at equal distances of ln p̄ rises by an eighth of the larger drop to them at most; twice that is
+    /// allowed for.
     pub fn towards_largest(&self) -> Option<f64> {
         let at = self.largest();
         let [p, u] = self.0[at];
         let beside = [at.checked_sub(1), Some(at + 1)].map(|index| self.0.get(index?).copied());
         let drops = beside.iter().flatten().map(|[_, other]| u - other);
         let rise = 0.25 * drops.fold(0.0, f64::max);
-        let may_fail = u + rise.max(ALIKE * u) >= 1.0;
-        let is_rough = beside.iter().all(Option::is_some) && rise > 2.0 * TOLD * u;
+        let is_rough = beside.iter().all(Option::is_some) && rise > TOP_TOLERANCE * u;
         let apart = |&[other, _]: &[f64; 2]| (other / p).ln().abs();
         let far = beside.into_iter().flatten().max_by(|a, b| apart(a).total_cmp(&apart(b)));
         let far = far.filter(|far| apart(far) > CLOSE.ln())?;
-        (u > WORTH && (may_fail || is_rough)).then(|| (p * far[0]).sqrt())
+        (u > WORTH && is_rough).then(|| (p * far[0]).sqrt())
+    }
+
+    /// du/d ln p̄ between load `index` and the next; `None` beyond the ends.
+    fn slope(&self, index: usize) -> Option<f64> {
+        let [[low, under], [high, over]] = [*self.0.get(index)?, *self.0.get(index + 1)?];
+        Some((over - under) / (high / low).ln())
+    }
+
+    /// The largest utilisation that can hide between load `index` and the next. Within an interval a concave curve lies below
+    /// the continued chords of the neighbouring intervals; a curve of any shape lies below lines of the steepest slope.
+    /// Taken are the slopes of this interval and its neighbours, times [`STEEPER`], and [`FLAT`] at least.
+    fn bound(&self, index: usize) -> f64 {
+        let [[low, under], [high, over]] = [self.0[index], self.0[index + 1]];
+        let width = (high / low).ln();
+        let flat = FLAT * under.abs().max(over.abs());
+        let steepest = |slopes: [Option<f64>; 2], sign: f64| {
+            let slopes = slopes.into_iter().flatten().map(|slope| sign * slope).filter(|slope| slope.is_finite());
+            (STEEPER * slopes.fold(0.0, f64::max)).max(flat)
+        };
+        let up = steepest([index.checked_sub(1).and_then(|before| self.slope(before)), self.slope(index)], 1.0);
+        let down = steepest([self.slope(index), self.slope(index + 1)], -1.0);
+        if up + down == 0.0 {
+            return under.max(over);
+        }
+        let meet = ((over - under + down * width) / (up + down)).clamp(0.0, width);
+        (under + up * meet).max(under).max(over)
+    }
+
+    /// The intervals below load `end` in which the curve may reach 1.
+    fn humps(&self, end: usize) -> impl Iterator<Item = usize> {
+        (0..end.min(self.0.len()).saturating_sub(1)).filter(|&index| self.bound(index) >= 1.0)
+    }
+
+    /// The middle of the interval from load `index` on, where its ends are further apart than `ratio`.
+    fn middle(&self, index: usize, ratio: f64) -> Option<f64> {
+        let [low, high] = [self.0[index][0], self.0[index + 1][0]];
+        (high / low > ratio).then(|| (low * high).sqrt())
     }
 
     /// d ln u / d ln p̄ around a load, between the nearest two loads that are far enough apart; `None` where it does not
@@ -83,6 +135,120 @@ impl Curve {
         let above = usable.iter().find(|[p, _]| *p >= load * reach).or(usable.last())?;
         let slope = (above[1] / below[1]).ln() / (above[0] / below[0]).ln();
         (slope > 0.0 && slope.is_finite()).then_some(slope)
+    }
+}
+
+/// An end of the interval of a limit, or the load to solve next to find it.
+enum End {
+    Known(f64),
+    Solve(f64),
+}
+
+impl Band {
+    /// From a mean pressure, a utilisation and its error each, by ascending load.
+    pub fn new(samples: impl Iterator<Item = [f64; 3]>) -> Self {
+        let samples: Vec<[f64; 3]> = samples.collect();
+        let side = |sign: f64| {
+            // What is infinite has no error.
+            let value = |u: f64, e: f64| if u.is_finite() { u + sign * e } else { u };
+            Curve(samples.iter().map(|&[p, u, e]| [p, value(u, e)]).collect())
+        };
+        Self { value: side(0.0), upper: side(1.0), lower: side(-1.0) }
+    }
+
+    /// Whether u − e reaches 1 at a load that was solved.
+    pub fn fails(&self) -> bool {
+        self.lower.first_failure().is_some()
+    }
+
+    /// The load to solve next to know where the utilisation becomes 1, or how far it is from that; `None` where that is known.
+    pub fn next(&self, halve: bool) -> Option<f64> {
+        let first = self.value.first_failure();
+        let root = first.filter(|&above| above > 0).and_then(|above| self.value.enclosure(above).next(halve));
+        // Humps that would come first, then the ends of the interval.
+        root.or_else(|| self.value.humps(first.unwrap_or(usize::MAX)).find_map(|index| self.value.middle(index, CLOSE)))
+            .or_else(|| {
+                let unknown = |end: End| if let End::Solve(load) = end { Some(load) } else { None };
+                unknown(self.from()).or_else(|| unknown(self.to()))
+            })
+            .or_else(|| self.value.towards_largest().filter(|_| first.is_none()))
+    }
+
+    /// Where the utilisation becomes 1, by the loads that were solved.
+    pub fn crossing(&self) -> Crossing {
+        let end = |end: End| match end {
+            End::Known(load) | End::Solve(load) => load,
+        };
+        let at = self.at();
+        Crossing { from: end(self.from()).min(at), at, to: end(self.to()).max(at) }
+    }
+
+    /// The least load at which u reaches 1.
+    fn at(&self) -> f64 {
+        match self.value.first_failure() {
+            None => f64::INFINITY,
+            Some(0) => self.value.0[0][0],
+            Some(above) => self.value.enclosure(above).root(),
+        }
+    }
+
+    /// How far the error moves the crossing of u in ln p̄, by the slope there, where the error and what the search leaves open
+    /// are small and the utilisation grows.
+    fn blur(&self) -> Option<f64> {
+        let above = self.value.first_failure().filter(|&above| above > 0)?;
+        let enclosure = self.value.enclosure(above);
+        let nearest = if enclosure.first_is_nearer() { above - 1 } else { above };
+        let open = enclosure.open().ln_1p();
+        let [_, value] = self.value.0[nearest];
+        let error = self.upper.0[nearest][1] - value;
+        let blur = match enclosure.slope() {
+            Some(_) => (error / (value * self.value.slope_around(enclosure.root())?)).hypot(open),
+            // It jumps.
+            None => open,
+        };
+        (blur <= BLURRED.ln()).then_some(blur)
+    }
+
+    fn from(&self) -> End {
+        let above = self.upper.first_failure();
+        let near = self.blur().map(|blur| self.at() * (-blur).exp());
+        let crossed = match above {
+            None => End::Known(f64::INFINITY),
+            Some(0) => return End::Known(0.0),
+            Some(above) => {
+                let low = self.upper.0[above - 1][0];
+                match near.filter(|&near| self.upper.0[above][0] >= near) {
+                    Some(near) => End::Known(near.max(low)),
+                    None => match self.upper.middle(above - 1, BLURRED) {
+                        Some(middle) => End::Solve(middle),
+                        None => End::Known(self.upper.enclosure(above).root()),
+                    },
+                }
+            }
+        };
+        match self.upper.humps(above.unwrap_or(usize::MAX)).next() {
+            Some(index) if near.is_none_or(|near| self.upper.0[index + 1][0] < near) => {
+                self.upper.middle(index, BLURRED).map_or(End::Known(self.upper.0[index][0]), End::Solve)
+            }
+            _ => crossed,
+        }
+    }
+
+    fn to(&self) -> End {
+        let Some(first) = self.value.first_failure() else { return End::Known(f64::INFINITY) };
+        let sure = (first..self.lower.0.len()).find(|&index| self.lower.0[index][1] >= 1.0);
+        let Some(sure) = sure else { return End::Known(f64::INFINITY) };
+        if sure == 0 {
+            return End::Known(self.lower.0[0][0]);
+        }
+        let [low, high] = [self.lower.0[sure - 1][0], self.lower.0[sure][0]];
+        match self.blur().map(|blur| self.at() * blur.exp()).filter(|&near| low <= near) {
+            Some(near) => End::Known(near.min(high)),
+            None => match self.lower.middle(sure - 1, BLURRED) {
+                Some(middle) => End::Solve(middle),
+                None => End::Known(self.lower.enclosure(sure).root()),
+            },
+        }
     }
 }
 
@@ -166,36 +332,80 @@ mod tests {
         near(solved(|p| 10f64.powf(20.0 * (p - 1.9))), 1.9, 8);
     }
 
-    /// u(ln p̄) whose loads were solved at powers of two from a first one on; how many more loads it took.
-    fn largest_of(utilisation: impl Fn(f64) -> f64, first: f64) -> ([f64; 2], usize) {
-        let solve = |p: f64| [p, utilisation(p)];
-        let mut curve = Curve((0..12).map(|k| solve(first * 2f64.powi(k))).collect());
-        for trial in 0..40 {
-            let next = curve.towards_largest().filter(|_| curve.first_failure().is_none());
-            let Some(next) = next else { return (curve.0[curve.largest()], trial) };
-            curve.0.push(solve(next));
-            curve.0.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    /// What is found of a utilisation and its error over ln p̄ from loads that double, and how many more loads it took.
+    fn found(utilisation: impl Fn(f64) -> [f64; 2], first: f64) -> (Crossing, Band, usize) {
+        let solve = |p: f64| {
+            let [u, e] = utilisation(p);
+            [p, u, e]
+        };
+        let mut samples: Vec<[f64; 3]> = (0..12).map(|k| solve(first * 2f64.powi(k))).collect();
+        for trial in 0..60 {
+            let band = Band::new(samples.iter().copied());
+            let Some(next) = band.next(trial % 3 == 2) else { return (band.crossing(), band, trial) };
+            samples.push(solve(next));
+            samples.sort_by(|a, b| a[0].total_cmp(&b[0]));
         }
         panic!("not found");
     }
 
+    const STARTS: [f64; 5] = [1.0, 1.149, 1.32, 1.516, 1.741];
+
     #[test]
     fn a_utilisation_that_rises_and_falls_is_followed_to_its_top() {
-        for shift in [0.0, 0.2, 0.4, 0.6, 0.8] {
-            let first = 2f64.powf(shift);
-            let hill = |top: f64| move |p: f64| top * (-0.3 * (p / 90.0).ln().powi(2)).exp();
-            let ([p, u], trials) = largest_of(hill(1.01), first);
-            assert!(u >= 1.0 && trials <= 6 && (p / 90.0).ln().abs() < 0.2, "{first}: {p} {u} {trials}");
-            let ([_, u], trials) = largest_of(hill(0.995), first);
-            // It ends where what may still be above does not reach 1.
-            assert!(u > 0.985 && trials <= 10, "{first}: {u} {trials}");
-            assert!(largest_of(hill(0.8), first).1 <= 2 && largest_of(hill(0.3), first).1 == 0);
-            assert_eq!(largest_of(|p| 0.6 * (p / 2048.0 / first).cbrt(), first).1, 0);
+        for first in STARTS {
+            let hill = |top: f64| move |p: f64| [top * (-0.3 * (p / 90.0).ln().powi(2)).exp(), 0.0];
+            let (crossing, _, trials) = found(hill(1.01), first);
+            let exact = 90.0 * (-(1.01f64.ln() / 0.3).sqrt()).exp();
+            assert!((crossing.at / exact - 1.0).abs() < 2e-3 && trials <= 20, "{first}: {crossing:?} {trials}");
+            let (crossing, band, trials) = found(hill(0.97), first);
+            let [_, top] = band.value.0[band.value.largest()];
+            assert!(crossing.at.is_infinite() && (top / 0.97 - 1.0).abs() < 0.01 && trials <= 12, "{first} {trials}");
+            assert!(found(hill(0.3), first).2 == 0);
+            assert_eq!(found(|p| [0.6 * (p / 2048.0 / first).cbrt(), 0.0], first).2, 0);
         }
-        let falling =
-            |values: &[f64]| Curve((1..).zip(values).map(|(p, u)| [f64::from(p), *u]).collect()).falls_with_the_load();
-        assert!(falling(&[0.1, 0.2]) && falling(&[0.0, 0.0, 0.3, 0.0]) && falling(&[0.5, 0.500_01, 0.6]));
-        assert!(!falling(&[0.0]) && !falling(&[0.0, 0.0]) && !falling(&[0.2, 0.1, 0.5]));
+    }
+
+    /// A hump of half the width of the doublings, and a rise far behind it that reaches 1 too.
+    #[test]
+    fn the_first_crossing_is_that_of_a_hump_before_a_later_rise() {
+        for first in STARTS {
+            let utilisation = |p: f64| {
+                let hump = 1.1 * (-2.0 * (p / 20.0).ln().powi(2)).exp();
+                [(hump.powi(4) + (p / 1000.0).powi(4)).powf(0.25), 0.0]
+            };
+            let (crossing, ..) = found(utilisation, first);
+            let exact = 20.0 * (-(1.1f64.ln() / 2.0).sqrt()).exp();
+            assert!((crossing.at / exact - 1.0).abs() < 2e-3, "{first}: {crossing:?}");
+        }
+    }
+
+    /// u = (p/100)^⅓ with an error of a tenth of it: p from 100/1.1³ to 100/0.9³; with one of a ten-thousandth: 3e-4 of p.
+    #[test]
+    fn the_interval_of_a_limit_reaches_from_value_plus_error_to_value_minus_error() {
+        for first in STARTS {
+            let rise = |part: f64| move |p: f64| [1.0, part].map(|c| c * (p / 100.0).cbrt());
+            let (Crossing { from, at, to }, _, trials) = found(rise(0.1), first);
+            assert!((at / 100.0 - 1.0).abs() < 1e-3 && trials <= 12, "{at} {trials}");
+            // An interval of loads below it may hide a hump.
+            assert!((1.0 / BLURRED - 5e-3..1.005).contains(&(from * 1.1f64.powi(3) / 100.0)), "{from}");
+            assert!((to * 0.9f64.powi(3) / 100.0 - 1.0).abs() < 5e-3, "{to}");
+            let (Crossing { from, at, to }, ..) = found(rise(1e-4), first);
+            assert!(from < at && at < to && (3e-4..1.5e-3).contains(&(to / from - 1.0)), "{from} {at} {to}");
+        }
+    }
+
+    /// u stays below 1 and u + e does not: from where u + e is 1 on it is undecided.
+    #[test]
+    fn what_only_value_plus_error_reaches_has_an_interval_without_end() {
+        for first in STARTS {
+            let below = |p: f64| [0.7 * (-0.1 * (p / 90.0).ln().powi(2)).exp(), 0.4];
+            let (Crossing { from, at, to }, ..) = found(below, first);
+            let exact = 90.0 * (-((0.7f64 / 0.6).ln() / 0.1).sqrt()).exp();
+            assert!(at.is_infinite() && to.is_infinite(), "{at} {to}");
+            assert!((1.0 / BLURRED - 5e-3..1.005).contains(&(from / exact)), "{from} {exact}");
+            assert_eq!(found(|_| [0.1, 2.0], first).0.from, 0.0);
+            assert_eq!(found(|_| [0.1, 0.2], first).0.from, f64::INFINITY);
+        }
     }
 
     #[test]

@@ -34,16 +34,20 @@ pub enum At {
     Load {
         /// p̄.
         mean_pressure: f64,
-        /// Its estimated error by the grid, a pressure: that of the utilisation over its slope.
+        /// Its estimated error by the grid, a pressure: the distance to the farther end of the interval; `None` where a
+        /// utilisation jumps, or the interval has no end.
         error: Option<f64>,
+        /// The least mean pressures at which u + e and u − e reach 1, u the utilisation and e its error: 0 where u + e does at
+        /// the least load that was solved, infinite where u − e never does.
+        interval: [f64; 2],
         /// x, y, z of the place that fails; lengths.
         position: [f64; 3],
     },
-    /// So small a load that contact is a few samples wide reaches it already: at less than this mean pressure.
+    /// At less than this mean pressure: the least load that was solved, whose contact is a few samples wide, reaches it.
     Below {
-        /// p̄.
+        /// p̄, the least at which u − e ≥ 1.
         mean_pressure: f64,
-        /// How much it takes up there.
+        /// Utilisation u there.
         utilisation: f64,
         /// x, y, z of the place that fails under it; lengths.
         position: [f64; 3],
@@ -52,10 +56,28 @@ pub enum At {
     Never {
         /// Up to this mean pressure.
         up_to: f64,
-        /// The largest utilisation, to a hundredth where it is more than a half and has its top between the loads,
+        /// The largest utilisation, to a hundredth where it is more than a half and has its top between the loads.
         utilisation: f64,
-        /// which it takes at this mean pressure.
+        /// Estimated error of the largest utilisation.
+        error: Option<f64>,
+        /// Mean pressure of the largest utilisation.
         at: f64,
+    },
+    /// Whether it is reached is undecided: the utilisation stays below 1, or cannot be told from 1 at any load, and the
+    /// utilisation plus its error reaches 1.
+    Undecided {
+        /// The least mean pressure at which u + e may reach 1; 0 where it does at the least load that was solved.
+        from: f64,
+        /// The largest mean pressure that was solved.
+        up_to: f64,
+        /// The largest utilisation u.
+        utilisation: f64,
+        /// Its estimated error e.
+        error: Option<f64>,
+        /// Mean pressure of the largest utilisation.
+        at: f64,
+        /// x, y, z of the place of the largest utilisation; lengths.
+        position: [f64; 3],
     },
 }
 
@@ -100,19 +122,33 @@ pub struct Shown {
 }
 
 impl Limit {
-    /// The mean pressure up to which it holds; infinite where it is never reached.
+    /// The mean pressure up to which it holds; infinite where it is never reached, or undecided.
     pub fn mean_pressure(&self) -> f64 {
         match self.at {
             At::Rest | At::Tip { .. } => 0.0,
             At::Load { mean_pressure, .. } | At::Below { mean_pressure, .. } => mean_pressure,
-            At::Never { .. } => f64::INFINITY,
+            At::Never { .. } | At::Undecided { .. } => f64::INFINITY,
         }
     }
 
-    /// Where it fails, x, y, z; `None` where it does not, or everywhere.
+    /// The mean pressures between which it is reached, by its error; infinite where it is never reached.
+    pub fn interval(&self) -> [f64; 2] {
+        match self.at {
+            At::Rest | At::Tip { .. } => [0.0; 2],
+            At::Load { interval, .. } => interval,
+            At::Below { mean_pressure, .. } => [0.0, mean_pressure],
+            At::Undecided { from, .. } => [from, f64::INFINITY],
+            At::Never { .. } => [f64::INFINITY; 2],
+        }
+    }
+
+    /// Where it fails, or may fail, x, y, z; `None` where it does not, or everywhere.
     pub fn position(&self) -> Option<[f64; 3]> {
         match self.at {
-            At::Tip { position } | At::Load { position, .. } | At::Below { position, .. } => Some(position),
+            At::Tip { position }
+            | At::Load { position, .. }
+            | At::Below { position, .. }
+            | At::Undecided { position, .. } => Some(position),
             At::Rest | At::Never { .. } => None,
         }
     }
@@ -139,11 +175,14 @@ impl Limit {
         }
     }
 
-    /// What comes first: the least load; of bounds the one that is exceeded most.
+    /// What comes first: the least load; of bounds the one that is exceeded most; what is undecided before what is never
+    /// reached.
     fn order(&self, other: &Self) -> Ordering {
         let excess = |limit: &Self| if let At::Below { utilisation, .. } = limit.at { -utilisation } else { 0.0 };
         let loads = self.mean_pressure().total_cmp(&other.mean_pressure());
-        loads.then(excess(self).total_cmp(&excess(other)))
+        let starts = self.interval()[0].total_cmp(&other.interval()[0]);
+        let starts = if self.mean_pressure().is_infinite() { starts } else { Ordering::Equal };
+        loads.then(excess(self).total_cmp(&excess(other))).then(starts)
     }
 }
 
@@ -151,6 +190,16 @@ impl Limits {
     /// The limit that is reached first; `None` where nothing fails.
     pub fn first(&self) -> Option<&Limit> {
         self.ordered().into_iter().next().filter(|limit| limit.mean_pressure().is_finite())
+    }
+
+    /// What may be reached before the [first](Self::first) one by the errors of both, in the order of all; everything undecided
+    /// where none is reached.
+    pub fn contenders(&self) -> Vec<&Limit> {
+        let ordered = self.ordered();
+        let sure = ordered.iter().map(|limit| limit.interval()[1]).fold(f64::INFINITY, f64::min);
+        let first = self.first().map(|first| first.criterion);
+        let others = ordered.into_iter().filter(|limit| Some(limit.criterion) != first);
+        others.filter(|limit| limit.interval()[0] < sure).collect()
     }
 
     /// All of them, what comes first first, and what is never reached last.
@@ -179,7 +228,7 @@ impl Limits {
             let nearest = |limit: &Limit| self.steps.iter().all(|other| from(limit, step) <= from(limit, other));
             self.limits.iter().any(|limit| match limit.at {
                 At::Load { .. } | At::Below { .. } => nearest(limit),
-                At::Never { at, .. } => step.reading.mean_pressure == at,
+                At::Never { at, .. } | At::Undecided { at, .. } => step.reading.mean_pressure == at,
                 At::Rest | At::Tip { .. } => false,
             })
         };
@@ -214,44 +263,49 @@ impl Limits {
 impl Limits {
     /// What fails first, in words, with pressures as `told` has them.
     pub fn in_words(&self, told: impl Fn(f64) -> String) -> String {
+        let others: Vec<String> = self.contenders().iter().map(|limit| limit.criterion.to_string()).collect();
+        let others = others.join(" or ");
+        let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
+        let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
         let Some(limit) = self.first() else {
-            let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
-            let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
-            return format!("nothing fails up to the mean pressure {}{complete}", told(most));
+            if others.is_empty() {
+                return format!("nothing fails up to the mean pressure {}{complete}", told(most));
+            }
+            let from = self.contenders().iter().map(|limit| limit.interval()[0]).fold(f64::INFINITY, f64::min);
+            let start = self.steps.first().map_or(0.0, |step| step.reading.mean_pressure);
+            let from = if from > 0.0 { told(from) } else { format!("below {}", told(start)) };
+            let to = told(most);
+            return format!(
+                "undecided: {others} may fail within its error at mean pressures from {from} to {to}{complete}"
+            );
         };
         let at = match limit.at {
             At::Rest => ", without load, by residual stress alone".to_owned(),
             At::Tip { .. } => ", under a tip however small the load".to_owned(),
             At::Below { mean_pressure, .. } => format!(", at less than the mean pressure {}", told(mean_pressure)),
-            At::Load { mean_pressure, error, .. } => {
-                let part = error.map(|error| error / mean_pressure).filter(|part| *part > TOLD);
-                let error = part.map_or(String::new(), |part| format!(" ± {:.0} %", 100.0 * part));
-                format!(" at the mean pressure {}{error}{}", told(mean_pressure), self.rivals(limit))
+            At::Load { mean_pressure, error, interval: [from, to], .. } => {
+                let part = error.map_or(0.0, |error| error / mean_pressure);
+                let error = match (from > 0.0, to.is_finite()) {
+                    (true, true) if part <= TOLD => String::new(),
+                    (true, true) if part <= WIDE => format!(" ± {:.0} %", 100.0 * part),
+                    (true, true) => format!(", between {} and {} by its error", told(from), told(to)),
+                    (true, false) => format!(", not before {} and by its error perhaps never", told(from)),
+                    (false, true) => format!(", by its error anywhere below {}", told(to)),
+                    (false, false) => ", by its error anywhere or never".to_owned(),
+                };
+                format!(" at the mean pressure {}{error}", told(mean_pressure))
             }
-            At::Never { up_to, .. } => format!(" at the mean pressure {}", told(up_to)),
+            At::Never { .. } | At::Undecided { .. } => String::new(),
         };
-        format!("first: {}{at}", limit.criterion)
-    }
-
-    /// What else may come first, by the errors of both.
-    fn rivals(&self, first: &Limit) -> String {
-        let range = |limit: &Limit| match limit.at {
-            At::Load { mean_pressure, error, .. } => {
-                let error = error.unwrap_or(0.0);
-                Some([mean_pressure - error, mean_pressure + error])
-            }
-            _ => None,
-        };
-        let most = range(first).map_or(0.0, |[_, most]| most);
-        let near = |limit: &&&Limit| range(limit).is_some_and(|[least, _]| least < most);
-        let others = self.ordered();
-        let names: Vec<String> = others.iter().skip(1).filter(near).map(|limit| limit.criterion.to_string()).collect();
-        if names.is_empty() { names.concat() } else { format!(", or {} within the errors", names.join(" or ")) }
+        let rivals = if others.is_empty() { others } else { format!(", or {others} within the errors") };
+        format!("first: {}{at}{rivals}", limit.criterion)
     }
 }
 
 /// Relative errors above this are told beside what fails first.
 const TOLD: f64 = 0.005;
+/// Above this the ends of the interval are.
+const WIDE: f64 = 0.3;
 
 /// What fails first, in words.
 impl fmt::Display for Limits {

@@ -1,15 +1,22 @@
 //! Limit loads: the mean pressure at which each criterion of strength is reached.
 //!
-//! Contact is not linear: a limit is found by solving. From a first load the mean pressure is doubled until everything has
-//! failed or contact is complete, and halved until everything holds and falls with the load; then the root of ln u(ln p̄) = 0 of each criterion, u its
-//! utilisation, is enclosed between two loads and found by secants with bisection as their safeguard, to 10⁻³ of the load.
-//! Every load that is solved counts for all criteria, and starts from the one before. Beyond complete contact the shape adds
-//! nothing, and stresses grow by those of a uniform pressure: no limit is looked for there. Shapes with ridges between them
-//! come into complete contact under an infinite pressure only; on a grid under a finite one, where the search ends.
+//! Contact is not linear: a limit is found by solving. From the least load whose contact has a few samples along its radius on,
+//! the mean pressure is doubled until every criterion has failed by more than its error or contact is complete; the loads of the
+//! run play no part. With u the utilisation of a criterion and e its error, the limit is the least load at which u reaches 1,
+//! found by secants of ln u(ln p̄) with bisection as their safeguard, to 10⁻³ of the load. Its interval reaches from the least
+//! load at which u + e is 1 to the least one at which u − e is. A criterion of which u + e reaches 1 and u − e does not, and u
+//! stays below 1, is undecided. Every load that is solved counts for all criteria.
 //!
-//! Utilisations are not monotone: the tension at an edge and the opening of an interface fall again towards complete contact.
-//! Where no load that was solved reaches 1 but a larger one between them may, it is looked for around the largest. Of several
-//! crossings between the loads that were solved the first is taken.
+//! Utilisations are not monotone: the tension at an edge and the opening of an interface rise and fall again. Between two
+//! loads u lies below lines of the steepest slope of that interval and its neighbours, times 1.5; where these reach 1 below the
+//! first crossing, the interval is halved until they do not, or its ends are 5 % apart (10 % for u + e). What stays open is
+//! part of the limit's interval. Where a level of a shape of its own begins to touch, loads are divided until its own
+//! load grows by a factor of four at most. A topography has spots that begin to touch at any load: a hump that is narrower than
+//! the slopes between the loads tell is not found.
+//!
+//! Beyond complete contact the shape adds nothing, and stresses grow by those of a uniform pressure: no limit is searched for
+//! there. Shapes with ridges between them come into complete contact under an infinite pressure only; on a grid under a finite
+//! one, where the search ends.
 
 mod curve;
 mod limits;
@@ -65,8 +72,8 @@ impl Run {
     /// # }
     /// ```
     ///
-    /// The search begins with the run's first load above 0, on finer and finer grids where an
-    /// accuracy is asked for; what the run asks of stresses plays no part but for the mean lateral stress.
+    /// On finer and finer grids where an accuracy is asked for. Neither the loads of the run nor what it asks of stresses
+    /// plays a part but for the mean lateral stress.
     ///
     /// # Errors
     /// [`RunError`], see [`check_limits`](Self::check_limits).

@@ -1,25 +1,30 @@
 //! The search on one grid, load by load.
 
-use super::curve::Curve;
+use super::curve::{Band, Crossing};
 use super::{At, Limit, Limits, Shown};
 use crate::load::Load;
-use crate::reading::{Criterion, Utilisation};
+use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
 use crate::spectral::{Solver, Step};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Doublings and halvings of the first load at most.
 const DOUBLINGS: usize = 40;
 /// Loads to find one limit at most; bisection alone takes ten from a factor of two on.
 const TRIALS: usize = 40;
-/// Samples that the radius of a contact needs to be worth halving its load further.
-const LEAST_SAMPLES: f64 = 2.0;
+/// Samples along the radius of a contact whose stresses are read.
+const LEAST_SAMPLES: f64 = 3.0;
 /// Rounds over all criteria: loads that were solved for one may be an earlier crossing of another.
 const ROUNDS: usize = 4;
 /// Loads that differ by less are one.
 const SAME: f64 = 1e-12;
-/// Part of the pressure of complete contact to begin with where the run's first load is none.
-const START: f64 = 1e-3;
+/// The first load over that of complete contact.
+const START: f64 = 1.0 / 1024.0;
+/// Between neighbouring loads that of an indenter of a shape of its own grows to this many times at most.
+const GROWTH: f64 = 4.0;
+/// Mean pressures that are closer, relatively, are not divided where a level begins to touch.
+const TOUCHING: f64 = 1e-3;
 
 /// A search that goes on.
 pub(super) struct Search<'a, R: Recorder> {
@@ -46,20 +51,23 @@ impl<'a, R: Recorder> Search<'a, R> {
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(half_space).into_iter().partition(|criterion| criterion.at_rest(half_space) >= 1.0);
         if !sought.is_empty() {
-            search.enclose(&sought)?;
+            search.scan(&sought)?;
+            search.divide_touches(&sought)?;
         }
-        let mut limits = Vec::new();
         for _ in 0..ROUNDS {
             let known = search.steps.len();
-            limits.clear();
-            for criterion in Criterion::all(half_space) {
-                let at = if at_rest.contains(&criterion) { At::Rest } else { search.find(criterion)? };
-                limits.push(Limit { criterion, at });
+            for &criterion in &sought {
+                search.find(criterion)?;
             }
             if search.steps.len() == known {
                 break;
             }
         }
+        let limit = |criterion: Criterion| {
+            let at = if at_rest.contains(&criterion) { At::Rest } else { search.found(criterion) };
+            Limit { criterion, at }
+        };
+        let limits = Criterion::all(half_space).into_iter().map(limit).collect();
         let mut limits =
             Limits { limits, steps: Vec::new(), shown: None, complete, change: None, end: None, warnings: Vec::new() };
         let is_load = |limit: &&&Limit| limit.mean_pressure() > 0.0 && limit.mean_pressure().is_finite();
@@ -77,7 +85,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         Ok(Limits { shown, steps: search.steps, ..limits })
     }
 
-    /// Solves a load and keeps what it says.
+    /// Solves a load and keeps its record.
     fn solve(&mut self, mean_pressure: f64) -> Result<&StepRecord, RunError<R::Error>> {
         // Its memory goes before the next one takes as much.
         self.last = None;
@@ -94,55 +102,105 @@ impl<'a, R: Recorder> Search<'a, R> {
         Ok(&self.steps[place])
     }
 
-    /// The first load: the run's, or a little where it prescribes a penetration that hardly touches. That penetration is only
-    /// where the search begins, and no load of it.
-    fn start(&mut self) -> f64 {
-        let pressure = match self.run.loads.iter().find(|load| load.value() > 0.0) {
-            Some(&Load::MeanPressure(pressure)) => pressure,
-            Some(&penetration) => self.solver.solve(penetration).reading().mean_pressure,
-            None => 0.0,
-        };
-        let pressure = if pressure > 0.0 && pressure.is_finite() { pressure } else { START * self.complete };
-        pressure.min(self.complete)
+    /// The first load: a part of that of complete contact. Where contact is complete under any load, a strength: there
+    /// stresses are proportional to the load.
+    fn start(&self) -> f64 {
+        if self.complete.is_finite() {
+            return START * self.complete;
+        }
+        let half_space = self.run.problem.half_space();
+        let of_materials = half_space.strengths().flat_map(|strength| [strength.yielding, strength.tensile]);
+        let of_interfaces = half_space.layers().iter().map(|layer| layer.interface_strength());
+        let of_interfaces = of_interfaces.flat_map(|strength| [strength.normal, strength.shear]);
+        of_materials.chain(of_interfaces).flatten().fold(f64::INFINITY, f64::min)
     }
 
-    /// Solves loads until each criterion has one load below and one above, or none is left; downwards until it holds and
-    /// falls with the load, as the tension at an edge and the opening of an interface fall towards complete contact too.
-    fn enclose(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
+    /// Solves loads a factor of two apart, from the least whose contact has samples enough on, until every criterion has
+    /// failed by more than its error or contact is complete. They do not depend on the loads of the run.
+    fn scan(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
         let mut lowest = self.start();
         let mut highest = lowest;
         self.solve(lowest)?;
         for _ in 0..DOUBLINGS {
-            let holds = |&criterion: &Criterion| self.curve(criterion).first_failure().is_none();
-            if highest >= self.complete || !sought.iter().any(holds) {
-                break;
-            }
-            highest = (2.0 * highest).min(self.complete);
-            self.solve(highest)?;
-        }
-        let is_tip = self.first_is_tip();
-        for _ in 0..DOUBLINGS {
-            // Under a tip of the highest level it fails however small the load.
-            let asks_for_less = |&criterion: &Criterion| {
-                let curve = self.curve(criterion);
-                match curve.first_failure() {
-                    Some(0) => !(is_tip && curve.0[0][1].is_infinite()),
-                    _ => !curve.falls_with_the_load(),
-                }
+            // Where contact is complete under any load, down to where everything holds.
+            let holds = |search: &Self| {
+                let failed = |&criterion: &Criterion| search.band(criterion).upper.first_failure() == Some(0);
+                search.complete.is_infinite() && !sought.iter().any(failed)
             };
-            if self.steps[0].reading.spot_resolution < LEAST_SAMPLES || !sought.iter().any(asks_for_less) {
+            if !self.is_readable(&self.steps[0].reading) || holds(self) {
                 break;
             }
             lowest *= 0.5;
             self.solve(lowest)?;
         }
+        for _ in 0..DOUBLINGS {
+            let has_samples = self.steps.iter().any(|step| self.is_readable(&step.reading));
+            let holds = |&criterion: &Criterion| !self.band(criterion).fails();
+            if highest >= self.complete || has_samples && !sought.iter().any(holds) {
+                break;
+            }
+            highest = (2.0 * highest).min(self.complete);
+            self.solve(highest)?;
+        }
+        let readable = self.steps.iter().position(|step| self.is_readable(&step.reading));
+        let least = readable.unwrap_or(self.steps.len() - 1);
+        self.steps.drain(..least);
         Ok(())
     }
 
+    /// Whether the contact of the best resolved level, or that of a topography, has samples enough for its stresses.
+    fn is_readable(&self, reading: &Reading) -> bool {
+        let [n1, n2] = self.solver.grid().points();
+        let whole = (reading.contact_fraction * (n1 * n2) as f64 / PI).sqrt();
+        let of_levels = reading.levels.iter().map(|level| level.resolution).reduce(f64::max);
+        of_levels.unwrap_or(whole) >= LEAST_SAMPLES
+    }
+
+    /// Solves loads between those where a level of a shape of its own begins to touch: its small contacts may fail at loads
+    /// of theirs that no doubling of the whole load meets. Levels of one shape fail at the highest of them first.
+    fn divide_touches(&mut self, sought: &[Criterion]) -> Result<(), RunError<R::Error>> {
+        for _ in 0..TRIALS {
+            let holds = |index: usize| {
+                let holds =
+                    |&criterion: &Criterion| self.band(criterion).lower.0[..=index].iter().all(|[_, u]| *u < 1.0);
+                sought.iter().any(holds)
+            };
+            let rough = (1..self.steps.len()).find(|&above| holds(above - 1) && self.grows_apart(above));
+            let Some(above) = rough else { break };
+            let [low, high] = [above - 1, above].map(|index| self.steps[index].reading.mean_pressure);
+            self.solve((low * high).sqrt())?;
+        }
+        Ok(())
+    }
+
+    /// Whether the load on one indenter of some level grows by more than [`GROWTH`] from the load before to load `above`, and
+    /// the level has a shape that no higher one has.
+    fn grows_apart(&self, above: usize) -> bool {
+        let [before, after] = [above - 1, above].map(|index| &self.steps[index].reading);
+        if after.mean_pressure <= before.mean_pressure * (1.0 + TOUCHING) {
+            return false;
+        }
+        let Some(indenters) = self.run.problem.counterbody().indenters() else { return false };
+        let (levels, drops) = (indenters.levels(), indenters.drops());
+        let is_new = |own: usize| {
+            (0..levels.len()).all(|other| {
+                let is_higher = drops[other] < drops[own] || drops[other] == drops[own] && other < own;
+                !is_higher || levels[other].shape() != levels[own].shape()
+            })
+        };
+        let grows = |own: usize| {
+            let [low, high] = [before, after].map(|reading| &reading.levels[own]);
+            high.resolution >= 2.0 * LEAST_SAMPLES && high.load > GROWTH * low.load
+        };
+        (0..levels.len()).any(|own| drops[own] > 0.0 && is_new(own) && grows(own))
+    }
+
     /// What the loads that were solved take up of a criterion.
-    fn curve(&self, criterion: Criterion) -> Curve {
-        let value = |record: &StepRecord| [record.reading.mean_pressure, self.utilisation(record, criterion).value];
-        Curve(self.steps.iter().map(value).collect())
+    fn band(&self, criterion: Criterion) -> Band {
+        Band::new(self.steps.iter().map(|record| {
+            let Utilisation { value, error, .. } = self.utilisation(record, criterion);
+            [record.reading.mean_pressure, value, error.unwrap_or(0.0)]
+        }))
     }
 
     /// Whether the highest level, which touches under any load, has tips whose pressure is infinite.
@@ -163,48 +221,55 @@ impl<'a, R: Recorder> Search<'a, R> {
         })
     }
 
-    /// Where a criterion is reached.
-    fn find(&mut self, criterion: Criterion) -> Result<At, RunError<R::Error>> {
+    /// Solves loads until it is known where a criterion is reached.
+    fn find(&mut self, criterion: Criterion) -> Result<(), RunError<R::Error>> {
         for trial in 0..TRIALS {
-            let curve = self.curve(criterion);
-            let next = match curve.first_failure() {
-                None => curve.towards_largest(),
-                Some(0) => None,
-                // Every third load halves what is enclosed.
-                Some(above) => curve.enclosure(above).next(trial % 3 == 2),
-            };
-            let Some(next) = next else { break };
+            // Every third load halves what is enclosed.
+            let Some(next) = self.band(criterion).next(trial % 3 == 2) else { break };
             self.solve(next)?;
         }
-        Ok(self.found(criterion))
+        Ok(())
     }
 
     /// Where a criterion is reached, by the loads that were solved.
     fn found(&self, criterion: Criterion) -> At {
-        let curve = self.curve(criterion);
+        let band = self.band(criterion);
         let taken = |index: usize| self.utilisation(&self.steps[index], criterion);
         let load = |index: usize| self.steps[index].reading.mean_pressure;
-        let Some(above) = curve.first_failure() else {
-            let at = curve.largest();
-            return At::Never { up_to: load(self.steps.len() - 1), utilisation: taken(at).value, at: load(at) };
+        let up_to = load(self.steps.len() - 1);
+        let Crossing { from, at: mean_pressure, to } = band.crossing();
+        let undecided = |at: usize| {
+            let Utilisation { value: utilisation, error, position, .. } = taken(at);
+            let at = load(at);
+            if from.is_infinite() {
+                At::Never { up_to, utilisation, error, at }
+            } else {
+                At::Undecided { from, up_to, utilisation, error, at, position }
+            }
         };
-        let Utilisation { value, position, .. } = taken(above);
-        if above == 0 {
-            let is_tip = value.is_infinite() && self.first_is_tip();
-            let below = At::Below { mean_pressure: load(above), utilisation: value, position };
-            return if is_tip { At::Tip { position } } else { below };
+        match band.value.first_failure() {
+            None => undecided(band.value.largest()),
+            Some(0) => match band.lower.first_failure() {
+                // No load tells: what it takes up there may be an error.
+                None => undecided(0),
+                Some(sure) => {
+                    let Utilisation { value, position, .. } = taken(sure);
+                    if sure == 0 && value.is_infinite() && self.first_is_tip() {
+                        return At::Tip { position };
+                    }
+                    At::Below { mean_pressure: load(sure), utilisation: value, position }
+                }
+            },
+            Some(above) => {
+                let enclosure = band.value.enclosure(above);
+                let nearest = taken(if enclosure.first_is_nearer() { above - 1 } else { above });
+                // Of what jumps nothing tells how far the grid moves it, and its place is where it has failed.
+                let jumps = enclosure.slope().is_none();
+                let position = if jumps { taken(above).position } else { nearest.position };
+                let error = (mean_pressure - from).max(to - mean_pressure);
+                let error = Some(error).filter(|error| error.is_finite() && !jumps && nearest.error.is_some());
+                At::Load { mean_pressure, error, interval: [from, to], position }
+            }
         }
-        let enclosure = curve.enclosure(above);
-        let mean_pressure = enclosure.root();
-        if enclosure.slope().is_none() {
-            // Of what jumps nothing tells how far the grid moves it, and its place is where it has failed.
-            return At::Load { mean_pressure, error: None, position };
-        }
-        let nearest = taken(if enclosure.first_is_nearer() { above - 1 } else { above });
-        let by_grid = curve.slope_around(mean_pressure).zip(nearest.error);
-        let by_grid = by_grid.map(|(slope, error)| error / (nearest.value * slope));
-        // What the search leaves open is an error too.
-        let error = by_grid.map(|by_grid| mean_pressure * by_grid.hypot(enclosure.open()));
-        At::Load { mean_pressure, error, position: nearest.position }
     }
 }
