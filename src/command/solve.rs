@@ -46,7 +46,9 @@ pub fn run(
     let run = case.run();
     let job = Job::Solve { pictures: pictures.wanted(), fields: !options.no_fields };
     let mut room = Room::on_this_machine(&folder);
-    if options.resume {
+    // Where no step is finished nothing can be set aside: what is solved of the first is not solved again.
+    let goes_on = options.resume || RunFolder::has_solved_alone(&folder);
+    if goes_on {
         // What stands there already takes no room again.
         room.disk = room.disk.saturating_add(RunFolder::gathered(&folder));
     }
@@ -54,10 +56,10 @@ pub fn run(
     run.check()?;
     interruption::watch();
     let plan = may_write(&case, run.loads.len(), !options.no_fields, pictures);
-    let mut claim = RunFolder::claim(&folder, Plan { resumes: options.resume, ..plan })?;
+    let mut claim = RunFolder::claim(&folder, Plan { resumes: goes_on, ..plan })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let fingerprint = output::fingerprint(&case, if options.no_fields { "scalars" } else { "fields" });
-    let earlier = earlier(&mut claim, &fingerprint, common.quiet)?;
+    let earlier = earlier(&mut claim, &fingerprint, options.resume, common.quiet)?;
     if options.resume
         && earlier.is_none()
         && let Some((ending, summary)) = finished(&case, &folder, !options.no_fields)
@@ -105,10 +107,14 @@ pub fn run(
     Ok(ending)
 }
 
-/// What an earlier run into the folder has finished, if this one is to go on from there.
-fn earlier(claim: &mut RunFolder, fingerprint: &str, quiet: bool) -> Result<Option<Finished>, Failure> {
-    let finished = |claim: &RunFolder| output::finished(&claim.staging(), fingerprint).map_err(Failure::refused);
-    let found = if claim.resumes() { finished(claim)? } else { None };
+/// What an earlier run into the folder has finished, if this one is to go on from there. What cannot be gone on with is an
+/// error where that is `demanded`.
+fn earlier(claim: &mut RunFolder, fingerprint: &str, demanded: bool, quiet: bool) -> Result<Option<Finished>, Failure> {
+    let found = match claim.resumes().then(|| output::finished(&claim.staging(), fingerprint)) {
+        Some(Err(reason)) if demanded => return Err(Failure::refused(reason)),
+        Some(Ok(found)) => found,
+        Some(Err(_)) | None => None,
+    };
     if claim.resumes() && found.is_none() {
         terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
     }

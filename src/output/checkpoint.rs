@@ -32,11 +32,11 @@ pub enum CannotGoOn {
     /// It is of another run.
     #[error(
         "{} is of another run: the case, its surface, --no-fields or the version of percoat is another one; give the same \
-         command again, or leave --resume out, which moves it aside", .0.display()
+         command again, or leave --resume out, which moves its finished steps aside", .0.display()
     )]
     Foreign(PathBuf),
     /// It cannot be read, or is not whole.
-    #[error("cannot go on from {}: {reason}; leave --resume out to begin anew, which moves it aside", path.display())]
+    #[error("cannot go on from {}: {reason}; leave --resume out to begin anew, which moves finished steps aside", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,

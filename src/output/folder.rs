@@ -1,6 +1,6 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
-use super::gathered::{is_partial, remove_gathered, remove_own, remove_temporary, remove_waiting, set_aside};
+use super::gathered::{is_moved, is_partial, remove_gathered, remove_own, remove_temporary, remove_waiting, set_aside};
 use super::layout::{COARSER, FolderError, MARK, OWN, SWEEP_LOG, foreign, names, own, remove_folder, staging};
 use super::manifest::{Manifest, Scope, Writer, Written};
 use super::publication::Publication;
@@ -66,7 +66,7 @@ impl RunFolder {
         refuse_foreign(folder, &adopting(folder, &plan)?, &plan)?;
         let mut claimed = Self { folder: folder.to_owned(), plan, set_aside: None, resumed: false, _lock: lock };
         if claimed.plan.resumes && claimed.is_begun() {
-            remove_temporary(&claimed.staging())?;
+            settle(&claimed.staging())?;
             claimed.resumed = true;
             claimed.set_aside = aside;
             return Ok(claimed);
@@ -107,13 +107,13 @@ impl RunFolder {
         remove_gathered(&self.staging(), self.plan.writer, &|_| false).map(|_| ())
     }
 
-    /// Begins anew although this run was to go on: what an earlier one finished is moved aside; where to.
+    /// Begins anew although this run was to go on: the steps that an earlier one finished are moved aside; where to.
     ///
     /// # Errors
     /// [`OutputError`] with the path that cannot be moved.
     pub fn begin_anew(&mut self) -> Result<Option<PathBuf>, OutputError> {
         self.resumed = false;
-        let aside = set_aside(&self.staging(), &self.folder)?;
+        let aside = self.clear_staging()?;
         self.make_staging()?;
         Ok(aside)
     }
@@ -133,9 +133,17 @@ impl RunFolder {
         Some(staging.join(COARSER)).filter(|path| path.is_dir())
     }
 
-    /// Whether anything has been solved in the place where a result is gathered, on its grid or a coarser one.
+    /// Whether anything has been solved in the place where a result is gathered, on its grid or a coarser one, be it a load
+    /// of which nothing is read off yet.
     pub fn has_begun(staging: &Path) -> bool {
-        has_steps(staging) || has_steps(&staging.join(COARSER)) || staging.join(checkpoint::NAME).is_file()
+        has_finished(staging) || staging.join(checkpoint::NAME).is_file()
+    }
+
+    /// Whether an earlier `solve` into a folder has solved its first load, or begun to, and finished no step: nothing that
+    /// could be set aside, and something with which a run of the same case can go on.
+    pub fn has_solved_alone(folder: &Path) -> bool {
+        let staging = staging(folder, Writer::Solve);
+        staging.join(MARK).is_file() && Self::has_begun(&staging) && !has_finished(&staging)
     }
 
     /// Begins again on a finer grid. The steps of the coarser one stand in `coarser/` until the result is published.
@@ -157,16 +165,14 @@ impl RunFolder {
             return Ok(aside);
         }
         let coarser = staging.join(COARSER);
+        // A folder without a log is one on its way, see `settle`.
+        let log = coarser.join(steps_log::NAME);
+        if log.is_file() {
+            fs::remove_file(&log).map_err(|error| OutputError::new(&log, error))?;
+        }
         let aside = if remove_own(&coarser, &|_| false)? { None } else { set_aside(&coarser, &self.folder)? };
         make_folder(&coarser)?;
-        let of_steps = |name: &&String| self.plan.names.contains(name) || is_partial(name);
-        let names = names(&staging)?;
-        // What the log lists is beside it when it comes.
-        let log = names.iter().filter(|name| *name == steps_log::NAME);
-        for name in names.iter().filter(of_steps).chain(log) {
-            let path = staging.join(name);
-            fs::rename(&path, coarser.join(name)).map_err(|error| OutputError::new(&path, error))?;
-        }
+        move_steps(&staging, &coarser)?;
         Ok(aside)
     }
 
@@ -198,11 +204,12 @@ impl RunFolder {
         if !staging.exists() {
             return Ok(None);
         }
-        if !Self::has_begun(&staging)
+        if !has_finished(&staging)
             && remove_gathered(&staging, self.plan.writer, &|name| self.plan.names.iter().any(|own| own == name))?
         {
             return Ok(None);
         }
+        settle(&staging)?;
         set_aside(&staging, &self.folder)
     }
 
@@ -226,10 +233,47 @@ pub fn release(folder: &Path) -> Result<(), OutputError> {
     remove_folder(&folder.join(OWN))
 }
 
-/// Whether steps have been finished where a result is gathered. A summary is one too: earlier versions of percoat wrote
-/// it after every step, and no log.
+/// Whether a step or a combination has been finished where a result is gathered, on its grid or a coarser one.
+fn has_finished(staging: &Path) -> bool {
+    has_steps(staging) || has_steps(&staging.join(COARSER))
+}
+
+/// Whether steps have been finished on one grid: its log has a whole line. A summary is one too: earlier versions of percoat
+/// wrote it after every step, and no log.
 fn has_steps(folder: &Path) -> bool {
-    [steps_log::NAME, SWEEP_LOG, "summary.json"].iter().any(|name| folder.join(name).is_file())
+    [steps_log::NAME, SWEEP_LOG].iter().any(|name| steps_log::has_whole_line(&folder.join(name)))
+        || folder.join("summary.json").is_file()
+}
+
+/// Puts in order what a run that was killed has left where its result is gathered: files that were being written go, logs
+/// end with their last whole line, and steps of a coarser grid that were on the way to `coarser/` come there.
+fn settle(staging: &Path) -> Result<(), OutputError> {
+    let coarser = staging.join(COARSER);
+    if coarser.is_dir() && !coarser.join(steps_log::NAME).is_file() && staging.join(steps_log::NAME).is_file() {
+        move_steps(staging, &coarser)?;
+    }
+    for folder in [staging, &coarser].into_iter().filter(|folder| folder.is_dir()) {
+        remove_temporary(folder)?;
+        for name in [steps_log::NAME, SWEEP_LOG] {
+            steps_log::cut(&folder.join(name))?;
+        }
+    }
+    Ok(())
+}
+
+/// Moves the steps of a grid where those of the coarser one stand, the log as the last: what it lists is there when it comes.
+fn move_steps(staging: &Path, coarser: &Path) -> Result<(), OutputError> {
+    let names = names(staging)?;
+    let log = names.iter().filter(|name| *name == steps_log::NAME);
+    for name in names.iter().filter(|name| is_moved(name)).chain(log) {
+        let (path, to) = (staging.join(name), coarser.join(name));
+        // What a grid before has left there.
+        if is_partial(name) {
+            remove_waiting(&to)?;
+        }
+        fs::rename(&path, &to).map_err(|error| OutputError::new(&path, error))?;
+    }
+    Ok(())
 }
 
 /// The list of a folder, with the adopted names on it.
@@ -325,6 +369,86 @@ mod tests {
         drop(claim);
         let again = RunFolder::claim(place.path(), plan()).unwrap();
         assert!(again.set_aside().is_some_and(|aside| aside.join("summary.json").is_file()));
+    }
+
+    /// As a kill leaves them: before the first line, within it, and after the solution of a load is saved.
+    #[test]
+    fn a_folder_whose_log_has_no_whole_line_is_cleared_and_one_with_a_part_of_a_line_is_cut() {
+        for (writer, log) in [(Writer::Solve, "steps.jsonl"), (Writer::Sweep, "sweep.jsonl")] {
+            for beside in ["case.toml", "checkpoint.npz", ".checkpoint.npz.17.tmp"] {
+                for (begun, left) in [("", None), ("{\"poi", None), ("{}\n{}\n{\"po", Some("{}\n{}\n"))] {
+                    let place = tempfile::tempdir().unwrap();
+                    let claim = || RunFolder::claim(place.path(), Plan { writer, ..plan() }).unwrap();
+                    let first = claim();
+                    write_text(&first.staging().join(beside), "content").unwrap();
+                    write_text(&first.staging().join(log), begun).unwrap();
+                    drop(first);
+                    let again = claim();
+                    let found = again.set_aside().map(|aside| fs::read_to_string(aside.join(log)).unwrap());
+                    assert_eq!(found.as_deref(), left, "{log}: {begun:?} beside {beside}");
+                    assert_eq!(names(&again.staging()).unwrap(), [MARK]);
+                    if let Some(aside) = again.set_aside() {
+                        assert!(!aside.join(".checkpoint.npz.17.tmp").exists());
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_load_that_is_solved_without_a_finished_step_is_gone_on_with_or_cleared() {
+        let place = tempfile::tempdir().unwrap();
+        let claim = |resumes| RunFolder::claim(place.path(), Plan { resumes, ..plan() }).unwrap();
+        let first = claim(false);
+        write_text(&first.staging().join("checkpoint.npz"), "solved").unwrap();
+        drop(first);
+        assert!(RunFolder::has_solved_alone(place.path()));
+        let mut next = claim(true);
+        assert!(next.resumes() && next.staging().join("checkpoint.npz").is_file());
+        assert_eq!(next.begin_anew().unwrap(), None);
+        assert_eq!(names(place.path()).unwrap(), [OWN, "unfinished"]);
+        write_text(&next.staging().join("checkpoint.npz"), "solved").unwrap();
+        write_text(&next.staging().join("steps.jsonl"), "{}\n").unwrap();
+        assert!(!RunFolder::has_solved_alone(place.path()));
+    }
+
+    /// Killed between any two of the changes with which a finer grid begins: old coarser steps go, the log first; fields
+    /// come, the log last.
+    #[test]
+    fn steps_on_their_way_aside_when_a_finer_grid_begins_come_there_whole() {
+        let fields = ["contact.partial/gap.0001.npy", "stress.partial/p.0001.npy", "stress.0001.vts"];
+        for moved in 0..=fields.len() {
+            for resumes in [false, true] {
+                let place = tempfile::tempdir().unwrap();
+                let claim = |resumes| RunFolder::claim(place.path(), Plan { resumes, ..plan() }).unwrap();
+                let first = claim(false);
+                let write = |name: &str, text: &str| {
+                    let path = first.staging().join(name);
+                    make_folder(path.parent().unwrap()).unwrap();
+                    write_text(&path, text).unwrap();
+                };
+                make_folder(&first.staging().join(COARSER)).unwrap();
+                for (index, name) in fields.iter().enumerate() {
+                    if index < moved {
+                        write(&format!("{COARSER}/{name}"), "fine");
+                    } else {
+                        write(name, "fine");
+                        // Not yet removed.
+                        write(&format!("{COARSER}/{name}"), "coarse");
+                    }
+                }
+                write("steps.jsonl", "{}\n");
+                write("checkpoint.npz", "of the finest");
+                drop(first);
+                let next = claim(resumes);
+                let found = next.set_aside().map_or(next.staging(), Path::to_owned);
+                assert_eq!(next.set_aside().is_none(), resumes);
+                let read = |name: &str| fs::read_to_string(found.join(COARSER).join(name)).unwrap();
+                assert!(fields.iter().all(|name| read(name) == "fine"), "{moved} moved");
+                assert_eq!(read("steps.jsonl"), "{}\n");
+                assert!(!found.join("steps.jsonl").exists() && found.join("checkpoint.npz").is_file());
+            }
+        }
     }
 
     #[test]

@@ -39,6 +39,12 @@ fn is_of_steps(name: &str) -> bool {
     STEPS.contains(&name) || ROWS.contains(&name) || is_volume || is_temporary(name)
 }
 
+/// Whether what a grid leaves under that name moves aside with its steps, before their log, when a finer one begins.
+pub(super) fn is_moved(name: &str) -> bool {
+    let stays = [steps_log::NAME, checkpoint::NAME].contains(&name) || ROWS.contains(&name) || is_temporary(name);
+    is_partial(name) || is_of_steps(name) && !stays
+}
+
 /// Whether a file of that name is one that was being written.
 fn is_temporary(name: &str) -> bool {
     name.starts_with('.') && name.ends_with(".tmp")

@@ -365,7 +365,7 @@ mod tests {
         assert_eq!(files(&run.staging().join("coarser")).len(), 3);
         fs::write(run.staging().join("steps.jsonl"), "fine").unwrap();
         run.begin_finer().unwrap();
-        assert_eq!(files(&run.staging().join("coarser"))["steps.jsonl"], "fine");
+        assert_eq!(files(&run.staging().join("coarser"))["steps.jsonl"], "fine\n");
         fs::write(run.staging().join("summary.json"), "finest").unwrap();
         run.publish().unwrap();
         assert_eq!(files(folder.path()), BTreeMap::from([("summary.json".to_owned(), "finest".to_owned())]));

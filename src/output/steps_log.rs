@@ -1,14 +1,14 @@
 //! `steps.jsonl`: every step of an unfinished run, one line each, appended as it is done.
 //!
 //! A line is the step as it will stand in `summary.json`, with what a run that goes on needs besides. Whatever ends the
-//! run, the lines that end are whole steps, and the file has one at least: where it stands, a step is finished.
+//! run, the lines that end are whole steps: a step is finished where its line ends.
 
 use super::{OutputError, write_text};
 use crate::reading::Histogram;
 use crate::run::StepRecord;
 use serde::Serialize;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 /// Name of the file.
@@ -67,6 +67,33 @@ impl StepsLog {
                 Ok(())
             }
         }
+    }
+}
+
+/// Whether a log is there and has a whole line.
+pub(super) fn has_whole_line(path: &Path) -> bool {
+    let line = File::open(path).and_then(|file| {
+        let mut line = Vec::new();
+        BufReader::new(file).read_until(b'\n', &mut line)?;
+        Ok(line)
+    });
+    line.is_ok_and(|line| line.ends_with(b"\n"))
+}
+
+/// Cuts off what a kill or a full disk has left of one more line than are whole; a log without a whole line goes.
+pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
+    let failed = |error| OutputError::new(path, error);
+    if !path.is_file() {
+        return Ok(());
+    }
+    let bytes = std::fs::read(path).map_err(failed)?;
+    match bytes.iter().rposition(|byte| *byte == b'\n') {
+        None => std::fs::remove_file(path).map_err(failed),
+        Some(end) if end + 1 < bytes.len() => {
+            let file = OpenOptions::new().write(true).open(path).map_err(failed)?;
+            file.set_len(end as u64 + 1).map_err(failed)
+        }
+        Some(_) => Ok(()),
     }
 }
 

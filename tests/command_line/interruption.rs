@@ -198,62 +198,132 @@ fn a_second_run_into_a_folder_is_refused_and_the_first_goes_on() {
     desk.solve("shared", &solve[3..]);
 }
 
-/// Two runs into one folder by turns, each killed at a moment of its time, half of them toward its end where the result
-/// is gathered and published.
-fn survives_kills(moments: usize) {
-    let desk = Desk::new();
-    let mut runs = Vec::new();
-    for (name, arguments) in [("first", &FIRST), ("second", &SECOND)] {
-        let started = Instant::now();
-        runs.push((arguments, desk.solve(name, arguments).results(), started.elapsed()));
+/// What a run leaves beside the result before it, in the order in which it comes; a number waits for so many finished steps.
+const PHASES: [&str; 14] = [
+    "unfinished",
+    "unfinished/case.toml",
+    "unfinished/contact.partial",
+    "unfinished/checkpoint.npz",
+    "unfinished/contact.partial/gap.0001.npy",
+    "1",
+    "unfinished/contact.partial/gap.0002.npy",
+    "2",
+    "3",
+    "4",
+    "unfinished/contact.npz",
+    "unfinished/summary.json",
+    "unfinished/.publish.json",
+    "after its end",
+];
+
+/// Waits until a run has come to a phase, or has ended.
+fn wait_for_phase(phase: &str, folder: &Path, child: &mut Child) {
+    let started = Instant::now();
+    let reached = || match phase.parse() {
+        Ok(steps) => finished_steps(&folder.join("unfinished")).len() >= steps,
+        Err(_) => folder.join(phase).exists(),
+    };
+    while !reached() && child.try_wait().unwrap().is_none() {
+        assert!(started.elapsed() < LONG_ENOUGH, "{phase} does not come");
+        // Some phases are shorter than the pause of a thread.
+        std::thread::yield_now();
     }
-    let folder = desk.solve("run", &FIRST);
+}
+
+/// What stands aside has a finished step at least, ends with a whole line, and has nothing that was being written.
+fn aside_is_readable(folder: &Folder) {
+    for name in folder.names().iter().filter(|name| name.starts_with("interrupted-")) {
+        let aside = Folder(folder.0.join(name));
+        assert!(readable_steps(&aside.0) > 0, "{name} has no steps: {:?}", aside.all_names());
+        assert!(aside.text("steps.jsonl").ends_with('\n'), "{name}");
+        assert!(aside.all_names().iter().all(|name| !name.ends_with(".tmp")), "{:?}", aside.all_names());
+    }
+}
+
+#[test]
+fn killed_in_every_phase_the_old_result_or_the_finished_steps_stand_readable() {
+    let desk = Desk::new();
+    let [first, second] =
+        [("first", &FIRST), ("second", &SECOND)].map(|(name, arguments)| desk.solve(name, arguments).results());
     let whole = |folder: &Folder, files: &BTreeMap<String, Vec<u8>>| {
         files
             .iter()
             .all(|(name, content)| fs::read(folder.0.join(name)).is_ok_and(|found| timeless(name, found) == *content))
     };
-    let (mut random, mut found) = (0x2545_f491_4f6c_dd1d_u64, [0; 4]);
-    for moment in 0..moments {
-        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let fraction = (random >> 11) as f64 / (1u64 << 53) as f64;
-        let (arguments, files, time) = &runs[(moment + 1) % 2];
-        let part = if moment % 4 < 2 { fraction } else { 0.85 + 0.3 * fraction };
-        let child = start(&folder.0, &arguments[..]);
-        sleep(time.mul_f64(part));
+    for phase in PHASES {
+        let folder = desk.solve("run", &FIRST);
+        let mut child = start(&folder.0, &SECOND);
+        wait_for_phase(phase, &folder.0, &mut child);
         kill(child);
-
         let unfinished = Folder(folder.0.join("unfinished"));
-        let stands = [whole(&folder, &runs[0].1), whole(&folder, &runs[1].1), whole(&unfinished, files)];
-        assert!(stands.contains(&true), "moment {moment}: {stands:?}, {:?}", folder.names());
-        let steps = readable_steps(&unfinished.0);
-        found[if whole(&folder, files) {
-            3
-        } else if steps == 0 {
-            0
-        } else if steps < 2 {
-            1
-        } else {
-            2
-        }] += 1;
-        for name in folder.names().iter().filter(|name| name.starts_with("interrupted-")) {
-            assert!(readable_steps(&folder.0.join(name)) > 0, "{name} has no steps");
-        }
+        let stands = [whole(&folder, &first), whole(&folder, &second), whole(&unfinished, &second)];
+        assert!(stands.contains(&true), "{phase}: {stands:?}, {:?}", folder.names());
+        // What is published is no longer unfinished.
+        let finished = if stands[1] || stands[2] { 0 } else { readable_steps(&unfinished.0) };
+        desk.solve("run", &FIRST);
+        assert!(whole(&folder, &first) && !folder.names().contains("unfinished"), "{phase}");
+        aside_is_readable(&folder);
+        let aside = folder.0.join("interrupted-1");
+        assert!(finished == 0 || readable_steps(&aside) == finished, "{phase}: {finished} steps were finished");
+        fs::remove_dir_all(&folder.0).unwrap();
     }
-    eprintln!("killed {moments} times: after no step, one, more, and with nothing unfinished: {found:?}");
-    desk.solve("run", &SECOND);
-    assert!(whole(&folder, &runs[1].1) && !folder.names().contains("unfinished"));
+}
+
+/// `percoat solve` into the folder `run`, killed by the system within the write that makes a file longer than so many
+/// blocks of 512 or 1024 bytes.
+fn killed_within_a_write(desk: &Desk, blocks: usize, arguments: &[&str]) {
+    let status = Command::new("env")
+        .args(["--default-signal=XFSZ", "sh", "-c"])
+        .arg(format!("ulimit -c 0; ulimit -f {blocks}; exec \"$0\" \"$@\""))
+        .arg(assert_cmd::cargo::cargo_bin!("percoat"))
+        .args(["solve", "-o", "run", "fig2", "--no-pictures", "-q"])
+        .args(arguments)
+        .current_dir(desk.path("."))
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), None, "a signal ends it");
+}
+
+/// The solution of the first load is saved, and its stresses are being written.
+#[test]
+fn killed_within_its_first_step_a_run_leaves_nothing_to_set_aside_and_the_same_one_goes_on() {
+    let desk = Desk::new();
+    let volume = "stress={ volume = { depth = 1.0, points = 64, rows = 16 } }";
+    let case = ["--set", "grid.points=48", "--set", "load.mean_pressure=[0.02, 0.06]", "--set", volume];
+    let folder = Folder(desk.path("run"));
+    let killed = || {
+        killed_within_a_write(&desk, 450, &case);
+        assert!(
+            folder.0.join("unfinished/checkpoint.npz").is_file() && !folder.0.join("unfinished/steps.jsonl").exists()
+        );
+    };
+    killed();
+    let other = ["solve", "-o", "run", "fig2", "--no-pictures", "--set", "grid.points=48"];
+    let other = desk.percoat(&other);
+    assert!(other.code == 0 && !other.err.contains("interrupted"), "{}", other.err);
+    assert!(folder.names().iter().all(|name| !name.starts_with("interrupted-")), "{:?}", folder.names());
+    killed();
+    let same = [&["solve", "-o", "run", "fig2", "--no-pictures"], &case[..]].concat();
+    let again = desk.percoat(&same);
+    assert!(again.code == 0 && again.err.contains("note: goes on after step 1"), "{}", again.err);
+    assert!(folder.names().iter().all(|name| !name.starts_with("interrupted-")), "{:?}", folder.names());
+    let fresh = desk.solve("fresh", &same[3..]);
+    assert!(fresh.results() == folder.results(), "{:?}", folder.names());
 }
 
 #[test]
-fn killed_at_a_dozen_moments_the_old_result_or_the_finished_steps_stand_readable() {
-    survives_kills(12);
-}
-
-#[test]
-#[ignore = "takes a minute"]
-fn killed_at_fifty_moments_the_old_result_or_the_finished_steps_stand_readable() {
-    survives_kills(50);
+fn a_line_that_was_being_written_is_cut_off_what_is_set_aside() {
+    let desk = Desk::new();
+    let loads: Vec<String> = (1..=200).map(|load| format!("{}", 1e-4 * f64::from(load))).collect();
+    let loads = format!("load.mean_pressure=[{}]", loads.join(", "));
+    killed_within_a_write(&desk, 64, &["--no-fields", "--set", "grid.points=16", "--set", &loads]);
+    let folder = Folder(desk.path("run"));
+    let log = folder.text("unfinished/steps.jsonl");
+    let whole = &log[..=log.rfind('\n').unwrap()];
+    assert!(whole.len() < log.len(), "the last line is a part of one");
+    let next = desk.percoat(&["solve", "-o", "run", "fig2", "--no-pictures", "--set", "grid.points=48"]);
+    assert!(next.code == 0 && next.err.contains("run/interrupted-1"), "{}", next.err);
+    assert_eq!(folder.text("interrupted-1/steps.jsonl"), whole);
 }
 
 /// Into the folder `run`, where files of more than 225 or 450 KiB fail as they do on a full disk: blocks are of 512 or
