@@ -288,7 +288,7 @@ mod tests {
         let folder = folder.path();
         gathered(folder, &["case.toml", "stress.npz"], "old").publish().unwrap();
         let run = gathered(folder, &["case.toml", "summary.json"], "new");
-        fs::write(run.staging().join("steps.jsonl"), "new").unwrap();
+        fs::write(run.staging().join("steps.jsonl"), "new\n").unwrap();
         fs::write(folder.join("case.toml"), "mine").unwrap();
         let error = run.publish().unwrap_err().to_string();
         assert!(error.contains("case.toml") && error.contains("changed"), "{error}");
@@ -360,10 +360,10 @@ mod tests {
         let run = gathered(folder.path(), &["case.toml", "stress.npz"], "coarse");
         run.begin_finer().unwrap();
         assert!(!run.staging().join("coarser").exists(), "no step is done");
-        fs::write(run.staging().join("steps.jsonl"), "coarse").unwrap();
+        fs::write(run.staging().join("steps.jsonl"), "coarse\n").unwrap();
         run.begin_finer().unwrap();
         assert_eq!(files(&run.staging().join("coarser")).len(), 3);
-        fs::write(run.staging().join("steps.jsonl"), "fine").unwrap();
+        fs::write(run.staging().join("steps.jsonl"), "fine\n").unwrap();
         run.begin_finer().unwrap();
         assert_eq!(files(&run.staging().join("coarser"))["steps.jsonl"], "fine\n");
         fs::write(run.staging().join("summary.json"), "finest").unwrap();
