@@ -70,15 +70,11 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     Ok(Part { name: "limit", kind: "Limit loads", title: title(file), sections })
 }
 
-/// Relative errors below this stand beside the load.
-const SHARP: f64 = 0.3;
-
 /// What fails first with its error, where a load makes it and nothing else comes first within the errors.
 fn first(limits: &Limits, units: &Units) -> Option<String> {
     let first = limits.first()?;
     let At::Load { mean_pressure, error, .. } = first.at else { return None };
-    let is_sharp = error.is_some_and(|error| error < SHARP * mean_pressure) && limits.contenders().is_empty();
-    if !is_sharp {
+    if !first.is_sharp() || !limits.contenders().is_empty() {
         return None;
     }
     let load = told(units.pressure(), mean_pressure, error);

@@ -47,9 +47,6 @@ fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units)
     })
 }
 
-/// Relative errors above this are shown as the interval of the limit.
-const WIDE: f64 = 0.3;
-
 /// The interval of a limit; an end that is not known is left open.
 fn range(pressure: &Prefixed, [from, to]: [f64; 2]) -> String {
     let shown = |load: f64| number(pressure.shown(load));
@@ -79,10 +76,9 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
             At::Rest => ("0".to_owned(), "by residual stress alone".to_owned()),
             At::Tip { position } => ("0".to_owned(), format!("{}, a tip", place(position))),
             At::Load { mean_pressure, error, interval: [from, to], position } => {
-                let is_wide =
-                    from == 0.0 || to.is_infinite() || error.is_some_and(|error| error > WIDE * mean_pressure);
                 let range = || format!("{} ({})", number(pressure.shown(mean_pressure)), range(&pressure, [from, to]));
-                (if is_wide { range() } else { in_unit(&pressure, mean_pressure, error) }, place(position))
+                let shown = if limit.is_sharp() { in_unit(&pressure, mean_pressure, error) } else { range() };
+                (shown, place(position))
             }
             At::Below { mean_pressure, position, .. } => (
                 format!("< {}", number(pressure.shown(mean_pressure))),

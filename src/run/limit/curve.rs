@@ -138,10 +138,18 @@ impl Curve {
     }
 }
 
-/// An end of the interval of a limit, or the load to solve next to find it.
-enum End {
-    Known(f64),
-    Solve(f64),
+/// An end of the interval of a limit, as far as the loads that were solved tell.
+struct End {
+    /// Mean pressure; while a `next` load is left to solve, the outer one of the two loads that enclose the end.
+    load: f64,
+    /// The load to solve next to know the end better.
+    next: Option<f64>,
+}
+
+impl End {
+    fn known(load: f64) -> Self {
+        Self { load, next: None }
+    }
 }
 
 impl Band {
@@ -167,20 +175,14 @@ impl Band {
         let root = first.filter(|&above| above > 0).and_then(|above| self.value.enclosure(above).next(halve));
         // Humps that would come first, then the ends of the interval.
         root.or_else(|| self.value.humps(first.unwrap_or(usize::MAX)).find_map(|index| self.value.middle(index, CLOSE)))
-            .or_else(|| {
-                let unknown = |end: End| if let End::Solve(load) = end { Some(load) } else { None };
-                unknown(self.from()).or_else(|| unknown(self.to()))
-            })
+            .or_else(|| self.from().next.or_else(|| self.to().next))
             .or_else(|| self.value.towards_largest().filter(|_| first.is_none()))
     }
 
     /// Where the utilisation becomes 1, by the loads that were solved.
     pub fn crossing(&self) -> Crossing {
-        let end = |end: End| match end {
-            End::Known(load) | End::Solve(load) => load,
-        };
         let at = self.at();
-        Crossing { from: end(self.from()).min(at), at, to: end(self.to()).max(at) }
+        Crossing { from: self.from().load.min(at), at, to: self.to().load.max(at) }
     }
 
     /// The least load at which u reaches 1.
@@ -213,40 +215,40 @@ impl Band {
         let above = self.upper.first_failure();
         let near = self.blur().map(|blur| self.at() * (-blur).exp());
         let crossed = match above {
-            None => End::Known(f64::INFINITY),
-            Some(0) => return End::Known(0.0),
+            None => End::known(f64::INFINITY),
+            Some(0) => return End::known(0.0),
             Some(above) => {
                 let low = self.upper.0[above - 1][0];
                 match near.filter(|&near| self.upper.0[above][0] >= near) {
-                    Some(near) => End::Known(near.max(low)),
+                    Some(near) => End::known(near.max(low)),
                     None => match self.upper.middle(above - 1, BLURRED) {
-                        Some(middle) => End::Solve(middle),
-                        None => End::Known(self.upper.enclosure(above).root()),
+                        Some(middle) => End { load: low, next: Some(middle) },
+                        None => End::known(self.upper.enclosure(above).root()),
                     },
                 }
             }
         };
         match self.upper.humps(above.unwrap_or(usize::MAX)).next() {
             Some(index) if near.is_none_or(|near| self.upper.0[index + 1][0] < near) => {
-                self.upper.middle(index, BLURRED).map_or(End::Known(self.upper.0[index][0]), End::Solve)
+                End { load: self.upper.0[index][0], next: self.upper.middle(index, BLURRED) }
             }
             _ => crossed,
         }
     }
 
     fn to(&self) -> End {
-        let Some(first) = self.value.first_failure() else { return End::Known(f64::INFINITY) };
+        let Some(first) = self.value.first_failure() else { return End::known(f64::INFINITY) };
         let sure = (first..self.lower.0.len()).find(|&index| self.lower.0[index][1] >= 1.0);
-        let Some(sure) = sure else { return End::Known(f64::INFINITY) };
+        let Some(sure) = sure else { return End::known(f64::INFINITY) };
         if sure == 0 {
-            return End::Known(self.lower.0[0][0]);
+            return End::known(self.lower.0[0][0]);
         }
         let [low, high] = [self.lower.0[sure - 1][0], self.lower.0[sure][0]];
         match self.blur().map(|blur| self.at() * blur.exp()).filter(|&near| low <= near) {
-            Some(near) => End::Known(near.min(high)),
+            Some(near) => End::known(near.min(high)),
             None => match self.lower.middle(sure - 1, BLURRED) {
-                Some(middle) => End::Solve(middle),
-                None => End::Known(self.lower.enclosure(sure).root()),
+                Some(middle) => End { load: high, next: Some(middle) },
+                None => End::known(self.lower.enclosure(sure).root()),
             },
         }
     }
@@ -392,6 +394,20 @@ mod tests {
             let (Crossing { from, at, to }, ..) = found(rise(1e-4), first);
             assert!(from < at && at < to && (3e-4..1.5e-3).contains(&(to / from - 1.0)), "{from} {at} {to}");
         }
+    }
+
+    /// With no load between the doublings solved, the ends are the outer loads: 51.2 below 75.1, and 204.8 above 137.2.
+    #[test]
+    fn an_interval_that_is_not_narrowed_yet_holds_both_ends() {
+        let band = Band::new((0..12).map(|k| {
+            let p = 0.1 * 2f64.powi(k);
+            [p, (p / 100.0).cbrt(), 0.1 * (p / 100.0).cbrt()]
+        }));
+        let Crossing { from, to, .. } = band.crossing();
+        assert!(
+            band.next(false).is_some() && from <= 100.0 / 1.1f64.powi(3) && to >= 100.0 / 0.9f64.powi(3),
+            "{from} {to}"
+        );
     }
 
     /// u stays below 1 and u + e does not: from where u + e is 1 on it is undecided.

@@ -142,6 +142,13 @@ impl Limit {
         }
     }
 
+    /// Whether its interval has two ends and its error is at most three tenths of it, so that the error alone says how sure it is.
+    pub fn is_sharp(&self) -> bool {
+        let [from, to] = self.interval();
+        let At::Load { mean_pressure, error, .. } = self.at else { return false };
+        from > 0.0 && to.is_finite() && error.is_none_or(|error| error <= WIDE * mean_pressure)
+    }
+
     /// Where it fails, or may fail, x, y, z; `None` where it does not, or everywhere.
     pub fn position(&self) -> Option<[f64; 3]> {
         match self.at {
@@ -175,8 +182,8 @@ impl Limit {
         }
     }
 
-    /// What comes first: the least load; of bounds the one that is exceeded most; what is undecided before what is never
-    /// reached.
+    /// Order of failure: the least mean pressure first; of two bounds the larger utilisation; undecided limits before those that
+    /// are never reached.
     fn order(&self, other: &Self) -> Ordering {
         let excess = |limit: &Self| if let At::Below { utilisation, .. } = limit.at { -utilisation } else { 0.0 };
         let loads = self.mean_pressure().total_cmp(&other.mean_pressure());
@@ -287,7 +294,7 @@ impl Limits {
                 let part = error.map_or(0.0, |error| error / mean_pressure);
                 let error = match (from > 0.0, to.is_finite()) {
                     (true, true) if part <= TOLD => String::new(),
-                    (true, true) if part <= WIDE => format!(" ± {:.0} %", 100.0 * part),
+                    (true, true) if limit.is_sharp() => format!(" ± {:.0} %", 100.0 * part),
                     (true, true) => format!(", between {} and {} by its error", told(from), told(to)),
                     (true, false) => format!(", not before {} and by its error perhaps never", told(from)),
                     (false, true) => format!(", by its error anywhere below {}", told(to)),
@@ -304,7 +311,7 @@ impl Limits {
 
 /// Relative errors above this are told beside what fails first.
 const TOLD: f64 = 0.005;
-/// Above this the ends of the interval are.
+/// Above this the ends of the interval are shown in place of the error.
 const WIDE: f64 = 0.3;
 
 /// What fails first, in words.

@@ -72,8 +72,8 @@ impl Run {
     /// # }
     /// ```
     ///
-    /// On finer and finer grids where an accuracy is asked for. Neither the loads of the run nor what it asks of stresses
-    /// plays a part but for the mean lateral stress.
+    /// With [`Sampling::Accuracy`] the search is repeated on finer grids until the limits change by less. Of the run's loads and
+    /// stress request only the mean lateral stress enters.
     ///
     /// # Errors
     /// [`RunError`], see [`check_limits`](Self::check_limits).

@@ -224,7 +224,7 @@ impl<'a, R: Recorder> Search<'a, R> {
     /// Solves loads until it is known where a criterion is reached.
     fn find(&mut self, criterion: Criterion) -> Result<(), RunError<R::Error>> {
         for trial in 0..TRIALS {
-            // Every third load halves what is enclosed.
+            // Every third load bisects the interval around the root.
             let Some(next) = self.band(criterion).next(trial % 3 == 2) else { break };
             self.solve(next)?;
         }
