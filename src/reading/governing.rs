@@ -102,8 +102,7 @@ mod tests {
         ];
         let told = |x: f64, error: Option<f64>| error.map_or(format!("{x}"), |error| format!("{x} ± {error}"));
         let words = |crack: f64, error: f64, part: f64| {
-            let all =
-                [taken(yields, 0.93, Some(0.02)), taken(cracks, crack, Some(error)), taken(parts, part, None)];
+            let all = [taken(yields, 0.93, Some(0.02)), taken(cracks, crack, Some(error)), taken(parts, part, None)];
             Governing::of(&all).unwrap().in_words(told)
         };
         assert_eq!(words(0.5, 0.4, 0.9), "yield of material 2 takes up 0.93 ± 0.02");
