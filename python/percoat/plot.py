@@ -262,7 +262,7 @@ def _numbers(result: Result, name: str) -> tuple[Array, Optional[list[str]]]:
     def read(value: Any, words: Sequence[str], before: str) -> list[float]:
         nonlocal entries
         if isinstance(value, list) and words:
-            entries = [f"{before[:-1]} {number}" for number in range(1, len(value) + 1)]  # levels: level 1, …
+            entries = [_entry(entry, before, number) for number, entry in enumerate(value, 1)]
             return [number for entry in value for number in read(entry, words, "")]
         if value is None:
             return [np.nan]
@@ -273,6 +273,14 @@ def _numbers(result: Result, name: str) -> tuple[Array, Optional[list[str]]]:
         return [float(value)]
 
     return np.array([read(step, name.split("."), "") for step in result.summary.steps]), entries
+
+
+def _entry(entry: Any, list_: str, number: int) -> str:
+    """What an entry of a list is called: a criterion by its name and what it is of, one of ``levels`` level 1, …"""
+    if "criterion" not in entry:
+        return f"{list_[:-1]} {number}"
+    of = "material" if "material" in entry else "interface"
+    return f"{entry['criterion']} of {of} {entry[of]}"
 
 
 def _errors(result: Result, name: str, shape: tuple[int, ...]) -> Array:
