@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn maps_have_a_question_mark_where_the_errors_leave_the_first_open() {
         let limit = |n: usize| {
-            let rivals = if n % 4 == 0 { json!(["cracking of material 1"]) } else { json!([]) };
+            let rivals = if n.is_multiple_of(4) { json!(["cracking of material 1"]) } else { json!([]) };
             json!({ "first": { "criterion": "yield", "material": 2, "mean_pressure": 1.0 + n as f64, "rivals": rivals } })
         };
         let load = |n: usize| {
