@@ -9,7 +9,13 @@ pub fn curve(
     colour: usize,
     points: impl IntoIterator<Item = [f64; 2]>,
 ) -> Curve {
-    Curve { label: label.into(), points: points.into_iter().collect(), style, colour: colour.into() }
+    Curve {
+        label: label.into(),
+        points: points.into_iter().collect(),
+        errors: Vec::new(),
+        style,
+        colour: colour.into(),
+    }
 }
 
 /// A dashed line y = c xᵖ over the range of the points and through the first of them: the expected slope on logarithmic

@@ -206,6 +206,9 @@ def curve(
 ) -> Axes:
     """Draw one number of every load step over another; steps that have not converged are crossed out.
 
+    Bars are the estimated errors of ``y``, where the steps have any. A line is interrupted where it would fall by less
+    than the errors of both of its ends.
+
     Parameters
     ----------
     result
@@ -230,8 +233,12 @@ def curve(
     (across, entries_x), (up, entries_y) = (_numbers(result, name) for name in (x, y))
     across, up = np.broadcast_arrays(across, up)
     entries = entries_y or entries_x
-    for abscissas, ordinates, entry in zip(across.T, up.T, entries or [""]):
-        ax.plot(abscissas, ordinates, **{"marker": ".", "label": entry or None, **artist})
+    errors = np.broadcast_to(_errors(result, y, up.shape), up.shape)
+    for abscissas, ordinates, bars, entry in zip(across.T, up.T, errors.T, entries or [""]):
+        drawn = {"marker": ".", "label": entry or None, **artist}
+        (line,) = ax.plot(*_interrupted(abscissas, ordinates, bars), **drawn)
+        if np.any(bars > 0.0):
+            ax.errorbar(abscissas, ordinates, np.nan_to_num(bars), fmt="none", ecolor=line.get_color(), elinewidth=0.8)
     failed = np.array([not step.converged for step in result])
     if failed.any():
         ax.plot(across[failed].ravel(), up[failed].ravel(), "x", color="red", zorder=3, label="not converged")
@@ -255,7 +262,7 @@ def _numbers(result: Result, name: str) -> tuple[Array, Optional[list[str]]]:
     def read(value: Any, words: Sequence[str], before: str) -> list[float]:
         nonlocal entries
         if isinstance(value, list) and words:
-            entries = [f"{before[:-1]} {number}" for number in range(1, len(value) + 1)]  # levels: level 1, …
+            entries = [_entry(entry, before, number) for number, entry in enumerate(value, 1)]
             return [number for entry in value for number in read(entry, words, "")]
         if value is None:
             return [np.nan]
@@ -266,6 +273,33 @@ def _numbers(result: Result, name: str) -> tuple[Array, Optional[list[str]]]:
         return [float(value)]
 
     return np.array([read(step, name.split("."), "") for step in result.summary.steps]), entries
+
+
+def _entry(entry: Any, list_: str, number: int) -> str:
+    """What an entry of a list is called: a criterion by its name and what it is of, one of ``levels`` level 1, …"""
+    if "criterion" not in entry:
+        return f"{list_[:-1]} {number}"
+    of = "material" if "material" in entry else "interface"
+    return f"{entry['criterion']} of {of} {entry[of]}"
+
+
+def _errors(result: Result, name: str, shape: tuple[int, ...]) -> Array:
+    """Errors of what a dotted name stands for, NaN where none are known."""
+    *path, last = name.split(".")
+    # Of the value of a stress and of a utilisation they stand beside it, of all else under ``errors``.
+    beside = ["error"] if last in ("value", "utilisation") else ["errors", last]
+    try:
+        return _numbers(result, ".".join([*path, *beside]))[0]
+    except (AttributeError, ValueError):
+        return np.full(shape, np.nan)
+
+
+def _interrupted(across: Array, up: Array, errors: Array) -> tuple[Array, Array]:
+    """Points with a gap where the line would fall by less than the errors of both of its ends."""
+    known = np.nan_to_num(errors)
+    falls = up[:-1] - up[1:]
+    gaps = np.flatnonzero((falls > 0.0) & (falls <= known[:-1] + known[1:])) + 1
+    return np.insert(across, gaps, np.nan), np.insert(up, gaps, np.nan)
 
 
 def _component(record: Union[Plane, Section], quantity: str) -> Array:

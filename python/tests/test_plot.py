@@ -223,6 +223,22 @@ def test_a_curve_has_a_line_for_each_level(three_levels: percoat.Result) -> None
     assert both.lines[2].get_xdata().tolist() == [step.levels[2].contact_radius for step in three_levels]
 
 
+def test_a_curve_has_error_bars_and_does_not_fall_by_less_than_its_errors() -> None:
+    settings = {"grid.points": 48, "load.mean_pressure": [0.05, 0.1, 0.2]}
+    result = percoat.solve("dlc-on-steel", set=settings)
+    ax = plot.curve(result, "mean_pressure", "strength.utilisation")
+    strengths = [step.strength for step in result]
+    assert ax.lines[0].get_label() == "yield of material 1" and len(ax.lines) == len(strengths[0])
+    (bars,) = ax.containers[1][2]  # of the second criterion, yield of the chromium
+    for (low, high), own in zip((bar[:, 1] for bar in bars.get_segments()), (step[1] for step in strengths)):
+        assert (low, high) == (own.utilisation - own.error, own.utilisation + own.error)
+    across, up = plot._interrupted(
+        np.arange(5.0), np.array([1.0, 2.0, 1.5, 1.9, 1.0]), np.array([0.2, 0.3, 0.3, 0.1, np.nan])
+    )
+    # Down by 0.5 with 0.6 of errors is no fall, by 0.9 with 0.1 it is.
+    assert np.isnan(up).tolist() == [False, False, True, False, False, False] == np.isnan(across).tolist()
+
+
 def test_a_curve_crosses_out_what_has_not_converged() -> None:
     settings = {"grid.points": 96, "load.mean_pressure": [0.0, 0.03, 0.06], "solver.max_iterations": 2}
     with pytest.warns(percoat.NotConverged):

@@ -10,9 +10,8 @@ use super::progress::Progress;
 use super::terminal;
 use crate::case::plausibility;
 use crate::case::resources::Job;
-use crate::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, write_text};
+use crate::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, with_error, write_text};
 use crate::picture::{self, Snapshot};
-use crate::reading::Utilisation;
 use crate::run::{Recorder, Shown, StepRecord};
 use crate::{Solver, Step, StressField};
 use std::convert::Infallible;
@@ -46,9 +45,7 @@ impl Recorder for Searching<'_> {
     }
 
     fn step(&mut self, _step: &Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Infallible> {
-        let worst = Utilisation::governing(&record.strength);
-        let words =
-            worst.map_or("no contact".to_owned(), |worst| format!("{} {}", worst.criterion, number(worst.value)));
+        let words = record.governing().map_or("no contact".to_owned(), |own| own.in_words(with_error));
         let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
         if self.common.verbose {
             self.progress.tell(&words);

@@ -7,7 +7,8 @@ use std::collections::{HashMap, HashSet};
 /// A row: its cells, each with the name of its column.
 pub type Cells = Vec<(String, String)>;
 
-/// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1.
+/// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1; texts of a list
+/// stand in one cell, with semicolons between them.
 pub fn scalars(value: &Value) -> Cells {
     let mut cells = Vec::new();
     flatten("", value, &mut cells);
@@ -18,6 +19,11 @@ fn flatten(name: &str, value: &Value, cells: &mut Cells) {
     let join = |key: &str| if name.is_empty() { key.to_owned() } else { format!("{name}_{key}") };
     match value {
         Value::Object(map) => map.iter().for_each(|(key, value)| flatten(&join(key), value, cells)),
+        // A list of texts is one cell.
+        Value::Array(items) if !items.is_empty() && items.iter().all(Value::is_string) => {
+            let texts: Vec<&str> = items.iter().filter_map(Value::as_str).collect();
+            cells.push((name.to_owned(), plain(&texts.join("; "))));
+        }
         Value::Array(items) => {
             (1..).zip(items).for_each(|(number, value): (usize, _)| flatten(&join(&number.to_string()), value, cells));
         }
@@ -71,6 +77,8 @@ mod tests {
         let cells = scalars(&json!({"a": {"b": [1.5, null]}, "why": "x, \"y\" #\n z", "c": true}));
         let text = csv(|| [cells.clone()].into_iter());
         assert_eq!(text, "a_b_1,a_b_2,why,c\n1.5,,x; 'y' ' z,true\n");
+        let cells = scalars(&json!({"rivals": ["yield of material 1", "cracking of material 2"], "none": []}));
+        assert_eq!(csv(|| [cells.clone()].into_iter()), "rivals\nyield of material 1; cracking of material 2\n");
     }
 
     #[test]

@@ -102,6 +102,9 @@ impl<'a> Plot<'a> {
             }
             taken.extend(run.first());
         }
+        for [[x, top], [_, bottom]] in self.chart.curves.iter().flat_map(|curve| bars(curve, frame)) {
+            taken.extend((0..=20).map(|k| [x, top + (bottom - top) * f64::from(k) / 20.0]));
+        }
         let [top, height] = [frame.corner[1], frame.size[1]];
         for (x, _) in frame.marks(&self.chart.x) {
             taken.extend((0..=60).map(|k| [x, top + height * f64::from(k) / 60.0]));
@@ -113,14 +116,27 @@ impl<'a> Plot<'a> {
 /// Uninterrupted pieces of a curve within its panel.
 fn runs(curve: &Curve, frame: &Frame) -> Vec<Vec<[f64; 2]>> {
     let mut runs: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
-    for &point in &curve.points {
+    for (index, &point) in curve.points.iter().enumerate() {
         match (frame.place(point), runs.last_mut()) {
             (Some(place), Some(run)) => run.push(place),
             _ => runs.push(Vec::new()),
         }
+        if !curve.errors.is_empty() && !curve.leads_on(index) {
+            runs.push(Vec::new());
+        }
     }
     runs.retain(|run| !run.is_empty());
     runs
+}
+
+/// Upper and lower end of each error bar of a curve. What reaches zero on a logarithmic axis ends below the plot.
+fn bars(curve: &Curve, frame: &Frame) -> Vec<[[f64; 2]; 2]> {
+    let below = frame.corner[1] + frame.size[1] + 2.0;
+    let ends = |(x, [low, high]): (f64, [f64; 2])| {
+        let top = frame.place([x, high])?;
+        Some([top, frame.place([x, low]).unwrap_or([top[0], below])])
+    };
+    curve.bars().filter_map(ends).collect()
 }
 
 impl Panel for Plot<'_> {
@@ -141,10 +157,23 @@ impl Panel for Plot<'_> {
         frame.draw(canvas, [ox, oy]);
         frame.draw_zero(canvas, [ox, oy]);
         frame.draw_marks(canvas, &self.chart.x, [ox, oy]);
+        let bounds = frame.bounds([ox, oy]);
+        let on_sheet = |[x, y]: [f64; 2]| [ox + x, oy + y];
+        for curve in &self.chart.curves {
+            for ends in bars(curve, &frame) {
+                curve.draw_bar(canvas, ends.map(on_sheet), bounds);
+            }
+        }
         for curve in &self.chart.curves {
             for run in runs(curve, &frame) {
-                let run: Vec<[f64; 2]> = run.into_iter().map(|[x, y]| [ox + x, oy + y]).collect();
-                curve.draw(canvas, &run, frame.bounds([ox, oy]));
+                let run: Vec<[f64; 2]> = run.into_iter().map(on_sheet).collect();
+                curve.draw(canvas, &run, bounds);
+            }
+            if !curve.errors.is_empty() {
+                let places = curve.points.iter().map(|&point| frame.place(point));
+                for (index, place) in places.enumerate().filter_map(|(index, place)| Some((index, place?))) {
+                    curve.draw_point(canvas, index, on_sheet(place), bounds);
+                }
             }
         }
         if let Some((legend, [x, y])) = &legend {
@@ -168,7 +197,7 @@ mod tests {
     }
 
     fn line(points: Vec<[f64; 2]>) -> Curve {
-        Curve { label: "a curve".into(), points, style: Style::Line, colour: 1.into() }
+        Curve { label: "a curve".into(), points, errors: Vec::new(), style: Style::Line, colour: 1.into() }
     }
 
     #[test]

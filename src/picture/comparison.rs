@@ -70,11 +70,18 @@ fn curves(circles: &[CircleComparison]) -> Vec<Curve> {
         curves.push(Curve {
             label,
             points: points(&|circle| value(&circle.difference)),
+            errors: Vec::new(),
             style: Style::LineMarkers,
             colour: colour.into(),
         });
         let points = points(&|circle| value(&circle.mesh_error));
-        curves.push(Curve { label: String::new(), points, style: Style::Dashed, colour: colour.into() });
+        curves.push(Curve {
+            label: String::new(),
+            points,
+            errors: Vec::new(),
+            style: Style::Dashed,
+            colour: colour.into(),
+        });
     }
     curves
 }

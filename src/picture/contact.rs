@@ -122,8 +122,13 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(
     for level in 1..=snapshot.levels() {
         let site = snapshot.step.surface().site_of(level)?;
         let Some(boundary) = &snapshot.reading.boundaries[site] else { continue };
-        let curve =
-            |label: String, points: Vec<[f64; 2]>, style: Style| Curve { label, points, style, colour: level.into() };
+        let curve = |label: String, points: Vec<[f64; 2]>, style: Style| Curve {
+            label,
+            points,
+            errors: Vec::new(),
+            style,
+            colour: level.into(),
+        };
         curves.push(curve(format!("level {level}"), deviations(&boundary.radii, boundary.mean_radius()), Style::Line));
         if !boundary.hole.is_empty() {
             let points = deviations(&boundary.hole, boundary.mean_hole_radius());

@@ -48,6 +48,7 @@ pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
             .map(|(number, row)| Curve {
                 label: name(row),
                 points: points(row, quantity),
+                errors: Vec::new(),
                 style: if below(row) { Style::Dashed } else { Style::Line },
                 colour: match interfaces {
                     MANY.. => Ink::by_depth(number / 2, interfaces + 1),

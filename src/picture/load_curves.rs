@@ -7,7 +7,7 @@ use super::curve::{Curve, Ink, MOST, Style};
 use super::quantity::Quantity;
 use super::snapshot::caption;
 use super::touches::touches;
-use super::utilisations::{utilisation_axis, utilisation_curves};
+use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
@@ -39,7 +39,9 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
         0 => "",
         _ => " Dotted, with the level's number: where a level touches first, from its loads at the steps behind.",
     };
-    Some(plots(&format!("{}{what}", caption(title, problem, units, &more)), &charts))
+    let has_errors = charts.iter().flat_map(|chart| &chart.curves).any(|curve| curve.bars().next().is_some());
+    let bars = if has_errors { format!(" {BARS}") } else { String::new() };
+    Some(plots(&format!("{}{what}{bars}", caption(title, problem, units, &more)), &charts))
 }
 
 struct Run<'a> {
@@ -71,7 +73,14 @@ impl Run<'_> {
         let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.reading.mean_pressure, value(step)]).collect();
         // Markers show the steps where they are few.
         let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
-        Curve { label: label.to_owned(), points, style, colour }
+        Curve { label: label.to_owned(), points, errors: Vec::new(), style, colour }
+    }
+
+    /// The curve of a largest stress with its errors.
+    fn peaks(&self, label: &str, colour: Ink, peak: impl Fn(&StepRecord) -> Option<Peak>) -> Curve {
+        let errors = |step: &StepRecord| peak(step).and_then(|peak| peak.error).unwrap_or(f64::NAN);
+        let value = |step: &StepRecord| peak(step).and_then(|peak| peak.finite()).unwrap_or(f64::NAN);
+        Curve { errors: self.steps.iter().map(errors).collect(), ..self.curve(label, colour, value) }
     }
 
     /// One curve a level; where it has no value, or no contact, there is no curve. One of the `whole` for a topography.
@@ -129,9 +138,8 @@ impl Run<'_> {
         };
         let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
             let of = |index: usize| {
-                self.curve(&name(index), Ink::by_depth(index, materials), |step| {
-                    let extremes = step.stress.as_ref().and_then(|stress| stress.materials.get(index));
-                    extremes.and_then(|extremes| value(extremes).finite()).unwrap_or(f64::NAN)
+                self.peaks(&name(index), Ink::by_depth(index, materials), |step| {
+                    step.stress.as_ref()?.materials.get(index).map(value)
                 })
             };
             (0..materials).map(of).collect()
@@ -156,8 +164,8 @@ impl Run<'_> {
                 MOST.. => format!("interface {}", index + 1),
                 _ => format!("{what}, interface {}", index + 1),
             };
-            let of = |step: &StepRecord| Some(value(step.stress.as_ref()?.interfaces.get(index)?).value);
-            let curve = self.curve(&name, Ink::by_depth(index, interfaces), |step| of(step).unwrap_or(f64::NAN));
+            let of = |step: &StepRecord| step.stress.as_ref()?.interfaces.get(index).map(value);
+            let curve = self.peaks(&name, Ink::by_depth(index, interfaces), of);
             if dashed { Curve { style: Style::Dashed, ..curve } } else { curve }
         };
         let curves = (0..interfaces).flat_map(|index| {

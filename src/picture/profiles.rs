@@ -16,7 +16,13 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
     let mut directions = Vec::new();
     for level in 1..=snapshot.levels() {
         let Some((direction, points)) = snapshot.profile(level) else { continue };
-        curves.push(Curve { label: format!("level {level}"), points, style: Style::Line, colour: level.into() });
+        curves.push(Curve {
+            label: format!("level {level}"),
+            points,
+            errors: Vec::new(),
+            style: Style::Line,
+            colour: level.into(),
+        });
         directions.push(degrees([direction.cos(), direction.sin()]));
         if let Some(points) = isolated.and_then(|levels| levels.get(level - 1)) {
             let points = smooth(points);
@@ -24,6 +30,7 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
             curves.push(Curve {
                 label: String::new(),
                 points: left.chain(points.iter().copied()).collect(),
+                errors: Vec::new(),
                 style: Style::Dashed,
                 colour: level.into(),
             });

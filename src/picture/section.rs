@@ -14,7 +14,7 @@ use super::snapshot::Snapshot;
 use super::tiling::images;
 use super::window::Window;
 use crate::friction::Friction;
-use crate::reading::{Criterion, Utilisation, tears, tips};
+use crate::reading::{Criterion, Utilisation, Verdict, tears, tips};
 use crate::stress::{Line, Section};
 use ndarray::Array2;
 
@@ -96,8 +96,13 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let largest = [words(largest_along, "σₛ"), words(largest_other, symbol), infinite];
     let residual = half_space.residual_stresses().any(|stress| stress != 0.0);
     let residual = if residual { " Residual stress is in it." } else { "" };
-    let failed: Vec<String> =
-        (1..).zip(&failures).map(|(number, (criterion, _)): (usize, _)| format!("{number}: {criterion}")).collect();
+    let failing = |(number, (criterion, _)): (usize, &(Criterion, [f64; 2]))| {
+        let own = snapshot.strength.iter().find(|own| own.criterion == *criterion);
+        let is_open =
+            snapshot.failing != Some(*criterion) && own.is_some_and(|own| own.verdict() == Verdict::Undecided);
+        format!("{number}: {criterion}{}", if is_open { " (undecided by its error)" } else { "" })
+    };
+    let failed: Vec<String> = (1..).zip(&failures).map(failing).collect();
     let rings =
         if failed.is_empty() { String::new() } else { format!(" At or beyond its strength, {}.", failed.join("; ")) };
     let ahead = snapshot.step.problem().friction().map(Friction::direction).map(|[x, y]| x * dx + y * dy);

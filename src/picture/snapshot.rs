@@ -7,7 +7,7 @@ use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;
 use crate::lattice::{Cell, LatticeError};
 use crate::problem::Problem;
-use crate::reading::{Criterion, Reading, Utilisation};
+use crate::reading::{Criterion, Governing, Reading, Utilisation};
 use crate::spectral::Step;
 use crate::units::{Unit, Units, lowered, substrate_index};
 
@@ -55,7 +55,7 @@ impl Snapshot {
 
     /// The criterion that fails here or else governs: its utilisation is largest.
     pub fn governing(&self) -> Option<Criterion> {
-        self.failing.or_else(|| Utilisation::governing(&self.strength).map(|own| own.criterion))
+        self.failing.or_else(|| Governing::of(&self.strength).map(|own| own.first.criterion))
     }
 
     /// Pressure sample by sample, a₂ fastest.

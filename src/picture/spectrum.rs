@@ -20,7 +20,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
     let least = rings.iter().map(|[_, density]| *density).reduce(f64::min)?;
     let curve = |label: &str, points, style, colour: usize| {
         let (label, colour) = (label.to_owned(), Ink::from(colour));
-        Curve { label, points, style, colour }
+        Curve { label, points, errors: Vec::new(), style, colour }
     };
     let mut curves = Vec::new();
     if let Some((surface, density)) = random.and_then(|own| Some((own, own.density(topography.cell()).ok()?))) {

@@ -7,10 +7,13 @@ use super::curve::{Curve, Ink, Style};
 use super::number::short;
 use super::snapshot::caption;
 use crate::problem::Problem;
-use crate::reading::Criterion;
+use crate::reading::{Criterion, Utilisation};
 use crate::run::{Limits, StepRecord};
 use crate::units::Units;
 
+/// What the marks of curves with errors mean.
+pub(super) const BARS: &str = "Bars: estimated errors of the grid; open: the error exceeds half of the value; where a curve \
+                               would fall by less than its errors it is interrupted.";
 /// Colours that lines have by their number.
 const COLOURS: usize = 6;
 
@@ -27,36 +30,42 @@ pub fn utilisations(title: &str, problem: &Problem, units: &Units, limits: &Limi
     let [n1, n2] = limits.steps[0].points;
     let more =
         [limits.in_words(|pressure| units.pressure().told(pressure, short)), format!("{n1}\u{a0}×\u{a0}{n2} samples")];
-    Some(plots(&caption(title, problem, units, &more), &[chart]))
+    Some(plots(&format!("{} {BARS}", caption(title, problem, units, &more)), &[chart]))
 }
 
-/// From a hundredth on at least: what takes up less is as good as nothing.
+/// From a hundredth on at least: what takes up less is as good as nothing. Error bars belong to it up to ten times the
+/// largest value.
 pub(super) fn utilisation_axis(steps: &[StepRecord]) -> Axis {
-    let values = steps.iter().flat_map(|step| &step.strength).map(|own| own.value);
-    let values = values.filter(|value| value.is_finite() && *value > 0.0);
+    let all = || steps.iter().flat_map(|step| &step.strength);
+    let values = all().map(|own| own.value).filter(|value| value.is_finite() && *value > 0.0);
     let (least, most) = values.fold((1.0f64, 1.0f64), |(least, most), value| (least.min(value), most.max(value)));
-    Axis::log("utilisation").from_to(least.max(0.01) / 1.2, most * 1.2)
+    let reach = all().map(Utilisation::most).filter(|most| most.is_finite()).fold(most, f64::max);
+    Axis::log("utilisation").from_to(least.max(0.01) / 1.2, reach.min(10.0 * most) * 1.2)
 }
 
-/// A curve for each criterion, and where it fails. What is zero or infinite has no place on a logarithmic axis.
+/// A curve for each criterion with its errors, and where it fails. What is zero or infinite has no place on a logarithmic
+/// axis.
 pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterator<Item = Criterion>) -> Vec<Curve> {
     let curve = |criterion: Criterion| {
         let point = |step: &StepRecord| {
             let own = step.utilisation(criterion).map(|own| own.value);
-            [step.reading.mean_pressure, own.filter(|value| value.is_finite() && *value > 0.0).unwrap_or(f64::NAN)]
+            [step.reading.mean_pressure, own.filter(|value| value.is_finite()).unwrap_or(f64::NAN)]
         };
-        steps.iter().map(point).collect()
+        let error = |step: &StepRecord| step.utilisation(criterion).and_then(|own| own.error).unwrap_or(f64::NAN);
+        (steps.iter().map(point).collect(), steps.iter().map(error).collect())
     };
     let criteria: Vec<Criterion> = criteria.into_iter().collect();
     let own = criteria.iter().enumerate().map(|(index, &criterion)| {
         let (style, colour) = drawn(criterion, index, &criteria);
-        Curve { label: criterion.to_string(), points: curve(criterion), style, colour }
+        let (points, errors) = curve(criterion);
+        Curve { label: criterion.to_string(), points, errors, style, colour }
     });
     let loads = steps.iter().map(|step| step.reading.mean_pressure).filter(|pressure| *pressure > 0.0);
     let (least, most) = loads.fold((f64::INFINITY, 0.0f64), |(least, most), p| (least.min(p), most.max(p)));
     let failure = Curve {
         label: "failure".to_owned(),
         points: vec![[least / 1.1, 1.0], [most * 1.1, 1.0]],
+        errors: Vec::new(),
         style: Style::Dashed,
         colour: 0.into(),
     };

@@ -4,7 +4,7 @@
 //! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface. It is no safety factor: contact is not linear, and the load at which it
 //! reaches 1 is found by solving ([`crate::Run::limits`]).
 
-use super::StressReading;
+use super::{StressReading, Verdict};
 use crate::body::HalfSpace;
 use crate::stress::Peak;
 use std::fmt;
@@ -98,9 +98,23 @@ pub struct Utilisation {
 }
 
 impl Utilisation {
-    /// The largest of all: what fails first, or comes nearest.
-    pub fn governing(all: &[Self]) -> Option<&Self> {
-        all.iter().max_by(|a, b| a.value.total_cmp(&b.value))
+    /// The value less its error: what is taken up at least.
+    pub fn least(&self) -> f64 {
+        self.value - self.error.unwrap_or(0.0)
+    }
+
+    /// The value with its error: what is taken up at most.
+    pub fn most(&self) -> f64 {
+        self.value + self.error.unwrap_or(0.0)
+    }
+
+    /// Whether it fails.
+    pub fn verdict(&self) -> Verdict {
+        match (self.least(), self.most()) {
+            (least, _) if least >= 1.0 => Verdict::Fails,
+            (_, most) if most < 1.0 => Verdict::Holds,
+            _ => Verdict::Undecided,
+        }
     }
 
     /// Of every criterion of a half-space under the largest stresses of a step.
@@ -131,6 +145,7 @@ impl serde::Serialize for Utilisation {
         keys.serialize_entry("utilisation", &Some(self.value).filter(|value| value.is_finite()))?;
         keys.serialize_entry("singular", &self.value.is_infinite())?;
         keys.serialize_entry("error", &self.error)?;
+        keys.serialize_entry("state", self.verdict().name())?;
         let [x, y, z] = self.position;
         keys.serialize_entry("x", &x)?;
         keys.serialize_entry("y", &y)?;
@@ -152,7 +167,7 @@ impl serde::Serialize for Criterion {
 #[cfg(feature = "serde")]
 impl Criterion {
     /// Its name, and the material or interface.
-    fn entries<M: serde::ser::SerializeMap>(self, keys: &mut M) -> Result<(), M::Error> {
+    pub(super) fn entries<M: serde::ser::SerializeMap>(self, keys: &mut M) -> Result<(), M::Error> {
         keys.serialize_entry("criterion", self.name())?;
         match self {
             Self::Yield { material } | Self::Cracking { material } => keys.serialize_entry("material", &material),

@@ -129,7 +129,12 @@ fn firsts(rows: &Rows<'_>) -> Option<String> {
         _ => format!("{name} in {count}"),
     };
     let told: Vec<String> = counts.iter().enumerate().map(told).collect();
-    (!told.is_empty()).then(|| format!("What fails first: {}.", told.join(", ")))
+    let open = rows.last().filter(|line| !line.rivals("first").is_empty()).count();
+    let open = match open {
+        0 => String::new(),
+        _ => format!("; in {} the errors leave open which", combinations(open)),
+    };
+    (!told.is_empty()).then(|| format!("What fails first: {}{open}.", told.join(", ")))
 }
 
 fn combinations(count: usize) -> String {
@@ -168,6 +173,19 @@ mod tests {
         ] {
             assert!(page.contains(words), "no {words}: {page}");
         }
+    }
+
+    #[test]
+    fn what_the_errors_leave_open_is_told() {
+        let head = "combination,set_a,status,step,first_criterion,first_material,first_mean_pressure,first_error,first_reached,first_rivals,yield_of_material_1_reached";
+        let page = said(&format!(
+            "{head}\n1,1,done,1,yield,1,20,2,under load,cracking of material 1; yield of material 2,under load\n\
+             2,2,done,1,yield,1,7,0.5,under load,,under load\n"
+        ));
+        assert!(
+            page.contains("yield of material 1 in all of them; in 1 combination the errors leave open which."),
+            "{page}"
+        );
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The table of a sweep read back: its numbers with their errors, and limits of which a bound alone is known.
 
 use crate::output::{number, with_error};
+use crate::reading::within_the_errors;
 use std::collections::HashMap;
 
 /// The table of a sweep.
@@ -104,12 +105,24 @@ impl<'a> Line<'a> {
 
     /// Which criterion comes first.
     pub(super) fn first(self) -> Option<String> {
-        let of = |of: &str| Some(format!(" of {of} {}", self.text(&format!("first_{of}"))?));
-        Some(format!(
-            "{}{}",
-            self.text("first_criterion")?,
-            of("material").or_else(|| of("interface")).unwrap_or_default()
-        ))
+        self.criterion("first")
+    }
+
+    /// What else may come first within the errors.
+    pub(super) fn rivals(self, head: &str) -> Vec<String> {
+        let texts = self.text(&format!("{head}_rivals"));
+        texts.into_iter().flat_map(|texts| texts.split(';')).map(|text| text.trim().to_owned()).collect()
+    }
+
+    /// The criterion that comes first (`first`) or governs (`governing`), with its rivals.
+    pub(super) fn with_rivals(self, head: &str) -> Option<String> {
+        Some(self.criterion(head)? + &within_the_errors(&self.rivals(head)))
+    }
+
+    fn criterion(self, head: &str) -> Option<String> {
+        let of = |of: &str| Some(format!(" of {of} {}", self.text(&format!("{head}_{of}"))?));
+        let criterion = self.text(&format!("{head}_criterion"))?;
+        Some(format!("{criterion}{}", of("material").or_else(|| of("interface")).unwrap_or_default()))
     }
 }
 
@@ -143,6 +156,12 @@ mod tests {
         assert_eq!(told("first"), ["0.007 ± 0.003", "0.05 ± 0.20", "< 0.0012000"]);
         assert_eq!(told("a"), ["> 3.5000", "0", "–"]);
         assert_eq!(rows.limits(), ["a"]);
+        let text = "combination,status,step,governing_criterion,governing_material,governing_rivals\n\
+                    1,done,1,yield,2,cracking of material 1; yield of material 3\n2,done,1,yield,2,\n";
+        let governs: Vec<Option<String>> =
+            Rows::read(text).unwrap().lines().map(|line| line.with_rivals("governing")).collect();
+        let words = "yield of material 2, or cracking of material 1 or yield of material 3 within the errors";
+        assert_eq!(governs, [Some(words.to_owned()), Some("yield of material 2".to_owned())]);
         assert!(rows.lines().all(|line| line.first().as_deref() == Some("delamination of interface 2")));
     }
 

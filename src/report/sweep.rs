@@ -139,8 +139,12 @@ fn shown(rows: &Rows<'_>, keys: &[Key]) -> Markup {
     let limits = rows.limits();
     if limits.is_empty() {
         columns.push(("step".to_owned(), plain("step")));
+        if rows.has("governing_criterion") {
+            columns.push(("what governs".to_owned(), Box::new(|line| line.with_rivals("governing"))));
+            columns.push(("does it fail".to_owned(), plain("governing_state")));
+        }
     } else {
-        columns.push(("fails first".to_owned(), Box::new(|line| line.first())));
+        columns.push(("fails first".to_owned(), Box::new(|line| line.with_rivals("first"))));
         let limit = |name: &str| -> Cell<'_> {
             let name = name.to_owned();
             Box::new(move |line| line.limit(&name).map(Limit::told))

@@ -1,7 +1,7 @@
 //! Every scalar of a load step, as `summary.json` has them.
 
 use crate::body::HalfSpace;
-use crate::reading::{Criterion, Reading, RoughReading, StressReading, Utilisation, stiffness};
+use crate::reading::{Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness};
 use crate::spectral::{Certificate, Report, Step, Stop};
 
 /// What stays of a load step beside its fields.
@@ -74,6 +74,11 @@ impl StepRecord {
         self.strength.iter().find(|own| own.criterion == criterion)
     }
 
+    /// What comes nearest to failure, with its rivals; `None` without contact, or strengths.
+    pub fn governing(&self) -> Option<Governing<'_>> {
+        Governing::of(&self.strength)
+    }
+
     /// Whether the solution meets the tolerance. What is not a number compares as small as any, and does not.
     pub fn converged(&self) -> bool {
         self.report.stop.solved() && self.is_finite()
@@ -121,7 +126,7 @@ impl serde::Serialize for StepRecord {
         use crate::spectral::Route;
         use serde::ser::SerializeStruct;
         let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 25)?;
+        let mut keys = serializer.serialize_struct("step", 26)?;
         keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
         keys.serialize_field("penetration", &reading.penetration)?;
         // Eq. (8): δ is measured from the mean plane of the deformed surface.
@@ -161,6 +166,10 @@ impl serde::Serialize for StepRecord {
             keys.skip_field("strength")?;
         } else {
             keys.serialize_field("strength", &self.strength)?;
+        }
+        match self.governing() {
+            Some(governing) => keys.serialize_field("governing", &governing)?,
+            None => keys.skip_field("governing")?,
         }
         match self.seconds {
             Some(seconds) => keys.serialize_field("seconds", &seconds)?,

@@ -72,6 +72,37 @@ fn a_solved_case_with_strengths_says_what_governs() {
     }
 }
 
+/// On a coarse grid the tension at the edge of contact is known to hardly more than its size.
+#[test]
+fn what_the_errors_leave_open_is_said_to_be_open() {
+    let desk = Desk::new();
+    let sets = ["grid.points=64", "friction.coefficient=0.5", "layers.0.residual_stress=0", "load.mean_pressure=0.004"];
+    let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", *set]).collect();
+    let answer = desk.percoat(&[&["solve", "dlc-on-steel", "-o", "out", "--no-pictures"], &sets[..]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let text = fs::read_to_string(desk.path("out/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&text).unwrap();
+    let step = &summary["steps"][0];
+    let taken = |own: &Value| [number(own, "/utilisation"), own["error"].as_f64().unwrap_or(0.0)];
+    let all = step["strength"].as_array().unwrap();
+    let [first, error] = taken(all.iter().max_by(|a, b| taken(a)[0].total_cmp(&taken(b)[0])).unwrap());
+    assert!(first - error < 1.0 && first + error >= 1.0, "{first} ± {error} decides it");
+    for own in all {
+        let [value, error] = taken(own);
+        let state = match () {
+            () if value - error >= 1.0 => "fails",
+            () if value + error < 1.0 => "holds",
+            () => "undecided",
+        };
+        assert_eq!(own["state"], state, "{own}");
+    }
+    let governing = &step["governing"];
+    assert_eq!((&governing["criterion"], &governing["state"]), (&"cracking".into(), &"undecided".into()));
+    let rivals = all.iter().filter(|own| taken(own)[0] != first && taken(own).iter().sum::<f64>() >= first - error);
+    assert_eq!(governing["rivals"].as_array().unwrap().len(), rivals.count());
+    assert!(answer.out.contains("undecided by the errors whether anything fails"), "{}", answer.out);
+}
+
 const BOND: &str = r#"
 [lattice]
 kind = "square"

@@ -102,6 +102,28 @@ fn a_rough_contact_has_its_area_spots_gap_stiffness_and_histograms() {
     assert!(!folder.text("curve.csv").lines().next().unwrap().contains("histogram"));
 }
 
+/// A number with its error as the table and the report have it.
+#[test]
+fn the_table_and_the_report_of_a_topography_print_the_same_numbers_with_their_errors() {
+    let desk = Desk::new();
+    let sets =
+        ["--set", "grid.points=64", "--set", "surface.random.shortest=5", "--set", "load.mean_pressure=[0.05, 0.1]"];
+    let answer = desk.percoat(&[&["solve", "rough", "-o", "out", "--no-pictures"], &sets[..]].concat());
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    let page = desk.percoat(&["report", "out"]);
+    assert_eq!(page.code, 0, "{}", page.err);
+    let page = Folder(desk.path("out")).text("report.html").replace('\u{a0}', " ");
+    let mut rows = answer.out.lines().filter(|line| line.contains('%'));
+    let last = rows.next_back().expect("a row of the last step");
+    let cells: Vec<&str> = last.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
+    // Penetration, contact and peak pressure; the mean pressure is prescribed.
+    assert_eq!(cells.len(), 4, "{last}");
+    for cell in &cells[1..] {
+        assert!(cell.contains(" ± "), "{cell} has no error: {last}");
+        assert!(page.matches(cell.trim_end_matches(" %")).count() >= 2, "{cell} is not in the answer and the table");
+    }
+}
+
 #[test]
 fn check_describes_a_surface_and_writes_its_spectrum_where_it_is_asked_to() {
     let desk = Desk::new();

@@ -16,7 +16,7 @@ use super::number::{ROUNDING, number, with_error};
 use crate::case::Case;
 use crate::comparison::Comparison;
 use crate::numeric::search::largest;
-use crate::reading::Reading;
+use crate::reading::{LevelReading, Reading};
 use crate::run::{Limits, StepRecord};
 use crate::units::{Prefixed, Units};
 
@@ -150,14 +150,15 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     }
     let row = |reading: &Reading| {
         let mut row = vec![
-            number(mean.shown(reading.mean_pressure)),
-            number(penetration.shown(reading.penetration)),
-            percent(reading.contact_fraction),
+            in_unit(&mean, reading.mean_pressure, reading.errors.mean_pressure),
+            in_unit(&penetration, reading.penetration, reading.errors.penetration),
+            percent_with_error(reading.contact_fraction, reading.errors.contact_fraction),
         ];
-        row.extend(reading.levels.iter().map(|level| finite(&pressure, level.finite_peak(), None)));
-        row.extend(reading.levels.iter().map(|level| percent(level.load_share)));
+        let peak = |level: &LevelReading| finite(&pressure, level.finite_peak(), level.errors.max_pressure);
+        row.extend(reading.levels.iter().map(peak));
+        row.extend(reading.levels.iter().map(|level| percent_with_error(level.load_share, level.errors.load_share)));
         if levels == 0 {
-            row.push(finite(&pressure, reading.finite_peak(), None));
+            row.push(finite(&pressure, reading.finite_peak(), reading.errors.max_pressure));
         }
         row
     };

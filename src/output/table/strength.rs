@@ -4,7 +4,7 @@ use super::by_step::{Row, by_step, place};
 use super::{Table, Worded, in_unit};
 use crate::body::HalfSpace;
 use crate::output::number::{number, with_error};
-use crate::reading::{Criterion, Utilisation};
+use crate::reading::{Criterion, Utilisation, Verdict};
 use crate::run::{At, Limit, Limits, StepRecord};
 use crate::units::{Prefixed, Unit, Units};
 
@@ -23,27 +23,49 @@ pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units:
     Some(Worded { words: in_words(steps, half_space, units)?, table })
 }
 
-/// What fails first as far as the load steps tell, else what comes nearest at any. The load at which it does lies between them.
+/// What fails first as far as the load steps and the errors tell, else what comes nearest at any. The load at which it does
+/// lies between the last step at which everything holds and the first at which something fails, whatever the errors.
 fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<String> {
     let at_rest = |body| Criterion::all(body).into_iter().find(|own| own.at_rest(body) >= 1.0);
     if let Some(criterion) = half_space.and_then(at_rest) {
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
-    let fails = taken()
-        .filter(|(_, own)| own.value >= 1.0)
-        .min_by(|(p, a), (q, b)| p.total_cmp(q).then(b.value.total_cmp(&a.value)));
-    let Some((above, Utilisation { criterion, .. })) = fails else {
-        let (_, Utilisation { criterion, .. }) = taken().max_by(|(_, a), (_, b)| a.value.total_cmp(&b.value))?;
-        return Some(format!("{criterion} governs"));
+    let told = |pressure: f64| units.pressure().told(pressure, number);
+    let least = |loads: &mut dyn Iterator<Item = f64>| loads.min_by(f64::total_cmp);
+    let fails = least(&mut taken().filter(|(_, own)| own.verdict() == Verdict::Fails).map(|(load, _)| load));
+    let Some(above) = fails else {
+        let open = taken().any(|(_, own)| own.verdict() == Verdict::Undecided);
+        // That in which something comes nearest.
+        let reach = |step: &&StepRecord| step.strength.iter().map(Utilisation::most).fold(0.0, f64::max);
+        let with_strength = steps.iter().filter(|step| !step.strength.is_empty());
+        let step = with_strength.max_by(|a, b| reach(a).total_cmp(&reach(b)))?;
+        let words = step.governing()?.in_words(with_error);
+        let begins = if open { "undecided by the errors whether anything fails" } else { "nothing fails" };
+        return Some(format!("{begins}: at p̄ = {} {words}", told(step.reading.mean_pressure)));
     };
+    // Every criterion that may fail up to there may be the first, also between the steps; the least load by its value,
+    // and at that load the largest, is named before the others.
+    let may = |load: f64, own: &Utilisation| load <= above && own.verdict() != Verdict::Holds;
+    let mut first: Vec<(f64, &Utilisation)> = taken().filter(|(load, own)| may(*load, own)).collect();
+    let open = least(&mut first.iter().map(|(load, _)| *load)).unwrap_or(above);
+    let rank = |(load, own): &(f64, &Utilisation)| (if own.value >= 1.0 { *load } else { f64::INFINITY }, -own.value);
+    first.sort_by(|a, b| rank(a).0.total_cmp(&rank(b).0).then(rank(a).1.total_cmp(&rank(b).1)));
+    let mut names: Vec<String> = Vec::new();
+    for (_, own) in first {
+        let name = own.criterion.to_string();
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let undecided = if names.len() > 1 { ", undecided which," } else { "" };
     // Every step of a lesser load holds.
     let loads = steps.iter().map(|step| step.reading.mean_pressure);
-    let below = loads.filter(|&load| 0.0 < load && load < above).max_by(f64::total_cmp);
-    let told = |pressure: f64| units.pressure().told(pressure, number);
+    let below = loads.filter(|&load| 0.0 < load && load < open).max_by(f64::total_cmp);
+    let first = format!("first: {}{undecided}", names.join(" or "));
     Some(match below {
-        Some(below) => format!("first: {criterion} between p̄ = {} and {}", told(below), told(above)),
-        None => format!("first: {criterion} at or below p̄ = {}", told(above)),
+        Some(below) => format!("{first} between p̄ = {} and {}", told(below), told(above)),
+        None => format!("{first} at or below p̄ = {}", told(above)),
     })
 }
 

@@ -59,7 +59,7 @@ impl Keys {
             let label = load.map_or(label, |load| format!("p̄ = {}", short(load)));
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
-            Curve { label, points, style, colour: colour(index) }
+            Curve { label, points, errors: Vec::new(), style, colour: colour(index) }
         });
         let x = Axis { scale: scale(values), ..Axis::linear(&self.names[*index][..]) };
         (Chart { title: String::new(), x, y: Axis::linear(shown.quantity.clone()), curves: curves.collect() }, all)

@@ -14,7 +14,8 @@ const GAP: f64 = 3.0;
 /// Height of a name.
 const ROW: f64 = 1.4 * NUMBERS;
 
-/// What results of a search for limits say of the first one.
+/// What results say of the criterion that comes first: in a search for limits the first one, under a load the one that
+/// governs.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum First {
     Criterion(String),
@@ -22,9 +23,9 @@ pub enum First {
 }
 
 impl First {
-    /// `None` where the result is not of such a search.
+    /// `None` where the result is neither of a search for limits nor of a load step with strengths.
     pub fn of(result: &Value) -> Option<Self> {
-        let first = result.get("first")?;
+        let first = own(result)?;
         let Some(criterion) = first.get("criterion").and_then(Value::as_str) else { return Some(Self::Nothing) };
         let of = ["material", "interface"].iter().find_map(|of| Some(format!(" of {of} {}", first.get(of)?.as_u64()?)));
         Some(Self::Criterion(format!("{criterion}{}", of.unwrap_or_default())))
@@ -37,6 +38,12 @@ impl First {
         }
     }
 
+    /// Whether the errors leave open that another criterion comes first.
+    pub fn is_undecided(result: &Value) -> bool {
+        let rivals = own(result).and_then(|first| first.get("rivals")?.as_array());
+        rivals.is_some_and(|rivals| !rivals.is_empty())
+    }
+
     /// What comes first in any of the results, the most frequent first, with how often it does.
     pub fn counted<'a>(results: impl Iterator<Item = &'a Value>) -> Vec<(Self, usize)> {
         let mut counts: BTreeMap<Self, usize> = BTreeMap::new();
@@ -45,6 +52,11 @@ impl First {
         counted.sort_by_key(|(_, count)| usize::MAX - count);
         counted
     }
+}
+
+/// What a result says of the first limit, or of what governs.
+fn own(result: &Value) -> Option<&Value> {
+    result.get("first").or_else(|| result.get("governing"))
 }
 
 /// The colour of a criterion by its place among all; what does not fail is white.
@@ -114,5 +126,9 @@ mod tests {
         let counted = First::counted(results.iter());
         let counted: Vec<(&str, usize)> = counted.iter().map(|(first, count)| (first.name(), *count)).collect();
         assert_eq!(counted, [("delamination of interface 1", 2), ("yield of material 2", 1), ("nothing fails", 1)]);
+        let undecided = |rivals: Value| {
+            First::is_undecided(&json!({ "governing": { "criterion": "yield", "material": 2, "rivals": rivals } }))
+        };
+        assert!(undecided(json!(["cracking of material 1"])) && !undecided(json!([])) && !undecided(Value::Null));
     }
 }

@@ -36,9 +36,18 @@ impl Keys {
         let colours: BTreeMap<First, Colour> = counted.iter().enumerate().map(coloured).collect();
         let firsts = self.field(rows, |result| colours.get(&First::of(result)?).copied());
         let first = |place: [f64; 2]| firsts[cell(place)].unwrap_or(Colour::PALE);
+        let undecided = self.field(rows, |result| First::is_undecided(result).then_some(()));
+        let place = |at: usize| [x.values[at % columns], y.values[at / columns]];
+        let question = |(at, own): (usize, &Option<()>)| {
+            let ink = |colour: Colour| if colour.lightness() > 0.6 { Colour::BLACK } else { Colour::WHITE };
+            own.map(|()| Over::Word { word: "?".to_owned(), at: place(at), colour: ink(first(place(at))) })
+        };
+        let questions: Vec<Over> = undecided.iter().enumerate().filter_map(question).collect();
+        let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.get("first").is_none());
+        let what = if of_loads { "what governs" } else { "what comes first" };
         let names = counted.iter().map(|(first, count)| (colours[first], format!("{} ({count})", first.name())));
         let first = (!counted.is_empty()).then(|| Named {
-            map: map("what comes first (in how many combinations)".to_owned(), Fill::Colours(&first), Vec::new()),
+            map: map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions),
             names: names.collect(),
         });
         let fields: Vec<Field<f64>> = numbers
@@ -51,20 +60,27 @@ impl Keys {
             let bar = bar(shown, &values);
             let is_log = bar.scale == Scale::Log;
             let bounds = self.field(rows, |result| shown.bound(result));
-            let sign = |(value, bound): (&Option<f64>, Option<Bound>)| match (value, bound) {
+            let doubts = self.field(rows, |result| shown.is_undecided(result).then_some(()));
+            let table = bar.colours.table();
+            let sign = |((value, bound), doubt): ((&Option<f64>, Option<Bound>), Option<()>)| match (value, bound) {
                 (None, Some(Bound::Below)) => Some(("<", Colour::BLACK)),
                 (None, Some(Bound::Above)) => Some((">", Colour::BLACK)),
                 // It has no place on the bar.
                 (Some(0.0), _) if is_log => Some(("0", Colour::WHITE)),
+                (Some(value), _) if doubt.is_some() => {
+                    let is_light = bar.colour(&table, *value).lightness() > 0.6;
+                    Some(("?", if is_light { Colour::BLACK } else { Colour::WHITE }))
+                }
                 _ => None,
             };
-            let signs = field.iter().zip(bounds).map(sign).enumerate().filter_map(|(at, sign)| {
+            let signs: Vec<_> = field.iter().zip(bounds).zip(doubts).map(sign).collect();
+            let signs = signs.into_iter().enumerate().filter_map(|(at, sign)| {
                 let (word, colour) = sign?;
-                let at = [x.values[at % columns], y.values[at / columns]];
-                Some(Over::Word { word: word.to_owned(), at, colour })
+                Some(Over::Word { word: word.to_owned(), at: place(at), colour })
             });
+            let signs = signs.collect();
             let fill = Fill::Values(bar, value);
-            map(shown.quantity.text().to_owned(), fill, signs.collect())
+            map(shown.quantity.text().to_owned(), fill, signs)
         });
         let maps: Vec<Map> = maps.collect();
         let panels = first.iter().map(|first| first as &dyn Panel).chain(maps.iter().map(|map| map as &dyn Panel));

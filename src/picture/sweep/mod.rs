@@ -40,6 +40,7 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
         words.extend((steps > 1).then(|| "the last load step of each".to_owned()));
     }
     words.extend(unknown(rows, &numbers, keys.pair.is_some()));
+    words.extend(undecided(rows, &numbers, keys.pair.is_some()));
     if keys.pair.is_some() {
         words.extend(left_out);
         return keys.maps(rows, &numbers, &(words.join("; ") + "."));
@@ -47,13 +48,29 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
     let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own)).unzip();
     let firsts = First::counted(rows.iter().filter_map(|row| row.results.last()));
     let firsts: Vec<String> = firsts.iter().map(|(first, count)| format!("{} in {count}", first.name())).collect();
-    words.extend((!firsts.is_empty()).then(|| format!("first comes {}", firsts.join(", "))));
+    let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.get("first").is_none());
+    let what = if of_loads { "what governs:" } else { "first comes" };
+    words.extend((!firsts.is_empty()).then(|| format!("{what} {}", firsts.join(", "))));
     let curves = counts.into_iter().max().unwrap_or(0);
     if one_in(curves) > 1 {
         words.push(format!("of {curves} curves one in {} is drawn, the table has all", one_in(curves)));
     }
     words.extend(left_out);
     Some(plots(&(words.join("; ") + "."), &charts))
+}
+
+/// In how many combinations the errors leave something open; empty where they do nowhere.
+fn undecided(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
+    let last = || rows.iter().filter_map(|row| row.results.last());
+    let sign = if is_map { "?: " } else { "" };
+    let first = last().filter(|result| First::is_undecided(result)).count();
+    let is_open = |result: &&Value| numbers.iter().any(|own| !own.is_limit() && own.is_undecided(result));
+    let fails = last().filter(is_open).count();
+    let told = |count: usize, what: &str| (count > 0).then(|| format!("{sign}{what} in {count}"));
+    [told(first, "the errors leave open what comes first"), told(fails, "the errors leave open whether anything fails")]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// What places without a number mean; empty where there are none.
@@ -172,6 +189,31 @@ mod tests {
         assert!(said.contains("10⁻²") && said.contains("10⁻¹"), "{said}");
         let said = words(sweep("", &Units::unknown(), &rows(&|n| step(1.0 + n as f64))));
         assert!(!["what comes first", " < ", " > ", "grey"].iter().any(|own| said.contains(own)), "{said}");
+    }
+
+    #[test]
+    fn maps_have_a_question_mark_where_the_errors_leave_the_first_open() {
+        let limit = |n: usize| {
+            let rivals = if n.is_multiple_of(4) { json!(["cracking of material 1"]) } else { json!([]) };
+            json!({ "first": { "criterion": "yield", "material": 2, "mean_pressure": 1.0 + n as f64, "rivals": rivals } })
+        };
+        let load = |n: usize| {
+            let state = if n == 4 { "undecided" } else { "holds" };
+            let own = json!({ "criterion": "yield", "material": 2, "state": state, "rivals": [] });
+            json!({ "strength": [{ "utilisation": 0.1 * n as f64 }], "governing": own })
+        };
+        let told = |result: &dyn Fn(usize) -> Value| {
+            let set = |n: usize| [("a", (n % 3).to_string()), ("b", (n / 3).to_string())];
+            let rows: Vec<Row> = (0..9).map(|n| row(n + 1, &set(n), vec![result(n)])).collect();
+            let told = words(sweep("", &Units::unknown(), &rows));
+            (told.split_whitespace().filter(|word| *word == "?").count(), told)
+        };
+        // In 0, 4 and 8, on the map of what comes first and on that of the first limit.
+        let (marks, said) = told(&limit);
+        assert!(marks == 6 && said.contains("leave open what comes first in 3"), "{marks}: {said}");
+        let (marks, said) = told(&load);
+        assert!(marks == 1 && said.contains("leave open whether anything fails in 1"), "{marks}: {said}");
+        assert!(said.contains("what governs"), "{said}");
     }
 
     #[test]

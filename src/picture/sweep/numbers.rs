@@ -1,9 +1,13 @@
 //! The numbers of a sweep's results that a picture shows.
 
 use super::super::quantity::Quantity;
+use super::first::First;
 use crate::sweep::Row;
 use crate::units::Units;
 use serde_json::Value;
+
+/// Name of the number that says what is taken up of a strength.
+const UTILISATION: &str = "largest utilisation";
 
 /// Where a number of a result stands.
 type Place = Box<dyn Fn(&Value) -> Option<f64> + Sync>;
@@ -43,6 +47,22 @@ impl Number {
         Self { quantity: quantity.into(), value: Box::new(value), limit: None }
     }
 
+    /// Whether it is a limit load.
+    pub fn is_limit(&self) -> bool {
+        self.limit.is_some()
+    }
+
+    /// Whether the errors leave open which criterion the number is of, or for the largest utilisation whether anything fails.
+    pub fn is_undecided(&self, result: &Value) -> bool {
+        match &self.limit {
+            Some(limit) => limit == "first" && First::is_undecided(result),
+            None if self.quantity.text() == UTILISATION => {
+                result.pointer("/governing/state").and_then(Value::as_str) == Some("undecided")
+            }
+            None => false,
+        }
+    }
+
     /// What is known of a limit that has no number.
     pub fn bound(&self, result: &Value) -> Option<Bound> {
         let limit = result.get(self.limit.as_ref()?)?;
@@ -71,7 +91,7 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
         Number::at(units.pressure_of("peak pressure", "p"), "/max_pressure"),
         Number::at(units.length_of("penetration", "δ"), "/penetration"),
         Number::at("fraction in contact", "/contact_fraction"),
-        Number::largest("largest utilisation", "/strength", "/utilisation"),
+        Number::largest(UTILISATION, "/strength", "/utilisation"),
         Number::largest(units.pressure_of("largest shear stress", "τ₁"), "/stress/materials", "/max_tau1/value"),
     ];
     for name in rows.iter().flat_map(|row| &row.results).next().map(limits).unwrap_or_default() {
