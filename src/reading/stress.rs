@@ -35,7 +35,10 @@ impl StressReading {
         };
         let Maxima { materials, faces, interfaces, .. } = maxima;
         let mut stress = Self { materials, faces, interfaces, surface_error };
-        stress.peaks().for_each(|peak| peak.position = beside_site(step, peak.position));
+        for peak in stress.peaks() {
+            peak.position = beside_site(step, peak.position);
+            peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
+        }
         // A tip is infinitely stressed, whatever a grid shows of it.
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
@@ -43,7 +46,14 @@ impl StressReading {
             let is_torn = tears(step);
             for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
                 for peak in [Some(tau1), Some(mises), Some(tension).filter(|_| is_torn)].into_iter().flatten() {
-                    *peak = Peak { value: f64::INFINITY, position: [x, y, 0.0], material: 1, error: None, ..*peak };
+                    *peak = Peak {
+                        value: f64::INFINITY,
+                        position: [x, y, 0.0],
+                        material: 1,
+                        error: None,
+                        rival: None,
+                        ..*peak
+                    };
                 }
             }
         }

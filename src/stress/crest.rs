@@ -169,7 +169,8 @@ impl StressField {
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();
-        let peak = Peak { value, position: [place[0], place[1], 0.0], material: 1, direction, error: None };
+        let peak =
+            Peak { value, position: [place[0], place[1], 0.0], material: 1, direction, error: None, rival: None };
         Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })
     }
 

@@ -40,7 +40,7 @@ mod transform;
 
 pub use crest::Crest;
 pub use field::StressField;
-pub use peak::Peak;
+pub use peak::{Peak, Rival};
 pub use plane::Plane;
 pub use section::{Line, Section};
 pub use tensor::State;

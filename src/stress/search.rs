@@ -237,6 +237,7 @@ impl StressField {
             material: candidate.depth.material,
             direction: state.s1_direction(),
             error: None,
+            rival: None,
         }
     }
 
