@@ -25,14 +25,13 @@ impl StressReading {
     /// The largest stresses of `field`, the stress field of a step that has contact and whose `reading` is known.
     pub fn of(step: &Step, reading: &Reading, field: &StressField) -> Self {
         let radii = contact_radii(step, reading);
-        let under = |contact| StressField::new(contact, field.mean_stress()).maxima(radii);
-        let coarser = step.coarser().first().map(under);
+        let coarser = step.coarser().first().map(|contact| StressField::new(contact, field.mean_stress()));
         let maxima = field.maxima(radii);
-        let surface_error = maxima.surface_error(coarser.as_ref());
         let maxima = match &coarser {
             Some(coarser) => maxima.with_errors(coarser),
             None => maxima,
         };
+        let surface_error = maxima.surface_error();
         let Maxima { materials, faces, interfaces, .. } = maxima;
         let mut stress = Self { materials, faces, interfaces, surface_error };
         for peak in stress.peaks() {
@@ -87,7 +86,8 @@ impl StressReading {
     }
 
     fn largest(&self, peak: impl Fn(&Extremes) -> Peak) -> Peak {
-        self.materials.iter().map(peak).reduce(Peak::higher).expect("there is always a substrate")
+        let peaks: Vec<Peak> = self.materials.iter().map(peak).collect();
+        Peak::highest(&peaks, 0.0).expect("there is always a substrate")
     }
 }
 

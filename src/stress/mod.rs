@@ -21,6 +21,8 @@
 //! - **points**: the sum itself ([`StressField::points`]);
 //! - **maxima** over each material and each face ([`maxima`]).
 
+mod climb;
+mod contender;
 mod crest;
 mod edge;
 mod field;
