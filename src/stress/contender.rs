@@ -90,9 +90,9 @@ impl Peak {
         let others = errors.filter(|(peak, top)| *top > least && !peak.is_beside(&best, apart));
         let others = others.map(|(peak, _)| peak.rival_itself());
         let rival = others.chain(best.rival).reduce(|a, b| if b.top() > a.top() { b } else { a });
-        // Rounding would make it less than the top.
-        let error = (top - best.value).max(own);
-        let error = if best.value + error < top { error.next_up() } else { error };
+        let beyond = if best.value + own < top { top - best.value } else { own };
+        // The sum is the top, rounding or not.
+        let error = if best.value + beyond < top { beyond.next_up() } else { beyond };
         Some(Self { error: Some(error), rival, ..best })
     }
 
