@@ -279,9 +279,8 @@ impl Contact {
         let under = |contact| StressField::new(contact, MeanStress::HalfSpace).maxima(radii);
         let maxima = under(step.finest());
         let crest = maxima.crest?;
-        let coarser = under(step.coarser().first()?);
-        let surface = (crest.peak.value, crest.scale * maxima.surface_error(Some(&coarser)));
-        let maxima = maxima.with_errors(&coarser);
+        let maxima = maxima.with_errors(&StressField::new(step.coarser().first()?, MeanStress::HalfSpace));
+        let surface = (crest.peak.value, crest.scale * maxima.surface_error());
         let of = |peak: fn(&Extremes) -> Peak| {
             let peak = maxima.materials.iter().map(peak).reduce(Peak::higher)?;
             Some((peak.value, peak.error?))

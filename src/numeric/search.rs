@@ -2,6 +2,7 @@
 
 /// Place and value of the maximum of a function with one between `low` and `high` > 0, by golden sections, to the relative
 /// `tolerance` of the place.
+#[cfg(feature = "validate")]
 pub fn golden_maximum([low, high]: [f64; 2], tolerance: f64, value: impl Fn(f64) -> f64) -> [f64; 2] {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let (mut a, mut b) = (low, high);
@@ -38,6 +39,7 @@ mod tests {
     use super::*;
 
     #[test]
+    #[cfg(feature = "validate")]
     fn a_parabola_has_its_maximum_at_its_apex() {
         let [place, value] = golden_maximum([0.1, 3.0], 1e-6, |x| 2.0 - (x - 1.3) * (x - 1.3));
         assert!((place - 1.3).abs() < 1e-5 && (value - 2.0).abs() < 1e-10);

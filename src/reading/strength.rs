@@ -95,6 +95,8 @@ pub struct Utilisation {
     pub error: Option<f64>,
     /// x, y, z; lengths.
     pub position: [f64; 3],
+    /// Another place (x, y, z), lengths, where the utilisation may be largest within the errors; see [`Peak::rival`].
+    pub rival: Option<[f64; 3]>,
 }
 
 impl Utilisation {
@@ -130,7 +132,13 @@ impl Utilisation {
             let taken = peak.value / strength;
             // Nothing fails by being pressed; what is not a number stays so.
             let value = if taken < 0.0 { 0.0 } else { taken };
-            Some(Self { criterion, value, error, position: peak.position })
+            Some(Self {
+                criterion,
+                value,
+                error,
+                position: peak.position,
+                rival: peak.rival.map(|rival| rival.position),
+            })
         };
         Criterion::all(half_space).into_iter().filter_map(of).collect()
     }
@@ -150,6 +158,23 @@ impl serde::Serialize for Utilisation {
         keys.serialize_entry("x", &x)?;
         keys.serialize_entry("y", &y)?;
         keys.serialize_entry("z", &z)?;
+        keys.serialize_entry("rival", &self.rival.map(Place))?;
+        keys.end()
+    }
+}
+
+/// x, y, z as keys.
+#[cfg(feature = "serde")]
+struct Place([f64; 3]);
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for Place {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut keys = serializer.serialize_struct("place", 3)?;
+        for (name, length) in ["x", "y", "z"].into_iter().zip(self.0) {
+            keys.serialize_field(name, &length)?;
+        }
         keys.end()
     }
 }

@@ -25,17 +25,19 @@ impl StressReading {
     /// The largest stresses of `field`, the stress field of a step that has contact and whose `reading` is known.
     pub fn of(step: &Step, reading: &Reading, field: &StressField) -> Self {
         let radii = contact_radii(step, reading);
-        let under = |contact| StressField::new(contact, field.mean_stress()).maxima(radii);
-        let coarser = step.coarser().first().map(under);
+        let coarser = step.coarser().first().map(|contact| StressField::new(contact, field.mean_stress()));
         let maxima = field.maxima(radii);
-        let surface_error = maxima.surface_error(coarser.as_ref());
         let maxima = match &coarser {
             Some(coarser) => maxima.with_errors(coarser),
             None => maxima,
         };
+        let surface_error = maxima.surface_error();
         let Maxima { materials, faces, interfaces, .. } = maxima;
         let mut stress = Self { materials, faces, interfaces, surface_error };
-        stress.peaks().for_each(|peak| peak.position = beside_site(step, peak.position));
+        for peak in stress.peaks() {
+            peak.position = beside_site(step, peak.position);
+            peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
+        }
         // A tip is infinitely stressed, whatever a grid shows of it.
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
@@ -43,7 +45,14 @@ impl StressReading {
             let is_torn = tears(step);
             for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
                 for peak in [Some(tau1), Some(mises), Some(tension).filter(|_| is_torn)].into_iter().flatten() {
-                    *peak = Peak { value: f64::INFINITY, position: [x, y, 0.0], material: 1, error: None, ..*peak };
+                    *peak = Peak {
+                        value: f64::INFINITY,
+                        position: [x, y, 0.0],
+                        material: 1,
+                        error: None,
+                        rival: None,
+                        ..*peak
+                    };
                 }
             }
         }
@@ -77,7 +86,8 @@ impl StressReading {
     }
 
     fn largest(&self, peak: impl Fn(&Extremes) -> Peak) -> Peak {
-        self.materials.iter().map(peak).reduce(Peak::higher).expect("there is always a substrate")
+        let peaks: Vec<Peak> = self.materials.iter().map(peak).collect();
+        Peak::highest(&peaks, 0.0).expect("there is always a substrate")
     }
 }
 

@@ -6,6 +6,7 @@ use crate::numeric::fourier::fast_points;
 use crate::numeric::search::largest;
 use crate::reading::Reading;
 use crate::spectral::OtherGrids;
+use crate::stress::Peak;
 use std::fmt;
 
 /// Points along the shorter cell vector at which a refinement starts, fewer where the cell is too oblong for them.
@@ -167,14 +168,15 @@ fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
     largest([peak / fine.max_pressure, penetration, load].into_iter().chain(levels))
 }
 
-/// Of the largest τ₁, tension and von Mises, over the largest of them; 0 without stresses.
+/// Of the largest τ₁, tension and von Mises, over the largest of them, and at least what a rival of the finer grid may exceed
+/// them by; 0 without stresses.
 fn stress_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
     let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
     let pairs = [(coarse.tau1(), fine.tau1()), (coarse.tension(), fine.tension()), (coarse.mises(), fine.mises())];
-    let pairs = pairs.map(|(coarse, fine)| [coarse.value, fine.value]);
-    let comparable = || pairs.iter().filter(|values| !values.iter().any(|value| value.is_infinite()));
-    let scale = largest(comparable().map(|[_, fine]| fine.abs()));
-    let change = largest(comparable().map(|[coarse, fine]| (fine - coarse).abs()));
+    let comparable = || pairs.iter().filter(|(coarse, fine)| !(coarse.value.is_infinite() || fine.value.is_infinite()));
+    let scale = largest(comparable().map(|(_, fine)| fine.value.abs()));
+    let beyond = |fine: &Peak| fine.rival.map_or(0.0, |rival| rival.top() - fine.value);
+    let change = largest(comparable().flat_map(|(coarse, fine)| [(fine.value - coarse.value).abs(), beyond(fine)]));
     if scale == 0.0 { 0.0 } else { change / scale }
 }
 

@@ -115,14 +115,16 @@ struct Surface {
 }
 
 impl StressField {
-    /// The largest tension on the surface, under a counterbody that slides the largest τ₁ and von Mises too; none where there
-    /// is no edge: contact is complete, or nowhere.
+    /// The largest tension, τ₁ and von Mises on the surface; none where there is no edge: contact is complete, or nowhere.
     pub(super) fn crests(&self) -> Vec<(Quantity, Crest)> {
+        self.crests_of(&OVERALL)
+    }
+
+    /// Those of some quantities.
+    pub(super) fn crests_of(&self, quantities: &[Quantity]) -> Vec<(Quantity, Crest)> {
         if !self.regions().have_edges() {
             return Vec::new();
         }
-        // Without friction only tension has its largest value at the edge.
-        let quantities = if self.slides() { &OVERALL[..] } else { &[Quantity::Tension] };
         let surface = self.read_surface(quantities);
         let of = |(&quantity, &place): (&Quantity, &[f64; 2])| {
             self.crest_of(&surface, quantity, place).map(|crest| (quantity, crest))
@@ -132,7 +134,7 @@ impl StressField {
 
     /// The largest tension on the surface; `None` where there is no edge: contact is complete, or nowhere.
     pub fn crest(&self) -> Option<Crest> {
-        self.crests().into_iter().find(|(quantity, _)| *quantity == Quantity::Tension).map(|(_, crest)| crest)
+        self.crests_of(&[Quantity::Tension]).first().map(|(_, crest)| *crest)
     }
 
     fn read_surface(&self, quantities: &[Quantity]) -> Surface {
@@ -169,7 +171,8 @@ impl StressField {
         };
         let few = largest(edges.iter().map(few));
         let direction = state.s1_direction();
-        let peak = Peak { value, position: [place[0], place[1], 0.0], material: 1, direction, error: None };
+        let peak =
+            Peak { value, position: [place[0], place[1], 0.0], material: 1, direction, error: None, rival: None };
         Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })
     }
 

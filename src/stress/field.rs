@@ -103,11 +103,6 @@ impl StressField {
         self.edge_exponent
     }
 
-    /// Whether the surface feels a traction.
-    pub(super) fn slides(&self) -> bool {
-        self.traction.is_some()
-    }
-
     /// Contact spots and what is open between them.
     pub(super) fn regions(&self) -> &Regions {
         &self.regions

@@ -3,11 +3,17 @@
 //! interface carries.
 //!
 //! They are searched plane by plane and refined; on the surface itself, where the series converges slowly, the largest
-//! tension is that of the [`Crest`], and under a counterbody that slides τ₁ and von Mises too.
+//! values are those of the [`Crest`]s.
+//!
+//! Each is the largest of several [`contender`](super::contender)s: of a material the values on its faces, near the surface
+//! and at each local maximum inside. All of them have errors of their own, and so the largest value has an error that
+//! covers those of its rivals.
 
+use super::contender::{Coarser, Contender, Contenders, stated};
 use super::crest::Crest;
+use super::field::StressField;
 use super::peak::Peak;
-use super::quantity::Quantity;
+use super::quantity::{OVERALL, Quantity};
 
 /// Maxima over a material or a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,82 +58,98 @@ pub struct Maxima {
     pub interfaces: Vec<Carried>,
     /// The largest tension on the surface with its uncertainty; `None` where contact has no edge.
     pub crest: Option<Crest>,
-    /// The same of τ₁ and von Mises under a counterbody that slides.
-    pub(super) others: [Option<Crest>; 2],
+    /// What the maxima are the largest of.
+    found: Found,
     /// Samples along the radius of a disc as large as the smallest contact spot.
     pub resolution: f64,
     /// Distance between neighbouring samples, a length.
     pub spacing: f64,
 }
 
-impl Extremes {
-    fn each(&mut self) -> [(Quantity, &mut Peak); 3] {
-        let Self { tau1, tension, mises } = self;
-        [(Quantity::Tau1, tau1), (Quantity::Tension, tension), (Quantity::Mises, mises)]
+/// All that contends for the maxima, in their order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Found {
+    pub materials: Vec<Contenders>,
+    pub faces: Vec<Contenders>,
+    /// The interface, from 1, and what contends on it.
+    pub interfaces: Vec<(usize, Contenders)>,
+}
+
+impl Found {
+    fn each(&mut self) -> impl Iterator<Item = &mut (Quantity, Contender)> {
+        let interfaces = self.interfaces.iter_mut().map(|(_, contenders)| contenders);
+        self.materials.iter_mut().chain(&mut self.faces).chain(interfaces).flatten()
     }
 }
 
 impl Maxima {
-    /// Estimated relative error of the largest tension on the surface, also from the next `coarser` grid where there is
-    /// one; 0 where contact has no edge.
-    pub fn surface_error(&self, coarser: Option<&Self>) -> f64 {
-        // Where the coarser grid sees no edge, its largest tension is that of a sample.
-        let tension = coarser.and_then(|coarser| coarser.faces.first()).map(|surface| surface.tension.value);
-        self.crest.map_or(0.0, |crest| crest.error(tension))
+    pub(super) fn new(found: Found, crest: Option<Crest>, resolution: f64, spacing: f64) -> Self {
+        let none = Self { materials: vec![], faces: vec![], interfaces: vec![], crest, found, resolution, spacing };
+        none.stated()
     }
 
-    /// The same with the estimated error of each: twice the change from the next `coarser`
-    /// grid, which at second order is three times the error, and what n samples along the radius of the smallest spot
-    /// leave open: 0.03 n⁻² of τ₁, von Mises and shears, 0.1 n⁻² of a tension or the usual one, within two samples of the
-    /// surface 0.2 n⁻¹.
-    /// For a stress on the surface that is that of its [`Crest`], what that says of itself. Read off fifty random contacts;
-    /// that those of the largest τ₁ and the largest tension hold in 95 % of fifty others is tested.
-    #[must_use]
-    pub fn with_errors(mut self, coarser: &Self) -> Self {
-        let [crest, resolution, near] =
-            [self.crest.map_or(0.0, |crest| crest.scale), self.resolution, NEAR * self.spacing];
-        let crests =
-            [(Quantity::Tension, self.crest), (Quantity::Tau1, self.others[0]), (Quantity::Mises, self.others[1])];
-        let estimate = |quantity: Quantity, fine: &mut Peak, coarse: &Peak| {
-            let own =
-                crests.iter().find(|(of, crest)| *of == quantity && crest.is_some_and(|crest| crest.peak == *fine));
-            if let Some((_, Some(crest))) = own {
-                fine.error = Some(crest.scale * crest.error(Some(coarse.value)));
-                return;
-            }
-            let (deep, least) = match quantity {
-                Quantity::Tension | Quantity::Opening => (DEEP[1], crest),
-                _ => (DEEP[0], 0.0),
-            };
-            let open = if fine.position[2] < near { SHALLOW / resolution } else { deep / resolution.powi(2) };
-            // Beside a strength the usual tension is no measure.
-            let least = if matches!(quantity, Quantity::Delamination(_)) { 0.0 } else { least };
-            fine.error = Some(SAFETY * (fine.value - coarse.value).abs() + open * least.max(fine.value.abs()));
+    /// States the maxima of what was found.
+    fn stated(mut self) -> Self {
+        let apart = NEAR * self.spacing;
+        let extremes = |contenders: &Contenders| {
+            let [tau1, tension, mises] = OVERALL.map(|quantity| {
+                stated(contenders, quantity, apart).expect("each material and each face has one of each")
+            });
+            Extremes { tau1, tension, mises }
         };
-        for (fine, coarse) in [(&mut self.materials, &coarser.materials), (&mut self.faces, &coarser.faces)] {
-            for (fine, coarse) in fine.iter_mut().zip(coarse) {
-                let mut coarse = *coarse;
-                for ((quantity, fine), (_, coarse)) in fine.each().into_iter().zip(coarse.each()) {
-                    estimate(quantity, fine, coarse);
-                }
-            }
-        }
-        for (fine, coarse) in self.interfaces.iter_mut().zip(&coarser.interfaces) {
-            estimate(Quantity::Opening, &mut fine.normal, &coarse.normal);
-            estimate(Quantity::Shear, &mut fine.shear, &coarse.shear);
-            if let Some((fine, coarse)) = fine.delamination.as_mut().zip(coarse.delamination.as_ref()) {
-                estimate(Quantity::Delamination(Default::default()), fine, coarse);
-            }
-        }
+        self.materials = self.found.materials.iter().map(extremes).collect();
+        self.faces = self.found.faces.iter().map(extremes).collect();
+        let carried = |(interface, contenders): &(usize, Contenders)| {
+            let strength = contenders.iter().map(|(quantity, _)| *quantity).find(Quantity::is_delamination);
+            Some(Carried {
+                interface: *interface,
+                normal: stated(contenders, Quantity::Opening, apart)?,
+                shear: stated(contenders, Quantity::Shear, apart)?,
+                delamination: strength.and_then(|quantity| stated(contenders, quantity, apart)),
+            })
+        };
+        self.interfaces = self.found.interfaces.iter().filter_map(carried).collect();
         self
+    }
+
+    /// Estimated relative error of the largest tension on the surface; by this grid alone before errors are known from a
+    /// coarser one, 0 where contact has no edge.
+    pub fn surface_error(&self) -> f64 {
+        let surface = self.found.faces.first().into_iter().flatten();
+        let own =
+            surface.filter(|(of, _)| *of == Quantity::Tension).find_map(|(_, own)| Some((own.crest?, own.peak.error)));
+        own.map_or(0.0, |(crest, error)| error.map_or_else(|| crest.error(None), |error| error / crest.scale))
+    }
+
+    /// The same with the estimated error of each.
+    ///
+    /// Each contender has its own: twice the change of this very contender from the next `coarser` grid, which at second
+    /// order is three times the error, and what n samples along the radius of the smallest spot leave open: 0.03 n⁻² of the
+    /// size of the stress for τ₁, von Mises and shears, 0.1 n⁻² for a tension, within two samples of the surface 0.2 n⁻¹. The
+    /// size of the stress is √(Σσᵢⱼ²) of what the waves of the pressure cause at the place: mean and residual stresses do not
+    /// depend on the grid. For a stress on the surface the error is what its [`Crest`] says of itself.
+    ///
+    /// The error of a maximum is the largest value plus error of all that contend for it, less the value: no less than the
+    /// value's own.
+    #[must_use]
+    pub fn with_errors(mut self, coarser: &StressField) -> Self {
+        let (coarser, resolution, near) = (Coarser::new(coarser), self.resolution, NEAR * self.spacing);
+        let mut known: Vec<(Quantity, Contender)> = Vec::new();
+        for (quantity, contender) in self.found.each() {
+            // What wins on a face contends in its material too.
+            let same = known.iter().find(|(of, other)| {
+                of == quantity
+                    && (other.peak.position, other.peak.material) == (contender.peak.position, contender.peak.material)
+            });
+            contender.peak.error = match same {
+                Some((_, same)) => same.peak.error,
+                None => Some(contender.error(*quantity, &coarser, resolution, near)),
+            };
+            known.push((*quantity, *contender));
+        }
+        self.stated()
     }
 }
 
-/// By how much a change from the next coarser grid is multiplied.
-const SAFETY: f64 = 2.0;
 /// Depth in spacings down to which the series converges slowly.
 pub(super) const NEAR: f64 = 2.0;
-/// The error of a stress under spots of n samples per radius is at least this over n of it near the surface, …
-const SHALLOW: f64 = 0.2;
-/// … and this over n² below: of shears and of tensions.
-const DEEP: [f64; 2] = [0.03, 0.1];

@@ -21,6 +21,8 @@
 //! - **points**: the sum itself ([`StressField::points`]);
 //! - **maxima** over each material and each face ([`maxima`]).
 
+mod climb;
+mod contender;
 mod crest;
 mod edge;
 mod field;
@@ -40,7 +42,7 @@ mod transform;
 
 pub use crest::Crest;
 pub use field::StressField;
-pub use peak::Peak;
+pub use peak::{Peak, Rival};
 pub use plane::Plane;
 pub use section::{Line, Section};
 pub use tensor::State;

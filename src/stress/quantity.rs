@@ -34,6 +34,22 @@ impl Quantity {
         [Self::Opening, Self::Shear].into_iter().chain(delamination)
     }
 
+    /// Whether it is what an interface bears of its strength.
+    pub fn is_delamination(&self) -> bool {
+        matches!(self, Self::Delamination(_))
+    }
+
+    /// By how much it grows where the stresses of a state grow by so much.
+    pub fn rise(self, state: &State, by: f64) -> f64 {
+        match self {
+            Self::Delamination(strength) => {
+                let (normal, shear) = (state.zz, state.interface_shear());
+                strength.utilisation(normal + by, shear + by) - strength.utilisation(normal, shear)
+            }
+            _ => by,
+        }
+    }
+
     /// Its value.
     pub fn of(self, state: &State) -> f64 {
         match self {

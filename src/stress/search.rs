@@ -2,48 +2,52 @@
 //!
 //! 1. **Planes** at depths that thicken towards the faces of each material: the largest sample of each is a candidate.
 //!    A plane holds as many points as the waves that reach its depth need, and is used up row by row.
-//! 2. **Refinement** of the best candidate of a material: parabolas through neighbouring points horizontally and golden
-//!    sections in depth, in turn, on the exact sum over waves, until nothing moves. On a face the depth stays.
+//! 2. **Faces** have their peaks between the samples of their planes; on a face the depth stays.
+//! 3. **Inside** a material each local maximum over the depths, faces among them, is a start if it comes near the best plane.
+//!    From there the exact sum over waves is [climbed](super::climb). What ends on a face is that face's.
 //!
 //! Within two samples of the surface, where the series converges slowly, the samples of the pressure's own grid are taken as
 //! they are.
 
+use super::contender::{Contender, Contenders};
 use super::crest::Crest;
-use super::field::StressField;
-use super::maxima::{Carried, Extremes, Maxima, NEAR};
+use super::field::{REACH, StressField};
+use super::maxima::{Found, Maxima, NEAR};
 use super::peak::Peak;
 use super::quantity::{OVERALL, Quantity};
-use super::slice::{Slice, Stresses};
+use super::slice::Stresses;
 use super::surface::Flat;
 use super::tensor::State;
 use super::transform::Transform;
 use crate::body::{Depth, Layer};
 use crate::numeric::fourier::fast_points;
-use crate::numeric::search::{first_largest, golden_maximum};
+use crate::numeric::search::first_largest;
 use std::sync::Arc;
 
 /// Ratio of successive distances from a face.
 const RATIO: f64 = 1.35;
 /// Waves with qz beyond this are left out of the search: e^{−25} of the pressure.
-const SEARCH_REACH: f64 = 25.0;
+pub(super) const SEARCH_REACH: f64 = 25.0;
 /// The same on planes, whose largest samples the search starts from.
 const PLANE_REACH: f64 = 10.0;
 
-/// How often the steps become smaller, and how many steps there are at most.
-const TOPS: usize = 4;
-const MOVES: usize = 24;
-
-/// Relative accuracy of a depth.
-const DEPTH_TOLERANCE: f64 = 2e-3;
+/// A plane whose best sample is lower than that of the best plane by more than this part of it is no start: samples of
+/// planes miss so much of a maximum between them, at most.
+const MARGIN: f64 = 0.05;
+/// What a parabola through three planes may rise above the middle one, over the larger drop beside it: an eighth where they
+/// are equally far. Twice that is reckoned with.
+const RISE: f64 = 0.25;
+/// Contenders that differ by less, in value and depth, are one by symmetry.
+const ALIKE: f64 = 1e-3;
 
 /// The best sample of a plane.
 #[derive(Debug, Clone, Copy)]
-struct Candidate {
-    value: f64,
-    depth: Depth,
-    place: [f64; 2],
-    /// Distance to neighbouring samples.
-    step: f64,
+pub(super) struct Candidate {
+    pub value: f64,
+    pub depth: Depth,
+    pub place: [f64; 2],
+    /// Half the distance to neighbouring samples.
+    pub step: f64,
 }
 
 /// A plane that was searched.
@@ -51,17 +55,13 @@ struct Candidate {
 struct Searched {
     /// The best sample for each quantity that was looked for.
     best: Vec<(Quantity, Candidate)>,
-    /// Peaks, where the plane is a face.
-    peaks: Vec<(Quantity, Peak)>,
+    /// What contends on it, where the plane is a face.
+    on_face: Contenders,
 }
 
 impl Searched {
     fn candidate(&self, quantity: Quantity) -> &Candidate {
         &found(&self.best, quantity).expect("every plane was searched for it").1
-    }
-
-    fn peak(&self, quantity: Quantity) -> Option<Peak> {
-        found(&self.peaks, quantity).map(|&(_, peak)| peak)
     }
 }
 
@@ -73,7 +73,7 @@ impl StressField {
     /// Maxima over all materials, faces and interfaces. `radii`: the smallest and the largest contact radius (or half the
     /// width of a contact), lengths.
     pub fn maxima(&self, radii: [f64; 2]) -> Maxima {
-        let (mut faces, mut materials, mut interfaces) = (Vec::new(), Vec::new(), Vec::new());
+        let mut all = Found::default();
         let crests = self.crests();
         for material in 1..=self.materials() {
             let strength = self.half_space().layers().get(material - 1).map(Layer::interface_strength);
@@ -88,32 +88,25 @@ impl StressField {
                 self.search_plane(depth, radii[0], &quantities, is_face, crests)
             };
             let planes: Vec<Searched> = (0..depths.len()).map(plane).collect();
-            let overall = |quantity: Quantity| {
-                let value = |index: usize| planes[index].candidate(quantity).value;
-                let best = (0..planes.len()).max_by(|&a, &b| value(a).total_cmp(&value(b))).unwrap_or(0);
-                let inside = planes[best]
-                    .peak(quantity)
-                    .unwrap_or_else(|| self.refined(planes[best].candidate(quantity), quantity, &depths, best));
-                planes.iter().filter_map(|plane| plane.peak(quantity)).fold(inside, Peak::higher)
-            };
-            materials.push(extremes(overall));
-            let on_face = |plane: &Searched| extremes(|quantity| plane.peak(quantity).expect("a face has its peaks"));
-            faces.extend(planes.iter().filter(|plane| !plane.peaks.is_empty()).map(on_face));
-            if let Some((strength, lower)) = strength.zip(planes.last()) {
-                let peak = |quantity: Quantity| lower.peak(quantity);
-                if let Some((normal, shear)) = peak(Quantity::Opening).zip(peak(Quantity::Shear)) {
-                    let delamination = peak(Quantity::Delamination(strength));
-                    interfaces.push(Carried { interface: material, normal, shear, delamination });
-                }
+            let is_overall = |contender: &&(Quantity, Contender)| OVERALL.contains(&contender.0);
+            let mut own: Contenders =
+                planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
+            for quantity in OVERALL {
+                own.extend(self.inside(&planes, &depths, quantity).into_iter().map(|inside| (quantity, inside)));
+            }
+            all.materials.push(own);
+            let faces = planes.iter().filter(|plane| !plane.on_face.is_empty());
+            all.faces.extend(faces.map(|plane| plane.on_face.iter().filter(is_overall).copied().collect()));
+            if strength.is_some() {
+                let lower = planes.last().map(|plane| plane.on_face.clone()).unwrap_or_default();
+                all.interfaces.push((material, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
             }
         }
-        let crest = |quantity: Quantity| found(&crests, quantity).map(|&(_, crest)| crest);
-        let (resolution, spacing) = (self.regions().least_resolution(), self.grid().spacing());
-        let others = [Quantity::Tau1, Quantity::Mises].map(crest);
-        Maxima { materials, faces, interfaces, crest: crest(Quantity::Tension), others, resolution, spacing }
+        let crest = found(&crests, Quantity::Tension).map(|&(_, crest)| crest);
+        Maxima::new(all, crest, self.regions().least_resolution(), self.grid().spacing())
     }
 
-    /// The best samples of a plane, and the peaks of a face; the surface has `crests` of its own.
+    /// The best samples of a plane, and what contends on a face; the surface has `crests` of its own.
     fn search_plane(
         &self,
         depth: Depth,
@@ -122,18 +115,90 @@ impl StressField {
         is_face: bool,
         crests: &[(Quantity, Crest)],
     ) -> Searched {
-        let mut best = self.candidates(depth, radius, quantities);
-        for (quantity, candidate) in &mut best {
-            if let Some((_, crest)) = found(crests, *quantity) {
-                candidate.value = crest.peak.value;
+        let best = self.candidates(depth, radius, quantities);
+        let of = |(quantity, candidate): &(Quantity, Candidate)| {
+            let contender = match found(crests, *quantity) {
+                Some(&(_, crest)) => Contender { crest: Some(crest), ..self.contender(candidate, Some(crest.peak)) },
+                None => self.contender(&self.on_face(candidate, *quantity), None),
+            };
+            (*quantity, contender)
+        };
+        let on_face = if is_face { best.iter().map(of).collect() } else { Vec::new() };
+        Searched { best, on_face }
+    }
+
+    /// What contends inside a material: the best sample near the surface, and the local maxima below.
+    fn inside(&self, planes: &[Searched], depths: &[f64], quantity: Quantity) -> Vec<Contender> {
+        let near = NEAR * self.grid().spacing();
+        let candidate = |index: usize| planes[index].candidate(quantity);
+        let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
+        let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
+        let mut all: Vec<Contender> = shallow.into_iter().map(|best| self.contender(best, None)).collect();
+        let deep: Vec<usize> = (0..depths.len()).filter(|&i| depths[i] >= near).collect();
+        let [Some(&first), Some(&last)] = [deep.first(), deep.last()] else { return all };
+        let value = |index: usize| candidate(index).value;
+        let best = deep.iter().map(|&i| value(i)).fold(f64::NEG_INFINITY, f64::max);
+        let beside =
+            |i: usize| [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter(|j| (first..=last).contains(j));
+        let is_start = |&i: &usize| {
+            let drop = beside(i).map(|j| value(i) - value(j)).fold(0.0, f64::max);
+            let is_near = value(i) + RISE * drop + MARGIN * best.abs() >= best;
+            // A neighbour that is higher on the same hill is the better start.
+            let is_lower = beside(i).any(|j| value(j) > value(i) && self.are_beside(candidate(i), candidate(j)));
+            is_near && !is_lower
+        };
+        let top = depths[0].max(near);
+        let bottom =
+            if self.half_space().faces(candidate(0).depth.material).1.is_finite() { depths[last] } else { f64::MAX };
+        for start in deep.iter().copied().filter(is_start) {
+            let rise = 0.5 * beside(start).map(|j| (depths[j] - depths[start]).abs()).fold(0.0, f64::max);
+            let climbed = self.climbed(candidate(start), rise, [top, bottom], quantity);
+            let z = climbed.depth.z;
+            let is_on_face = [depths[0], bottom].iter().any(|face| (z - face).abs() <= 1e-9 * z);
+            let same = |other: &Contender| {
+                let Peak { value, position, .. } = other.peak;
+                (climbed.value - value).abs() <= ALIKE * value.abs() && (z - position[2]).abs() <= 10.0 * ALIKE * z
+            };
+            if !is_on_face && !all.iter().any(same) {
+                all.push(self.contender(&climbed, None));
+            } else if let Some(lower) = all.iter_mut().find(|other| same(other) && other.peak.value < climbed.value) {
+                *lower = self.contender(&climbed, None);
             }
         }
-        let peak = |(quantity, candidate): &(Quantity, Candidate)| {
-            let crest = found(crests, *quantity).map(|(_, crest)| crest.peak);
-            (*quantity, crest.unwrap_or_else(|| self.face_peak(candidate, *quantity)))
+        all
+    }
+
+    /// Whether the candidates of two planes stand on one hill, as far as their samples tell.
+    fn are_beside(&self, one: &Candidate, other: &Candidate) -> bool {
+        let cell = self.grid().cell();
+        let [s, t] = [one, other].map(|own| cell.fractions(own.place));
+        let [x, y] = cell.reduced().nearest([s[0] - t[0], s[1] - t[1]]);
+        x.hypot(y) <= 4.0 * one.step.max(other.step)
+    }
+
+    /// The value of a quantity on this grid where a contender of a finer one stands; `near`: the depth down to which the
+    /// finer one's series converges slowly.
+    pub(super) fn beside(&self, contender: &Contender, quantity: Quantity, near: f64) -> f64 {
+        let Peak { position: [x, y, z], material, .. } = contender.peak;
+        let (depth, step) = (Depth { z, material }, self.grid().spacing());
+        if z < near {
+            let states = self.searched(&self.slice(depth, REACH), &self.samples_around([x, y]));
+            return states.iter().map(|state| quantity.of(state)).fold(f64::NEG_INFINITY, f64::max);
+        }
+        let start = Candidate { value: f64::NEG_INFINITY, depth, place: [x, y], step: 0.5 * step };
+        self.climbed(&start, 0.0, [z, z], quantity).value
+    }
+
+    /// The 4 × 4 samples around a place.
+    fn samples_around(&self, place: [f64; 2]) -> Vec<[f64; 2]> {
+        let (cell, points) = (self.grid().cell(), self.grid().points());
+        let [s, t] = cell.fractions(place);
+        let [i, j] = [s * points[0] as f64, t * points[1] as f64].map(|k| (k + 1e-9).floor());
+        let sample = |k: usize| {
+            let [i, j] = [i + (k / 4) as f64 - 1.0, j + (k % 4) as f64 - 1.0];
+            cell.point([i / points[0] as f64, j / points[1] as f64])
         };
-        let peaks = if is_face { best.iter().map(peak).collect() } else { Vec::new() };
-        Searched { best, peaks }
+        (0..16).map(sample).collect()
     }
 
     /// Depths at which planes are searched, ascending, faces first and last.
@@ -199,104 +264,35 @@ impl StressField {
         })
     }
 
-    /// The peak on a face: between the samples of the plane by the exact sum, or, where that converges slowly, the
+    /// The best place on a face: between the samples of the plane by the exact sum, or, where that converges slowly, the
     /// sample itself.
-    fn face_peak(&self, candidate: &Candidate, quantity: Quantity) -> Peak {
-        if candidate.depth.z < NEAR * self.grid().spacing() {
-            return self.peak(candidate);
-        }
-        self.peak(&self.horizontally(candidate, quantity))
+    fn on_face(&self, candidate: &Candidate, quantity: Quantity) -> Candidate {
+        let z = candidate.depth.z;
+        if z < NEAR * self.grid().spacing() { *candidate } else { self.climbed(candidate, 0.0, [z, z], quantity) }
     }
 
-    /// The best peak near the candidate of plane `index`, the depth between those of the neighbouring planes.
-    fn refined(&self, candidate: &Candidate, quantity: Quantity, depths: &[f64], index: usize) -> Peak {
-        if candidate.depth.z < NEAR * self.grid().spacing() {
-            return self.peak(candidate);
-        }
-        let low = depths[index.saturating_sub(1)];
-        let high = depths.get(index + 1).copied().unwrap_or(candidate.depth.z);
-        let mut best = *candidate;
-        for _ in 0..3 {
-            best = self.horizontally(&best, quantity);
-            let before = best.depth.z;
-            best = self.vertically(&best, quantity, [low, high]);
-            if (best.depth.z - before).abs() < 1e-3 * before {
-                break;
-            }
-        }
-        self.peak(&best)
-    }
-
-    /// A candidate as it is, with the direction of σ₁ there.
-    fn peak(&self, candidate: &Candidate) -> Peak {
-        let [x, y] = candidate.place;
-        let state = self.searched(&self.slice(candidate.depth, SEARCH_REACH), &[candidate.place])[0];
-        Peak {
-            value: candidate.value,
-            position: [x, y, candidate.depth.z],
-            material: candidate.depth.material,
+    /// A candidate as it is, or the `peak` in its stead, with the direction of σ₁ and the size of the stress there.
+    fn contender(&self, candidate: &Candidate, peak: Option<Peak>) -> Contender {
+        let Candidate { value, depth, place: [x, y], .. } = *candidate;
+        let place = peak.map_or([x, y], |Peak { position: [x, y, _], .. }| [x, y]);
+        let state = self.searched(&self.slice(depth, SEARCH_REACH), &[place])[0];
+        let mean = self.mean(depth);
+        let own = State {
+            xx: state.xx - mean.xx,
+            yy: state.yy - mean.yy,
+            zz: state.zz - mean.zz,
+            xz: state.xz - mean.xz,
+            yz: state.yz - mean.yz,
+            ..state
+        };
+        let peak = peak.unwrap_or(Peak {
+            value,
+            position: [x, y, depth.z],
+            material: depth.material,
             direction: state.s1_direction(),
             error: None,
-        }
+            rival: None,
+        });
+        Contender { peak, crest: None, state, size: own.size() }
     }
-
-    /// Stresses at places (x, y) of a slice.
-    fn searched(&self, slice: &Slice, places: &[[f64; 2]]) -> Vec<State> {
-        self.at(places, &Stresses(slice)).into_iter().map(State::from_stresses).collect()
-    }
-
-    /// Moves a candidate to the top of the paraboloid through 3 × 3 points around it, with smaller and smaller steps, once it
-    /// has climbed to where none of them is higher: along a ridge that may be far.
-    fn horizontally(&self, candidate: &Candidate, quantity: Quantity) -> Candidate {
-        let mut best = *candidate;
-        let slice = self.slice(best.depth, SEARCH_REACH);
-        let mut tops = 0;
-        for _ in 0..MOVES {
-            let [x, y] = best.place;
-            let step = best.step;
-            let around: Vec<[f64; 2]> =
-                (0..9).map(|k| [x + (f64::from(k / 3) - 1.0) * step, y + (f64::from(k % 3) - 1.0) * step]).collect();
-            let values: Vec<f64> = self.searched(&slice, &around).iter().map(|state| quantity.of(state)).collect();
-            let highest = (0..9).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(4);
-            best.value = values[highest];
-            best.place = around[highest];
-            if highest == 4 {
-                let [dx, dy] = [[1, 7], [3, 5]].map(|[before, after]| {
-                    let curvature = values[before] + values[after] - 2.0 * values[4];
-                    let slope = 0.5 * (values[after] - values[before]);
-                    if curvature < 0.0 { (-slope / curvature).clamp(-1.0, 1.0) * step } else { 0.0 }
-                });
-                let moved = [x + dx, y + dy];
-                let value = quantity.of(&self.searched(&slice, &[moved])[0]);
-                if value > best.value {
-                    (best.value, best.place) = (value, moved);
-                }
-                best.step *= 0.3;
-                tops += 1;
-                if tops == TOPS {
-                    break;
-                }
-            }
-        }
-        best
-    }
-
-    /// Moves a candidate in depth within [low, high] by golden sections.
-    fn vertically(&self, candidate: &Candidate, quantity: Quantity, [low, high]: [f64; 2]) -> Candidate {
-        let material = candidate.depth.material;
-        let value = |z: f64| {
-            let slice = self.slice(Depth { z, material }, SEARCH_REACH);
-            quantity.of(&self.searched(&slice, &[candidate.place])[0])
-        };
-        let [z, found] = golden_maximum([low, high], DEPTH_TOLERANCE, value);
-        if found > candidate.value {
-            Candidate { value: found, depth: Depth { z, material }, ..*candidate }
-        } else {
-            *candidate
-        }
-    }
-}
-
-fn extremes(peak: impl Fn(Quantity) -> Peak) -> Extremes {
-    Extremes { tau1: peak(Quantity::Tau1), tension: peak(Quantity::Tension), mises: peak(Quantity::Mises) }
 }

@@ -83,6 +83,12 @@ impl State {
         (mean, 0.5 * (a * a + b * b + c * c) + self.xy * self.xy + self.xz * self.xz + self.yz * self.yz)
     }
 
+    /// √(Σσᵢⱼ²), a pressure.
+    pub(super) fn size(&self) -> f64 {
+        let shear = self.xy * self.xy + self.xz * self.xz + self.yz * self.yz;
+        (self.xx * self.xx + self.yy * self.yy + self.zz * self.zz + 2.0 * shear).sqrt()
+    }
+
     /// Principal shear stress τ₁ = (σ₁ − σ₃)/2.
     pub fn tau1(&self) -> f64 {
         let [tau1, _, _] = self.derived();

@@ -2,8 +2,8 @@
 
 use super::number::{or_none, plain, value};
 use crate::reading::{Criterion, StressReading, Utilisation};
-use crate::stress::Peak;
 use crate::stress::maxima::{Carried, Extremes};
+use crate::stress::{Peak, Rival};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -41,6 +41,32 @@ struct PeakKeys {
     z: f64,
     material: usize,
     direction: [Option<f64>; 3],
+    rival: Option<RivalKeys>,
+}
+
+#[derive(Deserialize)]
+struct RivalKeys {
+    #[serde(deserialize_with = "or_none")]
+    value: f64,
+    #[serde(deserialize_with = "or_none")]
+    error: f64,
+    #[serde(deserialize_with = "or_none")]
+    x: f64,
+    #[serde(deserialize_with = "or_none")]
+    y: f64,
+    #[serde(deserialize_with = "or_none")]
+    z: f64,
+    material: usize,
+}
+
+#[derive(Deserialize)]
+struct PlaceKeys {
+    #[serde(deserialize_with = "or_none")]
+    x: f64,
+    #[serde(deserialize_with = "or_none")]
+    y: f64,
+    #[serde(deserialize_with = "or_none")]
+    z: f64,
 }
 
 #[derive(Deserialize)]
@@ -57,6 +83,7 @@ pub(super) struct UtilisationKeys {
     y: f64,
     #[serde(deserialize_with = "or_none")]
     z: f64,
+    rival: Option<PlaceKeys>,
 }
 
 pub(super) fn stress(keys: StressKeys) -> StressReading {
@@ -90,7 +117,13 @@ fn peak(keys: &PeakKeys) -> Peak {
         material: keys.material,
         direction: keys.direction.map(plain),
         error: keys.error,
+        rival: keys.rival.as_ref().map(rival),
     }
+}
+
+fn rival(keys: &RivalKeys) -> Rival {
+    let RivalKeys { value, error, x, y, z, material } = *keys;
+    Rival { value, error, position: [x, y, z], material }
 }
 
 /// `None` for a criterion of a later version.
@@ -100,6 +133,7 @@ pub(super) fn utilisation(keys: UtilisationKeys) -> Option<Utilisation> {
         value: value(keys.utilisation, keys.singular),
         error: keys.error,
         position: [keys.x, keys.y, keys.z],
+        rival: keys.rival.map(|PlaceKeys { x, y, z }| [x, y, z]),
     })
 }
 

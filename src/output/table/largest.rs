@@ -1,7 +1,7 @@
 //! The largest stresses of the load steps, by material and interface.
 
 use super::Table;
-use super::by_step::{Row, by_step};
+use super::by_step::{Found, Row, by_step};
 use crate::reading::StressReading;
 use crate::run::StepRecord;
 use crate::stress::Peak;
@@ -11,7 +11,10 @@ use crate::units::Units;
 pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
     let any = steps.iter().find_map(|step| step.stress.as_ref())?;
     let row = |name: String, peak: &dyn Fn(&StressReading) -> Option<Peak>| {
-        let of = |step: &StepRecord| peak(step.stress.as_ref()?).map(|peak| (peak.value, peak.error, peak.position));
+        let of = |step: &StepRecord| {
+            let Peak { value, error, position, rival, .. } = peak(step.stress.as_ref()?)?;
+            Some(Found { value, error, position, rival: rival.map(|rival| rival.position) })
+        };
         Row { name, found: steps.iter().map(of).collect() }
     };
     let material = |index: usize| {

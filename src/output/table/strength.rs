@@ -1,6 +1,6 @@
 //! What materials and interfaces bear: utilisations of the load steps, and limit loads.
 
-use super::by_step::{Row, by_step, place};
+use super::by_step::{Found, Row, by_step, place};
 use super::{Table, Worded, in_unit};
 use crate::body::HalfSpace;
 use crate::output::number::{number, with_error};
@@ -15,7 +15,10 @@ pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units:
     let mut governing: Vec<&Utilisation> = last.strength.iter().collect();
     governing.sort_by(|a, b| b.value.total_cmp(&a.value));
     let row = |&Utilisation { criterion, .. }: &Utilisation| {
-        let of = |step: &StepRecord| step.utilisation(criterion).map(|own| (own.value, own.error, own.position));
+        let of = |step: &StepRecord| {
+            let &Utilisation { value, error, position, rival, .. } = step.utilisation(criterion)?;
+            Some(Found { value, error, position, rival })
+        };
         Row { name: criterion.to_string(), found: steps.iter().map(of).collect() }
     };
     let rows: Vec<Row> = governing.into_iter().map(row).collect();

@@ -218,6 +218,7 @@ impl<'a, R: Recorder> Search<'a, R> {
             value,
             error: None,
             position: [0.0; 3],
+            rival: None,
         })
     }
 
