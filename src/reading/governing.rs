@@ -90,7 +90,7 @@ mod tests {
     use crate::reading::Criterion;
 
     fn taken(criterion: Criterion, value: f64, error: Option<f64>) -> Utilisation {
-        Utilisation { criterion, value, error, position: [0.0; 3] }
+        Utilisation { criterion, value, error, position: [0.0; 3], rival: None }
     }
 
     #[test]
