@@ -1,38 +1,8 @@
 //! What comes nearest to failure, and what else may within the errors.
 //!
-//! A criterion of the utilisation u ± e **fails** where u − e ≥ 1 and **holds** where u + e < 1; between, the grid leaves it
-//! **undecided**. Of several the one with the largest u governs; every other one with u′ + e′ ≥ u − e is its rival.
+//! Of several utilisations u ± e the largest u governs; every other one with u′ + e′ ≥ u − e is its rival.
 
 use super::strength::Utilisation;
-use std::fmt;
-
-/// Whether a criterion fails, by its utilisation and the estimated error of it. Where no error is known, the value decides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// The utilisation and its error stay below 1.
-    Holds,
-    /// The utilisation less its error reaches 1.
-    Fails,
-    /// Neither, or no number.
-    Undecided,
-}
-
-impl Verdict {
-    /// Its name in outputs.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "fails",
-            Self::Undecided => "undecided",
-        }
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// What comes nearest to failure in a load step.
 #[derive(Debug, Clone, PartialEq)]

@@ -20,14 +20,16 @@ mod spots;
 mod strength;
 mod stress;
 mod touch;
+mod verdict;
 
 pub use boundary::Boundary;
 pub use contact::Reading;
 pub use errors::{Errors, LevelErrors};
-pub use governing::{Governing, Verdict, within_the_errors};
+pub use governing::{Governing, within_the_errors};
 pub use histogram::Histogram;
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
 pub use rough::{RoughReading, SpotSizes, stiffness};
 pub use strength::{Criterion, Utilisation};
 pub use stress::{StressReading, tears, tips};
 pub use touch::first_touches;
+pub use verdict::Verdict;

@@ -4,7 +4,8 @@
 //! √((⟨σ_zz⟩/σ_c)² + (τ/τ_c)²) of an interface. It is no safety factor: contact is not linear, and the load at which it
 //! reaches 1 is found by solving ([`crate::Run::limits`]).
 
-use super::{StressReading, Verdict};
+use super::StressReading;
+use super::verdict::Verdict;
 use crate::body::HalfSpace;
 use crate::stress::Peak;
 use std::fmt;
@@ -112,11 +113,7 @@ impl Utilisation {
 
     /// Whether it fails.
     pub fn verdict(&self) -> Verdict {
-        match (self.least(), self.most()) {
-            (least, _) if least >= 1.0 => Verdict::Fails,
-            (_, most) if most < 1.0 => Verdict::Holds,
-            _ => Verdict::Undecided,
-        }
+        Verdict::of(self.least(), self.most())
     }
 
     /// Of every criterion of a half-space under the largest stresses of a step.
