@@ -140,12 +140,16 @@ fn between(
     let penetration = estimate(PENETRATION, depth, &|reading| Some(reading.penetration));
     let peak = fine.max_pressure * peak_law(smallest, sharpest);
     let highest = if fine.levels.is_empty() { PEAK } else { HIGHEST };
-    let levels = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
+    let levels: Vec<LevelErrors> = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
+    // The highest of all may be that of any level that reaches as high within its own error.
+    let peaks =
+        fine.levels.iter().zip(&levels).filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));
+    let beyond = peaks.fold(0.0, f64::max) - fine.max_pressure;
     let errors = Errors {
         mean_pressure: prescribed(mean_pressure, by_load),
         penetration: prescribed(penetration, !by_load).map(|error| error + apex),
         contact_fraction: estimate(AREA, fine.contact_fraction_uncertainty, &|reading| Some(reading.contact_fraction)),
-        max_pressure: estimate(highest, peak, &|reading| reading.finite_peak()),
+        max_pressure: estimate(highest, peak, &|reading| reading.finite_peak()).map(|error| error.max(beyond)),
     };
     (errors, levels)
 }
