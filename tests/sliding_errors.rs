@@ -71,12 +71,17 @@ fn stated(reading: &Reading) -> Vec<(&'static str, Option<f64>, Option<f64>)> {
             ("largest radius", level.radius_max, errors.radius_max),
             ("asymmetry", level.asymmetry(), errors.asymmetry),
         ]);
+        // A component has no size of its own, by symmetry it may be zero: over the radius.
+        for k in 0..2 {
+            let over_radius = |x: Option<f64>| Some(x? / level.contact_radius?);
+            all.push(("centre", over_radius(level.centre.map(|centre| centre[k])), over_radius(errors.centre[k])));
+        }
     }
     all
 }
 
-/// Stated and true error of each quantity of so many random cases, over the quantity; `coupled`: only such.
-fn errors(seed: u64, cases: usize, coupled: bool) -> BTreeMap<&'static str, Vec<[f64; 2]>> {
+/// Stated and true error of each quantity of so many random cases, over the quantity, of the centre over the contact radius; `coupled`: only such.
+fn errors(seed: u64, cases: usize, coupled: bool, tolerance: f64) -> BTreeMap<&'static str, Vec<[f64; 2]>> {
     let mut random = Random(seed);
     let mut errors: BTreeMap<_, Vec<[f64; 2]>> = BTreeMap::new();
     let mut done = 0;
@@ -88,29 +93,31 @@ fn errors(seed: u64, cases: usize, coupled: bool) -> BTreeMap<&'static str, Vec<
         let problem = Problem::new(indenters, half_space(&mut random)).sliding(friction).unwrap();
         let points = 2 * random.log(24.0, 48.99) as usize;
         let (part, by_load) = (random.log(0.02, 0.7), random.unit() < 0.5);
-        let solve = |points: usize, load: Option<Load>| {
-            let mut solver = Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap();
+        let solve = |points: usize, load: Option<Load>, tolerance: f64| {
+            let mut solver =
+                Solver::new(problem.clone(), [points; 2], Settings { tolerance, ..Settings::default() }).unwrap();
             let load = load.unwrap_or(Load::Penetration(part * solver.full_contact_penetration()));
             let step = solver.solve(load);
             (load, step.report.stop.solved().then(|| step.reading()))
         };
-        let (mut load, Some(mut found)) = solve(points, None) else { continue };
+        let (mut load, Some(mut found)) = solve(points, None, tolerance) else { continue };
         if !SAMPLES.contains(&found.levels.iter().map(|level| level.resolution).fold(0.0, f64::max)) {
             continue;
         }
         if by_load {
             load = Load::MeanPressure(found.mean_pressure);
-            let (_, Some(again)) = solve(points, Some(load)) else { continue };
+            let (_, Some(again)) = solve(points, Some(load), tolerance) else { continue };
             found = again;
         }
-        let (_, Some(exact)) = solve(FINER * points, Some(load)) else { continue };
+        let (_, Some(exact)) = solve(FINER * points, Some(load), 1e-8) else { continue };
         done += 1;
         for ((name, found, error), (_, exact, _)) in stated(&found).into_iter().zip(stated(&exact)) {
             let (Some(found), Some(error), Some(exact)) = (found, error, exact) else { continue };
             // What is prescribed, and the share of a single level, is exact but for the solver's tolerance.
-            let off = (found - exact).abs() - 1e-8 * found.abs();
+            let size = if name == "centre" { 1.0 } else { found.abs() };
+            let off = (found - exact).abs() - 1e-8 * size;
             if found != 0.0 && error.max(off) > 0.0 {
-                errors.entry(name).or_default().push([error / found.abs(), off / found.abs()]);
+                errors.entry(name).or_default().push([error / size, off / size]);
             }
         }
     }
@@ -137,7 +144,7 @@ fn judge(errors: BTreeMap<&'static str, Vec<[f64; 2]>>) {
 /// Only coupled friction has edges of other powers than ½.
 #[test]
 fn stated_errors_of_a_few_coupled_sliding_contacts_hold() {
-    let mut errors = errors(3201, 24, true);
+    let mut errors = errors(3201, 24, true, 1e-8);
     errors.retain(|name, _| ["smallest radius", "largest radius", "asymmetry"].contains(name));
     judge(errors);
 }
@@ -145,5 +152,16 @@ fn stated_errors_of_a_few_coupled_sliding_contacts_hold() {
 #[test]
 #[ignore = "takes minutes"]
 fn stated_errors_of_a_hundred_sliding_contacts_hold_and_say_something() {
-    judge(errors(3202, 100, false));
+    judge(errors(3202, 100, false, 1e-8));
+}
+
+/// The loosest tolerance that a case may have: what the iteration leaves open stays within the stated errors.
+#[test]
+#[ignore = "takes minutes"]
+fn stated_errors_hold_at_the_loosest_tolerance() {
+    let mut all = errors(3203, 100, false, 1e-4);
+    for (name, more) in errors(3204, 100, false, 1e-4) {
+        all.entry(name).or_default().extend(more);
+    }
+    judge(all);
 }

@@ -26,6 +26,11 @@ fn penetration_law(samples: f64) -> f64 {
     0.01 * samples.powi(-2)
 }
 
+/// The same for the centre of the pressure, relative to the contact radius.
+fn centre_law(samples: f64) -> f64 {
+    0.003 * samples.powi(-2)
+}
+
 impl Step {
     /// What a tribologist reads off the step, with its estimated discretisation errors.
     pub fn reading(&self) -> Reading {
@@ -71,6 +76,7 @@ const APEX: f64 = 1.25;
 // Judged by the least resolved of all contacts, and so already wide.
 const HIGHEST: f64 = 1.5;
 const AREA: f64 = 2.0;
+const CENTRE: f64 = 1.5;
 
 /// Parts of the changes against the coarser grids that count, the next coarser first.
 const CHANGES: [f64; 2] = [1.0, 0.25];
@@ -130,6 +136,10 @@ fn between(
             radius_min: radius(own.uncertainty.boundary, |level| level.radius_min),
             radius_max: radius(own.uncertainty.boundary, |level| level.radius_max),
             asymmetry: radius(relative, LevelReading::asymmetry),
+            centre: [
+                of(CENTRE, own.contact_radius.unwrap_or(0.0) * centre_law(samples), |level| Some(level.centre?[0])),
+                of(CENTRE, own.contact_radius.unwrap_or(0.0) * centre_law(samples), |level| Some(level.centre?[1])),
+            ],
         }
     };
     let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
