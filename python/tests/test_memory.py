@@ -175,7 +175,7 @@ def resident():
     return int(open("/proc/self/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 def solve():
-    step = percoat.solve("fig2", set={"grid.points": 512, "solver.tolerance": 1e-3})[0]
+    step = percoat.solve("fig2", set={"grid.points": 512, "solver.tolerance": 1e-4})[0]
     return step.pressure, step.displacement
 
 solve()

@@ -61,7 +61,7 @@ impl Reading {
         let most = grid.len() as f64;
         let [shortest, longest] = Scale::distances((most / PI).sqrt()).map(|distance| distance * grid.spacing());
         let transfer = TransferFunction::new(contact.problem().half_space());
-        let edge = Edge::new(&transfer, shortest, longest);
+        let edge = Edge::new(&transfer, contact.problem().friction(), shortest, longest);
         let scale = Scale { sample_area: grid.sample_area(), spacing: grid.spacing(), edge: &edge };
         let spots = spots::spots(contact, &scale);
         let (topography, located_samples) = if surface.owners().is_empty() {

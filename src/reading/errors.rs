@@ -15,6 +15,7 @@
 /// | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
 /// | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
 /// | penetration | 0.01 n⁻², and under a topography what its apex rises above the highest sample |
+/// | centre of the pressure | 0.003 n⁻² of the contact radius |
 /// | areas, radii, asymmetry, fraction in contact | what the reading of the boundary says of itself |
 ///
 /// A topography stands where its highest sample does: prescribed its penetration, the errors of the others are those in
@@ -60,4 +61,7 @@ pub struct LevelErrors {
     pub radius_max: Option<f64>,
     /// Of (largest − smallest)/largest.
     pub asymmetry: Option<f64>,
+    /// Of x and y of the pressure's centre.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub centre: [Option<f64>; 2],
 }

@@ -26,6 +26,11 @@ fn penetration_law(samples: f64) -> f64 {
     0.01 * samples.powi(-2)
 }
 
+/// The same for the centre of the pressure, relative to the contact radius.
+fn centre_law(samples: f64) -> f64 {
+    0.003 * samples.powi(-2)
+}
+
 impl Step {
     /// What a tribologist reads off the step, with its estimated discretisation errors.
     pub fn reading(&self) -> Reading {
@@ -71,6 +76,7 @@ const APEX: f64 = 1.25;
 // Judged by the least resolved of all contacts, and so already wide.
 const HIGHEST: f64 = 1.5;
 const AREA: f64 = 2.0;
+const CENTRE: f64 = 1.5;
 
 /// Parts of the changes against the coarser grids that count, the next coarser first.
 const CHANGES: [f64; 2] = [1.0, 0.25];
@@ -130,6 +136,10 @@ fn between(
             radius_min: radius(own.uncertainty.boundary, |level| level.radius_min),
             radius_max: radius(own.uncertainty.boundary, |level| level.radius_max),
             asymmetry: radius(relative, LevelReading::asymmetry),
+            centre: [
+                of(CENTRE, own.contact_radius.unwrap_or(0.0) * centre_law(samples), |level| Some(level.centre?[0])),
+                of(CENTRE, own.contact_radius.unwrap_or(0.0) * centre_law(samples), |level| Some(level.centre?[1])),
+            ],
         }
     };
     let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
@@ -140,12 +150,16 @@ fn between(
     let penetration = estimate(PENETRATION, depth, &|reading| Some(reading.penetration));
     let peak = fine.max_pressure * peak_law(smallest, sharpest);
     let highest = if fine.levels.is_empty() { PEAK } else { HIGHEST };
-    let levels = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
+    let levels: Vec<LevelErrors> = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
+    // The highest of all may be that of any level that reaches as high within its own error.
+    let peaks =
+        fine.levels.iter().zip(&levels).filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));
+    let beyond = peaks.fold(0.0, f64::max) - fine.max_pressure;
     let errors = Errors {
         mean_pressure: prescribed(mean_pressure, by_load),
         penetration: prescribed(penetration, !by_load).map(|error| error + apex),
         contact_fraction: estimate(AREA, fine.contact_fraction_uncertainty, &|reading| Some(reading.contact_fraction)),
-        max_pressure: estimate(highest, peak, &|reading| reading.finite_peak()),
+        max_pressure: estimate(highest, peak, &|reading| reading.finite_peak()).map(|error| error.max(beyond)),
     };
     (errors, levels)
 }

@@ -81,7 +81,7 @@ pub(super) static SOLVER: Keys = Keys::new(&[
         "tolerance",
         "energy of the error below 20 tolerance times the elastic energy, penetration outside contact below 10 \
          tolerance times δ, residual ε below the tolerance",
-        &[Form::Number(Range::between(1e-14, 1e-2))],
+        &[Form::Number(Range::between(1e-14, 1e-4))],
         "1e-10",
     )
     .default("1e-8"),

@@ -211,7 +211,7 @@ impl Fit {
         // Most samples lie beyond the reach wherever the rim is.
         let band = radii.iter().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &r| [a.min(r), b.max(r)]);
         let in_band = |sample: &&Polar| band[0] - reach < sample.r && sample.r < band[1] + reach;
-        let range = [scale.edge.pressure(reach)[0].abs(), scale.edge.opening(reach)[0]];
+        let range = [scale.edge.pressure(reach, 0.0)[0].abs(), scale.edge.opening(reach, 0.0)[0]];
         let seen = |sample: &Polar| {
             let d = self.distance(sample, radii);
             let (open, part) = (self.open(sample), d.abs() / reach);
@@ -221,11 +221,13 @@ impl Fit {
             }
             let rise = (d.abs() / (RISE * scale.spacing)).min(1.0);
             let side = usize::from(open);
+            // The outward normal of a hole points to the axis; an outline is nearly round.
+            let along = if self.rim == Rim::Outer { 1.0 } else { -1.0 } * scale.edge.along(sample.theta);
             let ([value, slope], weight, y) = if open {
-                let [value, slope] = scale.edge.opening(d);
+                let [value, slope] = scale.edge.opening(d, along);
                 ([value, -slope], rise / part.sqrt() / 1.5, sample.opening.max(0.0))
             } else {
-                (scale.edge.pressure(-d), 2.0 * self.inside * rise * part.sqrt(), sample.p)
+                (scale.edge.pressure(-d, along), 2.0 * self.inside * rise * part.sqrt(), sample.p)
             };
             let unit = range[side];
             let (y, value, slope) = (y / unit, value / unit, slope * reach / unit);

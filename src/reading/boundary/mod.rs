@@ -125,7 +125,7 @@ mod tests {
     fn located(samples: &[Polar], spacing: f64) -> Option<Boundary> {
         let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
         let [shortest, longest] = Scale::distances(1.1 / spacing).map(|distance| distance * spacing);
-        let edge = Edge::new(&TransferFunction::new(&bare), shortest, longest);
+        let edge = Edge::new(&TransferFunction::new(&bare), None, shortest, longest);
         Boundary::locate(samples, &Scale { sample_area: spacing * spacing, spacing, edge: &edge })
     }
 
