@@ -6,9 +6,10 @@
 //! that some eight sweeps are enough however many indenters stand in the circle. A level comes into contact when a
 //! sweep finds it penetrated, and leaves it when it would be pulled.
 //!
-//! A penetration beyond complete contact has no solution (`press.rs`), and neither a first guess nor a Newton step of
-//! the exchange knows how deep that is. Under a prescribed load a sweep that meets it is undone, and the next one goes
-//! half the way from the last penetration that could be pressed. The work is bounded by sweeps and by iterations.
+//! A penetration beyond complete contact has no solution (`press.rs`), and a Newton step of the exchange does not know how
+//! deep that is. Under a prescribed load the penetration therefore starts with a few elements and at most doubles from
+//! sweep to sweep. A sweep beyond complete contact is undone, and the next one goes half the way from the last penetration
+//! that could be pressed. The work is bounded by sweeps and by iterations.
 
 use super::circle::{Circle, CircleRadius};
 use super::disc::FarField;
@@ -156,13 +157,19 @@ impl Coupled {
                 stop = self.reached(&patterns, &merged);
                 break;
             }
-            if let (Some(whole_load), true) = (prescribed, whole == 0.0) {
-                // Nobody touches yet: deep enough for one element to carry the load, the most compliant contact.
-                let own = tables.own(0).diagonal();
-                patterns.penetration += whole_load / element * own;
+            if prescribed.is_some() && whole == 0.0 {
+                patterns.penetration += patterns.penetration.abs() + self.first_depth();
                 continue;
             }
-            let (loads, rise) = sweep.exchanged(prescribed);
+            let (mut loads, mut rise) = sweep.exchanged(prescribed);
+            // A small contact is soft: the penetration at most doubles.
+            let most = patterns.penetration.abs() + self.first_depth();
+            if rise > most {
+                for (load, found) in loads.iter_mut().zip(&sweep.found) {
+                    *load = found + most / rise * (*load - found);
+                }
+                rise = most;
+            }
             patterns.penetration += rise;
             for m in 0..count {
                 let factor = if sweep.found[m] > 0.0 { loads[m] / sweep.found[m] } else { 0.0 };
@@ -184,6 +191,12 @@ impl Coupled {
             .collect();
         let system = Arc::clone(&self.system);
         Solution { system, mean_pressure, penetration: patterns.penetration, rule, spots, stop, sweeps }
+    }
+
+    /// Depth at which two elements around the axis of the highest indenter are penetrated: a length.
+    fn first_depth(&self) -> f64 {
+        let site = &self.system.sites()[self.system.highest()];
+        site.profile(2.0 * self.mesh.size) - site.profile(0.0)
     }
 
     /// Who acts on whom under a rule.
