@@ -5,13 +5,18 @@
 //! (`exchange.rs`) so that all have one penetration and carry p̄ together, Eq. (5). Only shapes lag behind, so
 //! that some eight sweeps are enough however many indenters stand in the circle. A level comes into contact when a
 //! sweep finds it penetrated, and leaves it when it would be pulled.
+//!
+//! A penetration beyond complete contact has no solution (`press.rs`), and a Newton step of the exchange does not know how
+//! deep that is. Under a prescribed load the penetration therefore starts with a few elements and at most doubles from
+//! sweep to sweep. A sweep beyond complete contact is undone, and the next one goes half the way from the last penetration
+//! that could be pressed. The work is bounded by sweeps and by iterations.
 
 use super::circle::{Circle, CircleRadius};
 use super::disc::FarField;
 use super::exchange::Sweep;
 use super::mesh::Mesh;
 use super::patterns::Patterns;
-use super::press::{press, punch};
+use super::press::{End, press, punch};
 use super::solution::{Solution, Stop};
 use super::spot::Spot;
 use super::system::System;
@@ -23,6 +28,10 @@ use std::sync::{Arc, OnceLock};
 
 /// Sweeps at most.
 const SWEEPS: usize = 60;
+/// Iterations on one spot at most, over all sweeps.
+const WORK: usize = 2000;
+/// Sweeps beyond complete contact, one after the other, after which a prescribed penetration is out of reach.
+const OUT_OF_REACH: usize = 3;
 /// Relative tolerance of the loads, of the surfaces pressed, and of the stiffness.
 const TOLERANCE: f64 = 1e-8;
 const SURFACE_TOLERANCE: f64 = 1e-9;
@@ -82,14 +91,17 @@ impl Coupled {
         let mut mean_pressure = 0.0;
         let mut merged = vec![false; count];
         let (mut stop, mut sweeps) = (Stop::Stalled, 0);
-        while sweeps < SWEEPS {
+        // Nobody touches at δ = 0.
+        let mut held = Patterns::new(self.mesh, count, None);
+        let (mut work, mut beyond) = (0, 0);
+        while sweeps < SWEEPS && work < WORK * count && beyond < OUT_OF_REACH {
             sweeps += 1;
             mean_pressure = match load {
                 Load::MeanPressure(pressure) => pressure,
                 Load::Penetration(_) => patterns.loads.iter().sum::<f64>() / cell,
             };
             let mut sweep = Sweep::new(patterns.loads.clone());
-            let mut pressed = true;
+            let (mut pressed, mut unbounded) = (true, false);
             for m in 0..count {
                 let others = self.others(tables, m, &patterns);
                 radii[m] = self.radius(m, rule, mean_pressure, &sweep.used);
@@ -102,9 +114,11 @@ impl Coupled {
                     })
                     .collect();
                 let own = tables.own(m);
-                let (gap, reached) = press(own, &wanted, SURFACE_TOLERANCE, &mut patterns.pressures[m]);
-                gaps[m] = gap;
-                pressed &= reached;
+                let spot = press(own, &wanted, SURFACE_TOLERANCE, &mut patterns.pressures[m]);
+                gaps[m] = spot.gap;
+                pressed &= spot.end == End::Met;
+                unbounded |= spot.end == End::Unbounded;
+                work += spot.iterations;
                 sweep.found[m] = patterns.pressures[m].iter().sum::<f64>() * element;
                 if sweep.found[m] == 0.0 {
                     continue;
@@ -125,6 +139,14 @@ impl Coupled {
                     sweep.coupling[m][c] = direct - outside;
                 }
             }
+            beyond = if unbounded { beyond + 1 } else { 0 };
+            if let (Load::MeanPressure(_), true) = (load, unbounded) {
+                let depth = 0.5 * (held.penetration + patterns.penetration);
+                patterns = Patterns { penetration: depth, ..held.clone() };
+                beyond = 0;
+                continue;
+            }
+            held = Patterns { loads: sweep.found.clone(), ..patterns.clone() };
             let whole: f64 = sweep.found.iter().sum();
             let prescribed = match load {
                 Load::MeanPressure(pressure) => Some(pressure * cell),
@@ -135,13 +157,19 @@ impl Coupled {
                 stop = self.reached(&patterns, &merged);
                 break;
             }
-            if let (Some(whole_load), true) = (prescribed, whole == 0.0) {
-                // Nobody touches yet: deep enough for one element to carry the load, the most compliant contact.
-                let own = tables.own(0).diagonal();
-                patterns.penetration += whole_load / element * own;
+            if prescribed.is_some() && whole == 0.0 {
+                patterns.penetration += patterns.penetration.abs() + self.first_depth();
                 continue;
             }
-            let (loads, rise) = sweep.exchanged(prescribed);
+            let (mut loads, mut rise) = sweep.exchanged(prescribed);
+            // A small contact is soft: the penetration at most doubles.
+            let most = patterns.penetration.abs() + self.first_depth();
+            if rise > most {
+                for (load, found) in loads.iter_mut().zip(&sweep.found) {
+                    *load = found + most / rise * (*load - found);
+                }
+                rise = most;
+            }
             patterns.penetration += rise;
             for m in 0..count {
                 let factor = if sweep.found[m] > 0.0 { loads[m] / sweep.found[m] } else { 0.0 };
@@ -158,10 +186,17 @@ impl Coupled {
                 circle: self.circles[m].clone(),
                 radius: radii[m],
                 merged: merged[m],
+                edge: Arc::clone(self.system.edge()),
             })
             .collect();
         let system = Arc::clone(&self.system);
         Solution { system, mean_pressure, penetration: patterns.penetration, rule, spots, stop, sweeps }
+    }
+
+    /// Depth at which two elements around the axis of the highest indenter are penetrated: a length.
+    fn first_depth(&self) -> f64 {
+        let site = &self.system.sites()[self.system.highest()];
+        site.profile(2.0 * self.mesh.size) - site.profile(0.0)
     }
 
     /// Who acts on whom under a rule.

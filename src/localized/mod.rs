@@ -11,13 +11,14 @@
 //! = 0 with one penetration δ for all levels, and all pressures together carry p̄, Eq. (5).
 //!
 //! It shares nothing with the spectral solver but the indenters' shapes, the layered half-space (transfer function and
-//! amplitudes) and general numerics, so that each checks the other; also the boundary of a contact is read in its own way (`outline`, from
-//! pressures and gaps with slopes of their own, where the spectral reading knows how a gap opens). In the order of building:
+//! amplitudes) and general numerics, so that each checks the other; also the boundary of a contact is read in its own way
+//! (`outline`, from pressures and gaps with slopes of their own, after an edge law computed for it in `edge`, where the
+//! spectral reading takes the gap alone). In the order of building:
 //!
 //! - `quadrature`, [`point`]: K by adaptive quadrature of the layer correction, tabulated;
 //! - [`square`], [`disc`]: influence coefficients, Eq. (7), and the far field;
 //! - `circle`: who stands inside, and the radius, Eq. (4); [`exterior`]: the lattice sum outside, in the place of p̄;
-//! - [`mesh`], `press`: elements and the contact of one spot; [`spot`], `outline`: what is read off it;
+//! - [`mesh`], `press`: elements and the contact of one spot; [`spot`], `edge`, `outline`: what is read off it;
 //! - [`System`]: the indenters and what they press into; [`Setup`]: what is asked for;
 //! - [`Coupled`]: level by level to one penetration and one load; [`Localized`]: on meshes that fit;
 //! - [`Solution`]: what is read off it, and the additional displacement w_a of Eq. (8); [`stress`]: the stresses below;
@@ -26,6 +27,7 @@
 pub(crate) mod circle;
 mod coupled;
 pub mod disc;
+pub(crate) mod edge;
 mod exchange;
 pub mod exterior;
 pub mod isolated;

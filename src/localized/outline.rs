@@ -1,12 +1,13 @@
 //! The outline of a spot of elements, between them.
 //!
-//! Near its edge p² falls evenly inside and g^{2/3} rises evenly outside, each over a way of its own: how much is read
-//! off the elements, not off a modulus, so that it may be that of a coating, of what lies below, or between. Both
-//! sides over their slopes measure the distance d from the edge,
+//! Near its edge p² falls evenly inside and g^{2/3} rises evenly outside, on a bare body. Layers that are thin against
+//! the way over which they do so bend both, by the factors Φ(d) of pressures and Γ(d) of gaps (`edge.rs`), which are
+//! taken out. How steep each side is is read off the elements, not off a modulus. Both sides over their slopes measure
+//! the distance d from the edge,
 //!
-//! ψ = −p²/a inside,  ψ = g^{2/3}/b outside,
+//! ψ = −(p/Φ)²/a inside,  ψ = (g/Γ)^{2/3}/b outside,
 //!
-//! whose root, the edge, lies between elements of both. With d from the present outline ρ(θ), a and b, which vary
+//! whose root, the edge, lies between elements of both. With d, also of Φ and Γ, from the present outline ρ(θ), a and b, which vary
 //! around the spot, and then
 //!
 //! ψ ≈ Σ_k [(α_k + β_k d) cos kθ + (α′_k + β′_k d) sin kθ] + γ d² + γ′ d|d|
@@ -16,6 +17,7 @@
 //!
 //! The open elements that a spot encloses are the hole of a ring; its rim is an outline seen from the other side.
 
+use super::edge::Edge;
 use super::mesh::Mesh;
 use crate::numeric::closed_line::{self, ANGLES, angle, mean_radius, radius, series, waves};
 use crate::numeric::least_squares;
@@ -58,7 +60,7 @@ struct Place {
 impl Outline {
     /// The outline of what is pressed, from the pressure on each element and the gap over it; `None` for spots of too
     /// few elements or not around the axis.
-    pub fn new(mesh: &Mesh, pressure: &[f64], gap: &[f64]) -> Option<Self> {
+    pub fn new(mesh: &Mesh, edge: &Edge, pressure: &[f64], gap: &[f64]) -> Option<Self> {
         let enclosed = enclosed(mesh, pressure);
         let place = |index: usize| {
             let [x, y] = mesh.place(index);
@@ -78,8 +80,8 @@ impl Outline {
         let open = counted(&|index| enclosed[index]);
         // Each edge of a ring has its own half of it, a disc as much as the fit reaches.
         let deep = if open > 0.0 { 0.5 * (whole - open) } else { whole };
-        let radii = rim(&places(false), mesh.size, [whole, deep], 1.0)?;
-        let hole = if open > 0.0 { rim(&places(true), mesh.size, [open, deep], -1.0) } else { None };
+        let radii = rim(&places(false), edge, mesh.size, [whole, deep], 1.0)?;
+        let hole = if open > 0.0 { rim(&places(true), edge, mesh.size, [open, deep], -1.0) } else { None };
         Some(Self { radii, hole: hole.map_or(open, |radii| mean_radius(&radii)) })
     }
 
@@ -111,7 +113,7 @@ fn enclosed(mesh: &Mesh, pressure: &[f64]) -> Vec<bool> {
 
 /// The line between contact, `deep` as far as it is this line's, and what is open beside it, outwards (`sign` 1) or
 /// inwards (−1), from a circle.
-fn rim(places: &[Place], size: f64, [counted, deep]: [f64; 2], sign: f64) -> Option<Vec<f64>> {
+fn rim(places: &[Place], edge: &Edge, size: f64, [counted, deep]: [f64; 2], sign: f64) -> Option<Vec<f64>> {
     let resolution = counted / size;
     if resolution < FEWEST {
         return None;
@@ -119,7 +121,7 @@ fn rim(places: &[Place], size: f64, [counted, deep]: [f64; 2], sign: f64) -> Opt
     let reach = (RISE + resolution.sqrt()).min(0.6 * resolution) * size;
     let mut radii = vec![counted; ANGLES];
     for _ in 0..ROUNDS {
-        radii = moved(&radii, places, size, [reach, deep], sign)?;
+        radii = moved(&radii, places, edge, size, [reach, deep], sign)?;
         if radii.iter().any(|r| (r - counted).abs() > BELIEF * size + 0.3 * counted) {
             return None;
         }
@@ -128,11 +130,24 @@ fn rim(places: &[Place], size: f64, [counted, deep]: [f64; 2], sign: f64) -> Opt
 }
 
 /// The line through the root of ψ, fitted to the places within `reach` of the line `radii`.
-fn moved(radii: &[f64], places: &[Place], size: f64, [reach, deep]: [f64; 2], sign: f64) -> Option<Vec<f64>> {
-    let near: Vec<(&Place, f64)> = places
+fn moved(
+    radii: &[f64],
+    places: &[Place],
+    edge: &Edge,
+    size: f64,
+    [reach, deep]: [f64; 2],
+    sign: f64,
+) -> Option<Vec<f64>> {
+    // What the layers make of the heights at the present distance is taken out.
+    let bare = |place: &Place, distance: f64| {
+        let factor = if place.open { edge.opening(distance).powf(2.0 / 3.0) } else { edge.pressure(distance).powi(2) };
+        Place { height: place.height / factor, ..*place }
+    };
+    let near: Vec<(Place, f64)> = places
         .iter()
         .map(|place| (place, sign * (place.r - radius(radii, place.theta)) / reach))
         .filter(|(place, d)| d.abs() < 1.0 && (place.open || -d * reach < deep))
+        .map(|(place, d)| (bare(place, d.abs() * reach), d))
         .collect();
     // Four elements per unknown at least.
     let harmonics = HARMONICS.min(near.len() / 16);
@@ -174,7 +189,13 @@ fn moved(radii: &[f64], places: &[Place], size: f64, [reach, deep]: [f64; 2], si
 
 #[cfg(test)]
 mod tests {
+    use super::super::point::PointKernel;
     use super::*;
+    use crate::body::{HalfSpace, Material};
+
+    fn bare() -> Edge {
+        Edge::new(&PointKernel::new(&HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()), 1.0))
+    }
 
     /// Elements of a contact between radii `inner` and 1: near the edges p² = `stiff` times a distance and
     /// g^{2/3} a distance.
@@ -191,7 +212,7 @@ mod tests {
         let mesh = Mesh { width: 61, size: 0.04 };
         for stiff in [0.1, 1.0, 10.0] {
             let [pressure, gap] = elements(&mesh, 0.4, stiff);
-            let ring = Outline::new(&mesh, &pressure, &gap).unwrap();
+            let ring = Outline::new(&mesh, &bare(), &pressure, &gap).unwrap();
             // The inner edge to a tenth of an element, the area to as much.
             assert!((ring.hole - 0.4).abs() < 4e-3, "{}", ring.hole);
             assert!((ring.area() / PI / 0.84 - 1.0).abs() < 5e-3, "{}", ring.area() / PI);
@@ -208,7 +229,7 @@ mod tests {
                 }
             })
             .collect();
-        let disc = Outline::new(&mesh, &pressure, &gap).unwrap();
+        let disc = Outline::new(&mesh, &bare(), &pressure, &gap).unwrap();
         assert!(disc.hole == 0.0 && (disc.area() / PI - 1.0).abs() < 5e-4, "{}", disc.area() / PI);
     }
 }

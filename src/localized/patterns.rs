@@ -4,6 +4,7 @@ use super::mesh::Mesh;
 use super::solution::Solution;
 
 /// What the sweeps carry on.
+#[derive(Clone)]
 pub(super) struct Patterns {
     /// Penetration δ, a length.
     pub penetration: f64,

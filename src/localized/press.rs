@@ -1,14 +1,39 @@
 //! Contact of one spot whose surface is pressed to given displacements.
 //!
 //! A p ≥ b, p ≥ 0, p (A p − b) = 0: b = δ − f − u is what the spot's own pressures (with their images in the circle)
-//! must displace. A is symmetric and positive; Polonsky & Keer's (1999) conjugate gradients without their constraint on
-//! the load.
+//! must displace. A is symmetric; Polonsky & Keer's (1999) conjugate gradients without their constraint on the load.
+//!
+//! A of the lattice sum displaces from the mean plane, so that pressures even over the whole cell displace nothing: A is
+//! positive only where the contact leaves a part of the cell open. A spot pressed deeper than complete contact
+//! reaches has no solution. The conjugate gradients then meet a direction along which tᵀA t ≤ 0, and end.
 
 use super::mesh::Influence;
 use crate::numeric::search::largest;
 
 /// Iterations at most.
 const ITERATIONS: usize = 400;
+
+/// How the iteration of one spot ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The surface is met.
+    Met,
+    /// It is not, after the iterations allowed.
+    Unmet,
+    /// A direction without stiffness: the surface is pressed beyond complete contact, where no pressure displaces it.
+    Unbounded,
+}
+
+/// A spot after its iteration.
+#[derive(Debug, Clone)]
+pub struct Pressed {
+    /// A p − b, a length, one value per element.
+    pub gap: Vec<f64>,
+    /// How the iteration ended.
+    pub end: End,
+    /// Products with A.
+    pub iterations: usize,
+}
 
 /// Conjugate directions on the elements that may change.
 struct Conjugate {
@@ -25,8 +50,8 @@ impl Conjugate {
     }
 
     /// Step along the next direction against `gap` on the `active` elements (Polak–Ribière β ≥ 0); `afresh` after they
-    /// have grown.
-    fn step(&mut self, influence: &Influence, gap: &[f64], active: &[usize], afresh: bool) -> f64 {
+    /// have grown. `None` along a direction without stiffness.
+    fn step(&mut self, influence: &Influence, gap: &[f64], active: &[usize], afresh: bool) -> Option<f64> {
         let square: f64 = active.iter().map(|&i| gap[i] * gap[i]).sum();
         let beta = match &self.before {
             Some((last, last_square)) if !afresh => {
@@ -41,19 +66,20 @@ impl Conjugate {
         influence.add(&self.direction, &mut self.image);
         self.before = Some((gap.to_vec(), square));
         let dot = |a: &[f64]| active.iter().map(|&i| a[i] * self.direction[i]).sum::<f64>();
-        dot(gap) / dot(&self.image)
+        let stiffness = dot(&self.image);
+        (stiffness > 0.0).then(|| dot(gap) / stiffness)
     }
 }
 
 /// Brings `pressure` to the solution for the wanted displacements b = `wanted`; `tolerance` is relative to the largest
-/// of them. Gives back A p − b, the gap, and whether it is reached.
-pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> (Vec<f64>, bool) {
+/// of them.
+pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> Pressed {
     let len = wanted.len();
     let scale = largest(wanted.iter().copied());
     if scale == 0.0 {
         // Nothing is displaced far enough to touch.
         pressure.fill(0.0);
-        return (wanted.iter().map(|b| -b).collect(), true);
+        return Pressed { gap: wanted.iter().map(|b| -b).collect(), end: End::Met, iterations: 0 };
     }
     let residual = |pressure: &[f64]| {
         let mut gap: Vec<f64> = wanted.iter().map(|b| -b).collect();
@@ -62,18 +88,20 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
     };
     let mut gap = residual(pressure);
     let mut conjugate = Conjugate::new(len);
-    for _ in 0..ITERATIONS {
+    for iterations in 0..ITERATIONS {
         // What is not a number is not reached.
         let moves = |&i: &usize| pressure[i] > 0.0 || gap[i] < 0.0 || gap[i].is_nan();
         let active: Vec<usize> = (0..len).filter(moves).collect();
         let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale || gap[i].is_nan();
         let worst = largest(active.iter().filter(counts).map(|&i| gap[i].abs()));
         if worst <= tolerance * scale {
-            return (gap, true);
+            return Pressed { gap, end: End::Met, iterations };
         }
         // An element that is penetrated but carries nothing yet joins the contact: a new start.
         let grown = active.iter().any(|&i| pressure[i] == 0.0);
-        let step = conjugate.step(influence, &gap, &active, grown);
+        let Some(step) = conjugate.step(influence, &gap, &active, grown) else {
+            return Pressed { gap, end: End::Unbounded, iterations: iterations + 1 };
+        };
         let mut clipped = false;
         for &i in &active {
             pressure[i] -= step * conjugate.direction[i];
@@ -88,7 +116,7 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
             gap.iter_mut().zip(&conjugate.image).for_each(|(g, u)| *g -= step * u);
         }
     }
-    (gap, false)
+    Pressed { gap, end: End::Unmet, iterations: ITERATIONS }
 }
 
 /// Pressures on the elements in contact that displace all of them by one unit: their sum times the area of an element
@@ -105,7 +133,7 @@ pub fn punch(influence: &Influence, pressure: &[f64], tolerance: f64, mut start:
         if square <= tolerance * tolerance * active.len() as f64 {
             break;
         }
-        let step = conjugate.step(influence, &rest, &active, false);
+        let Some(step) = conjugate.step(influence, &rest, &active, false) else { break };
         active.iter().for_each(|&i| start[i] -= step * conjugate.direction[i]);
         rest.iter_mut().zip(&conjugate.image).for_each(|(r, u)| *r -= step * u);
     }

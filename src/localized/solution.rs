@@ -19,7 +19,8 @@ use std::sync::Arc;
 pub enum Stop {
     /// Loads stand still to 1e-8 of the whole one, surfaces are met to 1e-9 of the deepest displacement.
     Converged,
-    /// Loads still moved, or a surface was not met, after 60 sweeps.
+    /// Not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot; or the
+    /// prescribed penetration lies beyond complete contact.
     Stalled,
     /// A contact reaches the rim of its mesh.
     Rim,
@@ -31,7 +32,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
-            Self::Stalled => "stalled: loads still moved, or a surface was not met, after 60 sweeps",
+            Self::Stalled => "not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot",
             Self::Rim => "a contact reaches the rim of its mesh",
             Self::Merged => "merged: a contact reaches under its neighbour",
         })

@@ -1,6 +1,7 @@
 //! One contact spot of a localized solution, and what is read off it.
 
 use super::circle::Circle;
+use super::edge::Edge;
 use super::mesh::Mesh;
 use super::outline::Outline;
 use crate::numeric::array::samples;
@@ -8,6 +9,7 @@ use crate::numeric::closed_line::mean_radius;
 use crate::numeric::paraboloid;
 use ndarray::Array2;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// The contact of one site's indenter.
 #[derive(Debug, Clone)]
@@ -28,6 +30,8 @@ pub struct Spot {
     pub radius: f64,
     /// Whether its contact reaches under a neighbour's surface, or a neighbour's contact under its own.
     pub merged: bool,
+    /// How pressure and gap leave the edge of a contact on this half-space.
+    pub(super) edge: Arc<Edge>,
 }
 
 impl Spot {
@@ -68,7 +72,7 @@ impl Spot {
 
     /// Outline of the contact between the elements. `None` for spots of too few elements.
     pub fn outline(&self) -> Option<Outline> {
-        Outline::new(&self.mesh, self.pressures(), samples(&self.gap))
+        Outline::new(&self.mesh, &self.edge, self.pressures(), samples(&self.gap))
     }
 
     /// Contact radius √(A/π), from the outline, or from the number of elements where it is not found.

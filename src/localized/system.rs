@@ -1,11 +1,13 @@
 //! A system of indenters on a layered half-space, as the localized method sees it.
 
 use super::circle::Circle;
+use super::edge::Edge;
 use super::point::PointKernel;
 use crate::body::HalfSpace;
 use crate::counterbody::{Indenters, Level, Site};
 use crate::lattice::Cell;
 use std::fmt;
+use std::sync::Arc;
 
 /// Indenters in the circles while the size of the contacts is found.
 pub(super) const COARSE_INDENTERS: usize = 7;
@@ -17,6 +19,7 @@ pub struct System {
     sites: Vec<Site>,
     kernel: PointKernel,
     half_space: HalfSpace,
+    edge: Arc<Edge>,
 }
 
 impl System {
@@ -29,10 +32,12 @@ impl System {
             .flat_map(|centre| Circle::new(lattice, &places, centre, count.max(COARSE_INDENTERS)).images.concat())
             .map(|[x, y]| x.hypot(y))
             .fold(0.0, f64::max);
+        // From the far corner of one mesh to that of another, and room for circles whose radius moves.
+        let kernel = PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest));
         Self {
             sites,
-            // From the far corner of one mesh to that of another, and room for circles whose radius moves.
-            kernel: PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest)),
+            edge: Arc::new(Edge::new(&kernel)),
+            kernel,
             indenters: indenters.clone(),
             half_space: half_space.clone(),
         }
@@ -46,6 +51,11 @@ impl System {
     /// Point kernel of the half-space.
     pub fn kernel(&self) -> &PointKernel {
         &self.kernel
+    }
+
+    /// How pressure and gap leave the edge of a contact.
+    pub(super) fn edge(&self) -> &Arc<Edge> {
+        &self.edge
     }
 
     /// The indenters of the cell.

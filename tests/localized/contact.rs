@@ -3,7 +3,7 @@
 use crate::common::{PAPER, coated, one_level, paraboloid, solve};
 use crate::{alone, homogeneous, setup, two_layers};
 use percoat::localized::{CircleRadius, Localized, Setup, Stop};
-use percoat::{Cell, HalfSpace, Indenters, Interface, Lattice, Level, Load, Problem, Shape};
+use percoat::{Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Problem, Shape};
 use std::f64::consts::PI;
 
 fn single(half_space: &HalfSpace) -> Localized {
@@ -234,4 +234,40 @@ fn load_balanced_circles_need_few_indenters_and_area_balanced_ones_many() {
     let area = |indenters| Setup { rule: CircleRadius::AreaBalanced, ..setup(indenters, 32) };
     let ([share, peak], _) = deviation(area(73));
     assert!(share > 0.1 && peak > 0.05);
+}
+
+/// A wide indenter on a coating that slides: the first guess of the penetration lies beyond complete contact, where the
+/// lattice sum has no stiffness. Both meshes find one contact, and the spectral one.
+#[test]
+fn a_wide_indenter_on_a_sliding_coating_converges_with_any_number_of_elements() {
+    let [coating, substrate] = [(2.4, 0.21), (1.0, 0.35)].map(|(e, nu)| Material::from_young(e, nu).unwrap());
+    let half_space = HalfSpace::new(vec![Layer::new(coating, 0.26, Interface::Frictionless).unwrap()], substrate);
+    let indenters = one_level(Lattice::hexagonal(1.0, 1).unwrap(), paraboloid(1.3, 0.0));
+    let (problem, load) = (Problem::new(indenters, half_space), Load::MeanPressure(0.019));
+    let localized = Localized::new(&problem, 7).unwrap();
+    let (_, spectral) = solve(&problem, [192, 192], load);
+    for elements in [32, 64] {
+        let lattice_sum = Setup { rule: CircleRadius::LatticeSum, ..setup(7, elements) };
+        let solution = localized.solve(load, &lattice_sum);
+        assert_eq!(solution.stop, Stop::Converged, "{elements} elements: {solution}");
+        let (found, reference) = (&solution.levels()[0], &spectral.levels[0]);
+        let pairs = [
+            (solution.penetration, spectral.penetration),
+            (found.max_pressure, reference.max_pressure),
+            (found.contact_radius.unwrap(), reference.contact_radius.unwrap()),
+        ];
+        for (found, expected) in pairs {
+            assert!((found / expected - 1.0).abs() < 1e-3, "{elements} elements: {found} against {expected}");
+        }
+    }
+}
+
+/// Pressures displace nothing beyond the mean plane of complete contact: no load reaches such a penetration.
+#[test]
+fn a_penetration_beyond_complete_contact_is_not_converged_at_once() {
+    let indenters = one_level(Lattice::hexagonal(1.0, 1).unwrap(), paraboloid(1.3, 0.0));
+    let localized = Localized::new(&Problem::new(indenters, homogeneous()), 7).unwrap();
+    let lattice_sum = Setup { rule: CircleRadius::LatticeSum, ..setup(7, 24) };
+    let solution = localized.solve(Load::Penetration(1.0), &lattice_sum);
+    assert!(solution.stop == Stop::Stalled && solution.sweeps <= 3, "{solution}");
 }
