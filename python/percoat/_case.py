@@ -30,6 +30,7 @@ class Check(Record):
     disk: int
     load: Record
     first_touch: Optional[list[Optional[float]]]
+    first_touch_error: Optional[list[Optional[float]]]
     sublayer_error: Optional[float]
     surface: Optional[Record]
     warnings: list[str]

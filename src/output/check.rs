@@ -1,11 +1,11 @@
 //! What a case means, as `percoat check` tells it: nothing is solved but the first touches.
 
-use super::number;
+use super::number::{number, with_error};
 use crate::case::resources::{Job, Needs, bytes, needs};
 use crate::case::{Case, ORIENTATION, RandomSection, Room, SurfaceSection, foreseen, plausibility, sublayer_error};
 use crate::counterbody::roughness::{Spectrum, Statistics};
 use crate::lattice::{Grid, LatticeError};
-use crate::reading::first_touches;
+use crate::reading::{FirstTouch, first_touches};
 use crate::run::{RunError, Sampling, balanced_points};
 use crate::spectral::Solver;
 use crate::units::{Unit, Units};
@@ -58,8 +58,8 @@ pub struct Check {
 pub struct Touches {
     /// The grid on which that is so, points along a₁ and a₂.
     pub points: [usize; 2],
-    /// Mean pressure of each level; `None` of one that is hidden behind the others.
-    pub pressures: Vec<Option<f64>>,
+    /// Of each level; `None` of one that is hidden behind the others.
+    pub levels: Vec<Option<FirstTouch>>,
 }
 
 /// What a topography is like.
@@ -104,8 +104,8 @@ impl Check {
         };
         let solving = |pictures| needs(case, points, Job::Solve { pictures, fields: true });
         let touches = touches(case, grids[0])?;
-        let pressures = touches.as_ref().map_or(&[][..], |touches| &touches.pressures);
-        let warnings = [plausibility::of_case(case), foreseen(case, pressures)].concat();
+        let pressures = touches.as_ref().map_or(Vec::new(), Touches::pressures);
+        let warnings = [plausibility::of_case(case), foreseen(case, &pressures)].concat();
         let counts = || case.layers.iter().map(crate::case::LayerSection::sublayers).collect();
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
@@ -137,12 +137,25 @@ impl Check {
             "memory_available": room.memory,
             "disk": needs.disk,
             "load": { *quantity: loads },
-            "first_touch": self.touches.as_ref().map(|touches| &touches.pressures),
+            "first_touch": self.touches.as_ref().map(Touches::pressures),
+            "first_touch_error": self.touches.as_ref().map(Touches::errors),
             "sublayer_error": self.sublayers.as_ref().map(|(_, error)| error),
             "surface": self.surface.as_ref().map(Roughness::json),
             "warnings": warnings,
             "text": self.to_string(),
         })
+    }
+}
+
+impl Touches {
+    /// Mean pressures, level by level.
+    fn pressures(&self) -> Vec<Option<f64>> {
+        self.levels.iter().map(|touch| touch.map(|touch| touch.mean_pressure)).collect()
+    }
+
+    /// Their errors.
+    fn errors(&self) -> Vec<Option<f64>> {
+        self.levels.iter().map(|touch| touch.and_then(|touch| touch.error)).collect()
     }
 }
 
@@ -177,7 +190,7 @@ fn touches(case: &Case, first: [usize; 2]) -> Result<Option<Touches>, LatticeErr
     // Along a long cell they would be many.
     let points = if n1 * n2 <= 4 * POINTS * POINTS { [n1, n2] } else { first };
     let mut solver = Solver::new(Arc::clone(case.problem()), points, case.solver)?;
-    Ok(Some(Touches { points, pressures: first_touches(&mut solver) }))
+    Ok(Some(Touches { points, levels: first_touches(&mut solver) }))
 }
 
 /// What all numbers are measured in, where units have names.
@@ -215,11 +228,13 @@ impl fmt::Display for Check {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
             count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
         }
-        if let Some(Touches { points: [n1, n2], pressures }) = &self.touches {
+        if let Some(Touches { points: [n1, n2], levels }) = &self.touches {
             writeln!(f, "first touch, on {n1} × {n2} samples:")?;
-            for (level, touch) in (1..).zip(pressures) {
+            for (level, touch) in (1..).zip(levels) {
                 match touch {
-                    Some(pressure) => writeln!(f, "  level {level}: mean pressure {}", number(*pressure))?,
+                    Some(FirstTouch { mean_pressure, error }) => {
+                        writeln!(f, "  level {level}: mean pressure {}", with_error(*mean_pressure, *error))?;
+                    }
                     None => writeln!(f, "  level {level}: never, it is hidden behind the others")?,
                 }
             }

@@ -2,7 +2,7 @@
 //!
 //! [`Errors`] has the laws.
 
-use super::{Errors, LevelErrors, LevelReading, Reading, peak};
+use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading, peak};
 use crate::load::Load;
 use crate::spectral::Step;
 
@@ -45,6 +45,25 @@ impl Step {
         }
         reading
     }
+
+    /// What is read of the contact of a topography, with its estimated discretisation errors; `None` for indenters.
+    pub fn rough_reading(&self) -> Option<RoughReading> {
+        let mut rough = RoughReading::of(self.finest())?;
+        let coarser: Vec<RoughReading> =
+            self.coarser().iter().take(CHANGES.len()).filter_map(RoughReading::of).collect();
+        if !coarser.is_empty() {
+            let border = BORDER * (rough.counted_fraction - rough.corrected_fraction);
+            let error = |safety: f64, open: f64, of: fn(&RoughReading) -> f64| {
+                let changes = CHANGES.into_iter().zip(&coarser);
+                let changes = changes.map(|(part, coarse)| part * (of(coarse) - of(&rough)).abs());
+                Some(safety * changes.fold(open, f64::max))
+            };
+            let fraction = error(CORRECTED, border, |rough| rough.corrected_fraction);
+            let gap = error(GAP, 0.0, |rough| rough.mean_gap);
+            (rough.corrected_fraction_error, rough.mean_gap_error) = (fraction, gap);
+        }
+        Some(rough)
+    }
 }
 
 /// How far the apex of a topography lies above its highest sample, from which the penetration is measured: a length. An
@@ -76,6 +95,12 @@ const APEX: f64 = 1.25;
 // Judged by the least resolved of all contacts, and so already wide.
 const HIGHEST: f64 = 1.5;
 const AREA: f64 = 2.0;
+const CORRECTED: f64 = 2.0;
+const GAP: f64 = 2.0;
+
+/// Part of what the correction by the perimeter takes off that it leaves open: the factor of a border depends on its
+/// directions.
+const BORDER: f64 = 0.25;
 const CENTRE: f64 = 1.5;
 
 /// Parts of the changes against the coarser grids that count, the next coarser first.

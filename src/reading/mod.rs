@@ -31,5 +31,5 @@ pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
 pub use rough::{RoughReading, SpotSizes, stiffness};
 pub use strength::{Criterion, Utilisation};
 pub use stress::{StressReading, tears, tips};
-pub use touch::first_touches;
+pub use touch::{FirstTouch, first_touches};
 pub use verdict::Verdict;

@@ -35,6 +35,9 @@ pub struct RoughReading {
     pub counted_fraction: f64,
     /// The same corrected by the perimeter.
     pub corrected_fraction: f64,
+    /// Its estimated discretisation error; `None` without a coarser grid.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub corrected_fraction_error: Option<f64>,
     /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
     /// direction is 4/π times as long along the edges of rectangular samples as it is.
     pub perimeter_density: f64,
@@ -42,6 +45,9 @@ pub struct RoughReading {
     pub spots: SpotSizes,
     /// Mean gap over the cell, contact counted as none: a length.
     pub mean_gap: f64,
+    /// Its estimated discretisation error; `None` without a coarser grid.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mean_gap_error: Option<f64>,
     /// dp̄/dδ, pressure per length, where other load steps tell it.
     pub stiffness: Option<f64>,
     /// Its estimated error.
@@ -72,7 +78,7 @@ pub struct SpotSizes {
 }
 
 impl RoughReading {
-    /// Of a contact; `None` for indenters.
+    /// Of a contact, without errors; `None` for indenters. [`Step::rough_reading`](crate::Step::rough_reading) has them.
     pub fn of(contact: &Contact) -> Option<Self> {
         contact.problem().counterbody().topography()?;
         let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
@@ -85,9 +91,11 @@ impl RoughReading {
         Some(Self {
             counted_fraction: counted as f64 / total,
             corrected_fraction: corrected.max(0.0) / total,
+            corrected_fraction_error: None,
             perimeter_density: length / grid.cell().area(),
             spots,
             mean_gap: sums::of(grid.len(), |k| if pressure[k] > 0.0 { [0.0] } else { [gap[k].max(0.0)] })[0] / total,
+            mean_gap_error: None,
             stiffness: None,
             stiffness_error: None,
             histograms: vec![

@@ -50,10 +50,10 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         let stiffness = rough.stiffness.map(|stiffness| with_error(stiffness, rough.stiffness_error));
         rows.push((
             "counted, corrected by the perimeter",
-            numbers(&percent_with_error(rough.corrected_fraction, None)),
+            numbers(&percent_with_error(rough.corrected_fraction, rough.corrected_fraction_error)),
         ));
         rows.push(("contact spots in the cell", rough.spots.count.to_string().into()));
-        rows.push(("mean gap", numbers(&told(units.length(), rough.mean_gap, None))));
+        rows.push(("mean gap", numbers(&told(units.length(), rough.mean_gap, rough.mean_gap_error))));
         rows.extend(stiffness.map(|text| ("stiffness dp̄/dδ, a pressure per length", numbers(&text))));
     }
     let step_of = format!("Load step {number} of {}, with the estimated errors of the grid", steps.len());

@@ -41,7 +41,7 @@ impl StepRecord {
             slides: step.problem().friction().is_some(),
             convolutions,
             points: step.grid().points(),
-            rough: RoughReading::of(step.finest()),
+            rough: step.rough_reading(),
             stress: None,
             strength: Vec::new(),
             seconds: None,

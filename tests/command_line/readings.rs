@@ -22,8 +22,9 @@ fn under_a_tip_nothing_is_a_number_that_is_infinite() {
     let desk = Desk::new();
     let answer = desk.percoat(&[&["solve", "-o", "cone", "--set", "grid.points=72"], &CONE[..]].concat());
     assert_eq!(answer.code, 0, "{}", answer.err);
-    let tau1 = answer.out.lines().find(|line| line.contains("τ₁ in material 1")).unwrap();
-    assert!(tau1.contains("singular") && tau1.ends_with("(0, 0, 0)"), "{tau1}");
+    // Values and places stand below each other where a place is undecided.
+    let tau1: Vec<&str> = answer.out.lines().filter(|line| line.contains("τ₁ in material 1")).collect();
+    assert!(tau1[0].contains("singular") && tau1[tau1.len() - 1].ends_with("(0, 0, 0)"), "{tau1:?}");
     let row = answer.out.lines().find(|line| line.contains("singular")).unwrap();
     assert!(row.contains("0.02000"), "{row}");
     let step = &Folder(desk.path("cone")).steps()[0];

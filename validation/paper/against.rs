@@ -31,7 +31,7 @@ pub fn independent_solver(outcome: &mut Outcome, found: &Reading, peaks: [f64; 3
 pub fn first_touches(outcome: &mut Outcome, model: &Model, expected: [f64; 2]) -> Result<(), StudyError> {
     let touches = reading::first_touches(&mut model.steps(TOUCH_POINTS)?.solver);
     for (level, expected) in (2..).zip(expected) {
-        let touch = touches[level - 1].unwrap_or(f64::NAN);
+        let touch = touches[level - 1].map_or(f64::NAN, |touch| touch.mean_pressure);
         outcome.checks.push(Check::relative(format!("first touch of level {level}, p̄′"), touch, expected, 0.02));
     }
     Ok(())

@@ -89,7 +89,7 @@ pub struct Touch {
 /// From the gap shortly before the touch.
 pub fn at_touch(model: &Model) -> Result<Touch, StudyError> {
     let mut steps = model.steps_as_dense(POINTS)?;
-    let touch = first_touches(&mut steps.solver)[2].ok_or("level 3 is hidden")?;
+    let touch = first_touches(&mut steps.solver)[2].ok_or("level 3 is hidden")?.mean_pressure;
     let step = steps.step(Load::MeanPressure(BEFORE_TOUCH * touch))?;
     let (grid, surface, gap) = (step.grid(), step.surface(), step.finest().gaps());
     let reduced = grid.cell().reduced();
