@@ -41,7 +41,7 @@ fn judge(seed: u64, count: usize) {
     let (mut ratios, mut missing) = (Vec::new(), 0);
     while ratios.len() < count {
         let problem = random_problem(&mut random);
-        let points = 2 * random.log(16.0, 48.99) as usize;
+        let points = 2 * random.log(24.0, 48.99) as usize;
         let touches =
             |points: usize| first_touches(&mut Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap());
         for (found, exact) in touches(points).into_iter().zip(touches(4 * points)) {

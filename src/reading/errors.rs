@@ -15,6 +15,8 @@
 /// | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
 /// | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
 /// | penetration | 0.01 n⁻², and under a topography what its apex rises above the highest sample |
+/// | mean gap of a topography | 0.01 n⁻² of the penetration |
+/// | area of a topography corrected by its perimeter | a quarter of the correction |
 /// | centre of the pressure | 0.003 n⁻² of the contact radius |
 /// | areas, radii, asymmetry, fraction in contact | what the reading of the boundary says of itself |
 ///

@@ -12,7 +12,7 @@ fn peak_law(samples: f64, exponent: f64) -> f64 {
 }
 
 /// The same for the load under a prescribed penetration,
-fn load_law(samples: f64) -> f64 {
+pub(super) fn load_law(samples: f64) -> f64 {
     0.03 * samples.powi(-2) + 0.3 * samples.powi(-4)
 }
 
@@ -46,8 +46,9 @@ impl Step {
         reading
     }
 
-    /// What is read of the contact of a topography, with its estimated discretisation errors; `None` for indenters.
-    pub fn rough_reading(&self) -> Option<RoughReading> {
+    /// What is read of the contact of a topography beside its [`reading`](Self::reading), with its estimated discretisation
+    /// errors; `None` for indenters.
+    pub fn rough_reading(&self, reading: &Reading) -> Option<RoughReading> {
         let mut rough = RoughReading::of(self.finest())?;
         let coarser: Vec<RoughReading> =
             self.coarser().iter().take(CHANGES.len()).filter_map(RoughReading::of).collect();
@@ -59,7 +60,9 @@ impl Step {
                 Some(safety * changes.fold(open, f64::max))
             };
             let fraction = error(CORRECTED, border, |rough| rough.corrected_fraction);
-            let gap = error(GAP, 0.0, |rough| rough.mean_gap);
+            // The mean gap is that to complete contact, less the penetration.
+            let depth = reading.penetration.abs() * penetration_law(reading.spot_resolution.max(1.0));
+            let gap = error(PENETRATION, depth, |rough| rough.mean_gap);
             (rough.corrected_fraction_error, rough.mean_gap_error) = (fraction, gap);
         }
         Some(rough)
@@ -96,7 +99,6 @@ const APEX: f64 = 1.25;
 const HIGHEST: f64 = 1.5;
 const AREA: f64 = 2.0;
 const CORRECTED: f64 = 2.0;
-const GAP: f64 = 2.0;
 
 /// Part of what the correction by the perimeter takes off that it leaves open: the factor of a border depends on its
 /// directions.

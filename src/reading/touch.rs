@@ -5,11 +5,13 @@
 //! next coarser one.
 //!
 //! **Error.** Bisection leaves its bracket open. A contact starts with one sample, which may lie beside the apex, lower by s:
-//! with p̄ ~ δ^{(n+1)/n} under profiles rⁿ, n ≥ 1, that changes p̄ by at most 2 p̄ s/δ. The coarser grid errs about four times
-//! as much; the change from it is taken for the error all the same, as it oscillates with the places of the samples.
-//! The estimate is half the bracket and 1.5 times the larger of change and 2 p̄ s/δ.
+//! with p̄ ~ δ^{(n+1)/n} under profiles rⁿ, n ≥ 1, that changes p̄ by at most 2 p̄ s/δ. The contacts that carry the load by then
+//! have N samples along the radius of the largest, and p̄ errs at a given δ by the law of [`Errors`](super::Errors). The
+//! coarser grid errs about four times as much; the change from it is taken for the error all the same, as it oscillates with
+//! the places of the samples. The estimate is half the bracket and 1.5 times the largest of all.
 
 use super::Reading;
+use super::estimate::load_law;
 use crate::load::Load;
 use crate::spectral::{Contact, Solver};
 
@@ -44,13 +46,16 @@ pub fn first_touches(solver: &mut Solver) -> Vec<Option<FirstTouch>> {
     }
     let touch = |level: usize, beside: f64| {
         let own = search.brackets[0][level];
-        let coarser = Some(search.brackets[1][level]).filter(|coarser| coarser.penetration.is_some());
+        let coarser = Some(search.brackets[1][level]).filter(|coarser| coarser.enough.is_some());
         let mean_pressure = own.pressure();
         let error = coarser.map(|coarser| {
             let change = (coarser.pressure() - mean_pressure).abs();
-            let sampled = own.penetration.map_or(0.0, |depth| 2.0 * mean_pressure * beside / depth);
-            let open = if own.least > 0.0 { 0.5 * (own.most - own.least) } else { 0.0 };
-            open + SAFETY * change.max(sampled)
+            let enough = own.enough.filter(|_| own.least > 0.0);
+            let [bracket, open] = enough.map_or([0.0; 2], |Enough { penetration, resolution }| {
+                let apex = 2.0 * beside / penetration;
+                [0.5 * (own.most - own.least), mean_pressure * apex.max(load_law(resolution.max(1.0)))]
+            });
+            bracket + SAFETY * change.max(open)
         });
         FirstTouch { mean_pressure, error }
     };
@@ -77,8 +82,17 @@ struct Bracket {
     /// A pressure that is not enough, and one that is.
     least: f64,
     most: f64,
-    /// Penetration under the least pressure that was seen to be enough, a length.
-    penetration: Option<f64>,
+    /// How it stands under the least pressure that was seen to be enough.
+    enough: Option<Enough>,
+}
+
+/// What carries a load.
+#[derive(Debug, Clone, Copy)]
+struct Enough {
+    /// Length.
+    penetration: f64,
+    /// Samples along the radius of the largest contact.
+    resolution: f64,
 }
 
 impl Bracket {
@@ -106,7 +120,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(solver: &'a mut Solver, levels: usize) -> Self {
         let most = solver.full_contact_pressure();
-        let all = vec![Bracket { least: 0.0, most, penetration: None }; levels];
+        let all = vec![Bracket { least: 0.0, most, enough: None }; levels];
         Self { solver, most, brackets: [all.clone(), all], grids: 0 }
     }
 
@@ -120,11 +134,13 @@ impl<'a> Search<'a> {
         self.grids = contacts.len();
         for (brackets, contact) in self.brackets.iter_mut().zip(contacts) {
             let Reading { levels, penetration, .. } = Reading::of(contact);
+            let resolution = levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
+            let resolution = resolution.fold(0.0, f64::max);
             for (bracket, level) in brackets.iter_mut().zip(&levels) {
                 if level.load <= 0.0 {
                     bracket.least = bracket.least.max(pressure);
                 } else if pressure <= bracket.most {
-                    (bracket.most, bracket.penetration) = (pressure, Some(penetration));
+                    (bracket.most, bracket.enough) = (pressure, Some(Enough { penetration, resolution }));
                 }
             }
         }

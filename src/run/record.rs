@@ -34,6 +34,7 @@ impl StepRecord {
     /// Of a step and what is read off it, without stresses and time.
     pub fn new(step: &Step, reading: Reading) -> Self {
         let Step { report, certificate, convolutions, .. } = *step;
+        let rough = step.rough_reading(&reading);
         Self {
             reading,
             report,
@@ -41,7 +42,7 @@ impl StepRecord {
             slides: step.problem().friction().is_some(),
             convolutions,
             points: step.grid().points(),
-            rough: step.rough_reading(),
+            rough,
             stress: None,
             strength: Vec::new(),
             seconds: None,
