@@ -30,11 +30,11 @@ pub(super) struct Contender {
 }
 
 /// By how much a change from the next coarser grid is multiplied.
-const SAFETY: f64 = 2.0;
+const SAFETY: f64 = 1.6;
 /// The error of a stress under spots of n samples per radius is at least this over n of it near the surface, …
 const SHALLOW: f64 = 0.2;
-/// … and this over n² below: of shears and of tensions.
-const DEEP: [f64; 2] = [0.03, 0.1];
+/// … and this over n² below: of shears, of what opens an interface, and of tensions.
+const DEEP: [f64; 3] = [0.02, 0.03, 0.1];
 
 /// A coarser grid that errors are read from.
 #[derive(Debug)]
@@ -65,7 +65,11 @@ impl Contender {
         if let Some(crest) = self.crest {
             return crest.scale * crest.error(Some(coarse));
         }
-        let deep = if matches!(quantity, Quantity::Tension | Quantity::Opening) { DEEP[1] } else { DEEP[0] };
+        let deep = match quantity {
+            Quantity::Tension => DEEP[2],
+            Quantity::Opening => DEEP[1],
+            _ => DEEP[0],
+        };
         let open = if position[2] < near { SHALLOW / resolution } else { deep / resolution.powi(2) };
         SAFETY * (value - coarse).abs() + quantity.rise(&self.state, open * self.size)
     }
