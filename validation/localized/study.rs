@@ -3,10 +3,11 @@
 //! One level: lattice sums over the indenters inside predict contact and penetration ([`crate::validation::exact::localization`]).
 //! Three levels on four coatings, with load-balanced circles: the exchange of load that [`leftover`] predicts, its
 //! median and worst over all shells; with the lattice sum outside: loads, pressures, radii, penetration and stresses of
-//! both methods, whatever the shell.
+//! both methods, whatever the shell. One level on thin coatings, with the lattice sum: radius, peak and penetration of both.
 
 mod leftover;
 mod one_level;
+mod thin;
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
@@ -23,6 +24,7 @@ use leftover::{Leftover, Shells};
 use one_level::one_level;
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use thin::thin_coatings;
 
 pub const STUDY: Study = Study {
     name: "localized",
@@ -36,6 +38,7 @@ pub const STUDY: Study = Study {
         "sliding.data.csv",
         "soft-shells.data.csv",
         "soft.data.csv",
+        "thin.data.csv",
         "two-layers-shells.data.csv",
         "two-layers.data.csv",
     ],
@@ -59,6 +62,7 @@ fn run() -> Result<Outcome, StudyError> {
     for (colour, (names, half_space, mean_pressure)) in (1..).zip(coatings()?) {
         second.extend(coated(names, &half_space, mean_pressure, colour, &mut outcome)?);
     }
+    thin_coatings(&mut outcome)?;
     let chart = |title: &str, y, curves| Chart {
         title: title.to_owned(),
         x: Axis::log("indenters inside the circle"),
