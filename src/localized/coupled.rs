@@ -32,6 +32,8 @@ const SWEEPS: usize = 60;
 const WORK: usize = 2000;
 /// Sweeps beyond complete contact, one after the other, after which a prescribed penetration is out of reach.
 const OUT_OF_REACH: usize = 3;
+/// The penetration starts with at least this part of what one element would need to carry the load.
+const LEAST_RISE: f64 = 1e-3;
 /// Relative tolerance of the loads, of the surfaces pressed, and of the stiffness.
 const TOLERANCE: f64 = 1e-8;
 const SURFACE_TOLERANCE: f64 = 1e-9;
@@ -91,9 +93,17 @@ impl Coupled {
         let mut mean_pressure = 0.0;
         let mut merged = vec![false; count];
         let (mut stop, mut sweeps) = (Stop::Stalled, 0);
-        // Nobody touches at δ = 0.
-        let mut held = Patterns::new(self.mesh, count, None);
+        // Without penetration no spot has contact.
+        let mut held = (Patterns::new(self.mesh, count, None), gaps.clone());
+        let first_depth = match load {
+            Load::MeanPressure(pressure) => {
+                self.first_depth().max(LEAST_RISE * pressure * cell / element * tables.own(0).diagonal())
+            }
+            Load::Penetration(_) => self.first_depth(),
+        };
         let (mut work, mut beyond) = (0, 0);
+        // The penetration of what is held, where the last sweep was undone.
+        let mut undone = None;
         while sweeps < SWEEPS && work < WORK * count && beyond < OUT_OF_REACH {
             sweeps += 1;
             mean_pressure = match load {
@@ -141,12 +151,15 @@ impl Coupled {
             }
             beyond = if unbounded { beyond + 1 } else { 0 };
             if let (Load::MeanPressure(_), true) = (load, unbounded) {
-                let depth = 0.5 * (held.penetration + patterns.penetration);
-                patterns = Patterns { penetration: depth, ..held.clone() };
+                let depth = 0.5 * (held.0.penetration + patterns.penetration);
+                (patterns, gaps) = held.clone();
+                undone = Some(patterns.penetration);
+                patterns.penetration = depth;
                 beyond = 0;
                 continue;
             }
-            held = Patterns { loads: sweep.found.clone(), ..patterns.clone() };
+            undone = None;
+            held = (Patterns { loads: sweep.found.clone(), ..patterns.clone() }, gaps.clone());
             let whole: f64 = sweep.found.iter().sum();
             let prescribed = match load {
                 Load::MeanPressure(pressure) => Some(pressure * cell),
@@ -158,12 +171,12 @@ impl Coupled {
                 break;
             }
             if prescribed.is_some() && whole == 0.0 {
-                patterns.penetration += patterns.penetration.abs() + self.first_depth();
+                patterns.penetration += patterns.penetration.abs() + first_depth;
                 continue;
             }
             let (mut loads, mut rise) = sweep.exchanged(prescribed);
             // A small contact is soft: the penetration at most doubles.
-            let most = patterns.penetration.abs() + self.first_depth();
+            let most = patterns.penetration.abs() + first_depth;
             if rise > most {
                 for (load, found) in loads.iter_mut().zip(&sweep.found) {
                     *load = found + most / rise * (*load - found);
@@ -190,7 +203,8 @@ impl Coupled {
             })
             .collect();
         let system = Arc::clone(&self.system);
-        Solution { system, mean_pressure, penetration: patterns.penetration, rule, spots, stop, sweeps }
+        let penetration = undone.unwrap_or(patterns.penetration);
+        Solution { system, mean_pressure, penetration, rule, spots, stop, sweeps }
     }
 
     /// Depth at which two elements around the axis of the highest indenter are penetrated: a length.

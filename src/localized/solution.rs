@@ -32,7 +32,8 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
-            Self::Stalled => "not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot",
+            Self::Stalled => "not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot, or the \
+                 penetration lies beyond complete contact",
             Self::Rim => "a contact reaches the rim of its mesh",
             Self::Merged => "merged: a contact reaches under its neighbour",
         })

@@ -23,9 +23,16 @@ pub fn limit_json(limits: &Limits, case: &Case, warnings: &[String]) -> String {
     format!("{file:#}\n")
 }
 
-/// The first limit and all of them as one object: under `first`, and under their names (`yield_of_material_2`).
+/// The first limit and all of them as one object: under `first`, and under their names (`yield_of_material_2`). Where none is
+/// reached, and some are undecided, `first` has these as `rivals` and no criterion.
 pub fn limits_json(limits: &Limits) -> Value {
-    let first = ("first".to_owned(), first(limits));
+    let first = match (first(limits), contenders(limits)) {
+        (Value::Null, rivals) if !rivals.is_empty() => {
+            json!({ "criterion": null, "reached": "undecided", "rivals": rivals })
+        }
+        (first, _) => first,
+    };
+    let first = ("first".to_owned(), first);
     let named = limits.limits.iter().map(|own| {
         let mut entries = limit(limits, own);
         if let Some(entries) = entries.as_object_mut() {
@@ -40,12 +47,16 @@ pub fn limits_json(limits: &Limits) -> Value {
 /// The first limit with what may come before it by the errors of both; null where none is reached.
 fn first(limits: &Limits) -> Value {
     let Some(first) = limits.first() else { return Value::Null };
-    let rivals: Value = limits.contenders().iter().map(|own| own.criterion.to_string()).collect();
     let mut entries = limit(limits, first);
     if let Some(entries) = entries.as_object_mut() {
-        entries.insert("rivals".to_owned(), rivals);
+        entries.insert("rivals".to_owned(), json!(contenders(limits)));
     }
     entries
+}
+
+/// What may be reached before the first limit, or at all, by the errors.
+fn contenders(limits: &Limits) -> Vec<String> {
+    limits.contenders().iter().map(|own| own.criterion.to_string()).collect()
 }
 
 /// The least and the largest mean pressure that were solved.

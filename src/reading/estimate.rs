@@ -95,8 +95,6 @@ const LOAD: f64 = 3.0;
 const SHARE: f64 = 4.0;
 const PEAK: f64 = 2.2;
 const APEX: f64 = 1.25;
-// Judged by the least resolved of all contacts, and so already wide.
-const HIGHEST: f64 = 1.5;
 const AREA: f64 = 2.0;
 const CORRECTED: f64 = 2.0;
 
@@ -176,7 +174,6 @@ fn between(
     let mean_pressure = estimate(MEAN_PRESSURE, load, &|reading| Some(reading.mean_pressure));
     let penetration = estimate(PENETRATION, depth, &|reading| Some(reading.penetration));
     let peak = fine.max_pressure * peak_law(smallest, sharpest);
-    let highest = if fine.levels.is_empty() { PEAK } else { HIGHEST };
     let levels: Vec<LevelErrors> = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
     // The highest of all may be that of any level that reaches as high within its own error.
     let peaks =
@@ -186,7 +183,7 @@ fn between(
         mean_pressure: prescribed(mean_pressure, by_load),
         penetration: prescribed(penetration, !by_load).map(|error| error + apex),
         contact_fraction: estimate(AREA, fine.contact_fraction_uncertainty, &|reading| Some(reading.contact_fraction)),
-        max_pressure: estimate(highest, peak, &|reading| reading.finite_peak()).map(|error| error.max(beyond)),
+        max_pressure: estimate(PEAK, peak, &|reading| reading.finite_peak()).map(|error| error.max(beyond)),
     };
     (errors, levels)
 }

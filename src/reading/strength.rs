@@ -127,8 +127,9 @@ impl Utilisation {
             let strength = criterion.strength(half_space)?;
             let error = peak.error.map(|error| error / strength);
             let taken = peak.value / strength;
-            // Nothing fails by being pressed; what is not a number stays so.
-            let value = if taken < 0.0 { 0.0 } else { taken };
+            // Nothing fails by being pressed, and the error is that of what is above 0; what is not a number stays so.
+            let (value, error) =
+                if taken < 0.0 { (0.0, error.map(|error| (taken + error).max(0.0))) } else { (taken, error) };
             Some(Self {
                 criterion,
                 value,

@@ -27,7 +27,8 @@ const SAFETY: f64 = 1.5;
 pub struct FirstTouch {
     /// Mean pressure; 0 for what touches at once.
     pub mean_pressure: f64,
-    /// Its estimated error by the grid and the bisection; `None` where no coarser grid sees the level.
+    /// Its estimated error by the grid and the bisection; `None` where the level has no contact on
+    /// the coarser grid.
     pub error: Option<f64>,
 }
 
@@ -50,10 +51,11 @@ pub fn first_touches(solver: &mut Solver) -> Vec<Option<FirstTouch>> {
         let mean_pressure = own.pressure();
         let error = coarser.map(|coarser| {
             let change = (coarser.pressure() - mean_pressure).abs();
+            let bracket = if own.least > 0.0 { 0.5 * (own.most - own.least) } else { 0.0 };
             let enough = own.enough.filter(|_| own.least > 0.0);
-            let [bracket, open] = enough.map_or([0.0; 2], |Enough { penetration, resolution }| {
+            let open = enough.map_or(0.0, |Enough { penetration, resolution }| {
                 let apex = 2.0 * beside / penetration;
-                [0.5 * (own.most - own.least), mean_pressure * apex.max(load_law(resolution.max(1.0)))]
+                mean_pressure * apex.max(load_law(resolution.max(1.0)))
             });
             bracket + SAFETY * change.max(open)
         });
@@ -82,7 +84,7 @@ struct Bracket {
     /// A pressure that is not enough, and one that is.
     least: f64,
     most: f64,
-    /// How it stands under the least pressure that was seen to be enough.
+    /// How it stands under the least pressure that is known to be enough.
     enough: Option<Enough>,
 }
 

@@ -118,7 +118,8 @@ fn firsts(rows: &Rows<'_>) -> Option<String> {
     let limits = rows.limits();
     let searched = |line: &Line<'_>| limits.iter().any(|name| line.text(&format!("{name}_reached")).is_some());
     for line in rows.last().filter(searched) {
-        *counts.entry(line.first().unwrap_or_else(|| "nothing".to_owned())).or_default() += 1;
+        let none = || if line.rivals("first").is_empty() { "nothing" } else { "undecided" }.to_owned();
+        *counts.entry(line.first().unwrap_or_else(none)).or_default() += 1;
     }
     let all: usize = counts.values().sum();
     let mut counts: Vec<(String, usize)> = counts.into_iter().collect();

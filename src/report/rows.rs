@@ -29,6 +29,8 @@ pub(super) enum Limit {
     Below(f64),
     /// It is not reached up to here.
     Above(f64),
+    /// By its error it may be reached or not.
+    Undecided,
 }
 
 impl<'a> Rows<'a> {
@@ -100,7 +102,12 @@ impl<'a> Line<'a> {
     pub(super) fn limit(self, name: &str) -> Option<Limit> {
         let part = |part: &str| self.float(&format!("{name}_{part}"));
         let number = part("mean_pressure").map(|load| Limit::At(load, part("error")));
-        number.or_else(|| part("below").map(Limit::Below)).or_else(|| part("up_to").map(Limit::Above))
+        let is_undecided = self.text(&format!("{name}_reached")) == Some("undecided");
+        let undecided = || is_undecided.then_some(Limit::Undecided);
+        number
+            .or_else(|| part("below").map(Limit::Below))
+            .or_else(undecided)
+            .or_else(|| part("up_to").map(Limit::Above))
     }
 
     /// Which criterion comes first.
@@ -134,6 +141,7 @@ impl Limit {
             Self::At(load, error) => with_error(load, error),
             Self::Below(load) => format!("< {}", number(load)),
             Self::Above(load) => format!("> {}", number(load)),
+            Self::Undecided => "undecided".to_owned(),
         }
     }
 }

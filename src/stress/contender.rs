@@ -87,8 +87,13 @@ impl Peak {
     /// `apart` of each other are one.
     pub(crate) fn highest(peaks: &[Self], apart: f64) -> Option<Self> {
         let best = peaks.iter().copied().reduce(Self::higher)?;
+        if peaks.iter().any(|peak| peak.value.is_finite() && peak.error.is_none()) {
+            return Some(Self { error: None, rival: None, ..best });
+        }
         let Some(own) = best.error.filter(|_| best.value.is_finite()) else { return Some(best) };
-        let errors = peaks.iter().filter_map(|peak| Some((peak, peak.value + peak.error?)));
+        // What is not a number may be anything.
+        let top_of = |top: f64| if top.is_nan() { f64::INFINITY } else { top };
+        let errors = peaks.iter().filter_map(|peak| Some((peak, top_of(peak.value + peak.error?))));
         let top = errors.clone().map(|(_, top)| top).fold(best.value + own, f64::max);
         let least = best.value - own;
         let others = errors.filter(|(peak, top)| *top > least && !peak.is_beside(&best, apart));

@@ -1,4 +1,4 @@
-//! The largest tension on the surface: at an edge of contact, or in the open.
+//! The largest tension, τ₁ and von Mises on the surface: at an edge of contact, or in the open.
 //!
 //! 1. **Edges** beside the samples where contact ends are found between the samples of the smoothed pressure, and the
 //!    tension there is read between those of the smoothed stresses.
@@ -53,9 +53,9 @@ pub struct Crest {
 }
 
 impl Crest {
-    /// Estimated relative error, also from the largest tension on the surface of the next coarser grid where there is one.
+    /// Estimated relative error, also from the largest value of the same stress on the surface of the next `coarser` grid.
     pub fn error(&self, coarser: Option<f64>) -> f64 {
-        let change = coarser.map_or(0.0, |tension| (tension - self.peak.value).abs());
+        let change = coarser.map_or(0.0, |value| (value - self.peak.value).abs());
         SAFETY * (self.uncertainty + change / FALL) / self.scale
     }
 }

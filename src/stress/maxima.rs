@@ -6,7 +6,7 @@
 //! values are those of the [`Crest`]s.
 //!
 //! Each is the largest of several [`contender`](super::contender)s: of a material the values on its faces, near the surface
-//! and at each local maximum inside. All of them have errors of their own, and so the largest value has an error that
+//! and at each local maximum inside, where each depth has one place: that of its largest sample. All of them have errors of their own, and so the largest value has an error that
 //! covers those of its rivals.
 
 use super::contender::{Coarser, Contender, Contenders, stated};

@@ -91,12 +91,21 @@ impl StressField {
             let is_overall = |contender: &&(Quantity, Contender)| OVERALL.contains(&contender.0);
             let mut own: Contenders =
                 planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
+            let mut inside: Contenders = Vec::new();
             for quantity in OVERALL {
-                own.extend(self.inside(&planes, &depths, quantity).into_iter().map(|inside| (quantity, inside)));
+                inside.extend(self.inside(&planes, &depths, quantity).into_iter().map(|inside| (quantity, inside)));
             }
+            // What ends on a face from inside, higher than what was found along the face, is the face's too.
+            let faces = planes.iter().zip(&depths).filter(|(plane, _)| !plane.on_face.is_empty());
+            all.faces.extend(faces.map(|(plane, &depth)| {
+                let is_there = |(_, other): &&(Quantity, Contender)| {
+                    depth > 0.0 && (other.peak.position[2] - depth).abs() <= 1e-9 * depth
+                };
+                let along = plane.on_face.iter().filter(is_overall);
+                along.chain(inside.iter().filter(is_there)).copied().collect::<Contenders>()
+            }));
+            own.extend(inside);
             all.materials.push(own);
-            let faces = planes.iter().filter(|plane| !plane.on_face.is_empty());
-            all.faces.extend(faces.map(|plane| plane.on_face.iter().filter(is_overall).copied().collect()));
             if strength.is_some() {
                 let lower = planes.last().map(|plane| plane.on_face.clone()).unwrap_or_default();
                 all.interfaces.push((material, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
@@ -140,12 +149,14 @@ impl StressField {
         let best = deep.iter().map(|&i| value(i)).fold(f64::NEG_INFINITY, f64::max);
         let beside =
             |i: usize| [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter(|j| (first..=last).contains(j));
-        let is_start = |&i: &usize| {
+        let is_near = |i: usize| {
             let drop = beside(i).map(|j| value(i) - value(j)).fold(0.0, f64::max);
-            let is_near = value(i) + RISE * drop + MARGIN * best.abs() >= best;
-            // A neighbour that is higher on the same hill is the better start.
-            let is_lower = beside(i).any(|j| value(j) > value(i) && self.are_beside(candidate(i), candidate(j)));
-            is_near && !is_lower
+            value(i) + RISE * drop + MARGIN * best.abs() >= best
+        };
+        let is_start = |&i: &usize| {
+            // A neighbour that is higher on the same hill, and a start itself, is the better one.
+            let is_better = |j: usize| value(j) > value(i) && is_near(j) && self.are_beside(candidate(i), candidate(j));
+            is_near(i) && !beside(i).any(is_better)
         };
         let top = depths[0].max(near);
         let bottom =
@@ -159,7 +170,10 @@ impl StressField {
                 let Peak { value, position, .. } = other.peak;
                 (climbed.value - value).abs() <= ALIKE * value.abs() && (z - position[2]).abs() <= 10.0 * ALIKE * z
             };
-            if !is_on_face && !all.iter().any(same) {
+            let of_face = planes.iter().flat_map(|plane| &plane.on_face).filter(|(of, _)| *of == quantity);
+            let of_face = of_face.filter(|(_, own)| (own.peak.position[2] - z).abs() <= 1e-9 * z);
+            let is_known = is_on_face && of_face.map(|(_, own)| own.peak.value).any(|value| value >= climbed.value);
+            if !is_known && !all.iter().any(same) {
                 all.push(self.contender(&climbed, None));
             } else if let Some(lower) = all.iter_mut().find(|other| same(other) && other.peak.value < climbed.value) {
                 *lower = self.contender(&climbed, None);

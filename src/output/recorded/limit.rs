@@ -71,7 +71,12 @@ impl LimitKeys {
                 At::Undecided { from: interval()?[0], up_to, utilisation, error, at, position: position()? }
             }
             (_, Some(mean_pressure), _) => {
-                At::Below { mean_pressure, utilisation: self.utilisation?, position: position()? }
+                // What is infinite is written as null.
+                At::Below {
+                    mean_pressure,
+                    utilisation: self.utilisation.unwrap_or(f64::INFINITY),
+                    position: position()?,
+                }
             }
             (_, _, Some(up_to)) => At::Never { up_to, utilisation: self.utilisation?, error, at: self.utilisation_at? },
             ("by residual stress alone", ..) => At::Rest,

@@ -27,7 +27,8 @@ pub fn utilisations(steps: &[StepRecord], half_space: Option<&HalfSpace>, units:
 }
 
 /// What fails first as far as the load steps and the errors tell, else what comes nearest at any. The load at which it does
-/// lies between the last step at which everything holds and the first at which something fails, whatever the errors.
+/// lies between the last step at which everything holds and the first at which something fails by more than its error; at or
+/// below the first step where nothing holds for sure before.
 fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units) -> Option<String> {
     let at_rest = |body| Criterion::all(body).into_iter().find(|own| own.at_rest(body) >= 1.0);
     if let Some(criterion) = half_space.and_then(at_rest) {

@@ -19,6 +19,8 @@ const ROW: f64 = 1.4 * NUMBERS;
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum First {
     Criterion(String),
+    /// No criterion is reached, and by the errors some may be.
+    Undecided,
     Nothing,
 }
 
@@ -26,7 +28,9 @@ impl First {
     /// `None` where the result is neither of a search for limits nor of a load step with strengths.
     pub fn of(result: &Value) -> Option<Self> {
         let first = own(result)?;
-        let Some(criterion) = first.get("criterion").and_then(Value::as_str) else { return Some(Self::Nothing) };
+        let Some(criterion) = first.get("criterion").and_then(Value::as_str) else {
+            return Some(if Self::is_undecided(result) { Self::Undecided } else { Self::Nothing });
+        };
         let of = ["material", "interface"].iter().find_map(|of| Some(format!(" of {of} {}", first.get(of)?.as_u64()?)));
         Some(Self::Criterion(format!("{criterion}{}", of.unwrap_or_default())))
     }
@@ -34,6 +38,7 @@ impl First {
     pub fn name(&self) -> &str {
         match self {
             Self::Criterion(name) => name,
+            Self::Undecided => "undecided",
             Self::Nothing => "nothing fails",
         }
     }
@@ -62,7 +67,7 @@ fn own(result: &Value) -> Option<&Value> {
 /// The colour of a criterion by its place among all; what does not fail is white.
 pub fn colour(first: &First, index: usize) -> Colour {
     match first {
-        First::Nothing => Colour::WHITE,
+        First::Undecided | First::Nothing => Colour::WHITE,
         // Six colours, then six paler ones.
         First::Criterion(_) => Colour::line(index + 1).lighter(if index % 12 < 6 { 0.0 } else { 0.55 }),
     }
@@ -122,6 +127,8 @@ mod tests {
     fn what_comes_first_is_named_as_the_search_names_it_and_counted() {
         let yields = json!({ "first": { "criterion": "yield", "material": 2 } });
         let parts = json!({ "first": { "criterion": "delamination", "interface": 1 } });
+        let open = json!({ "first": { "criterion": null, "reached": "undecided", "rivals": ["yield of material 2"] } });
+        assert_eq!(First::of(&open), Some(First::Undecided));
         let results = [yields, parts.clone(), parts, json!({ "first": null }), json!({ "max_pressure": 1.0 })];
         let counted = First::counted(results.iter());
         let counted: Vec<(&str, usize)> = counted.iter().map(|(first, count)| (first.name(), *count)).collect();

@@ -65,6 +65,7 @@ impl Keys {
             let sign = |((value, bound), doubt): ((&Option<f64>, Option<Bound>), Option<()>)| match (value, bound) {
                 (None, Some(Bound::Below)) => Some(("<", Colour::BLACK)),
                 (None, Some(Bound::Above)) => Some((">", Colour::BLACK)),
+                (None, Some(Bound::Undecided)) => Some(("?", Colour::BLACK)),
                 // It has no place on the bar.
                 (Some(0.0), _) if is_log => Some(("0", Colour::WHITE)),
                 (Some(value), _) if doubt.is_some() => {

@@ -86,6 +86,7 @@ fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     for (bound, sign, meaning) in [
         (Bound::Below, "<", "it is reached below the smallest load that the grid resolves"),
         (Bound::Above, ">", "it is not reached"),
+        (Bound::Undecided, "?", "by its error it may be reached"),
     ] {
         words.extend((is_map && has(bound)).then(|| format!("{sign}: {meaning}")));
     }

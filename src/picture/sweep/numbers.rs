@@ -27,6 +27,8 @@ pub enum Bound {
     Below,
     /// It is not reached.
     Above,
+    /// By its error it may be reached.
+    Undecided,
 }
 
 impl Number {
@@ -66,6 +68,9 @@ impl Number {
     /// What is known of a limit that has no number.
     pub fn bound(&self, result: &Value) -> Option<Bound> {
         let limit = result.get(self.limit.as_ref()?)?;
+        if limit.get("reached").and_then(Value::as_str) == Some("undecided") {
+            return Some(Bound::Undecided);
+        }
         match (limit.get("below"), limit.get("up_to")) {
             (Some(_), _) => Some(Bound::Below),
             (None, Some(_)) => Some(Bound::Above),

@@ -157,8 +157,13 @@ impl Band {
     pub fn new(samples: impl Iterator<Item = [f64; 3]>) -> Self {
         let samples: Vec<[f64; 3]> = samples.collect();
         let side = |sign: f64| {
-            // What is infinite has no error.
-            let value = |u: f64, e: f64| if u.is_finite() { u + sign * e } else { u };
+            // What is infinite has no error; what is not a number may be anything.
+            let value = |u: f64, e: f64| match u + sign * e {
+                _ if u.is_infinite() => u,
+                x if x.is_nan() && sign > 0.0 => f64::INFINITY,
+                x if x.is_nan() => f64::NEG_INFINITY,
+                x => x,
+            };
             Curve(samples.iter().map(|&[p, u, e]| [p, value(u, e)]).collect())
         };
         Self { value: side(0.0), upper: side(1.0), lower: side(-1.0) }

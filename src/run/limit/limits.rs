@@ -43,7 +43,8 @@ pub enum At {
         /// x, y, z of the place that fails; lengths.
         position: [f64; 3],
     },
-    /// At less than this mean pressure: the least load that was solved, whose contact is a few samples wide, reaches it.
+    /// At less than this mean pressure, at which it is reached: by its error it may be so at the least load that was solved,
+    /// whose contact is a few samples wide.
     Below {
         /// p̄, the least at which u − e ≥ 1.
         mean_pressure: f64,
@@ -142,11 +143,16 @@ impl Limit {
         }
     }
 
-    /// Whether its interval has two ends and its error is at most three tenths of it, so that the error alone says how sure it is.
+    /// Whether its interval has two ends, at most three tenths of the load away, so that the error alone says how sure it is.
     pub fn is_sharp(&self) -> bool {
         let [from, to] = self.interval();
-        let At::Load { mean_pressure, error, .. } = self.at else { return false };
-        from > 0.0 && to.is_finite() && error.is_none_or(|error| error <= WIDE * mean_pressure)
+        from > 0.0 && to.is_finite() && self.spread().is_some_and(|part| part <= WIDE)
+    }
+
+    /// Distance to the farther end of the interval over the load; `None` of what is not reached at a load.
+    fn spread(&self) -> Option<f64> {
+        let At::Load { mean_pressure, interval: [from, to], .. } = self.at else { return None };
+        Some((mean_pressure - from).max(to - mean_pressure) / mean_pressure)
     }
 
     /// Where it fails, or may fail, x, y, z; `None` where it does not, or everywhere.
@@ -176,6 +182,13 @@ impl Limit {
             (At::Rest, At::Rest) | (At::Tip { .. }, At::Tip { .. }) | (At::Never { .. }, At::Never { .. }) => 0.0,
             (At::Load { mean_pressure: fine, .. }, At::Load { mean_pressure: coarse, .. }) => {
                 (fine - coarse).abs() / fine
+            }
+            (At::Undecided { from: fine, .. }, At::Undecided { from: coarse, .. }) => {
+                if fine == coarse {
+                    0.0
+                } else {
+                    (fine - coarse).abs() / fine.max(coarse)
+                }
             }
             // A bound that falls with the spacing, or a root that appears, is no number yet.
             _ => f64::INFINITY,
@@ -290,8 +303,8 @@ impl Limits {
             At::Rest => ", without load, by residual stress alone".to_owned(),
             At::Tip { .. } => ", under a tip however small the load".to_owned(),
             At::Below { mean_pressure, .. } => format!(", at less than the mean pressure {}", told(mean_pressure)),
-            At::Load { mean_pressure, error, interval: [from, to], .. } => {
-                let part = error.map_or(0.0, |error| error / mean_pressure);
+            At::Load { mean_pressure, interval: [from, to], .. } => {
+                let part = limit.spread().unwrap_or(0.0);
                 let error = match (from > 0.0, to.is_finite()) {
                     (true, true) if part <= TOLD => String::new(),
                     (true, true) if limit.is_sharp() => format!(" ± {:.0} %", 100.0 * part),

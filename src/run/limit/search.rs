@@ -75,7 +75,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         let shown = match first {
             Some(limit) => {
                 let record = search.solve(limit.mean_pressure())?.clone();
-                // Of places alike by symmetry rounding takes one or the other: told is the one of the step that is shown.
+                // Of places alike by symmetry rounding takes one or the other: the place is that of the step that is shown.
                 let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
                 limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
                 search.last.take().map(|step| Shown { limit, record, step })
@@ -241,6 +241,9 @@ impl<'a, R: Recorder> Search<'a, R> {
         let Crossing { from, at: mean_pressure, to } = band.crossing();
         let undecided = |at: usize| {
             let Utilisation { value: utilisation, error, position, .. } = taken(at);
+            // At another load it may be larger still.
+            let most = band.upper.0.iter().map(|[_, u]| *u).fold(f64::NEG_INFINITY, f64::max);
+            let error = error.map(|error| error.max(most - utilisation));
             let at = load(at);
             if from.is_infinite() {
                 At::Never { up_to, utilisation, error, at }
@@ -251,7 +254,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         match band.value.first_failure() {
             None => undecided(band.value.largest()),
             Some(0) => match band.lower.first_failure() {
-                // No load tells: what it takes up there may be an error.
+                // At no load is u − e ≥ 1: what it takes up there may be an error.
                 None => undecided(0),
                 Some(sure) => {
                     let Utilisation { value, position, .. } = taken(sure);
@@ -264,7 +267,7 @@ impl<'a, R: Recorder> Search<'a, R> {
             Some(above) => {
                 let enclosure = band.value.enclosure(above);
                 let nearest = taken(if enclosure.first_is_nearer() { above - 1 } else { above });
-                // Of what jumps nothing tells how far the grid moves it, and its place is where it has failed.
+                // By how much the grid moves a jump is not known, and its place is that of the load that has failed.
                 let jumps = enclosure.slope().is_none();
                 let position = if jumps { taken(above).position } else { nearest.position };
                 let error = (mean_pressure - from).max(to - mean_pressure);
