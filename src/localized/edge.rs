@@ -36,7 +36,7 @@ const LONGEST: f64 = 1e4;
 impl Edge {
     /// The edge on the half-space of `kernel`.
     pub fn new(kernel: &PointKernel) -> Self {
-        let Some(thickness) = kernel.thickness() else { return Self { shortest: 1.0, ratios: Vec::new() } };
+        let Some(thickness) = kernel.thickness() else { return Self::bare() };
         // ln T from where T is T(0) to where it is 1.
         let lowest = 1e-4 / (LONGEST * thickness);
         let count = ((kernel.extinction() / lowest).ln() / RULE).ceil() as usize;
@@ -72,6 +72,11 @@ impl Edge {
         };
         let last = ((LONGEST / SHORTEST).ln() / STEP).ceil() as usize;
         Self { shortest: SHORTEST * thickness, ratios: (0..=last).map(ratios).collect() }
+    }
+
+    /// The edge on a bare body.
+    pub fn bare() -> Self {
+        Self { shortest: 1.0, ratios: Vec::new() }
     }
 
     /// Pressure over √d at the distance d inside the edge, over that of a bare body.

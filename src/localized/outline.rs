@@ -15,7 +15,8 @@
 //! are fitted by least squares, and ρ moves to the root until it stands. Elements next to the edge, which cut it, weigh
 //! little.
 //!
-//! The open elements that a spot encloses are the hole of a ring; its rim is an outline seen from the other side.
+//! The open elements that a spot encloses are the hole of a ring; its rim is an outline seen from the other side. Φ and Γ are 1
+//! for a ring, whose two edges bend the coating together.
 
 use super::edge::Edge;
 use super::mesh::Mesh;
@@ -78,6 +79,9 @@ impl Outline {
         };
         let whole = counted(&|index| pressure[index] > 0.0 || enclosed[index]);
         let open = counted(&|index| enclosed[index]);
+        // The law is that of an edge alone, and a ring has two.
+        let bare = Edge::bare();
+        let edge = if open > 0.0 { &bare } else { edge };
         // Each edge of a ring has its own half of it, a disc as much as the fit reaches.
         let deep = if open > 0.0 { 0.5 * (whole - open) } else { whole };
         let radii = rim(&places(false), edge, mesh.size, [whole, deep], 1.0)?;
