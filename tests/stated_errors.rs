@@ -173,7 +173,7 @@ fn errors(
         for (found, exact) in found.1.into_iter().zip(exact.1) {
             let Stated { name, value: Some(value), error: Some(error), size: Some(size) } = found else { continue };
             let Some(exact) = exact.value else { continue };
-            // What is prescribed, and the share of a single level, is exact but for the solver's tolerance.
+            // A prescribed load, and the share 1 of a single level, differ from the finer grid's by the solver's tolerance alone.
             let off = (value - exact).abs() - 1e-8 * value.abs();
             if value != 0.0 && error.max(off) > 0.0 {
                 errors.entry(name).or_default().push([error, off].map(|x| x / size.abs()));

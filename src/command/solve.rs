@@ -46,7 +46,8 @@ pub fn run(
     let run = case.run();
     let job = Job::Solve { pictures: pictures.wanted(), fields: !options.no_fields };
     let mut room = Room::on_this_machine(&folder);
-    // Where no step is finished nothing can be set aside: what is solved of the first is not solved again.
+    // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
+    // takes over that load.
     let goes_on = options.resume || RunFolder::has_solved_alone(&folder);
     if goes_on {
         // What stands there already takes no room again.

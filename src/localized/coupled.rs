@@ -149,13 +149,13 @@ impl Coupled {
                     sweep.coupling[m][c] = direct - outside;
                 }
             }
-            beyond = if unbounded { beyond + 1 } else { 0 };
+            // Only what is prescribed can be out of reach.
+            beyond = if unbounded && !load.is_mean_pressure() { beyond + 1 } else { 0 };
             if let (Load::MeanPressure(_), true) = (load, unbounded) {
                 let depth = 0.5 * (held.0.penetration + patterns.penetration);
                 (patterns, gaps) = held.clone();
                 undone = Some(patterns.penetration);
                 patterns.penetration = depth;
-                beyond = 0;
                 continue;
             }
             undone = None;

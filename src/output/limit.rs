@@ -26,7 +26,7 @@ pub fn limit_json(limits: &Limits, case: &Case, warnings: &[String]) -> String {
 /// The first limit and all of them as one object: under `first`, and under their names (`yield_of_material_2`). Where none is
 /// reached, and some are undecided, `first` has these as `rivals` and no criterion.
 pub fn limits_json(limits: &Limits) -> Value {
-    let first = match (first(limits), contenders(limits)) {
+    let first = match (first(limits), limits.rivals()) {
         (Value::Null, rivals) if !rivals.is_empty() => {
             json!({ "criterion": null, "reached": "undecided", "rivals": rivals })
         }
@@ -49,14 +49,9 @@ fn first(limits: &Limits) -> Value {
     let Some(first) = limits.first() else { return Value::Null };
     let mut entries = limit(limits, first);
     if let Some(entries) = entries.as_object_mut() {
-        entries.insert("rivals".to_owned(), json!(contenders(limits)));
+        entries.insert("rivals".to_owned(), json!(limits.rivals()));
     }
     entries
-}
-
-/// What may be reached before the first limit, or at all, by the errors.
-fn contenders(limits: &Limits) -> Vec<String> {
-    limits.contenders().iter().map(|own| own.criterion.to_string()).collect()
 }
 
 /// The least and the largest mean pressure that were solved.

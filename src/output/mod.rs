@@ -21,8 +21,8 @@
 //! A run that is killed leaves `unfinished/` with all steps it has finished, and in `checkpoint.npz` what the solver knew. The
 //! next run into the folder completes a publication that was decided; otherwise it goes on from there if it is told to
 //! ([`Plan::resumes`]), or moves the folder to `interrupted-1/` or the next free number; without a finished step it is
-//! cleared. What somebody
-//! else puts into `unfinished/` is not published and not removed: it is moved aside like an interrupted run. `compare`
+//! cleared. Files in `unfinished/` that percoat did not write are not published and not removed: the folder is moved aside
+//! like an interrupted run. `compare`
 //! gathers in `.percoat/compare/` and `validate` in `.percoat/validate/`; each command replaces its own files alone, and
 //! a single study those of its own folder ([`Scope`]).
 

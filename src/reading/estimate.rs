@@ -55,9 +55,7 @@ impl Step {
         if !coarser.is_empty() {
             let border = BORDER * (rough.counted_fraction - rough.corrected_fraction);
             let error = |safety: f64, open: f64, of: fn(&RoughReading) -> f64| {
-                let changes = CHANGES.into_iter().zip(&coarser);
-                let changes = changes.map(|(part, coarse)| part * (of(coarse) - of(&rough)).abs());
-                Some(safety * changes.fold(open, f64::max))
+                Some(widest(safety, open, of(&rough), coarser.iter().map(|coarse| Some(of(coarse)))))
             };
             let fraction = error(CORRECTED, border, |rough| rough.corrected_fraction);
             // The mean gap is that to complete contact, less the penetration.
@@ -106,6 +104,13 @@ const CENTRE: f64 = 1.5;
 /// Parts of the changes against the coarser grids that count, the next coarser first.
 const CHANGES: [f64; 2] = [1.0, 0.25];
 
+/// `safety` times the largest of what the samples leave `open` and of the parts of the changes from the values of the coarser
+/// grids, the next coarser first, that count; `None` for a grid without the value.
+fn widest(safety: f64, open: f64, value: f64, coarser: impl Iterator<Item = Option<f64>>) -> f64 {
+    let changes = CHANGES.into_iter().zip(coarser);
+    safety * changes.filter_map(|(part, coarse)| Some(part * (coarse? - value).abs())).fold(open, f64::max)
+}
+
 /// Errors of `fine` from the readings of the coarser grids; `apex`: see [`apex_above_samples`].
 fn between(
     fine: &Reading,
@@ -119,10 +124,7 @@ fn between(
     }
     // What the samples leave open, and what the coarser grids say.
     let estimate = |safety: f64, open: f64, of: &dyn Fn(&Reading) -> Option<f64>| -> Option<f64> {
-        let value = of(fine)?;
-        let changes = CHANGES.into_iter().zip(coarser);
-        let changes = changes.filter_map(|(part, coarse)| Some(part * (of(coarse)? - value).abs()));
-        Some(safety * changes.fold(open, f64::max))
+        Some(widest(safety, open, of(fine)?, coarser.iter().map(of)))
     };
     let mut touching: Vec<f64> =
         fine.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution).collect();

@@ -37,7 +37,8 @@ impl<'a> Governing<'a> {
     }
 }
 
-/// Criteria of which one may come before what is named first, in words; empty without any.
+/// Names of the criteria that the errors may bring before the first one, as the end of a sentence: ", or A or B within the
+/// errors". An empty text without any.
 pub fn within_the_errors(rivals: &[String]) -> String {
     if rivals.is_empty() { String::new() } else { format!(", or {} within the errors", rivals.join(" or ")) }
 }

@@ -5,9 +5,9 @@
 //! They are searched plane by plane and refined; on the surface itself, where the series converges slowly, the largest
 //! values are those of the [`Crest`]s.
 //!
-//! Each is the largest of several contenders: of a material the values on its faces, near the surface
-//! and at each local maximum inside, where each depth has one place: that of its largest sample. All of them have errors of their own, and so the largest value has an error that
-//! covers those of its rivals.
+//! Each is the largest of several contenders: of a material the values on its faces, near the surface and at each local
+//! maximum inside, where each depth has one place: that of its largest sample. All of them have errors of their own, and so the
+//! largest value has an error that covers those of its rivals.
 
 use super::contender::{Coarser, Contender, Contenders, stated};
 use super::crest::Crest;

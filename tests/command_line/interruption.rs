@@ -258,7 +258,7 @@ fn killed_in_every_phase_the_old_result_or_the_finished_steps_stand_readable() {
         let unfinished = Folder(folder.0.join("unfinished"));
         let stands = [whole(&folder, &first), whole(&folder, &second), whole(&unfinished, &second)];
         assert!(stands.contains(&true), "{phase}: {stands:?}, {:?}", folder.names());
-        // What is published is no longer unfinished.
+        // A published result leaves no folder `unfinished/`.
         let finished = if stands[1] || stands[2] { 0 } else { readable_steps(&unfinished.0) };
         desk.solve("run", &FIRST);
         assert!(whole(&folder, &first) && !folder.names().contains("unfinished"), "{phase}");

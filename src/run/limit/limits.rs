@@ -4,7 +4,7 @@ use crate::friction::Friction;
 use crate::numeric::number::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::Criterion;
+use crate::reading::{Criterion, within_the_errors};
 use crate::run::places::SECTION;
 use crate::run::warnings::{self, Numbered};
 use crate::run::{End, Run, StepRecord};
@@ -222,6 +222,11 @@ impl Limits {
         others.filter(|limit| limit.interval()[0] < sure).collect()
     }
 
+    /// Names of the [contenders](Self::contenders).
+    pub fn rivals(&self) -> Vec<String> {
+        self.contenders().iter().map(|limit| limit.criterion.to_string()).collect()
+    }
+
     /// All of them, what comes first first, and what is never reached last.
     pub fn ordered(&self) -> Vec<&Limit> {
         let mut ordered: Vec<&Limit> = self.limits.iter().collect();
@@ -283,8 +288,7 @@ impl Limits {
 impl Limits {
     /// What fails first, in words, with pressures as `told` has them.
     pub fn in_words(&self, told: impl Fn(f64) -> String) -> String {
-        let others: Vec<String> = self.contenders().iter().map(|limit| limit.criterion.to_string()).collect();
-        let others = others.join(" or ");
+        let others = self.rivals().join(" or ");
         let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
         let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
         let Some(limit) = self.first() else {
@@ -317,8 +321,7 @@ impl Limits {
             }
             At::Never { .. } | At::Undecided { .. } => String::new(),
         };
-        let rivals = if others.is_empty() { others } else { format!(", or {others} within the errors") };
-        format!("first: {}{at}{rivals}", limit.criterion)
+        format!("first: {}{at}{}", limit.criterion, within_the_errors(&self.rivals()))
     }
 }
 
