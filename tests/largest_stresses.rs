@@ -4,13 +4,11 @@
 
 mod common;
 
-#[cfg(feature = "validate")]
-use common::bare;
 use common::{Random, one_level, paraboloid, solve};
+#[cfg(feature = "validate")]
+use common::{bare, largest_mises_of_a_sliding_sphere};
 use percoat::stress::Peak;
 use percoat::stress::maxima::Extremes;
-#[cfg(feature = "validate")]
-use percoat::validation::exact::sliding_sphere::{mises, stresses, together};
 use percoat::{
     Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, MeanStress, Problem,
     Settings, Solver, State, Step, StressField, StressReading,
@@ -47,9 +45,7 @@ fn the_largest_shear_beside_an_interface_is_found_between_the_planes() {
 #[cfg(feature = "validate")]
 fn the_error_of_the_largest_mises_covers_the_trailing_edge_that_has_lost_by_a_hair() {
     let (nu, friction) = (0.3, 0.315);
-    let at = |place| mises(together(stresses(nu, place), friction));
-    let inside = (0..4000).map(|k| at([0.4 - 1.2 * f64::from(k % 100) / 100.0, 0.0, 0.02 + 0.02 * f64::from(k / 100)]));
-    let exact = inside.fold(at([-1.0, 0.0, 0.0]), f64::max);
+    let exact = largest_mises_of_a_sliding_sphere(nu, friction);
     let mut undecided = 0;
     for samples in [8.0, 10.0, 11.3, 13.0] {
         let radius: f64 = samples / 256.0;
@@ -208,6 +204,6 @@ fn no_dense_search_finds_more_than_is_stated() {
 #[test]
 #[ignore = "takes minutes"]
 fn no_dense_search_of_fifty_stacks_finds_more_than_is_stated() {
-    let worst = worst(2032, 50, 96);
+    let worst = worst(4032, 50, 96);
     assert!(worst.iter().all(|&ratio| ratio <= 1.0), "{worst:?}");
 }

@@ -218,21 +218,48 @@ fn stated_errors_of_a_few_coupled_sliding_contacts_hold() {
 #[test]
 #[ignore = "takes minutes"]
 fn stated_errors_of_a_hundred_sliding_contacts_hold_and_say_something() {
-    judge(errors(3202, 100, Kind::Sliding, true, 1e-8));
+    judge(errors(5202, 100, Kind::Sliding, true, 1e-8));
 }
 
 #[test]
 #[ignore = "takes minutes"]
 fn stated_errors_of_a_hundred_pressed_contacts_hold_and_say_something() {
-    judge(errors(3205, 100, Kind::Pressed, true, 1e-8));
+    judge(errors(5205, 100, Kind::Pressed, true, 1e-8));
+}
+
+/// The pressure under a stiff coating is highest in a ridge along the edge, narrower than two samples on the coarse grid.
+#[test]
+fn the_error_of_a_peak_in_a_ridge_along_the_edge_covers_the_ridge() {
+    let cell = Cell::new([1.0, 0.0], [0.135, 0.85]).unwrap();
+    let level = Level::new(Shape::Paraboloid { radius: 0.503 }, 0.0).unwrap();
+    let indenters = Indenters::new(Lattice::new(cell, vec![vec![[0.227, 0.123]]]).unwrap(), vec![level]).unwrap();
+    let interface = Interface::Spring { tangential: 0.577, normal: 55.0 };
+    let coating = Layer::new(Material::from_shear(5.29, 0.0375).unwrap(), 0.0313, interface).unwrap();
+    let half_space = HalfSpace::new(vec![coating], Material::from_shear(0.352, 0.42).unwrap());
+    let problem = Problem::new(indenters, half_space);
+    let peak = |points: usize| {
+        let mut solver = Solver::new(problem.clone(), [points; 2], Settings::default()).unwrap();
+        let reading = solver.solve(Load::MeanPressure(0.01008)).reading();
+        (
+            reading.levels[0].max_pressure,
+            reading.levels[0].errors.max_pressure.unwrap(),
+            reading.errors.max_pressure.unwrap(),
+        )
+    };
+    let (exact, ..) = peak(288);
+    for points in [64, 72, 80, 96] {
+        let (found, own, whole) = peak(points);
+        println!("{points}: {found} ± {own} for {exact}");
+        assert!((found - exact).abs() <= own.min(whole), "{points}: {found} ± {own} for {exact}");
+    }
 }
 
 /// The loosest tolerance that a case may have: what the iteration leaves open stays within the stated errors.
 #[test]
 #[ignore = "takes minutes"]
 fn stated_errors_hold_at_the_loosest_tolerance() {
-    let mut all = errors(3203, 100, Kind::Sliding, true, 1e-4);
-    for (name, more) in errors(3204, 100, Kind::Sliding, true, 1e-4) {
+    let mut all = errors(5203, 100, Kind::Sliding, true, 1e-4);
+    for (name, more) in errors(5204, 100, Kind::Sliding, true, 1e-4) {
         all.entry(name).or_default().extend(more);
     }
     judge(all);

@@ -25,6 +25,8 @@ pub struct Reading {
     /// Largest pressure, between the samples, in the unit of Young's modulus; what the grid resolves of it where it is
     /// infinite ([`Reading::singular`]).
     pub max_pressure: f64,
+    /// Samples between the largest pressure and the edge of contact, at most `spot_resolution`; 0 where read back from a file.
+    pub peak_to_edge: f64,
     /// Number of contact spots in the cell; merged contacts are one.
     pub contact_spots: usize,
     /// Samples along the radius of a disc as large as the typical spot: the one up to which, from the smallest on, half
@@ -98,7 +100,8 @@ impl Reading {
                 let [area, area_error] =
                     [0, 1].map(|k| own.iter().map(|spot| spot_area(spot)[k]).sum::<f64>() / indenters);
                 let merged = own.iter().any(|spot| spot.merged);
-                let peaks = own.iter().filter_map(|spot| spot.peak);
+                let peaks = || own.iter().filter_map(|spot| spot.peak);
+                let resolution = (area / PI / grid.sample_area()).sqrt();
                 let radius = (area / PI).sqrt();
                 let ring = !merged && own.iter().any(|spot| spot.ring);
                 // What follows from the boundaries of all indenters: means by area, the least and the largest.
@@ -115,7 +118,7 @@ impl Reading {
                     level,
                     load: load / indenters,
                     load_share: if mean_pressure > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
-                    max_pressure: peaks.map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max),
+                    max_pressure: peaks().map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max),
                     singular: load > 0.0
                         && surface.sites().iter().any(|site| site.level == level && site.shape.singular_peak()),
                     contact_area: area,
@@ -128,8 +131,11 @@ impl Reading {
                     centre: (load > 0.0 && !merged)
                         .then(|| [0, 1].map(|k| own.iter().map(|spot| spot.moment[k]).sum::<f64>() / load)),
                     merged,
-                    resolution: (area / PI / grid.sample_area()).sqrt(),
+                    resolution,
                     uncertainty: Uncertainty {
+                        peak_to_edge: peaks()
+                            .map(|index| peak::samples_to_edge(grid, pressure, index, resolution))
+                            .fold(resolution, f64::min),
                         area: area_error,
                         radius: (!merged && area > 0.0).then(|| 0.5 * area_error / area * radius),
                         hole: most(|b| b.hole_error).filter(|_| ring),
@@ -141,6 +147,7 @@ impl Reading {
             .collect();
         let counts = contact.spots(None);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
+        let spot_resolution = (typical as f64 / PI).sqrt();
         let contact_fraction = contact_area / cell;
         let contact_fraction_uncertainty = located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error;
         let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
@@ -151,8 +158,9 @@ impl Reading {
             contact_fraction_uncertainty,
             // Between the samples the highest of them need not be the highest peak.
             max_pressure: levels.iter().map(|level| level.max_pressure).fold(max_pressure, f64::max),
+            peak_to_edge: highest.map_or(0.0, |index| peak::samples_to_edge(grid, pressure, index, spot_resolution)),
             contact_spots: counts.sizes.len(),
-            spot_resolution: (typical as f64 / PI).sqrt(),
+            spot_resolution,
             levels,
             boundaries,
             errors: Errors::default(),

@@ -11,13 +11,13 @@
 ///
 /// | quantity | relative |
 /// |---|---|
-/// | peak pressure | 0.1 n⁻² + n⁻⁴ for profiles rᵏ with k ≥ 2; 0.25 n^{1−k} for the cusps of 1 < k < 2 |
+/// | peak pressure | 0.1 n⁻² + n⁻⁴ for profiles rᵏ with k ≥ 2; 0.25 n^{1−k} for the cusps of 1 < k < 2; n samples between the peak and the edge, which under a stiff coating lies in a ridge along it |
 /// | load on an indenter, prescribed the penetration | 0.03 n⁻² + 0.3 n⁻⁴ |
 /// | share of the load, absolute; load on an indenter, prescribed the mean pressure | 0.002 n⁻² |
 /// | penetration | 0.01 n⁻², and under a topography what its apex rises above the highest sample |
 /// | mean gap of a topography | 0.01 n⁻² of the penetration |
 /// | area of a topography corrected by its perimeter | a quarter of the correction |
-/// | centre of the pressure | 0.003 n⁻² of the contact radius |
+/// | centre of the pressure | 0.005 n⁻² of the contact radius |
 /// | areas, radii, asymmetry, fraction in contact | what the reading of the boundary says of itself |
 ///
 /// A topography stands where its highest sample does: prescribed its penetration, the errors of the others are those in

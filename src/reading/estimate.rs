@@ -6,12 +6,12 @@ use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading, peak};
 use crate::load::Load;
 use crate::spectral::Step;
 
-/// What n samples along a contact radius leave open of a peak pressure, relative to it, for profiles of an exponent.
+/// What n samples between a peak pressure and the edge of contact leave open of it, relative to it, for profiles of an exponent.
 fn peak_law(samples: f64, exponent: f64) -> f64 {
     if exponent >= 2.0 { 0.1 * samples.powi(-2) + samples.powi(-4) } else { 0.25 * samples.powf(1.0 - exponent) }
 }
 
-/// The same for the load under a prescribed penetration,
+/// What n samples along a contact radius leave open of the load under a prescribed penetration,
 pub(super) fn load_law(samples: f64) -> f64 {
     0.03 * samples.powi(-2) + 0.3 * samples.powi(-4)
 }
@@ -28,7 +28,7 @@ fn penetration_law(samples: f64) -> f64 {
 
 /// The same for the centre of the pressure, relative to the contact radius.
 fn centre_law(samples: f64) -> f64 {
-    0.003 * samples.powi(-2)
+    0.005 * samples.powi(-2)
 }
 
 impl Step {
@@ -90,7 +90,7 @@ fn apex_above_samples(step: &Step) -> f64 {
 const MEAN_PRESSURE: f64 = 2.0;
 const PENETRATION: f64 = 3.2;
 const LOAD: f64 = 3.0;
-const SHARE: f64 = 4.0;
+const SHARE: f64 = 3.0;
 const PEAK: f64 = 2.2;
 const APEX: f64 = 1.25;
 const AREA: f64 = 2.0;
@@ -99,7 +99,7 @@ const CORRECTED: f64 = 2.0;
 /// Part of what the correction by the perimeter takes off that it leaves open: the factor of a border depends on its
 /// directions.
 const BORDER: f64 = 0.25;
-const CENTRE: f64 = 1.5;
+const CENTRE: f64 = 2.0;
 
 /// Parts of the changes against the coarser grids that count, the next coarser first.
 const CHANGES: [f64; 2] = [1.0, 0.25];
@@ -149,7 +149,7 @@ fn between(
         // A single level carries the whole load.
         let share = if fine.levels.len() == 1 { 0.0 } else { share_law(samples) };
         let own_load = own.load * if by_load { share / own.load_share } else { load_law(samples) };
-        let peak = own.max_pressure * peak_law(samples, exponent);
+        let peak = own.max_pressure * peak_law(own.uncertainty.peak_to_edge.max(1.0), exponent);
         let radius = |error: Option<f64>, value: fn(&LevelReading) -> Option<f64>| of(AREA, error?, value);
         let relative = own.uncertainty.boundary.zip(own.radius_max).map(|(error, largest)| error / largest);
         LevelErrors {
@@ -175,7 +175,7 @@ fn between(
     let depth = fine.penetration.abs() * penetration_law(largest);
     let mean_pressure = estimate(MEAN_PRESSURE, load, &|reading| Some(reading.mean_pressure));
     let penetration = estimate(PENETRATION, depth, &|reading| Some(reading.penetration));
-    let peak = fine.max_pressure * peak_law(smallest, sharpest);
+    let peak = fine.max_pressure * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
     let levels: Vec<LevelErrors> = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
     // The highest of all may be that of any level that reaches as high within its own error.
     let peaks =

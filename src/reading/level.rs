@@ -46,9 +46,11 @@ pub struct LevelReading {
     pub errors: LevelErrors,
 }
 
-/// What the reading of a level's boundaries on one grid says of its own errors.
+/// What the reading of a level's peak and boundaries on one grid says of its own errors.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Uncertainty {
+    /// Samples between the peak pressure and the edge of contact, at most those along the contact radius.
+    pub peak_to_edge: f64,
     /// Of the contact area, a length squared.
     pub area: f64,
     /// Of the contact radius, a length.

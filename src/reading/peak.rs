@@ -1,4 +1,4 @@
-//! Peak pressure between the samples.
+//! Peak pressure between the samples, and how far it lies from the edge of contact.
 
 use crate::lattice::Grid;
 use crate::numeric::paraboloid;
@@ -12,4 +12,29 @@ pub fn interpolated(grid: &Grid, pressure: &[f64], index: usize) -> f64 {
     let at = |i: i32, j: i32| pressure[wrapped(row + i, n1) * n2 + wrapped(column + j, n2)];
     // The surface is made to pass through the sample, which is as good as any fit.
     pressure[index] + paraboloid::rise(1, at).unwrap_or(0.0)
+}
+
+/// Samples from an edge at which a ridge along it is resolved: an edge farther away is not looked for.
+const RESOLVED: f64 = 64.0;
+
+/// Samples between the one at `index` and the edge of contact, `farthest` at most and where no edge is near. Under a stiff coating the pressure is
+/// highest in a ridge along the edge, which many samples of the contact radius may not resolve.
+pub fn samples_to_edge(grid: &Grid, pressure: &[f64], index: usize, farthest: f64) -> f64 {
+    let [n1, n2] = grid.points().map(|n| n as i32);
+    let (row, column) = (index as i32 / n2, index as i32 % n2);
+    let [e1, e2] = grid.steps();
+    let side = grid.sample_area().sqrt();
+    let is_open =
+        |i: i32, j: i32| pressure[((row + i).rem_euclid(n1) * n2 + (column + j).rem_euclid(n2)) as usize] <= 0.0;
+    let samples = |i: i32, j: i32| {
+        let [i, j] = [i, j].map(f64::from);
+        (i * e1[0] + j * e2[0]).hypot(i * e1[1] + j * e2[1]) / side
+    };
+    // Rings of samples around the peak; the nearest open one of the first ring that has any.
+    let ring = |k: i32| {
+        let sides = (-k..=k).flat_map(move |t| [(-k, t), (k, t), (t, -k), (t, k)]);
+        sides.filter(|&(i, j)| is_open(i, j)).map(|(i, j)| samples(i, j)).reduce(f64::min)
+    };
+    let edge = (1..=farthest.min(RESOLVED).ceil() as i32).find_map(ring).unwrap_or(farthest);
+    edge.min(farthest)
 }

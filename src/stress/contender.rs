@@ -34,7 +34,7 @@ const SAFETY: f64 = 1.6;
 /// The error of a stress under spots of n samples per radius is at least this over n of it near the surface, …
 const SHALLOW: f64 = 0.2;
 /// … and this over n² below: of shears, of what opens an interface, and of tensions.
-const DEEP: [f64; 3] = [0.02, 0.03, 0.1];
+const DEEP: [f64; 3] = [0.015, 0.01, 0.1];
 
 /// A coarser grid that errors are read from.
 #[derive(Debug)]

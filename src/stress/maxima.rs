@@ -125,7 +125,7 @@ impl Maxima {
     ///
     /// Each contender has its own: 1.6 times the change of this very contender from the next `coarser` grid, which at second
     /// order is three times the error, and what n samples along the radius of the smallest spot leave open of the size of the
-    /// stress: 0.02 n⁻² for τ₁, von Mises and shears, 0.03 n⁻² for what opens an interface, 0.1 n⁻² for a tension, within two
+    /// stress: 0.015 n⁻² for τ₁, von Mises and shears, 0.01 n⁻² for what opens an interface, 0.1 n⁻² for a tension, within two
     /// samples of the surface 0.2 n⁻¹. The size of the stress is √(Σσᵢⱼ²) of what the waves of the pressure cause at the place:
     /// mean and residual stresses do not depend on the grid. For a stress on the surface the error is what its [`Crest`] says of
     /// itself. That they hold is shown in `tests/stated_errors.rs`.

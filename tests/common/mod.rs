@@ -96,6 +96,16 @@ pub fn coated(chi: f64, thickness: f64, poisson: [f64; 2], interface: Interface)
     HalfSpace::new(vec![Layer::new(coating, thickness, interface).unwrap()], substrate)
 }
 
+/// The largest stress of von Mises under a bare sphere that slides, over the peak pressure, by the closed form (Hamilton 1983): at
+/// the trailing edge, or inside on a hundred by forty places of the plane of symmetry.
+#[cfg(feature = "validate")]
+pub fn largest_mises_of_a_sliding_sphere(nu: f64, friction: f64) -> f64 {
+    use percoat::validation::exact::sliding_sphere::{mises, stresses, together};
+    let at = |place| mises(together(stresses(nu, place), friction));
+    let inside = (0..4000).map(|k| at([0.4 - 1.2 * f64::from(k % 100) / 100.0, 0.0, 0.02 + 0.02 * f64::from(k / 100)]));
+    inside.fold(at([-1.0, 0.0, 0.0]), f64::max)
+}
+
 /// Indenters of one level, one in the cell.
 pub fn one_level(lattice: Lattice, level: Level) -> Indenters {
     Indenters::new(lattice, vec![level]).unwrap()

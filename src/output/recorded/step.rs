@@ -116,6 +116,7 @@ fn record(keys: StepKeys) -> StepRecord {
             contact_fraction: plain(keys.contact_fraction),
             contact_fraction_uncertainty: 0.0,
             max_pressure,
+            peak_to_edge: 0.0,
             contact_spots: keys.contact_spots,
             spot_resolution: keys.spot_resolution,
             levels,
