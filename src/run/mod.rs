@@ -94,10 +94,7 @@ impl Run {
         if self.loads.is_empty() {
             return Err(RunError::NoLoads);
         }
-        let cell = self.problem.cell();
-        let grids = self.sampling.grids(&cell)?;
-        let points = grids[TELLING.min(grids.len() - 1)];
-        Grid::new(cell, points)?;
+        let points = self.checked_sampling()?;
         if self.loads.iter().all(|load| load.is_mean_pressure()) {
             return Ok(());
         }
@@ -110,6 +107,15 @@ impl Run {
             }
         }
         Ok(())
+    }
+
+    /// The first grid that tells something, if there is one.
+    fn checked_sampling<E: Error + 'static>(&self) -> Result<[usize; 2], RunError<E>> {
+        let cell = self.problem.cell();
+        let grids = self.sampling.grids(&cell)?;
+        let points = grids[TELLING.min(grids.len() - 1)];
+        Grid::new(cell, points)?;
+        Ok(points)
     }
 
     /// Solves all loads, on finer and finer grids where an accuracy is asked for, after a [check](Self::check).

@@ -65,7 +65,7 @@ impl<E: Error + 'static> RunError<E> {
 #[non_exhaustive]
 pub enum RunError<E: Error + 'static> {
     /// There is nothing to solve.
-    #[error("a run needs a load at least, limits one above 0 to begin with")]
+    #[error("a run needs a load at least")]
     NoLoads,
     /// Limits are looked for, and nothing has a strength.
     #[error(

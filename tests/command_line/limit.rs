@@ -13,7 +13,7 @@ fn limit(desk: &Desk, arguments: &[&str]) -> (Value, String) {
 #[test]
 fn without_a_case_a_coating_in_service_is_answered_with_what_fails_first() {
     let desk = Desk::new();
-    let (limits, out) = limit(&desk, &["--set", "grid.points=96"]);
+    let (limits, out) = limit(&desk, &["--set", "grid.points=64"]);
     let names = ["limit-section.png", "limit-section.svg", "limit.csv", "limit.json", "limit.png", "limit.svg"];
     let files = fs::read_dir(desk.path("out")).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut files: Vec<String> = files.filter(|name| !name.starts_with('.')).collect();
@@ -129,7 +129,7 @@ points = 48
 fn the_place_that_fails_is_marked_whatever_the_first_load() {
     let desk = Desk::new();
     fs::write(desk.path("bond.toml"), BOND).unwrap();
-    for load in ["0.05", "0.06", "0.07", "0.09"] {
+    for load in ["0.05", "0.06", "0.09", "0"] {
         let load = format!("load.mean_pressure={load}");
         let (found, _) = limit(&desk, &["bond.toml", "--pictures", "svg", "--set", &load]);
         let picture = fs::read_to_string(desk.path("out/limit-section.svg")).unwrap();
@@ -164,16 +164,13 @@ fn what_has_no_strength_is_refused_and_nothing_written() {
     let answer = desk.percoat(&["limit", "fig2"]);
     assert_eq!(answer.code, 2, "{}", answer.err);
     assert!(answer.err.contains("yield_strength") && desk.names().is_empty(), "{}", answer.err);
-    let answer = desk.percoat(&["limit", "--set", "load.mean_pressure=0", "--set", "grid.points=64"]);
-    assert_eq!(answer.code, 2, "{}", answer.err);
-    assert!(answer.err.contains("above 0") && desk.names().is_empty(), "{}", answer.err);
 }
 
 #[test]
 fn a_limit_that_is_not_converged_is_written_and_marked() {
     let desk = Desk::new();
-    let arguments =
-        ["limit", "-o", "out", "--no-pictures", "--set", "grid.points=64", "--set", "solver.max_iterations=1"];
+    fs::write(desk.path("bond.toml"), BOND).unwrap();
+    let arguments = ["limit", "bond.toml", "-o", "out", "--no-pictures", "--set", "solver.max_iterations=1"];
     let answer = desk.percoat(&arguments);
     assert_eq!(answer.code, 3, "{}", answer.err);
     assert!(answer.err.contains("not converged") && desk.path("out/limit.json").is_file(), "{}", answer.err);

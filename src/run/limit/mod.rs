@@ -31,10 +31,10 @@ use std::convert::Infallible;
 use std::error::Error;
 
 impl Run {
-    /// Whether limit loads can be looked for: as [`check`](Self::check), and there are strengths and a load above 0.
+    /// Whether limit loads can be looked for: there are strengths, and grids to solve on. The run's loads do not matter.
     ///
     /// # Errors
-    /// [`RunError::NoStrengths`], [`RunError::NoLoads`], and those of [`check`](Self::check).
+    /// [`RunError::NoStrengths`], [`TooOblong`](super::TooOblong), [`LatticeError`](crate::lattice::LatticeError).
     pub fn check_limits(&self) -> Result<(), RunError<Infallible>> {
         self.checked_for_limits()
     }
@@ -43,10 +43,8 @@ impl Run {
         if Criterion::all(self.problem.half_space()).is_empty() {
             return Err(RunError::NoStrengths);
         }
-        if !self.loads.iter().any(|load| load.value() > 0.0) {
-            return Err(RunError::NoLoads);
-        }
-        self.checked()
+        self.checked_sampling()?;
+        Ok(())
     }
 
     /// Looks for the limit loads of all criteria.
