@@ -149,7 +149,7 @@ impl Coupled {
                     sweep.coupling[m][c] = direct - outside;
                 }
             }
-            // Only what is prescribed can be out of reach.
+            // Only a prescribed penetration can lie beyond complete contact; every mean pressure has a solution.
             beyond = if unbounded && !load.is_mean_pressure() { beyond + 1 } else { 0 };
             if let (Load::MeanPressure(_), true) = (load, unbounded) {
                 let depth = 0.5 * (held.0.penetration + patterns.penetration);

@@ -35,6 +35,35 @@ fn an_indenter_alone_on_a_half_space_obeys_hertz() {
     }
 }
 
+/// Under c·rⁿ, δ = c·aⁿ·√π·Γ(n/2 + 1)/Γ((n + 1)/2) and P = 2E*·a·δ·n/(n + 1) (Galin 1946; Sneddon 1965): nearly a flat punch
+/// at large n, whose pressure is heaped at the edge of the mesh.
+#[test]
+fn an_indenter_of_a_steep_power_obeys_galin() {
+    let a: f64 = 0.3;
+    for n in [4, 12, 24, 40] {
+        let shape = Shape::Power { coefficient: 0.03 / a.powi(n), exponent: f64::from(n) };
+        let indenters = one_level(Lattice::hexagonal(10.0, 1).unwrap(), Level::new(shape, 0.0).unwrap());
+        let localized = Localized::new(&Problem::new(indenters, homogeneous()), 1).unwrap();
+        let penetration = 0.03 * (1..=n / 2).map(|k| f64::from(k) / (f64::from(k) - 0.5)).product::<f64>();
+        let load = 2.0 * a * penetration * f64::from(n) / f64::from(n + 1);
+        for elements in [24, 48] {
+            let solution =
+                localized.solve(Load::MeanPressure(load / localized.system().cell().area()), &alone(elements));
+            assert_eq!(solution.stop, Stop::Converged, "n = {n}: {solution}");
+            let (size, radius) = (solution.spots[0].mesh.size, solution.levels()[0].contact_radius.unwrap());
+            println!(
+                "{n}, {elements}: δ {:.5}, a {:.5}, size {:.5}",
+                solution.penetration / penetration,
+                radius / a,
+                size / a
+            );
+            assert!((radius - a).abs() < 0.5 * size, "n = {n}, {elements} elements of {size}: {radius}");
+            // The error that README states.
+            assert!((solution.penetration / penetration - 1.0).abs() < 4e-3, "n = {n}: {solution}");
+        }
+    }
+}
+
 /// On a plate that slides on its substrate the pressure is heaped within two elements of the edge, and no outline can be
 /// fitted: the elements are counted, to half of one. The contact of `cases/ring.toml` alone: a = 0.34982 by the spectral
 /// solver on 768 × 768 points of a lattice of period 4.
