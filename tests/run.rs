@@ -232,3 +232,35 @@ fn how_long_a_step_takes_is_told_by_the_recorder_s_clock() {
     assert_eq!(seconds(run.solve(&mut Ticking::default()).unwrap()), [Some(1.0); 2]);
     assert_eq!(seconds(run.solve(&mut ()).unwrap()), [None; 2], "without a clock");
 }
+
+/// Ends a run at this call during the search for the largest stresses.
+struct Impatient {
+    calls: std::cell::Cell<usize>,
+    last: usize,
+}
+
+impl Recorder for Impatient {
+    type Error = Full;
+
+    fn searching(&self) -> Result<(), Full> {
+        self.calls.set(self.calls.get() + 1);
+        assert!(self.calls.get() <= self.last, "the search goes on after its end");
+        if self.calls.get() == self.last { Err(Full) } else { Ok(()) }
+    }
+}
+
+#[test]
+fn a_recorder_ends_the_search_for_the_largest_stresses() {
+    let run = Run { stress: Some(StressRequest::default()), ..run(Sampling::Points([64, 64])) };
+    let count = |last: usize| {
+        let mut recorder = Impatient { calls: 0.into(), last };
+        let ended = run.solve(&mut recorder);
+        (ended.is_err(), recorder.calls.get())
+    };
+    let (is_err, whole) = count(usize::MAX);
+    // Planes, climbs, and the contenders on the coarser grid.
+    assert!(!is_err && whole > 40, "{whole} calls in two steps");
+    for last in [1, 15, whole / 2, whole] {
+        assert_eq!(count(last), (true, last));
+    }
+}

@@ -63,10 +63,6 @@ impl Keeping<'_> {
             seconds,
         });
     }
-
-    fn goes_on(&self) -> Result<(), Stopped> {
-        if self.listener.stops() { Err(Stopped) } else { Ok(()) }
-    }
 }
 
 impl Recorder for Keeping<'_> {
@@ -82,7 +78,7 @@ impl Recorder for Keeping<'_> {
         (self.done, self.points) = (0, solver.grid().points());
         self.surface = Some(Arc::clone(solver.surface()));
         self.tell(true, || "begins".to_owned(), None);
-        self.goes_on()
+        self.searching()
     }
 
     fn clock(&self) -> Option<f64> {
@@ -96,17 +92,21 @@ impl Recorder for Keeping<'_> {
     fn iteration(&mut self, progress: Progress) -> Result<(), Stopped> {
         let phase = || format!("iteration {}, ε = {:.1e}", progress.iteration, progress.residual);
         self.tell(false, phase, Some(progress));
-        self.goes_on()
+        self.searching()
     }
 
     fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), Stopped> {
         self.checkpoint = self.keeps.then(|| checkpoint.clone());
-        self.goes_on()
+        self.searching()
     }
 
     fn stresses(&mut self) {
         self.clock.turn(Phase::Stress);
         self.tell(true, || "stresses".to_owned(), None);
+    }
+
+    fn searching(&self) -> Result<(), Stopped> {
+        if self.listener.stops() { Err(Stopped) } else { Ok(()) }
     }
 
     fn step(&mut self, step: &percoat::Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Stopped> {
@@ -117,7 +117,7 @@ impl Recorder for Keeping<'_> {
         self.clock.turn(Phase::Setup);
         let pressure = record.reading.mean_pressure;
         self.tell(true, || format!("after mean pressure {}", percoat::output::number(pressure)), None);
-        self.goes_on()
+        self.searching()
     }
 }
 

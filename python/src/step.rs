@@ -16,6 +16,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::io::Cursor;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// What stays of a step.
 #[derive(Debug)]
@@ -129,12 +130,14 @@ impl Step {
     /// The largest stresses, as JSON; nothing without contact.
     fn maxima(&self, py: Python<'_>) -> PyResult<Option<String>> {
         let kept = Arc::clone(&self.0);
-        work::run(py, None, None, move |_| {
+        work::run(py, None, None, move |listener| {
             let reading = kept.step.reading();
-            (reading.max_pressure > 0.0).then(|| {
-                let stress = StressReading::of(&kept.step, &reading, &kept.field());
-                serde_json::to_string(&stress).expect("numbers under names")
-            })
+            let stop = listener.stop();
+            let goes_on = || !stop.load(Ordering::Relaxed);
+            let stress = (reading.max_pressure > 0.0)
+                .then(|| StressReading::of_while(&kept.step, &reading, &kept.field(), &goes_on))
+                .flatten();
+            stress.map(|stress| serde_json::to_string(&stress).expect("numbers under names"))
         })
     }
 

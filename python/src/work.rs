@@ -2,7 +2,7 @@
 //!
 //! The work is done by threads of their own, which never touch the interpreter. The thread that asked for it waits, calls the
 //! callable that wants to hear, and looks for Ctrl-C. When that comes it raises at once; solutions then end between two
-//! iterations, stresses between two rows or points, and what is neither when it is done, unheard.
+//! iterations, stresses between two rows, points or planes, and what is neither when it is done.
 
 use crate::errors::refused;
 use crate::progress::Progress;

@@ -43,8 +43,8 @@ LONG: dict[str, Callable[..., object]] = {
 AT_ONCE = 0.5 * (os.cpu_count() or 1)
 # Processor time until a program has begun: imports, and the first load.
 BEGUN = 5.0
-# How long an iteration, or what else goes on between two looks, may take.
-SOON = 3.0
+# Processor time that an iteration, or what else goes on between two looks, may take.
+SOON = 1.5 * (os.cpu_count() or 1)
 
 
 def used() -> float:
@@ -90,9 +90,10 @@ def of_children() -> float:
 
 
 def falls_idle(within: float) -> bool:
-    """Whether the process stops computing: less than a tenth of one core for a fifth of a second."""
-    ends = time.monotonic() + within
-    while time.monotonic() < ends:
+    """Whether the process stops computing before it has used so much processor time: less than a tenth of one core for a
+    fifth of a second."""
+    ends = used() + within
+    while used() < ends:
         before = used()
         time.sleep(0.2)
         if used() - before <= 0.02:
@@ -204,8 +205,8 @@ try:
     print("ended")
 except KeyboardInterrupt:
     print("interrupted")
-ends = time.monotonic() + {SOON}
-while time.monotonic() < ends:
+ends = sum(os.times()[:2]) + {SOON}
+while sum(os.times()[:2]) < ends:
     before = sum(os.times()[:2])
     time.sleep(0.2)
     if sum(os.times()[:2]) - before <= 0.02:

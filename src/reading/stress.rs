@@ -24,11 +24,16 @@ pub struct StressReading {
 impl StressReading {
     /// The largest stresses of `field`, the stress field of a step that has contact and whose `reading` is known.
     pub fn of(step: &Step, reading: &Reading, field: &StressField) -> Self {
+        Self::of_while(step, reading, field, &|| true).expect("a search that nothing interrupts ends")
+    }
+
+    /// The same, unless `goes_on`, called many times a second during the search, says no.
+    pub fn of_while(step: &Step, reading: &Reading, field: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
         let radii = contact_radii(step, reading);
         let coarser = step.coarser().first().map(|contact| StressField::new(contact, field.mean_stress()));
-        let maxima = field.maxima(radii);
+        let maxima = field.maxima_while(radii, goes_on)?;
         let maxima = match &coarser {
-            Some(coarser) => maxima.with_errors(coarser),
+            Some(coarser) => maxima.with_errors_while(coarser, goes_on)?,
             None => maxima,
         };
         let surface_error = maxima.surface_error();
@@ -56,7 +61,7 @@ impl StressReading {
                 }
             }
         }
-        stress
+        Some(stress)
     }
 
     /// Largest principal shear stress of all.

@@ -45,6 +45,7 @@ use crate::problem::Problem;
 use crate::reading::{Criterion, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
 use crate::stress::StressField;
+use std::cell::Cell;
 use std::convert::Infallible;
 use std::error::Error;
 use std::ops::ControlFlow;
@@ -224,7 +225,13 @@ impl Run {
             StressField::new(step.finest(), mean)
         });
         if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
-            record.add_stress(StressReading::of(&step, &record.reading, field), self.problem.half_space());
+            let ended = Cell::new(None);
+            let goes_on = || recorder.searching().map_err(|error| ended.set(Some(error))).is_ok();
+            let stress = StressReading::of_while(&step, &record.reading, field, &goes_on);
+            if let Some(error) = ended.into_inner() {
+                return Err(RunError::Recorder(error));
+            }
+            record.add_stress(stress.expect("nothing has ended the search"), self.problem.half_space());
         }
         record.seconds = recorder.clock().zip(began).map(|(now, began)| before + now - began);
         recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;

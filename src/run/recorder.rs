@@ -57,6 +57,14 @@ pub trait Recorder: Send {
     /// The stresses of a step begin.
     fn stresses(&mut self) {}
 
+    /// The search for the largest stresses goes on; called many times a second.
+    ///
+    /// # Errors
+    /// Ends the run.
+    fn searching(&self) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
     /// A step is done; `field` where stresses are wanted.
     ///
     /// # Errors

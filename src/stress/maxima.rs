@@ -133,7 +133,13 @@ impl Maxima {
     /// The error of a maximum is the largest value plus error of all that contend for it, less the value: no less than the
     /// value's own.
     #[must_use]
-    pub fn with_errors(mut self, coarser: &StressField) -> Self {
+    pub fn with_errors(self, coarser: &StressField) -> Self {
+        self.with_errors_while(coarser, &|| true).expect("a search that nothing interrupts ends")
+    }
+
+    /// The same, unless `goes_on`, called between contenders, says no.
+    #[must_use]
+    pub fn with_errors_while(mut self, coarser: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
         let (coarser, resolution, near) = (Coarser::new(coarser), self.resolution, NEAR * self.spacing);
         let mut known: Vec<(Quantity, Contender)> = Vec::new();
         for (quantity, contender) in self.found.each() {
@@ -144,11 +150,12 @@ impl Maxima {
             });
             contender.peak.error = match same {
                 Some((_, same)) => same.peak.error,
+                None if !goes_on() => return None,
                 None => Some(contender.error(*quantity, &coarser, resolution, near)),
             };
             known.push((*quantity, *contender));
         }
-        self.stated()
+        Some(self.stated())
     }
 }
 

@@ -73,6 +73,11 @@ impl StressField {
     /// Maxima over all materials, faces and interfaces. `radii`: the smallest and the largest contact radius (or half the
     /// width of a contact), lengths.
     pub fn maxima(&self, radii: [f64; 2]) -> Maxima {
+        self.maxima_while(radii, &|| true).expect("a search that nothing interrupts ends")
+    }
+
+    /// The same, unless `goes_on`, called between planes and between starts of a climb, says no.
+    pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
         let mut all = Found::default();
         let crests = self.crests();
         for material in 1..=self.materials() {
@@ -85,15 +90,16 @@ impl StressField {
                 let is_face = index == 0 || strength.is_some() && is_interface;
                 let depth = Depth { z: depths[index], material };
                 let crests = if depth == Depth::SURFACE { &crests[..] } else { &[] };
-                self.search_plane(depth, radii[0], &quantities, is_face, crests)
+                goes_on().then(|| self.search_plane(depth, radii[0], &quantities, is_face, crests))
             };
-            let planes: Vec<Searched> = (0..depths.len()).map(plane).collect();
+            let planes: Vec<Searched> = (0..depths.len()).map(plane).collect::<Option<_>>()?;
             let is_overall = |contender: &&(Quantity, Contender)| OVERALL.contains(&contender.0);
             let mut own: Contenders =
                 planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
             let mut inside: Contenders = Vec::new();
             for quantity in OVERALL {
-                inside.extend(self.inside(&planes, &depths, quantity).into_iter().map(|inside| (quantity, inside)));
+                let own = self.inside(&planes, &depths, quantity, goes_on)?;
+                inside.extend(own.into_iter().map(|inside| (quantity, inside)));
             }
             // What ends on a face from inside, higher than what was found along the face, is the face's too.
             let faces = planes.iter().zip(&depths).filter(|(plane, _)| !plane.on_face.is_empty());
@@ -112,7 +118,7 @@ impl StressField {
             }
         }
         let crest = found(&crests, Quantity::Tension).map(|&(_, crest)| crest);
-        Maxima::new(all, crest, self.regions().least_resolution(), self.grid().spacing())
+        Some(Maxima::new(all, crest, self.regions().least_resolution(), self.grid().spacing()))
     }
 
     /// The best samples of a plane, and what contends on a face; the surface has `crests` of its own.
@@ -137,14 +143,20 @@ impl StressField {
     }
 
     /// What contends inside a material: the best sample near the surface, and the local maxima below.
-    fn inside(&self, planes: &[Searched], depths: &[f64], quantity: Quantity) -> Vec<Contender> {
+    fn inside(
+        &self,
+        planes: &[Searched],
+        depths: &[f64],
+        quantity: Quantity,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Option<Vec<Contender>> {
         let near = NEAR * self.grid().spacing();
         let candidate = |index: usize| planes[index].candidate(quantity);
         let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
         let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
         let mut all: Vec<Contender> = shallow.into_iter().map(|best| self.contender(best, None)).collect();
         let deep: Vec<usize> = (0..depths.len()).filter(|&i| depths[i] >= near).collect();
-        let [Some(&first), Some(&last)] = [deep.first(), deep.last()] else { return all };
+        let [Some(&first), Some(&last)] = [deep.first(), deep.last()] else { return Some(all) };
         let value = |index: usize| candidate(index).value;
         let best = deep.iter().map(|&i| value(i)).fold(f64::NEG_INFINITY, f64::max);
         let beside =
@@ -162,6 +174,9 @@ impl StressField {
         let bottom =
             if self.half_space().faces(candidate(0).depth.material).1.is_finite() { depths[last] } else { f64::MAX };
         for start in deep.iter().copied().filter(is_start) {
+            if !goes_on() {
+                return None;
+            }
             let rise = 0.5 * beside(start).map(|j| (depths[j] - depths[start]).abs()).fold(0.0, f64::max);
             let climbed = self.climbed(candidate(start), rise, [top, bottom], quantity);
             let z = climbed.depth.z;
@@ -179,7 +194,7 @@ impl StressField {
                 *lower = self.contender(&climbed, None);
             }
         }
-        all
+        Some(all)
     }
 
     /// Whether the candidates of two planes stand on one hill, as far as their samples tell.

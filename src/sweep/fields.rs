@@ -33,6 +33,10 @@ impl Recorder for Fits<'_> {
     }
 
     fn iteration(&mut self, _progress: Progress) -> Result<(), Stopped> {
+        self.searching()
+    }
+
+    fn searching(&self) -> Result<(), Stopped> {
         if self.stop.load(Ordering::Relaxed) { Err(Stopped) } else { Ok(()) }
     }
 }
