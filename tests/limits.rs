@@ -83,22 +83,13 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
 
 #[test]
 fn limits_do_not_depend_on_the_first_load_and_scale_with_the_units() {
-    let known = loads(&limits(coated([1.0; 2]), Load::MeanPressure(0.05), 64));
-    for start in [Load::MeanPressure(1e-3), Load::MeanPressure(3.0), Load::MeanPressure(1e9), Load::Penetration(0.03)] {
-        let found = limits(coated([1.0; 2]), start, 64);
-        for (limit, known) in found.limits.iter().zip(&known) {
-            let At::Load { mean_pressure, error, .. } = limit.at else { panic!("{limit:?}") };
-            let apart = (mean_pressure - known).abs();
-            // A stress at an edge of contact jumps from sample to sample; what that does to a limit is in its error.
-            assert!(
-                apart < 5e-3 * known && error.is_some_and(|error| apart < error),
-                "{start:?}: {limit:?}, not {known}"
-            );
-        }
+    let known = limits(coated([1.0; 2]), Load::MeanPressure(0.05), 48);
+    for start in [Load::MeanPressure(1e9), Load::Penetration(0.03)] {
+        assert_eq!(limits(coated([1.0; 2]), start, 48).limits, known.limits, "{start:?}");
     }
     let [length, pressure] = [1e-6, 1e9];
-    let scaled = loads(&limits(coated([length, pressure]), Load::MeanPressure(0.05 * pressure), 64));
-    for (found, known) in scaled.into_iter().zip(&known) {
+    let scaled = loads(&limits(coated([length, pressure]), Load::MeanPressure(0.05 * pressure), 48));
+    for (found, known) in scaled.into_iter().zip(loads(&known)) {
         assert!((found / (known * pressure) - 1.0).abs() < 1e-6, "{found} {known}");
     }
 }
@@ -346,14 +337,11 @@ fn the_first_failure_is_that_of_a_hump_below_the_load_of_the_case() {
     let problem =
         Problem::new(one_level(Lattice::square(1.0, 1).unwrap(), level), HalfSpace::new(vec![layer], material));
     let problem = problem.sliding(Friction::new(0.6, [1.0, 0.0]).unwrap()).unwrap();
-    let found = [1e-3, 0.1, 0.3].map(|start| limits(problem.clone(), Load::MeanPressure(start), 96));
-    for own in &found {
-        assert_eq!(own.limits, found[0].limits);
-    }
-    let At::Load { mean_pressure, interval: [from, to], .. } = found[0].limits[0].at else { panic!("{}", found[0]) };
-    assert!((0.027..0.035).contains(&mean_pressure) && from < mean_pressure && mean_pressure < to, "{}", found[0]);
+    let found = limits(problem.clone(), Load::MeanPressure(0.1), 96);
+    let At::Load { mean_pressure, interval: [from, to], .. } = found.limits[0].at else { panic!("{found}") };
+    assert!((0.027..0.035).contains(&mean_pressure) && from < mean_pressure && mean_pressure < to, "{found}");
     // A fine path, solved on its own, first reaches 1 within the interval, and 1 − u is at least its error before.
-    let loads = (0..60).map(|k| Load::MeanPressure(0.01 * 1.06f64.powi(k))).collect();
+    let loads = (0..40).map(|k| Load::MeanPressure(0.01 * 1.06f64.powi(k))).collect();
     let path = Run::new(problem, loads, Sampling::Points([96; 2])).solve(&mut ()).unwrap().steps;
     let taken =
         |step: &StepRecord| (step.reading.mean_pressure, step.strength[0].value, step.strength[0].error.unwrap());
