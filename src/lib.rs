@@ -21,7 +21,7 @@
 //!
 //! ```text
 //! numeric → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
-//! → units → case → output → sweep → picture → report → validation → command
+//! → plain → units → case → output → sweep → picture → report → validation → command
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
@@ -30,7 +30,7 @@
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `units`, `case`, `output`, `sweep`, `picture`, `report` and the
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `case`, `output`, `sweep`, `picture`, `report` and the
 //! `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! [`theory`] leads from the equations of the paper to what is solved.
@@ -70,6 +70,8 @@ mod numeric;
 pub mod output;
 #[cfg(feature = "cli")]
 pub mod picture;
+#[cfg(feature = "cli")]
+pub mod plain;
 pub mod problem;
 pub mod reading;
 #[cfg(feature = "cli")]

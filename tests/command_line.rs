@@ -18,6 +18,8 @@ mod exit_codes;
 mod explain;
 #[path = "command_line/folder.rs"]
 mod folder;
+#[path = "command_line/hostile_words.rs"]
+mod hostile_words;
 #[path = "command_line/inspection.rs"]
 mod inspection;
 #[path = "command_line/interruption.rs"]
@@ -28,6 +30,8 @@ mod limit;
 mod numpy;
 #[path = "command_line/pictures.rs"]
 mod pictures;
+#[path = "command_line/process_limits.rs"]
+mod process_limits;
 #[path = "command_line/program.rs"]
 mod program;
 #[path = "command_line/readings.rs"]

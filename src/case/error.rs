@@ -8,6 +8,7 @@ use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
 
 use super::Source;
 use super::place::Place;
+use crate::plain;
 
 /// A refusal while its place is still a span of one of several sources.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,9 +54,10 @@ struct Excerpt {
 
 impl CaseError {
     /// The refusal with the text it points into, the file's or that of a `--set`. A span over several lines is cut to its
-    /// first one.
+    /// first one. In all of it nothing is hidden.
     pub(super) fn new(file: &Source, overrides: &[String], refusal: Refusal) -> Self {
-        let Place { source, start, end } = refusal.place;
+        let Refusal { place, message, label, help } = refusal;
+        let Place { source, start, end } = place;
         let (name, text) = match source {
             0 => (&file.name[..], &file.text),
             number => ("--set", &overrides[number - 1]),
@@ -64,7 +66,16 @@ impl CaseError {
         let start = boundary(start);
         let line = text[start..].find(['\r', '\n']).map_or(text.len(), |length| start + length);
         let end = boundary(end).clamp(start, line);
-        Self(Box::new(Excerpt { name: name.to_owned(), text: text.to_owned(), span: start..end, refusal }))
+        // Escapes are longer than what they stand for.
+        let span = [start, end].map(|at| plain::lines(&text[..at]).len());
+        let [message, label] = [message, label].map(|text| plain::line(&text).into_owned());
+        let help = help.map(|help| plain::lines(&help).into_owned());
+        Self(Box::new(Excerpt {
+            name: plain::line(name).into_owned(),
+            text: plain::lines(text).into_owned(),
+            span: span[0]..span[1],
+            refusal: Refusal { place, message, label, help },
+        }))
     }
 
     /// The fault in one sentence, without excerpt and advice.

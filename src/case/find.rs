@@ -4,18 +4,19 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::{Source, embedded};
+use crate::plain;
 
 /// Why there is no case where one is looked for.
 #[derive(Debug, thiserror::Error)]
 pub enum NoCase {
     /// It is neither a file nor an embedded case.
-    #[error("{} is neither a file nor an embedded case ({})", .0.display(), names().join(", "))]
+    #[error("{} is neither a file nor an embedded case ({})", plain::path(.0), names().join(", "))]
     Unknown(PathBuf),
     /// The file can be read, but is no text of a case.
     #[error("{0}")]
     NoText(io::Error),
     /// The file cannot be read.
-    #[error("cannot read {}: {error}", path.display())]
+    #[error("cannot read {}: {error}", plain::path(path))]
     Unreadable {
         /// Which.
         path: PathBuf,

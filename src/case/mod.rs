@@ -43,6 +43,7 @@ mod sublayers;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod threads;
 mod units;
 mod value;
 mod words;
@@ -66,4 +67,5 @@ pub use source::Source;
 pub use stress::{Cut, Origin, StressSection, Toward};
 pub use sublayers::sublayer_error;
 pub use surface::{ORIENTATION, RandomSection, RmsKey, SurfaceSection};
+pub use threads::Threads;
 pub use units::UnitsSection;

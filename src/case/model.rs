@@ -15,6 +15,7 @@ use super::{grid, keys, lattice, layers, magnitude, overrides, solver};
 use crate::body::{HalfSpace, MeanStress};
 use crate::comparison::Task;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
+use crate::plain;
 use crate::problem::Problem;
 use crate::run::{Run, Sampling};
 use crate::spectral::Settings;
@@ -135,7 +136,7 @@ impl Case {
 
 /// A case as TOML: one that has been read, or what a result says of it.
 pub(crate) fn written(case: &impl Serialize) -> String {
-    let text = toml::to_string(case).expect("keys are strings, integers come from TOML, absent values are skipped");
+    let text = plain::toml(case).expect("keys are strings, integers come from TOML, absent values are skipped");
     text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
 }
 

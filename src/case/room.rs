@@ -1,5 +1,6 @@
 //! What the machine has left for a run: memory and disk.
 
+use super::Threads;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -47,7 +48,8 @@ fn address_space() -> Option<u64> {
     let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
     let limit: u64 = line.split_whitespace().next()?.parse().ok()?;
     let used = kibibytes(&fs::read_to_string("/proc/self/status").ok()?, "VmSize:")?;
-    let threads = rayon::current_num_threads() as u64 + 1;
+    // That of the process beside those that work.
+    let threads = Threads::used() as u64 + 1;
     Some(limit.saturating_sub(used + threads * RESERVED))
 }
 

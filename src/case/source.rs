@@ -1,5 +1,6 @@
 //! Where a case comes from.
 
+use crate::plain;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, BufRead, BufReader, Read};
@@ -30,7 +31,7 @@ impl Source {
     /// 16 MiB or not UTF-8.
     pub fn file(path: &Path) -> io::Result<Self> {
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        Self::of(path.display().to_string(), folder, fs::File::open(path)?)
+        Self::of(plain::path(path), folder, fs::File::open(path)?)
     }
 
     /// A case written to standard input; a surface's file is relative to the working folder.

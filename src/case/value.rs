@@ -7,6 +7,7 @@ use super::error::Refusal;
 use super::keys::{self, Form, Key};
 use super::node::{Node, Value};
 use super::words::{alternatives, nearest};
+use crate::plain;
 
 /// A value of the case with its path, such as `layers[0].poisson`, its key and the forms it may have.
 #[derive(Debug)]
@@ -95,7 +96,7 @@ impl<'a> ValueAt<'a> {
         let fits = |text: &str| {
             most.is_some_and(|most| (1..=most).contains(&text.chars().count()))
                 && text.trim() == text
-                && !text.contains(char::is_control)
+                && !text.contains(plain::is_hidden)
         };
         match &self.node.value {
             Value::Text(text) if fits(text) => Ok(text),

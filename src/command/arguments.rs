@@ -1,5 +1,6 @@
 //! The command line as it is typed.
 
+use super::ending::Failure;
 use super::help;
 #[cfg(feature = "validate")]
 use super::options::Studies;
@@ -11,9 +12,11 @@ use super::terminal::{self, Colour, tell};
 use super::without_effect;
 use crate::case::CARRIED;
 use crate::output::Traction;
+use crate::plain;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use std::ffi::OsString;
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
 /// Periodic contact of coated bodies: pressures, contact spots and penetrations of a doubly periodic
@@ -197,27 +200,51 @@ impl Arguments {
         let command = Self::command().color(terminal::parser_colour());
         let read = command.try_get_matches_from(typed).and_then(|matches| Self::from_arg_matches(&matches));
         read.map_err(|error| {
-            match without_effect::explained(&error, &words, &Self::command()) {
-                Some(message) => tell!("error: {message}"),
-                // Help that nobody reads is no fault.
-                None => drop(error.print()),
-            }
-            u8::try_from(error.exit_code()).unwrap_or(2)
+            let message = without_effect::explained(&error, &words, &Self::command());
+            answer(&error, message, &words)
         })
     }
 
-    /// Threads asked for.
-    pub fn threads(&self) -> Option<u16> {
+    /// Threads asked for, and whether nothing but errors is wanted; `None` for a command that computes nothing.
+    pub fn computes(&self) -> Option<(Option<u16>, bool)> {
         match &self.command {
             Command::Solve { common, .. }
             | Command::Compare { common, .. }
             | Command::Limit { common, .. }
-            | Command::Sweep { common, .. } => common.threads,
-            Command::Check { work, .. } => work.threads,
+            | Command::Sweep { common, .. } => Some((common.threads, common.quiet)),
+            Command::Check { work, .. } => Some((work.threads, false)),
             #[cfg(feature = "validate")]
-            Command::Validate { work, .. } => work.threads,
-            _ => None,
+            Command::Validate { work, studies, .. } => Some((work.threads, studies.quiet)),
+            Command::Merge { saying, .. } => Some((None, saying.quiet)),
+            Command::Report { quiet, .. } => Some((None, *quiet)),
+            Command::Kernel { .. } | Command::Cases { .. } => Some((None, false)),
+            Command::Explain { .. } | Command::Completions { .. } | Command::Man { .. } => None,
         }
+    }
+}
+
+/// Prints the help that was asked for, or what is wrong with the command line; gives the exit code.
+fn answer(error: &clap::Error, message: Option<String>, words: &[String]) -> u8 {
+    let printed = match message {
+        Some(message) => {
+            tell!("error: {message}");
+            Ok(())
+        }
+        // Words that act on a terminal are shown, without colours.
+        None if error.use_stderr() && words.iter().any(|word| word.contains(plain::is_hidden)) => {
+            tell!("{}", error.render().to_string().trim_end());
+            Ok(())
+        }
+        None => error.print().and_then(|()| terminal::out().flush()),
+    };
+    match printed {
+        // Messages that cannot be printed change nothing; help that nobody reads is no fault.
+        Err(failed) if !error.use_stderr() && failed.kind() != ErrorKind::BrokenPipe => {
+            let failure = Failure::Print(failed);
+            failure.tell();
+            failure.code()
+        }
+        _ => u8::try_from(error.exit_code()).unwrap_or(2),
     }
 }
 

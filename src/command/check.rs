@@ -7,6 +7,7 @@ use super::roughness;
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::output::Check;
+use crate::plain;
 use std::io::Write;
 use std::path::Path;
 
@@ -19,7 +20,7 @@ pub fn run(path: &Path, output: Option<&Path>, set: &[String]) -> Result<Ending,
     write!(out, "{check}")?;
     if let Some(folder) = output {
         roughness::write(&case, folder)?;
-        writeln!(out, "power spectrum written to {}", folder.display())?;
+        writeln!(out, "power spectrum written to {}", plain::path(folder))?;
     }
     check.warnings.iter().for_each(|doubt| tell!("warning: {doubt}"));
     Ok(Ending::Done)

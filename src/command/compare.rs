@@ -12,6 +12,7 @@ use crate::case::plausibility;
 use crate::case::resources::Job;
 use crate::output::{Plan, RunFolder, Writer, compare_json, table, write_text};
 use crate::picture;
+use crate::plain;
 use crate::run::{End, Run, Sampling};
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -70,7 +71,7 @@ pub fn run(
     } else if !common.quiet {
         let mut out = terminal::out();
         write!(out, "{}", table::compared(&case, &comparison, terminal::width()))?;
-        writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), folder.display())?;
+        writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), plain::path(&folder))?;
     }
     let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
     if end != End::Reached {

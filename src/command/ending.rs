@@ -4,6 +4,7 @@
 use super::terminal::{self, tell};
 use crate::case::{CaseError, NoCase};
 use crate::output::{FolderError, OutputError};
+use crate::plain;
 use crate::run::RunError;
 use crate::sweep::StudyError;
 use std::convert::Infallible;
@@ -44,11 +45,16 @@ pub enum Failure {
     #[error("{0}")]
     Refused(String),
     /// A file cannot be read.
-    #[error("cannot read {}: {error}", path.display())]
+    #[error("cannot read {}: {error}", plain::path(path))]
     Input { path: PathBuf, error: std::io::Error },
     /// A file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The system gives no more threads.
+    #[error(
+        "cannot start {count} threads: {error}; allow this process more threads and memory (ulimit -u, ulimit -v), or give --threads 1"
+    )]
+    Threads { count: usize, error: String },
     /// Standard output cannot be written.
     #[error("cannot write standard output: {0}")]
     Print(#[from] std::io::Error),
@@ -106,8 +112,9 @@ impl Failure {
     /// Says why, on standard error.
     pub fn tell(&self) {
         match self {
-            Self::Case(_) => tell!("{self}"),
-            _ => tell!("error: {self}"),
+            // Its colours are percoat's own, its texts are plain.
+            Self::Case(_) => terminal::print_line(&self.to_string()),
+            _ => tell!("error: {}", plain::line(&self.to_string())),
         }
     }
 
@@ -115,7 +122,7 @@ impl Failure {
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Refused(_) => 2,
-            Self::Input { .. } | Self::Output(_) | Self::Print(_) => 4,
+            Self::Input { .. } | Self::Output(_) | Self::Threads { .. } | Self::Print(_) => 4,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::terminal::{self, tell};
 use crate::output::{OutputError, RunFolder};
+use crate::plain;
 use std::fmt;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -45,9 +46,9 @@ impl fmt::Display for Saved {
                 write!(f, "none of {of} steps is finished, nothing is saved")
             }
             Self::Steps { done, of, folder } => {
-                write!(f, "{done} of {of} steps saved in {}", folder.display())?;
+                write!(f, "{done} of {of} steps saved in {}", plain::path(folder))?;
                 if let Some(path) = RunFolder::coarser(folder) {
-                    write!(f, ", all of them on a coarser grid in {}", path.display())?;
+                    write!(f, ", all of them on a coarser grid in {}", plain::path(&path))?;
                 }
                 f.write_str("; the same command with --resume goes on from there")
             }
@@ -57,10 +58,10 @@ impl fmt::Display for Saved {
             Self::Combinations { done, of, folder } => write!(
                 f,
                 "{done} of {of} combinations saved in {}; the same command with --resume goes on from there",
-                folder.display()
+                plain::path(folder)
             ),
             Self::Nothing => f.write_str("nothing is saved"),
-            Self::Result(folder) => write!(f, "the whole result is saved in {}", folder.display()),
+            Self::Result(folder) => write!(f, "the whole result is saved in {}", plain::path(folder)),
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::case::plausibility;
 use crate::case::resources::Job;
 use crate::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, with_error, write_text};
 use crate::picture::{self, Snapshot};
+use crate::plain;
 use crate::run::{Recorder, Shown, StepRecord};
 use crate::{Solver, Step, StressField};
 use std::convert::Infallible;
@@ -105,7 +106,7 @@ pub fn run(
         let mut out = terminal::out();
         write!(out, "{}", table::limited(&case, &limits, terminal::width()))?;
         let (loads, seconds) = (limits.steps.len(), started.elapsed().as_secs_f64());
-        writeln!(out, "{loads} loads solved; {seconds:.2} s; written to {}", folder.display())?;
+        writeln!(out, "{loads} loads solved; {seconds:.2} s; written to {}", plain::path(&folder))?;
     }
     terminal::warn(&warnings, common.quiet);
     Ok(if limits.converged() { Ending::Done } else { Ending::NotConverged })

@@ -7,6 +7,7 @@ use super::pictures::PictureOptions;
 use super::sweep;
 use super::terminal::{self, tell};
 use crate::output::{RunFolder, SWEEP_LOG};
+use crate::plain;
 use crate::sweep::{Asked, Row, description, join, read};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -25,8 +26,8 @@ pub fn run(
         if let Some((_, other)) = same(key) {
             return Err(Failure::refused(format!(
                 "{} and {} are not parts of one sweep: `{key}` in their sweep.json differs",
-                folders[0].display(),
-                other.display()
+                plain::path(&folders[0]),
+                plain::path(other)
             )));
         }
     }
@@ -57,7 +58,7 @@ fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
         (Some((finished, _)), Some((begun, _))) if finished["fingerprint"] != begun["fingerprint"] => {
             Err(Failure::refused(format!(
                 "{} holds a finished sweep and an unfinished one of another: finish this with --resume, or move one away",
-                folder.display()
+                plain::path(folder)
             )))
         }
         (Some((description, rows)), Some((_, more))) => {
@@ -67,7 +68,7 @@ fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
         (Some(own), None) | (None, Some(own)) => Ok(own),
         (None, None) => Err(Failure::refused(format!(
             "{} holds no sweep: give the folders that `percoat sweep --shard` wrote",
-            folder.display()
+            plain::path(folder)
         ))),
     }
 }
@@ -80,7 +81,7 @@ fn read_part(place: &Path) -> Result<Option<(Value, Vec<Row>)>, Failure> {
     }
     let text = std::fs::read_to_string(&path).map_err(|error| Failure::Input { path: path.clone(), error })?;
     let description = serde_json::from_str(&text)
-        .map_err(|error| Failure::refused(format!("{} is no description of a sweep: {error}", path.display())))?;
+        .map_err(|error| Failure::refused(format!("{} is no description of a sweep: {error}", plain::path(&path))))?;
     let log = place.join(SWEEP_LOG);
     // A part that was killed before its first combination has no log.
     let rows =

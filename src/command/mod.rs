@@ -24,28 +24,39 @@ mod shown;
 mod solve;
 mod sweep;
 mod terminal;
+mod threads;
 #[cfg(feature = "validate")]
 mod validate;
 mod without_effect;
 
 use arguments::{Arguments, Command};
+use ending::{Ending, Failure};
 use std::ffi::OsString;
-use terminal::tell;
+use std::io::Write;
 
 /// The program: reads what is `typed`, its own name first, runs the command, and gives the exit code.
 pub fn main(typed: impl IntoIterator<Item = OsString>) -> u8 {
     let typed: Vec<OsString> = typed.into_iter().collect();
-    Arguments::read(&typed).map_or_else(|code| code, |arguments| run(&arguments))
+    threads::on_own_stack(move || Arguments::read(&typed).map_or_else(|code| code, |arguments| run(&arguments)))
 }
 
 fn run(arguments: &Arguments) -> u8 {
-    if let Some(threads) = arguments.threads()
-        && let Err(error) = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global()
-    {
-        tell!("error: cannot start {threads} threads: {error}");
-        return 4;
+    let ended = arguments.computes().map_or(Ok(()), |(count, quiet)| threads::start(count, quiet));
+    let ended = ended.and_then(|()| carry_out(&arguments.command));
+    // What stands in the buffer may not fit on the disk.
+    let ended = ended.and_then(|ending| Ok(terminal::out().flush().map(|()| ending)?));
+    match ended {
+        Ok(ending) => ending.code(),
+        Err(failure) => {
+            failure.tell();
+            interruption::tell_saved();
+            failure.code()
+        }
     }
-    let ending = match &arguments.command {
+}
+
+fn carry_out(command: &Command) -> Result<Ending, Failure> {
+    match command {
         Command::Solve { case, changes, options, pictures, common } => {
             solve::run(case.as_deref(), changes, options, pictures, common)
         }
@@ -71,13 +82,5 @@ fn run(arguments: &Arguments) -> u8 {
         Command::Validate { study, expect, studies, .. } => validate::run(study.as_deref(), expect.as_deref(), studies),
         Command::Completions { shell } => manual::completions(*shell),
         Command::Man { command } => manual::page(command.as_deref()),
-    };
-    match ending {
-        Ok(ending) => ending.code(),
-        Err(failure) => {
-            failure.tell();
-            interruption::tell_saved();
-            failure.code()
-        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::options::Common;
 use super::terminal::{self, tell};
+use crate::plain;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fmt;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -47,7 +48,8 @@ impl Progress {
         let template = if of > 0 { "{bar:16} {msg}" } else { "{spinner} {msg}" };
         bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_position(done as u64);
-        if drawn {
+        // The line moves by a thread of its own, where there is one more.
+        if drawn && thread::Builder::new().spawn(|| ()).is_ok() {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
         let lines = (!common.quiet && !terminal::moves()).then(|| {
@@ -60,7 +62,7 @@ impl Progress {
     /// What goes on now.
     pub fn say(&self, phase: impl Into<String>) {
         let mut state = held(&self.state);
-        state.phase = phase.into();
+        state.phase = plain::line(&phase.into()).into_owned();
         self.bar.set_message(state.to_string());
     }
 

@@ -4,6 +4,7 @@ use super::ending::{Ending, Failure};
 use super::interruption;
 use super::terminal;
 use crate::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
+use crate::plain;
 use crate::report::{self, ReportError};
 use std::fs;
 use std::io::{ErrorKind, Write};
@@ -34,7 +35,7 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
         }
     }
     if !quiet {
-        writeln!(terminal::out(), "written to {}", file.display())?;
+        writeln!(terminal::out(), "written to {}", plain::path(&file))?;
     }
     Ok(Ending::Done)
 }
@@ -57,7 +58,7 @@ fn owned(file: &Path) -> Result<bool, Failure> {
         Ok(true) => Ok(true),
         Ok(false) => Err(Failure::Refused(format!(
             "{} is not a report that percoat wrote, or was changed since: choose another file with -o, or move it away",
-            file.display()
+            plain::path(file)
         ))),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
         Err(error) => Err(Failure::Input { path: file.to_owned(), error }),

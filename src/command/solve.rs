@@ -15,6 +15,7 @@ use crate::case::{Case, Room, plausibility};
 use crate::output::summary::summary;
 use crate::output::{self, Clock, Plan, Recording, RunFolder, is_beside, steps_of, table, write_scalars};
 use crate::picture::Snapshot;
+use crate::plain;
 use crate::run::{Finished, Sampling, StepRecord};
 use clap::Args;
 use serde_json::Value;
@@ -67,7 +68,7 @@ pub fn run(
     {
         claim.leave()?;
         if !common.quiet {
-            tell!("note: {} is finished; leave --resume out to solve it again", folder.display());
+            tell!("note: {} is finished; leave --resume out to solve it again", plain::path(&folder));
         }
         if common.json {
             write!(terminal::out(), "{summary}")?;
@@ -102,7 +103,7 @@ pub fn run(
         let mut out = terminal::out();
         write!(out, "{}", table::outcome(&case, steps, outcome.change, terminal::width()))?;
         let (seconds, parts) = (clock.seconds(), table::timing(&timing));
-        writeln!(out, "{seconds:.2} s ({parts}); written to {}", folder.display())?;
+        writeln!(out, "{seconds:.2} s ({parts}); written to {}", plain::path(&folder))?;
     }
     terminal::warn(&warnings, common.quiet);
     Ok(ending)

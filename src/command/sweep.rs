@@ -10,6 +10,7 @@ use super::terminal::{self, tell};
 use crate::case::{Case, Room, Source};
 use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer, write_text};
 use crate::picture;
+use crate::plain;
 use crate::sweep::{self, Asked, Axis, Combinations, Group, Log, Row, Status, Study, Task};
 use crate::units::Units;
 use clap::Args;
@@ -108,7 +109,7 @@ pub fn run(
                 "none of the {solved} combinations that are done in {} is of this sweep: the case, a --set, --limit, \
                  --keep-fields, a surface or the version of percoat is another one; give the same command again, or leave \
                  --resume out",
-                folder.display()
+                plain::path(&folder)
             )));
         }
         // What cannot be used again is not lost.
@@ -191,7 +192,7 @@ fn combinations(options: &SweepOptions, set: &[String]) -> Result<(Combinations,
     if let Some(path) = &options.table {
         let text = std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.clone(), error })?;
         let table = Group::table(&text);
-        groups.push(table.map_err(|error| Failure::refused(format!("{}, {error}", path.display())))?);
+        groups.push(table.map_err(|error| Failure::refused(format!("{}, {error}", plain::path(path))))?);
     }
     if options.zip && !axes.is_empty() {
         groups.push(Group::zip(&axes).map_err(Failure::refused)?);
@@ -231,7 +232,7 @@ pub fn print(rows: &[Row], description: &Value, folder: &Path, saying: &Saying) 
         }
     }
     let seconds = description["timing"]["wall"].as_f64().unwrap_or_default();
-    writeln!(out, "{words}; {seconds:.2} s; written to {}", folder.display())?;
+    writeln!(out, "{words}; {seconds:.2} s; written to {}", plain::path(folder))?;
     drop(out);
     tell_warnings(rows);
     let unsettled: Vec<&Row> = rows.iter().filter(|row| row.status != Status::Done).collect();

@@ -1,23 +1,30 @@
 //! What standard error can show: <https://no-color.org>, and terminals that only print.
 
+use crate::plain;
 use std::env;
 use std::ffi::OsString;
+use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 
 use clap::{ColorChoice, ValueEnum};
 use std::sync::OnceLock;
 
-/// A line on standard error. Where nobody can hear it any more, the command goes on.
+/// A line on standard error, in which nothing is hidden ([`plain`]). Where nobody reads it any more, the command goes on.
 macro_rules! tell {
-    ($($message:tt)*) => {{
-        use std::io::Write as _;
-        let _ = writeln!(std::io::stderr(), $($message)*);
-    }};
+    ($($message:tt)*) => {
+        $crate::command::terminal::print_line(&$crate::plain::lines(&format!($($message)*)))
+    };
 }
 pub(super) use tell;
 
-/// Standard output. Whoever reads it may stop reading; the command then goes on to its end and its exit code.
+/// A line on standard error as it is, with colours that are percoat's own.
+pub fn print_line(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Standard output. In what is formatted for it nothing is hidden ([`plain`]). Whoever reads it may stop reading; the command
+/// then goes on to its end and its exit code.
 pub struct Out(StdoutLock<'static>);
 
 /// Standard output, for one writer.
@@ -32,6 +39,10 @@ impl Write for Out {
 
     fn flush(&mut self) -> io::Result<()> {
         unless_unread(self.0.flush(), ())
+    }
+
+    fn write_fmt(&mut self, text: fmt::Arguments<'_>) -> io::Result<()> {
+        self.write_all(plain::lines(&text.to_string()).as_bytes())
     }
 }
 
@@ -52,7 +63,7 @@ pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     if let (Some(place), false) = (place, quiet) {
         tell!(
             "note: steps of an interrupted run, or files of somebody else, stood where a result is gathered; they are now in {}",
-            place.display()
+            plain::path(place)
         );
     }
 }

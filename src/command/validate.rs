@@ -6,6 +6,7 @@ use super::options::Studies;
 use super::terminal::{self, tell};
 use crate::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
 use crate::picture::Format;
+use crate::plain;
 use crate::validation::paper::table;
 use crate::validation::{self, Report, STUDIES, Study, differences};
 use std::io::Write;
@@ -145,6 +146,6 @@ impl Gathered {
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}\n\n{}", report.tables(terminal::width()), report.summary())?;
-    writeln!(out, "{:.1} s; report in {}", started.elapsed().as_secs_f64(), path.display())?;
+    writeln!(out, "{:.1} s; report in {}", started.elapsed().as_secs_f64(), plain::path(path))?;
     Ok(())
 }

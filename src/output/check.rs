@@ -5,6 +5,7 @@ use crate::case::resources::{Job, Needs, bytes, needs};
 use crate::case::{Case, ORIENTATION, RandomSection, Room, SurfaceSection, foreseen, plausibility, sublayer_error};
 use crate::counterbody::roughness::{Spectrum, Statistics};
 use crate::lattice::{Grid, LatticeError};
+use crate::plain;
 use crate::reading::{FirstTouch, first_touches};
 use crate::run::{RunError, Sampling, balanced_points};
 use crate::spectral::Solver;
@@ -204,7 +205,7 @@ fn units(units: &Units) -> String {
 impl fmt::Display for Check {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [counterbody, half_space] = &self.problem;
-        writeln!(f, "{}\n\n{counterbody}\n\n{half_space}\n", self.title)?;
+        writeln!(f, "{}\n\n{counterbody}\n\n{half_space}\n", plain::line(&self.title))?;
         if !self.units.is_empty() {
             writeln!(f, "units: {}", self.units)?;
         }

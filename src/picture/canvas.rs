@@ -4,6 +4,7 @@
 
 use super::colour::Colour;
 use super::text;
+use crate::plain;
 
 /// Width of a column of a journal, 85 mm.
 pub const COLUMN: f64 = 241.0;
@@ -144,9 +145,9 @@ impl Canvas {
         self.marks.push(Mark::Disc { centre, radius, colour });
     }
 
-    /// A line of text on its baseline.
+    /// A line of text on its baseline, in which nothing is hidden.
     pub fn text(&mut self, text: &str, at: [f64; 2], anchor: Anchor, size: f64, colour: Colour) {
-        self.marks.push(Mark::Text { text: text.to_owned(), at, anchor, size, upward: false, colour });
+        self.marks.push(Mark::Text { text: plain::line(text).into_owned(), at, anchor, size, upward: false, colour });
     }
 
     /// A line of text whose capitals are centred in height on `at`.
@@ -157,7 +158,7 @@ impl Canvas {
     /// A centred line of text from bottom to top, its baseline on the right.
     pub fn upward(&mut self, text: &str, at: [f64; 2], size: f64, colour: Colour) {
         let anchor = Anchor::Centre;
-        self.marks.push(Mark::Text { text: text.to_owned(), at, anchor, size, upward: true, colour });
+        self.marks.push(Mark::Text { text: plain::line(text).into_owned(), at, anchor, size, upward: true, colour });
     }
 
     /// A rectangle of pixels, below all other marks.

@@ -3,6 +3,7 @@
 //! The typeface is DejaVu Sans (its licence stands beside it): Latin, Greek, Cyrillic, indices and signs, so that
 //! pictures look the same on every machine. Combining marks, as the bar of p̄, are centred over the letter before them.
 
+use crate::plain;
 use ab_glyph::{Font, FontRef, GlyphId, Point};
 use std::sync::LazyLock;
 
@@ -56,7 +57,7 @@ pub fn width(text: &str, size: f64) -> f64 {
 /// The text in lines not wider than `most`, broken at spaces, but not at those that do not break.
 pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split(' ').filter(|word| !word.is_empty()) {
+    for word in plain::line(text).split(' ').filter(|word| !word.is_empty()) {
         match lines.last_mut() {
             Some(line) if width(&format!("{line} {word}"), size) <= most => {
                 line.push(' ');

@@ -1,6 +1,7 @@
 //! Why there is no report of a folder.
 
 use crate::output::Unreadable;
+use crate::plain;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -8,11 +9,11 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// There is no such folder.
-    #[error("{} is not a folder: give the output folder of percoat solve, sweep or limit", .0.display())]
+    #[error("{} is not a folder: give the output folder of percoat solve, sweep or limit", plain::path(.0))]
     NoFolder(PathBuf),
     /// Nothing has been finished in it.
     #[error(
-        "{} holds no finished result (no summary.json, limit.json or sweep.json){}", folder.display(),
+        "{} holds no finished result (no summary.json, limit.json or sweep.json){}", plain::path(folder),
         if *unfinished {
             ", only steps of a run that has not ended (unfinished/): let it end or run the command again, then report"
         } else {
@@ -28,7 +29,7 @@ pub enum ReportError {
     /// A file is not as this version writes it.
     #[error(
         "{} cannot be read by percoat {}: {reason}; it was written by {}: report it with that version, or compute it again",
-        path.display(), env!("CARGO_PKG_VERSION"),
+        plain::path(path), env!("CARGO_PKG_VERSION"),
         version.as_ref().map_or("another program, or changed since".to_owned(), |version| format!("percoat {version}"))
     )]
     Version {
@@ -40,7 +41,7 @@ pub enum ReportError {
         reason: String,
     },
     /// A file cannot be read.
-    #[error("cannot read {}: {error}", path.display())]
+    #[error("cannot read {}: {error}", plain::path(path))]
     Input {
         /// The file.
         path: PathBuf,

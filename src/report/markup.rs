@@ -1,5 +1,7 @@
 //! HTML that is well-formed by the way it is made: texts are escaped, every element that is opened is closed.
 
+use crate::plain;
+
 /// A piece of a page.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Markup(String);
@@ -77,7 +79,7 @@ const BLOCKS: [&str; 16] = [
     "ul", "pre",
 ];
 
-/// A text as it may stand between tags and within quotes. What no page can show, is shown as such.
+/// A text as it may stand between tags and within quotes, in which nothing is hidden.
 fn escaped(text: &str) -> String {
     let letter = |c: char| match c {
         '&' => "&amp;".to_owned(),
@@ -85,10 +87,9 @@ fn escaped(text: &str) -> String {
         '>' => "&gt;".to_owned(),
         '"' => "&quot;".to_owned(),
         '\'' => "&#39;".to_owned(),
-        c if c.is_control() && !matches!(c, '\n' | '\t') => "\u{fffd}".to_owned(),
         c => c.to_string(),
     };
-    text.chars().map(letter).collect()
+    plain::lines(text).chars().map(letter).collect()
 }
 
 #[cfg(test)]
@@ -97,9 +98,9 @@ mod tests {
 
     #[test]
     fn texts_stay_texts_wherever_they_stand() {
-        let text = "<script>alert('a & \"b\"')</script>\u{0}";
+        let text = "<script>alert('a & \"b\"')</script>\u{0}\u{202e}";
         let markup = with("p", &[("title", text)], text);
-        let escaped = "&lt;script&gt;alert(&#39;a &amp; &quot;b&quot;&#39;)&lt;/script&gt;\u{fffd}";
+        let escaped = "&lt;script&gt;alert(&#39;a &amp; &quot;b&quot;&#39;)&lt;/script&gt;\\u0000\\u202E";
         assert_eq!(markup.as_str(), format!("<p title=\"{escaped}\">{escaped}</p>\n"));
     }
 }

@@ -1,7 +1,7 @@
 //! Which settings are solved together: the product of axes, their pairs, or the rows of a table; and a part of them.
 
 use super::axis::Axis;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::iter;
 
 /// Most combinations of a sweep.
@@ -97,8 +97,13 @@ impl Group {
     /// Empty lines and those that begin with `#` are skipped. A cell in double quotes may hold the separator.
     ///
     /// # Errors
-    /// [`CombinationsError::Table`] with the line.
+    /// [`CombinationsError::Table`] with the line, `TooMany`.
     pub fn table(text: &str) -> Result<Self, CombinationsError> {
+        // Lines are counted before one is read.
+        let count = text.bytes().filter(|byte| *byte == b'\n').count();
+        if count > 2 * MOST {
+            return Err(CombinationsError::TooMany(count.to_string()));
+        }
         let mut lines = (1..).zip(text.lines()).filter(|(_, line)| {
             let line = line.trim_start_matches('\u{feff}').trim();
             !line.is_empty() && !line.starts_with('#')
@@ -181,6 +186,24 @@ impl Combinations {
         self
     }
 
+    /// Combinations that are alike but for numbers which change nothing in how much comes out, one of each kind and how many
+    /// there are of it; `None` for more than `most` kinds. A number of load steps or sublayers changes it.
+    pub(super) fn kinds(&self, most: usize) -> Option<Vec<(&Combination, usize)>> {
+        let counts = |key: &str| ["steps", "sublayers"].iter().any(|word| key.trim_end().ends_with(word));
+        let is_number = |value: &str| value.parse::<f64>().is_ok();
+        let mut kinds: BTreeMap<Vec<&str>, (&Combination, usize)> = BTreeMap::new();
+        for combination in &self.all {
+            let values = self.keys.iter().zip(&combination.values);
+            let kind =
+                values.map(|(key, value)| if counts(key) || !is_number(value) { value.as_str() } else { "" }).collect();
+            kinds.entry(kind).or_insert((combination, 0)).1 += 1;
+            if kinds.len() > most {
+                return None;
+            }
+        }
+        Some(kinds.into_values().collect())
+    }
+
     /// What a combination sets, `KEY=VALUE` each.
     pub fn settings(&self, combination: &Combination) -> Vec<String> {
         self.keys.iter().zip(&combination.values).map(|(key, value)| format!("{key}={value}")).collect()
@@ -236,6 +259,19 @@ mod tests {
         ] {
             assert!(Group::table(text).unwrap_err().to_string().starts_with(message), "{text}");
         }
+    }
+
+    #[test]
+    fn numbers_make_no_kind_of_their_own_but_counts_and_words_do() {
+        let kinds = |texts: &[&str]| {
+            let groups: Vec<Group> = axes(texts).iter().map(Group::of).collect();
+            let all = Combinations::product(&groups).unwrap();
+            all.kinds(3).map(|kinds| kinds.iter().map(|(own, count)| (own.number, *count)).collect::<Vec<_>>())
+        };
+        assert_eq!(kinds(&["a=1:2:50", "b=3:4:20"]), Some(vec![(1, 1000)]));
+        assert_eq!(kinds(&["a=1:2:50", "load.mean_pressure.steps=5,7"]), Some(vec![(1, 50), (2, 50)]));
+        assert_eq!(kinds(&["a=1:2:50", "load.mean_pressure=0.1,[0.1, 0.2]"]), Some(vec![(1, 50), (2, 50)]));
+        assert_eq!(kinds(&["a=p,q,r,s"]), None);
     }
 
     #[test]

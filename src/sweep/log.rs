@@ -4,6 +4,7 @@
 
 use super::row::Row;
 use crate::output::{OutputError, SWEEP_LOG as LOG, whole_lines, write_text};
+use crate::plain;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -61,7 +62,7 @@ pub fn read(path: &Path) -> io::Result<Vec<Row>> {
     let whole = whole_lines(path)?;
     let row = |(number, line): (usize, &String)| {
         serde_json::from_str(line).map_err(|error| {
-            let reason = format!("{}, line {number} is none of a sweep: {error}", path.display());
+            let reason = format!("{}, line {number} is none of a sweep: {error}", plain::path(path));
             io::Error::new(io::ErrorKind::InvalidData, reason)
         })
     };

@@ -22,6 +22,9 @@ use std::time::Instant;
 /// threads work on one combination after another: what several have in memory no longer fits the caches.
 const SMALL: usize = 256 * 256;
 
+/// Kinds of combinations of which one each is read before all are.
+const KINDS: usize = 64;
+
 /// Why no combination can be solved.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
@@ -74,6 +77,7 @@ impl<'a> Study<'a> {
     ) -> Result<Self, StudyError> {
         let (stop, planned) = (Arc::default(), Vec::new());
         let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, stop, planned };
+        study.has_room_for(study.foreseen())?;
         let (mut first, mut results) = (None, 0);
         for (index, combination) in combinations.all.iter().enumerate() {
             let case = study.case(combination).map_err(StudyError::from);
@@ -103,19 +107,34 @@ impl<'a> Study<'a> {
             };
             study.planned.push(planned);
         }
-        if results > room.memory {
-            return Err(StudyError::Refused(format!(
-                "the results of {} combinations take about {} of memory, and {} are available: solve them in parts, with --shard",
-                combinations.all.len(),
-                bytes(results),
-                bytes(room.memory)
-            )));
-        }
+        study.has_room_for(results)?;
         study.room.memory -= results;
         match first {
             Some(error) if study.planned.iter().all(|planned| planned.fingerprint.is_empty()) => Err(error),
             _ => Ok(study),
         }
+    }
+
+    /// Bytes of the results of all combinations, by their number and the case of one of each kind; 0 where that says nothing.
+    fn foreseen(&self) -> u64 {
+        let kinds = self.combinations.kinds(KINDS).unwrap_or_default();
+        let of_kind = |(combination, count): &(&Combination, usize)| {
+            self.case(combination).map_or(0, |case| of_results(&case, self.task).saturating_mul(*count as u64))
+        };
+        kinds.iter().map(of_kind).fold(0, u64::saturating_add)
+    }
+
+    /// Refuses results that memory does not hold.
+    fn has_room_for(&self, results: u64) -> Result<(), StudyError> {
+        if results <= self.room.memory {
+            return Ok(());
+        }
+        Err(StudyError::Refused(format!(
+            "the results of {} combinations take about {} of memory, and {} are available: solve them in parts, with --shard",
+            self.combinations.all.len(),
+            bytes(results),
+            bytes(self.room.memory)
+        )))
     }
 
     /// Keeps the fields of every combination, as a solved case in `combinations/NNNN`.
@@ -303,6 +322,31 @@ mod tests {
         assert!(why.contains("the results of 20 combinations") && why.contains("--shard"), "{why}");
         // 283 MiB of them.
         assert_eq!(study(400).unwrap(), 116);
+    }
+
+    /// A second each for what took half a minute; the machine may be busy.
+    #[test]
+    fn a_million_combinations_without_room_are_refused_by_their_number() {
+        let source = embedded::source("fig2").unwrap();
+        let room = Room { memory: 1 << 30, disk: u64::MAX };
+        for axes in [
+            &["layers.0.poisson=0.1:0.4:1000", "layers.0.thickness=0.1:1:1000"][..],
+            &["layers.0.poisson=0.1:0.4:100000", "load.mean_pressure={ from = 0.01, to = 0.06, steps = 5 },0.01"],
+            &[
+                "layers.0.poisson=0.1:0.4:50000",
+                "load.mean_pressure.steps=2,5",
+                "solver.method=preconditioned,polonsky-keer",
+            ],
+            &["layers.0.poisson=0.1:0.4:100000", "stress={},{ planes = [0.1] }"],
+        ] {
+            let fixed = ["load.mean_pressure={ from = 0.01, to = 0.06, steps = 2 }".to_owned()];
+            let groups: Vec<Group> = axes.iter().map(|text| Group::of(&Axis::parse(text).unwrap())).collect();
+            let (combinations, began) = (Combinations::product(&groups).unwrap(), Instant::now());
+            let refused = Study::new(&source, &fixed, &combinations, Task::Solve, room).unwrap_err().to_string();
+            assert!(refused.contains(&format!("the results of {} combinations", combinations.all.len())), "{refused}");
+            // One case is read in some 30 µs: so many would take longer than this.
+            assert!(began.elapsed().as_micros() < 20 * combinations.all.len() as u128, "{:?}", began.elapsed());
+        }
     }
 
     #[test]

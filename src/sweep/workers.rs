@@ -25,9 +25,10 @@ pub(super) fn each<T: Sync, R: Send, E>(
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (send, receive) = mpsc::channel();
     thread::scope(|scope| {
+        let mut started = false;
         for _ in 0..workers.min(items.len()) {
             let (send, next, stop, work) = (send.clone(), &next, &stop, &work);
-            scope.spawn(move || {
+            let worker = move || {
                 let pool = ThreadPoolBuilder::new().num_threads(1).build();
                 while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
                     // Where the system gives no more threads, the common ones do.
@@ -36,9 +37,13 @@ pub(super) fn each<T: Sync, R: Send, E>(
                         break;
                     }
                 }
-            });
+            };
+            started |= thread::Builder::new().spawn_scoped(scope, worker).is_ok();
         }
         drop(send);
+        if !started {
+            return items.iter().try_for_each(|item| done(work(item)));
+        }
         let ended = receive.iter().try_for_each(&mut done);
         stop.store(true, Ordering::Relaxed);
         drop(receive);

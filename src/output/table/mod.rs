@@ -16,6 +16,7 @@ use super::number::{ROUNDING, number, with_error};
 use crate::case::Case;
 use crate::comparison::Comparison;
 use crate::numeric::search::largest;
+use crate::plain;
 use crate::reading::{LevelReading, Reading};
 use crate::run::{Limits, StepRecord};
 use crate::units::{Prefixed, Units};
@@ -36,7 +37,7 @@ pub fn steps(steps: &[StepRecord], units: &Units) -> Table {
 /// sure that is. `change`: that from the next coarser grid, where an accuracy was asked for.
 pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: usize) -> String {
     let units = case.units();
-    let mut text = if case.title.is_empty() { String::new() } else { format!("{}\n", case.title) };
+    let mut text = heading(case);
     text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
     if let Some(largest) = largest_stresses(steps, &units) {
         text += &format!("\n{}\n\n", largest.fitted(width));
@@ -53,9 +54,17 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     text
 }
 
+/// The title of a case as a line; nothing where it has none.
+fn heading(case: &Case) -> String {
+    if case.title.is_empty() { String::new() } else { format!("{}\n", plain::line(&case.title)) }
+}
+
 /// All that is said of the limit loads of a case.
 pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
-    let mut text = if case.title.is_empty() { String::new() } else { format!("{}\n\n", case.title) };
+    let mut text = heading(case);
+    if !text.is_empty() {
+        text.push('\n');
+    }
     text += &format!("{}\n\n", limits(found, &case.units()).fitted(width));
     if let Some(change) = found.change {
         text += &format!("change from the next coarser grid: {change:.1e}\n");
@@ -66,7 +75,7 @@ pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
 /// All that is said of the comparison of both methods under the last load of a case.
 pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     let (units, steps) = (case.units(), case.load.values().len());
-    let mut text = if case.title.is_empty() { String::new() } else { format!("{}\n", case.title) };
+    let mut text = heading(case);
     if steps > 1 {
         text += &format!("the last of {steps} load steps\n");
     }

@@ -1,0 +1,118 @@
+//! How many threads the machine has use for.
+
+use std::env;
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+/// Variable of the environment that says how many threads are used where nothing else does.
+const VARIABLE: &str = "RAYON_NUM_THREADS";
+/// Threads of one core up to which they do no harm.
+const PER_CORE: usize = 4;
+
+/// Threads that this process has said to work with; 0: not yet.
+static USED: AtomicUsize = AtomicUsize::new(0);
+
+/// A number of threads that is no more than four a core.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Threads {
+    /// How many, at least 1.
+    pub count: usize,
+    /// Why they are fewer than wanted; `None` where they are not.
+    pub lowered: Option<String>,
+}
+
+impl Threads {
+    /// As many as are asked for by the option `source`, else as the environment says, else one a core.
+    ///
+    /// # Errors
+    /// A sentence when the environment says what is no number.
+    pub fn new(source: &str, asked: Option<usize>) -> Result<Self, String> {
+        match asked {
+            Some(wanted) => Ok(Self::on(cores(), source, Some(wanted))),
+            None => Ok(Self::on(
+                cores(),
+                VARIABLE,
+                of_variable(env::var_os(VARIABLE).map(|value| value.to_string_lossy().into_owned()))?,
+            )),
+        }
+    }
+
+    /// So many of the `wanted` ones as do no harm on so many cores.
+    fn on(cores: usize, source: &str, wanted: Option<usize>) -> Self {
+        let count = wanted.unwrap_or(cores).clamp(1, PER_CORE * cores);
+        let lowered = wanted.filter(|&wanted| wanted > count).map(|wanted| {
+            format!("{count} threads are used, not the {wanted} of {source}: more than {PER_CORE} on each of {cores} cores wait for one another")
+        });
+        Self { count, lowered }
+    }
+
+    /// From now on these are the threads of the process.
+    pub fn are_used(&self) {
+        USED.store(self.count, Ordering::Relaxed);
+    }
+
+    /// Most threads that do no harm.
+    pub fn most() -> usize {
+        PER_CORE * cores()
+    }
+
+    /// Threads that this process works with, as far as it is known.
+    pub(super) fn used() -> usize {
+        match USED.load(Ordering::Relaxed) {
+            0 => Self::new("", None).map_or_else(|_| cores(), |threads| threads.count),
+            used => used,
+        }
+    }
+}
+
+fn cores() -> usize {
+    thread::available_parallelism().map_or(1, NonZero::get)
+}
+
+/// The number that the variable has; `None` for as many as there are cores.
+fn of_variable(value: Option<String>) -> Result<Option<usize>, String> {
+    let Some(value) = value.filter(|value| !value.is_empty()) else { return Ok(None) };
+    let digits = value.trim();
+    if digits.is_empty() || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+        return Err(format!(
+            "{VARIABLE} = \"{value}\" in the environment is no number of threads: set it to one (0: all cores), unset it, or say \
+             how many threads are to be used"
+        ));
+    }
+    // Digits that are no number are those of too large a one.
+    Ok(Some(digits.parse().unwrap_or(usize::MAX)).filter(|&count| count > 0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_threads_than_four_a_core_are_lowered_and_said_so() {
+        for (wanted, count) in [(None, 2), (Some(1), 1), (Some(8), 8), (Some(9), 8), (Some(usize::MAX), 8)] {
+            let threads = Threads::on(2, "--threads", wanted);
+            assert_eq!(threads.count, count, "{wanted:?}");
+            assert_eq!(threads.lowered.is_some(), wanted.is_some_and(|wanted| wanted > 8), "{wanted:?}");
+        }
+        let told = Threads::on(2, "--threads", Some(1000)).lowered.unwrap();
+        assert!(told.contains("8 threads are used, not the 1000 of --threads"), "{told}");
+    }
+
+    #[test]
+    fn a_variable_is_a_number_or_refused() {
+        for (value, count) in [
+            (None, None),
+            (Some(""), None),
+            (Some("0"), None),
+            (Some("3"), Some(3)),
+            (Some(" 3 "), Some(3)),
+            (Some("99999999999999999999999"), Some(usize::MAX)),
+        ] {
+            assert_eq!(of_variable(value.map(str::to_owned)), Ok(count), "{value:?}");
+        }
+        for value in ["many", "-1", "2.5", "1e3", "0x4", "4 cores", " ", "٣", "+3", "\u{1b}[2J"] {
+            assert!(of_variable(Some(value.to_owned())).unwrap_err().contains(VARIABLE), "{value}");
+        }
+    }
+}

@@ -1,0 +1,168 @@
+//! A process that may take little: few threads, small stacks, few addresses, a full disk. It ends with an error of one line.
+
+#![cfg(target_os = "linux")]
+
+use crate::program::{Answer, Desk};
+use std::fs::{self, File, Permissions};
+use std::os::unix::fs::PermissionsExt;
+use std::process::{Command, Output, Stdio};
+use std::time::Instant;
+
+fn answer(output: Output) -> Answer {
+    let text = |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).into_owned();
+    Answer { code: output.status.code().unwrap_or(-1), out: text(output.stdout), err: text(output.stderr) }
+}
+
+/// Runs `percoat` under limits of `ulimit`; under those of threads as somebody who is bound by them, for an administrator is not.
+fn under(desk: &Desk, limits: &str, arguments: &[&str]) -> Option<Answer> {
+    let program = assert_cmd::cargo::cargo_bin!("percoat");
+    let shell = ["bash", "-c", &format!("{limits}; exec \"$0\" \"$@\"")].map(str::to_owned);
+    let is_bound = Command::new("id").arg("-u").output().is_ok_and(|own| own.stdout != b"0\n");
+    let words: Vec<String> = if limits.contains("-u") && !is_bound {
+        ["setpriv", "--reuid=4242", "--clear-groups"].map(str::to_owned).into_iter().chain(shell).collect()
+    } else {
+        shell.into_iter().collect()
+    };
+    fs::set_permissions(desk.path("."), Permissions::from_mode(0o777)).unwrap();
+    let mut command = Command::new(&words[0]);
+    let output = command.args(&words[1..]).arg(program).args(arguments).current_dir(desk.path(".")).output().ok()?;
+    Some(answer(output)).filter(|answer| answer.code != 126)
+}
+
+/// It is done, or it says in a line why not.
+fn assert_ended_well(answer: &Answer, what: &str) {
+    assert!([0, 2, 4].contains(&answer.code), "{what} ends with {}: {}", answer.code, answer.err);
+    if answer.code != 0 {
+        assert!(answer.err.starts_with("error: ") && answer.err.lines().count() == 1, "{what}: {}", answer.err);
+    }
+}
+
+#[test]
+fn few_threads_are_an_error_of_one_line() {
+    let desk = Desk::new();
+    let mut failed = 0;
+    for most in 1..=8 {
+        let folder = format!("out{most}");
+        for arguments in [
+            &["check", "fig2", "--set=grid.points=48"][..],
+            &["solve", "fig2", "--set=grid.points=32", "--no-pictures", "-o", &folder],
+            &["sweep", "fig2", "--set=grid.points=32,36,40", "--no-pictures", "-o", &folder],
+            &["kernel", "fig2", "--wavenumber", "1"],
+            &["check", "fig2", "--threads", "7"],
+        ] {
+            let Some(answer) = under(&desk, &format!("ulimit -u {most}"), arguments) else { return };
+            let what = format!("{most} threads: {arguments:?}");
+            if answer.code == 0 {
+                // A coarse grid is warned of.
+                continue;
+            }
+            assert_eq!(answer.code, 4, "{what}: {}", answer.err);
+            assert_ended_well(&answer, &what);
+            assert!(answer.err.contains("cannot start") && answer.err.contains("ulimit -u"), "{what}: {}", answer.err);
+            failed += 1;
+        }
+    }
+    assert!(failed >= 5, "no limit was felt: {failed}");
+}
+
+#[test]
+fn a_small_stack_is_enough() {
+    let desk = Desk::new();
+    // What a program needs before it is one is less than 64 kB.
+    for most in [64, 80, 100, 500] {
+        for arguments in
+            [&["check", "fig2"][..], &["explain"], &["--help"], &["cases", "fig2", "--set", "grid.points=64"]]
+        {
+            let answer = under(&desk, &format!("ulimit -s {most}"), arguments).unwrap();
+            assert_eq!(answer.code, 0, "{most} kB, {arguments:?}: {}", answer.err);
+        }
+    }
+}
+
+#[test]
+fn few_addresses_are_an_error_of_one_line() {
+    let desk = Desk::new();
+    for most in [40_000, 60_000, 90_000, 130_000, 180_000, 230_000, 300_000] {
+        for arguments in [
+            &["check", "fig2"][..],
+            &["solve", "fig2", "--set=grid.points=2048", "--no-pictures"],
+            &["limit", "--set=grid.points=1024", "--no-pictures"],
+            &["sweep", "fig2", "--set=grid.points=1024,2048", "--no-pictures"],
+            &["check", "fig2", "--threads", "8"],
+        ] {
+            let answer = under(&desk, &format!("ulimit -v {most}"), arguments).unwrap();
+            assert_ended_well(&answer, &format!("{most} kB of addresses: {arguments:?}"));
+        }
+    }
+}
+
+#[test]
+fn help_that_cannot_be_written_is_an_error() {
+    let desk = Desk::new();
+    for arguments in [
+        &["--help"][..],
+        &["-h"],
+        &["--version"],
+        &["help"],
+        &["help", "solve"],
+        &["solve", "--help"],
+        &["sweep", "-h"],
+        &["cases", "--version"],
+        &["cases"],
+        &["explain", "grid.points"],
+        &["completions", "bash"],
+        &["man"],
+        &["kernel", "fig2", "--wavenumber", "1"],
+    ] {
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("percoat"));
+        let output = command.args(arguments).current_dir(desk.path(".")).stdout(full).stderr(Stdio::piped()).output();
+        answer(output.unwrap()).complains(4, &["error: cannot write standard output"]);
+    }
+}
+
+#[test]
+fn more_threads_than_cores_have_use_for_are_lowered_with_a_word() {
+    let desk = Desk::new();
+    let arguments = ["check", "fig2", "--set", "grid.points=48"];
+    let with = |variable: Option<&str>, more: &[&str]| {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("percoat"));
+        command.args(arguments).args(more).current_dir(desk.path(".")).env_remove("RAYON_NUM_THREADS");
+        if let Some(value) = variable {
+            command.env("RAYON_NUM_THREADS", value);
+        }
+        let began = Instant::now();
+        let answer = answer(command.output().unwrap());
+        assert!(began.elapsed().as_secs() < 60, "{variable:?} {more:?}");
+        answer
+    };
+    for (variable, more, source) in [
+        (None, &["--threads", "1000"][..], "--threads"),
+        (None, &["--threads", "5000"], "--threads"),
+        (None, &["--threads", "65535"], "--threads"),
+        (Some("1000"), &[], "RAYON_NUM_THREADS"),
+        (Some("99999999999999999999999"), &[], "RAYON_NUM_THREADS"),
+        (Some("3"), &["--threads", "20000"], "--threads"),
+    ] {
+        let answer = with(variable, more);
+        assert_eq!(answer.code, 0, "{}", answer.err);
+        assert!(
+            answer.err.contains("note: ") && answer.err.contains(&format!("of {source}: more than 4")),
+            "{}",
+            answer.err
+        );
+    }
+    for (variable, more) in
+        [(None, &["--threads", "1"][..]), (Some("2"), &[]), (Some(""), &[]), (Some("many"), &["--threads", "2"])]
+    {
+        let answer = with(variable, more);
+        assert_eq!((answer.code, answer.err.contains("threads")), (0, false), "{}", answer.err);
+    }
+    for variable in ["many", "-1", "2.5", "1e3", "0x10", "4 cores", "\u{1b}[2J"] {
+        let answer = with(Some(variable), &[]);
+        answer.complains(2, &["error: RAYON_NUM_THREADS", "is no number of threads"]);
+        assert!(!answer.err.contains('\u{1b}'), "{:?}", answer.err);
+    }
+    let quiet = ["solve", "fig2", "-q", "--no-pictures", "--set=grid.points=32", "--threads", "1000"];
+    assert_eq!(desk.percoat(&quiet).err, "");
+}
