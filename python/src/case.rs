@@ -5,12 +5,12 @@ use crate::toml;
 use crate::work;
 use ::toml::Value;
 use numpy::PyArrayLikeDyn;
-use percoat::case::resources::{Job, refusal};
-use percoat::case::{self, Room, Source, SurfaceSection, embedded};
+use percoat::case::resources::{Job, bytes, refusal};
+use percoat::case::{self, Room, Source, SurfaceSection, available_memory, embedded};
 use percoat::output::{self, Check};
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyMemoryError, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyMapping, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyMapping, PyString, PyTuple};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -193,11 +193,57 @@ fn npy(heights: &Bound<'_, PyAny>) -> PyResult<Arc<[u8]>> {
     if heights.hasattr("dtype")? && heights.getattr("dtype")?.getattr("kind")?.eq("c")? {
         return Err(PyTypeError::new_err("`surface.heights` is complex: heights are real numbers"));
     }
-    let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights
-        .extract()
-        .map_err(|_| PyTypeError::new_err("`surface.heights` is an array of numbers, one period of the cell"))?;
+    has_room(&sizes(heights)?)?;
+    let py = heights.py();
+    let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights.extract().map_err(|error: PyErr| {
+        if error.is_instance_of::<PyMemoryError>(py) {
+            return error;
+        }
+        PyTypeError::new_err("`surface.heights` is an array of numbers, one period of the cell")
+    })?;
     let view = heights.as_array();
-    output::npy_bytes(view.shape(), view.iter().copied()).map(Arc::from).map_err(refused)
+    has_room(view.shape())?;
+    output::npy_shared(view.shape(), view.iter().copied()).map_err(refused)
+}
+
+/// The sizes of an array or of a list of lists, before anything of it is copied.
+fn sizes(heights: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+    if let Ok(shape) = heights.getattr("shape") {
+        return Ok(shape.extract().unwrap_or_default());
+    }
+    let (mut sizes, mut own) = (Vec::new(), heights.clone());
+    // No array of NumPy has more axes.
+    while let (true, Ok(size)) = (sizes.len() < 64 && !own.is_instance_of::<PyString>(), own.len()) {
+        sizes.push(size);
+        match own.get_item(0) {
+            Ok(first) => own = first,
+            Err(_) => break,
+        }
+    }
+    Ok(sizes)
+}
+
+/// Copies of the heights that are there at once at most: in another type, as a file of the case, and as a surface with its waves.
+const COPIES: u64 = 4;
+
+/// Refuses heights that memory does not hold before any is taken for them.
+fn has_room(sizes: &[usize]) -> PyResult<()> {
+    let samples = sizes.iter().fold(1_u64, |samples, &size| samples.saturating_mul(size as u64));
+    let (needed, available) = (samples.saturating_mul(8 * COPIES), available_memory());
+    let mut all: Vec<u8> = Vec::new();
+    // A limit of the process refuses what it would not survive.
+    let is_given =
+        needed <= available && usize::try_from(needed).is_ok_and(|needed| all.try_reserve_exact(needed).is_ok());
+    if is_given {
+        return Ok(());
+    }
+    let sizes: Vec<String> = sizes.iter().map(ToString::to_string).collect();
+    Err(PyMemoryError::new_err(format!(
+        "`surface.heights` of {} samples takes about {} of memory, and {} are available: give fewer of them",
+        sizes.join(" × "),
+        bytes(needed),
+        bytes(available)
+    )))
 }
 
 /// Names and titles of the embedded cases.

@@ -1,6 +1,7 @@
 //! Errors, with the message of the command line.
 
 use percoat::case::NoCase;
+use percoat::plain;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 use std::fmt;
@@ -15,9 +16,9 @@ pyo3::create_exception!(
      where it stands, the value received, what is allowed and what to do."
 );
 
-/// What is asked for is refused, for this reason.
+/// What is asked for is refused, for this reason, in which nothing is hidden.
 pub fn refused(reason: impl fmt::Display) -> PyErr {
-    CaseError::new_err(reason.to_string())
+    CaseError::new_err(plain::lines(&reason.to_string()).into_owned())
 }
 
 /// A file cannot be read; Python makes of it `FileNotFoundError` and the like.
@@ -28,7 +29,7 @@ pub fn unreadable(path: &Path, error: &io::Error) -> PyErr {
             let told = told.split(" (os error").next().unwrap_or_default().to_owned();
             PyOSError::new_err((code, told, path.display().to_string()))
         }
-        None => PyOSError::new_err(format!("cannot read {}: {error}", path.display())),
+        None => PyOSError::new_err(format!("cannot read {}: {error}", plain::path(path))),
     }
 }
 

@@ -6,6 +6,7 @@
 
 use crate::errors::refused;
 use crate::progress::Progress;
+use percoat::case::Threads;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -21,9 +22,6 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_millis(50);
 /// Between two calls of the callable while the same thing goes on.
 const PAUSE: Duration = Duration::from_millis(50);
-
-/// More threads than any machine has cores do harm.
-const MOST: i64 = 1024;
 
 /// What goes from the work to the thread that waits for it.
 enum Event<T> {
@@ -71,8 +69,9 @@ pub fn run<T: Send + 'static>(
     progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce(&mut Listener) -> T + Send + 'static,
 ) -> PyResult<T> {
-    if let Some(threads) = threads.filter(|threads| !(1..=MOST).contains(threads)) {
-        return Err(refused(format!("threads must be between 1 and {MOST}, not {threads}")));
+    let most = Threads::most();
+    if let Some(threads) = threads.filter(|threads| !(1..=most as i64).contains(threads)) {
+        return Err(refused(format!("threads must be between 1 and {most}, four for each core, not {threads}")));
     }
     let pool = pool(threads)?;
     let stop = Arc::new(AtomicBool::new(false));
@@ -155,15 +154,22 @@ struct Pool {
 
 static POOLS: Mutex<Vec<Pool>> = Mutex::new(Vec::new());
 
-/// As many threads as asked for; the last ones asked for, and as many as there are cores, are kept.
+/// As many threads as asked for, else as the environment says, at most four a core; the last ones asked for, and as many as there are
+/// cores, are kept.
 fn pool(threads: Option<i64>) -> PyResult<Arc<ThreadPool>> {
     let mut pools = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     if let Some(own) = pools.iter().find(|own| own.process == process && own.threads == threads) {
         return Ok(Arc::clone(&own.pool));
     }
-    let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize).build();
-    let pool = Arc::new(pool.map_err(|error| PyRuntimeError::new_err(format!("cannot start threads: {error}")))?);
+    let count = Threads::new("threads", threads.map(|threads| threads as usize)).map_err(refused)?.count;
+    let pool = ThreadPoolBuilder::new().num_threads(count).build();
+    let told = |error| {
+        PyRuntimeError::new_err(format!(
+            "cannot start {count} threads: {error}; allow this process more, or give threads=1"
+        ))
+    };
+    let pool = Arc::new(pool.map_err(told)?);
     let (here, gone): (Vec<Pool>, Vec<Pool>) = pools.drain(..).partition(|own| own.process == process);
     // Nobody is there who could be told to end.
     gone.into_iter().for_each(std::mem::forget);

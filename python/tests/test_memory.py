@@ -204,3 +204,63 @@ def test_references_are_counted() -> None:
         step.stress(points)
     gc.collect()
     assert [sys.getrefcount(own) for own in (heights, case, points, heard.append.__self__)] == before
+
+
+HUGE = {
+    "broadcast": "np.broadcast_to(np.zeros(1), (10**6, 10**6))",
+    "broadcast of another type": "np.broadcast_to(np.zeros(1, np.int8), (10**6, 10**6))",
+    "one long axis": "np.broadcast_to(np.zeros((1, 2)), (10**12, 2))",
+    "overlapping": "np.lib.stride_tricks.as_strided(np.zeros(8), (10**6, 10**6), (0, 0))",
+    "a list of one list": "[[0.0] * 10**6] * 10**6",
+    "as many as can be": "np.broadcast_to(np.zeros(1), (2**30, 2**29))",
+}
+
+
+@pytest.mark.parametrize("name", list(HUGE))
+def test_heights_that_memory_does_not_hold(python: Any, name: str) -> None:
+    # In a process of its own: it would be killed, or all others with it.
+    text = f"""
+import numpy as np, percoat, resource
+huge = {HUGE[name]}
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+for ask in (percoat.check, percoat.solve, percoat.case):
+    try:
+        ask({{
+            "surface": {{"heights": huge, "period": [1.0, 1.0]}},
+            "substrate": {{"young": 1.0, "poisson": 0.3}},
+            "load": {{"mean_pressure": 1e-3}},
+        }})
+    except MemoryError as error:
+        print(error)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 100_000)
+"""
+    *told, modest = python(text, timeout=60.0).stdout.splitlines()
+    assert modest == "True" and len(told) == 3, told
+    assert all("`surface.heights` of " in line and "of memory" in line for line in told), told
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="address space is limited under Linux")
+@pytest.mark.parametrize("points", [2048, 4096, 8192])
+def test_heights_beyond_the_limit_of_a_process(python: Any, points: int) -> None:
+    # Without a core: an interpreter that aborts ends with another code.
+    text = f"""
+import numpy as np, percoat, resource
+percoat.check("fig2", set={{"grid.points": 48}})
+heights = np.broadcast_to(np.cos(np.arange({points}) * 2 * np.pi / {points})[:, None], ({points}, {points}))
+case = {{
+    "surface": {{"heights": heights, "period": [1.0, 1.0]}},
+    "substrate": {{"young": 1.0, "poisson": 0.3}},
+    "load": {{"mean_pressure": 1e-3}},
+}}
+taken = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+for more in (2**24, 2**26, 2**27):
+    resource.setrlimit(resource.RLIMIT_AS, (taken + more, resource.RLIM_INFINITY))
+    try:
+        percoat.check(case)
+    except (MemoryError, percoat.CaseError) as error:
+        print(type(error).__name__)
+resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+print(percoat.check("fig2", set={{"grid.points": 48}}).points)
+"""
+    told = python(text, timeout=60.0).stdout.splitlines()
+    assert told[0] == "MemoryError" and told[-1] == "[48, 48]", told

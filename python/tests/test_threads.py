@@ -87,6 +87,29 @@ def test_threads_do_not_pile_up() -> None:
     assert alive() <= before + 5
 
 
+@pytest.mark.parametrize("variable", ["5000", "99999999999999999999", "1"])
+def test_the_environment_does_not_ask_for_too_many(python: Callable[..., Any], variable: str) -> None:
+    text = """
+import os, percoat
+percoat.check("fig2", set={"grid.points": 48})
+print(len(os.listdir("/proc/self/task")) if os.path.isdir("/proc/self/task") else 0)
+"""
+    most = 4 * (os.cpu_count() or 1) + 4
+    assert int(python(text, RAYON_NUM_THREADS=variable, OPENBLAS_NUM_THREADS="1").stdout) <= most
+
+
+@pytest.mark.parametrize("variable", ["many", "-1", "2.5", "1e3"])
+def test_an_environment_without_a_number_is_refused(python: Callable[..., Any], variable: str) -> None:
+    text = """
+import percoat
+try:
+    percoat.check("fig2", set={"grid.points": 48})
+except percoat.CaseError as error:
+    print(error)
+"""
+    assert python(text, RAYON_NUM_THREADS=variable).stdout.startswith("RAYON_NUM_THREADS")
+
+
 def test_several_threads_solve_at_once(expected: list[bytes]) -> None:
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         solving = [pool.submit(percoat.solve, "fig2", set=SETTINGS, threads=n) for n in (1, 2, None, 3) * 4]

@@ -64,7 +64,7 @@ pub use kernel::{Traction, kernel};
 pub use layout::{COMBINATIONS, FolderError, SWEEP_LOG, is_beside};
 pub use limit::{limit_json, limits_json};
 pub use manifest::{Scope, Writer, checksum};
-pub use npz::npy_bytes;
+pub use npz::{npy_bytes, npy_shared};
 pub use number::number;
 pub(crate) use number::with_error;
 pub use recorded::{Unreadable, limits_of, steps_of, timing_of};

@@ -5,6 +5,7 @@ use npyz::{AutoSerialize, WriterBuilder};
 use std::cell::RefCell;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::rc::Rc;
+use std::sync::Arc;
 use zip::write::SimpleFileOptions;
 
 /// An `.npz` archive that is being written.
@@ -136,6 +137,26 @@ pub fn npy_bytes(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::
     Ok(bytes)
 }
 
+/// The same, written where it stays: beside the bytes nothing is taken. `values` are as many as the shape says.
+///
+/// # Errors
+/// When there is no header of such a shape.
+pub fn npy_shared(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<Arc<[u8]>> {
+    let (mut head, mut values, mut value) = (Vec::new(), values.into_iter(), [0; size_of::<f64>()]);
+    header::<f64>(&mut head, shape)?;
+    let (begin, end) = (head.len(), head.len() + size_of_val(&value) * shape.iter().product::<usize>());
+    // The length of a mapped range is known: the bytes are collected without a detour.
+    let byte = |at: usize| {
+        let Some(at) = at.checked_sub(begin) else { return head[at] };
+        let at = at % value.len();
+        if at == 0 {
+            value = values.next().unwrap_or(f64::NAN).to_ne_bytes();
+        }
+        value[at]
+    };
+    Ok((0..end).map(byte).collect())
+}
+
 /// What stands before the values of an array. The library would write those one by one, which takes longer than the disk.
 pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> io::Result<()> {
     let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
@@ -167,6 +188,14 @@ pub(super) fn complete(shape: &[usize], count: usize) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_array_written_where_it_stays_is_the_same() {
+        for shape in [&[][..], &[0], &[5], &[2, 3], &[3, 0, 2], &[40, 50]] {
+            let values = || (0..shape.iter().product::<usize>()).map(|k| (k as f64).sqrt() - 1.5);
+            assert_eq!(&*npy_shared(shape, values()).unwrap(), npy_bytes(shape, values()).unwrap(), "{shape:?}");
+        }
+    }
 
     /// A disk with room for so many bytes.
     struct Disk(io::Cursor<Vec<u8>>, u64);
