@@ -4,6 +4,8 @@
 
 #[path = "command_line/archive.rs"]
 mod archive;
+#[path = "command_line/assumptions.rs"]
+mod assumptions;
 #[path = "command_line/browser.rs"]
 mod browser;
 #[path = "command_line/cases.rs"]

@@ -118,8 +118,13 @@ impl Case {
             elements: *elements,
             rule: *radius,
             mutual_effect: *mutual_effect,
-            mean: self.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean),
+            mean: self.mean_stress(),
         }
+    }
+
+    /// The mean lateral stress of largest stresses and limits: the default without a section `stress`.
+    pub fn mean_stress(&self) -> MeanStress {
+        self.stress.as_ref().map_or(MeanStress::default(), |stress| stress.mean)
     }
 
     /// What `percoat solve` does.

@@ -24,6 +24,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     doubts.extend(moduli(case));
     doubts.extend(strengths(case));
     doubts.extend(friction(case));
+    doubts.extend(drifting(case, cell));
     doubts.extend(lengths(case, cell));
     doubts.extend(sublayers::doubt(case));
     if counterbody.indenters().is_some() {
@@ -204,6 +205,33 @@ fn topography(topography: &Topography) -> Option<String> {
     Some(format!("surface.heights: the mean slope is {}, {told}: are heights and the cell in one unit?", number(slope)))
 }
 
+/// Springs that give way under the mean friction: what lies above them drifts by μp̄/k_t against what lies below.
+fn drifting(case: &Case, cell: Cell) -> Vec<String> {
+    let (Some(friction), LoadSection::MeanPressure(loads)) = (case.problem().friction(), &case.load) else {
+        return Vec::new();
+    };
+    let traction = friction.coefficient() * loads.iter().copied().fold(0.0, f64::max);
+    let [side, other] = cell.vectors().map(|[x, y]| x.hypot(y));
+    let period = side.min(other);
+    // Under a graded layer that of its last sublayer.
+    let sections = (0..).zip(&case.layers).flat_map(|(number, layer)| repeat_n(number, layer.sublayers()));
+    let drifts = sections.zip(case.half_space().layers()).filter_map(|(layer, above): (usize, &Layer)| {
+        let Interface::Spring { tangential, .. } = above.interface() else { return None };
+        let drift = Some(traction / tangential).filter(|drift| *drift > period)?;
+        Some(format!(
+            "under the mean friction μp̄ = {} the spring under layers[{layer}] (tangential stiffness {}) lets what lies above it drift \
+             by μp̄/k_t = {}, {} times the side {} of the cell: displacements are not small any more; is the stiffness in \
+             pressure over length, in the units of the case?",
+            number(traction),
+            number(tangential),
+            number(drift),
+            ratio(drift / period),
+            number(period)
+        ))
+    });
+    drifts.collect()
+}
+
 /// Springs that slip over more than the cell: the wide disc of `mean = "half-space"` must be wider than that.
 fn slipping(case: &Case, cell: Cell) -> Vec<String> {
     let (half_space, side) = (case.half_space(), cell.reduced().longer_side());
@@ -298,6 +326,33 @@ mod tests {
         assert!(topography(&waves(1e-10)).unwrap().contains("flatter"));
         assert_eq!(topography(&waves(0.01)), None);
         assert_eq!(topography(&waves(0.0)), None);
+    }
+
+    #[test]
+    fn a_coating_that_drifts_by_more_than_a_period_is_doubted() {
+        let said = |k: &str, friction: &str, load: &str, more: &[&str]| {
+            let spring = format!("layers.0.interface={{ tangential_stiffness = {k} }}");
+            let (friction, load) = (format!("friction.coefficient={friction}"), format!("load.mean_pressure={load}"));
+            doubts("fig2", &[&[spring.as_str(), &friction, &load], more].concat()).join("\n")
+        };
+        // μp̄ = 0.03 at the highest load; fig2's cell has the side √3.
+        let soft = said("0.01", "0.5", "[0.01, 0.06]", &[]);
+        assert!(
+            soft.contains("μp̄ = 0.03") && soft.contains("layers[0]") && soft.contains("drift by μp̄/k_t = 3"),
+            "{soft}"
+        );
+        for (k, friction, load, more) in [
+            ("0.02", "0.5", "0.06", &[][..]),
+            ("1e3", "0.5", "0.06", &[]),
+            ("0.01", "0.2", "0.06", &[]),
+            ("0.01", "0.5", "[0.02, 0.01]", &[]),
+            ("0.01", "0.5", "0.06", &["lattice.period=10"]),
+        ] {
+            let told = said(k, friction, load, more);
+            assert!(!told.contains("drift"), "{k} {friction} {load} {more:?}: {told}");
+        }
+        let frictionless = doubts("fig2", &["layers.0.interface={ tangential_stiffness = 1e-9 }"]).join("\n");
+        assert!(!frictionless.contains("drift"), "{frictionless}");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
 use super::markup::{numbers, tag, with};
-use super::part::{Part, by, case_to_copy, section, title, version, warnings};
+use super::part::{Part, by, case_to_copy, mean_of, section, title, version, warnings};
 use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::{case_of, measured_in, told, units_of};
@@ -50,6 +50,8 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
                     numbers(&first(&limits, &units).unwrap_or_else(|| upper(&found.words))),
                 ),
                 table("Limit loads; ± is the estimated error of the grid", &found.table),
+                tag("p", upper(tables::mean_stress(mean_of(case)))),
+                tag("p", upper(tables::RIGID)),
             ],
         ),
         section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),

@@ -1,6 +1,7 @@
 //! A part of the page: one result in its sections, and the sections that every result has.
 
 use super::markup::{Markup, tag, with};
+use crate::body::MeanStress;
 use serde_json::Value;
 
 /// A result on the page.
@@ -61,6 +62,11 @@ pub(super) fn by(file: &Value) -> Markup {
         version(file)
             .map_or("By a version that does not name itself.".to_owned(), |own| format!("Computed by percoat {own}.")),
     )
+}
+
+/// The mean lateral stress in the stresses of a result, as its case says; the default where it says nothing.
+pub(super) fn mean_of(case: &Value) -> MeanStress {
+    if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() }
 }
 
 /// The title of a result's case.

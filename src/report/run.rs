@@ -7,7 +7,7 @@ use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
 use super::markup::{tag, with};
-use super::part::{Part, by, case_to_copy, section, title, version, warnings};
+use super::part::{Part, by, case_to_copy, mean_of, section, title, version, warnings};
 use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
@@ -62,6 +62,7 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
 
     let taken = tables::utilisations(&steps, read.as_ref().map(Case::half_space), &units);
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
+    let mean = tables::mean_stress(mean_of(case));
     let mut sections = vec![
         section("answer", "Answer", vec![doubts(&steps), fails.unwrap_or_default(), answer(&steps, &units)]),
         section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
@@ -76,12 +77,16 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
         sections.push(section(
             "stresses",
             "Largest stresses",
-            vec![table("Largest stresses and their places", &largest)],
+            vec![table("Largest stresses and their places", &largest), tag("p", upper(mean))],
         ));
     }
     if let Some(taken) = &taken {
         let caption = "Utilisations: 1 is where the material or interface fails";
-        sections.push(section("strengths", "Strengths", vec![table(caption, &taken.table)]));
+        sections.push(section(
+            "strengths",
+            "Strengths",
+            vec![table(caption, &taken.table), tag("p", upper(mean)), tag("p", upper(tables::RIGID))],
+        ));
     }
     sections.push(section("warnings", "Warnings", vec![warnings(file)]));
     sections.push(section("resolution", "Resolution", vec![resolution(&steps, file["accuracy"].as_f64())]));

@@ -1,11 +1,14 @@
 //! The result table a person reads.
 
+mod assumed;
 mod by_step;
 mod comparison;
 mod largest;
 mod strength;
 mod text;
 
+use assumed::assumed;
+pub use assumed::{RIGID, mean_stress};
 pub use comparison::{differences, readings, stresses};
 pub use largest::largest_stresses;
 pub use strength::{limits, utilisations};
@@ -39,14 +42,19 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     let units = case.units();
     let mut text = heading(case);
     text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
-    if let Some(largest) = largest_stresses(steps, &units) {
+    let largest = largest_stresses(steps, &units);
+    if let Some(largest) = &largest {
         text += &format!("\n{}\n\n", largest.fitted(width));
     }
-    if let Some(strength) = utilisations(steps, Some(case.problem().half_space()), &units) {
+    let strength = utilisations(steps, Some(case.problem().half_space()), &units);
+    if let Some(strength) = &strength {
         text += &format!("\n{}\n\n", strength.fitted(width));
     }
     if let Some(errors) = largest_errors(steps) {
         text += &format!("{errors}\n");
+    }
+    if largest.is_some() || strength.is_some() {
+        text += &assumed(case.mean_stress(), strength.is_some(), width);
     }
     if let Some(change) = change {
         text += &format!("change from the next coarser grid: {change:.1e}\n");
@@ -66,6 +74,7 @@ pub fn limited(case: &Case, found: &Limits, width: usize) -> String {
         text.push('\n');
     }
     text += &format!("{}\n\n", limits(found, &case.units()).fitted(width));
+    text += &assumed(case.mean_stress(), true, width);
     if let Some(change) = found.change {
         text += &format!("change from the next coarser grid: {change:.1e}\n");
     }
@@ -81,7 +90,8 @@ pub fn compared(case: &Case, comparison: &Comparison, width: usize) -> String {
     }
     let readings = readings(comparison, &units).fitted(width);
     text += &format!("\n{readings}\n\n{}\n\n", differences(comparison).fitted(width));
-    text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n"))
+    let mean = assumed(case.mean_stress(), false, width);
+    text + &stresses(comparison, &units).map_or(String::new(), |stresses| format!("{stresses}\n{mean}"))
 }
 
 /// The units of the mean pressure and the penetration.

@@ -1,0 +1,74 @@
+//! What stands behind largest stresses and limits is said beside them: rigid indenters, and which mean lateral stress.
+
+use crate::program::{Desk, Folder};
+
+const SMALL: [&str; 2] = ["--set=grid.points=48", "--no-pictures"];
+const CONFINED: &str = "stress.mean = \"confined\"";
+const HALF_SPACE: &str = "stress.mean = \"half-space\"";
+
+/// A page without what HTML makes of quotes and of what stays on one line.
+fn words(page: &str) -> String {
+    page.replace("&quot;", "\"").replace('\u{a0}', " ")
+}
+
+/// What was printed as if it stood in one line.
+fn line(out: &str) -> String {
+    out.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn the_mean_stress_that_was_used_stands_beside_stresses_and_limits() {
+    let desk = Desk::new();
+    for (number, set, said, not) in [
+        (0, "stress={}", CONFINED, HALF_SPACE),
+        (1, "stress.mean=confined", CONFINED, HALF_SPACE),
+        (2, "stress.mean=half-space", HALF_SPACE, CONFINED),
+    ] {
+        for command in ["solve", "limit", "compare"] {
+            if command == "compare" && number == 1 {
+                continue;
+            }
+            let folder = format!("{command}{number}");
+            let case = ["dlc-on-steel", "--set", set, "--set=friction.coefficient=0", "-o", &folder];
+            let case = if command == "compare" {
+                ["fig2", "--set", set, "--set=localized={ indenters = [7], elements = 16 }", "-o", &folder]
+            } else {
+                case
+            };
+            let answer = desk.percoat(&[&[command], &case[..], &SMALL].concat());
+            assert!([0, 3].contains(&answer.code), "{}", answer.err);
+            let out = line(&answer.out);
+            assert!(out.contains(said) && !out.contains(not), "{command} {set}:\n{}", answer.out);
+            if command != "compare" {
+                assert_eq!(desk.percoat(&["report", &folder]).code, 0);
+                let page = words(&Folder(desk.path(&folder)).text("report.html"));
+                assert!(
+                    page.contains(&format!("with {said}")) && !page.contains(&format!("with {not}")),
+                    "{command} {set}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn rigid_indenters_are_said_where_strengths_and_limits_are_and_nowhere_else() {
+    let desk = Desk::new();
+    let said = ["the indenters are rigid", "R → 2R", "1 + E*₁/E*₂"];
+    for (folder, arguments, is_said) in [
+        ("strong", &["solve", "dlc-on-steel"][..], true),
+        ("limit", &["limit", "dlc-on-steel"], true),
+        ("plain", &["solve", "fig2"], false),
+        ("stressed", &["solve", "fig2", "--set=stress={}"], false),
+    ] {
+        let answer = desk.percoat(&[arguments, &["-o", folder], &SMALL].concat());
+        assert!([0, 3].contains(&answer.code), "{}", answer.err);
+        assert_eq!(desk.percoat(&["report", folder]).code, 0);
+        let page = words(&Folder(desk.path(folder)).text("report.html"));
+        for words in said {
+            assert_eq!(line(&answer.out).contains(words), is_said, "{folder}: {words}\n{}", answer.out);
+            let words = words.trim_start_matches("the ");
+            assert_eq!(page.contains(words), is_said, "{folder}: {words}");
+        }
+    }
+}
