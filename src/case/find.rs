@@ -3,6 +3,7 @@
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
+use super::pipes::is_pipe;
 use super::{Source, embedded};
 use crate::plain;
 
@@ -44,7 +45,7 @@ fn names() -> Vec<&'static str> {
 /// # Errors
 /// [`NoCase`].
 pub fn find(path: &Path) -> Result<Source, NoCase> {
-    let is_file = path.is_file();
+    let is_file = path.is_file() || is_pipe(path);
     if let Some(source) = path.to_str().filter(|_| !is_file).and_then(embedded::source) {
         return Ok(source);
     }

@@ -7,6 +7,8 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::pipes::{Pipes, is_pipe};
+
 /// Text of a case and where it comes from.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
@@ -18,19 +20,21 @@ pub struct Source {
     pub folder: PathBuf,
     /// Files in memory, by the names that the case calls them: looked at before those of the folder.
     pub files: BTreeMap<String, Arc<[u8]>>,
+    /// What pipes among its files gave, which can be read once alone.
+    pub pipes: Pipes,
 }
 
 /// Bytes of the longest case file that is read: a case of ten thousand loads and sites has a tenth of it.
 const LONGEST: u64 = 16 << 20;
 
 impl Source {
-    /// The case file at `path`.
+    /// The case file at `path`; out of a pipe, a surface's file is relative to the working folder.
     ///
     /// # Errors
     /// When the file cannot be read, or, as [`io::ErrorKind::InvalidData`], when it is no text of a case: longer than
     /// 16 MiB or not UTF-8.
     pub fn file(path: &Path) -> io::Result<Self> {
-        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        let folder = path.parent().filter(|_| !is_pipe(path)).map(Path::to_path_buf).unwrap_or_default();
         Self::of(plain::path(path), folder, fs::File::open(path)?)
     }
 
@@ -48,14 +52,25 @@ impl Source {
         (!self.files.contains_key(name)).then(|| std::path::absolute(path()).unwrap_or_else(|_| path()))
     }
 
-    /// The file that the case calls `name`, and its length in bytes.
+    /// The file that the case calls `name`, and its length in bytes. A pipe is read whole, once for all readers.
     pub(super) fn open(&self, name: &str) -> io::Result<(Box<dyn BufRead + '_>, u64)> {
         if let Some(bytes) = self.files.get(name) {
             return Ok((Box::new(&bytes[..]), bytes.len() as u64));
         }
-        let file = fs::File::open(self.folder.join(name))?;
+        let path = self.folder.join(name);
+        if is_pipe(&path) {
+            let bytes = self.pipes.read(&path)?;
+            let length = bytes.len() as u64;
+            return Ok((Box::new(io::Cursor::new(bytes)), length));
+        }
+        let file = fs::File::open(path)?;
         let length = file.metadata()?.len();
         Ok((Box::new(BufReader::new(file)), length))
+    }
+
+    /// Whether the case calls a pipe `name`, as a process substitution of the shell gives it: it has no ending.
+    pub(super) fn is_pipe(&self, name: &str) -> bool {
+        !self.files.contains_key(name) && is_pipe(&self.folder.join(name))
     }
 
     fn of(name: String, folder: PathBuf, file: impl Read) -> io::Result<Self> {

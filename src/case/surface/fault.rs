@@ -1,7 +1,5 @@
 //! Heights as a file holds them, and what can be wrong with any of them.
 
-use std::io::BufRead;
-
 use super::super::keys::CARRIED;
 use super::super::node::plain;
 use super::super::resources::bytes;
@@ -43,7 +41,7 @@ impl Fault {
         self.label
     }
 
-    fn unreadable(error: &std::io::Error) -> Self {
+    pub(super) fn unreadable(error: &std::io::Error) -> Self {
         Self::new(format!("cannot be read: {error}"), "this file")
     }
 }
@@ -75,45 +73,4 @@ pub(in crate::case) fn fits(needed: u64) -> Result<(), Fault> {
     }
     let what = format!("takes about {} of memory to read, and {} are available", bytes(needed), bytes(room));
     Err(Fault::new(what, "too large"))
-}
-
-/// Lines of a text that hold anything, with their numbers from 1.
-#[derive(Debug)]
-pub(super) struct Lines<R> {
-    reader: R,
-    number: usize,
-    bytes: Vec<u8>,
-}
-
-/// Bytes of the longest line that is read: 32768 numbers of 32 digits.
-const LONGEST: usize = 1 << 20;
-
-impl<R: BufRead> Lines<R> {
-    pub(super) fn new(reader: R) -> Self {
-        Self { reader, number: 0, bytes: Vec::new() }
-    }
-
-    /// The next line that is neither empty nor a comment, without blanks around it.
-    pub(super) fn next_line(&mut self) -> Result<Option<(usize, String)>, Fault> {
-        loop {
-            self.bytes.clear();
-            let limit = LONGEST as u64 + 1;
-            let mut limited = std::io::Read::take(&mut self.reader, limit);
-            let read = limited.read_until(b'\n', &mut self.bytes).map_err(|error| Fault::unreadable(&error))?;
-            if read == 0 {
-                return Ok(None);
-            }
-            self.number += 1;
-            if self.bytes.len() > LONGEST {
-                return Err(Fault::new(format!("line {} has more than a mebibyte", self.number), "no text of numbers"));
-            }
-            // What is no number is refused by the line; comments may be in any encoding.
-            let text = String::from_utf8_lossy(&self.bytes);
-            let text = text.trim_start_matches('\u{feff}').trim_matches(|c: char| c.is_whitespace() && c != '\t');
-            let text = text.trim_end();
-            if !text.trim().is_empty() && !text.starts_with(['#', '%']) {
-                return Ok(Some((self.number, text.to_owned())));
-            }
-        }
-    }
 }

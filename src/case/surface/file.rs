@@ -1,5 +1,6 @@
 //! `[surface]` from a file: which format it has, and its heights in the case's unit, made periodic.
 
+use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use super::super::error::Refusal;
@@ -7,21 +8,28 @@ use super::super::node::Value;
 use super::super::reader::TableAt;
 use super::super::source::Source;
 use super::super::value::ValueAt;
-use super::fault::{Fault, Heights};
+use super::fault::{Fault, Heights, fits};
+use super::header::{Header, HeightsUnit, Length};
+use super::text::Table;
 use super::unit::{self, KNOWN};
-use super::{npy, text, xyz};
+use super::xyz::Points;
+use super::{npy, telltale, text, xyz};
 use crate::counterbody::roughness::{JUMP, Window, border_jumps, levelled, tapered};
 use crate::numeric::array::field;
 use crate::numeric::number::number;
 use ndarray::Array2;
 
 /// How a file's heights become those of the case.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Treatment {
     /// Factor of the heights, that of their unit included.
     pub scale: f64,
     /// Factor of the coordinates of points.
     pub unit: f64,
+    /// Factor that the section gives, if it does.
+    pub own_scale: Option<f64>,
+    /// The unit that the section gives, or the file.
+    pub name: Option<String>,
     /// Whether the mean plane is taken away.
     pub level: bool,
     /// Taper, if any.
@@ -35,8 +43,22 @@ pub(super) struct FromFile {
     pub heights: Array2<f64>,
     /// Its own period along a₁ and a₂, if it knows it, a length of the case.
     pub period: Option<[f64; 2]>,
+    /// How its heights became these.
+    pub treatment: Treatment,
     /// What is doubtful about it.
-    pub doubt: Option<String>,
+    pub doubts: Vec<String>,
+}
+
+/// What stands in a file.
+struct Stored {
+    /// Along a₁ and a₂, as written.
+    heights: Heights,
+    /// Its sides along a₁ and a₂, if it knows them.
+    sides: Option<[Length; 2]>,
+    /// What its heights are in, if it says so.
+    unit: Option<HeightsUnit>,
+    /// What is doubtful about how it is written.
+    doubts: Vec<String>,
 }
 
 const FORMATS: &str =
@@ -46,7 +68,9 @@ impl Treatment {
     /// Of the section; `length` is the case's unit, where it names one.
     pub fn read(section: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
         let scale = section.value("scale")?.number()?;
-        let unit = section.optional("unit").map_or(Ok(1.0), |value| unit_of(&value, length))?;
+        let given = section.optional("unit");
+        let unit = given.as_ref().map_or(Ok(1.0), |value| unit_of(value, length))?;
+        let name = given.map(|value| value.text().map(str::to_owned)).transpose()?;
         let level = section.value("level")?.boolean()?;
         let window = section.value("window")?;
         let window = match &window.node.value {
@@ -56,7 +80,53 @@ impl Treatment {
             },
             _ => window.boolean()?.then_some(Window::Tukey),
         };
-        Ok(Self { scale: scale * unit, unit, level, window })
+        let own_scale = section.optional("scale").map(|_| scale);
+        Ok(Self { scale: scale * unit, unit, own_scale, name, level, window })
+    }
+
+    /// The same of a file that says what its heights are in; `length` is the case's unit, where it names one.
+    fn of_file(self, own: Option<&HeightsUnit>, length: Option<&str>) -> Result<Self, Fault> {
+        let own = match (own, &self.name) {
+            (None, _) => return Ok(self),
+            (Some(HeightsUnit::Known(own)), None) => own,
+            (Some(HeightsUnit::Known(own)), Some(name)) => {
+                return match unit::factor(own, name) {
+                    Ok(1.0) => Ok(self),
+                    _ => Err(Fault::new(format!("says that its heights are in {own}"), "another unit than the file's")
+                        .help("leave surface.unit out, or correct the header of the file")),
+                };
+            }
+            (Some(HeightsUnit::Other), _) if self.own_scale.is_some() && self.name.is_none() => return Ok(self),
+            (Some(HeightsUnit::Other), _) => {
+                let what = "says that its heights are in no unit of length that is known, or have a factor before them";
+                return Err(Fault::new(what, "which factor?").help(
+                    "give surface.scale, the factor from its numbers to the case's lengths, without surface.unit",
+                ));
+            }
+        };
+        match (length.and_then(|length| unit::factor(own, length).ok()), self.own_scale) {
+            (None, Some(_)) => Ok(self),
+            (None, None) => Err(Fault::new(format!("says that its heights are in {own}"), "to be converted to what?").help(
+                "add [units] with length = \"µm\" or another, or give surface.scale, the factor to the case's lengths",
+            )),
+            (Some(factor), None) => Ok(Self { scale: factor, unit: factor, name: Some(own.clone()), ..self }),
+            // The factor is that of the unit, or there is none to mistake it for.
+            (Some(factor), Some(scale)) if factor == 1.0 || (scale.abs() / factor - 1.0).abs() < 1e-9 => Ok(self),
+            (Some(factor), Some(_)) => Err(Fault::new(
+                format!("says that its heights are in {own}, which makes a factor of {factor:?}, not that of surface.scale"),
+                "with the unit or without?",
+            )
+            .help(format!("add surface.unit = \"{own}\": surface.scale is then a factor beside it; or leave surface.scale out"))),
+        }
+    }
+
+    /// Sides of a file as lengths of the case; `None` where their unit cannot be converted.
+    fn sides(&self, sides: [Length; 2], length: Option<&str>) -> Option<[f64; 2]> {
+        let of = |Length { value, unit: own }: &Length| match own {
+            None => Some(value * self.unit),
+            Some(own) => Some(value * unit::factor(own, length?).ok()?),
+        };
+        Some([of(&sides[0])?, of(&sides[1])?])
     }
 }
 
@@ -76,8 +146,13 @@ fn unit_of(value: &ValueAt<'_>, length: Option<&str>) -> Result<f64, Refusal> {
     })
 }
 
-/// Read the file of `source` that `written` names.
-pub(super) fn read(source: &Source, written: &ValueAt<'_>, treatment: Treatment) -> Result<FromFile, Refusal> {
+/// Read the file of `source` that `written` names; `length` is the case's unit, where it names one.
+pub(super) fn read(
+    source: &Source,
+    written: &ValueAt<'_>,
+    treatment: Treatment,
+    length: Option<&str>,
+) -> Result<FromFile, Refusal> {
     let name = written.text()?;
     let path = source.path(name).unwrap_or_else(|| PathBuf::from(name));
     let refuse = |fault: Fault| {
@@ -85,7 +160,9 @@ pub(super) fn read(source: &Source, written: &ValueAt<'_>, treatment: Treatment)
         let refusal = Refusal::new(written.node.place, message, fault.label);
         fault.help.into_iter().fold(refusal, Refusal::help)
     };
-    let (Heights { points, mut values }, period) = heights(source, &path, written)?.map_err(refuse)?;
+    let Stored { heights: Heights { points, mut values }, sides, unit, mut doubts } =
+        stored(source, &path, written)?.map_err(refuse)?;
+    let treatment = treatment.of_file(unit.as_ref(), length).map_err(refuse)?;
     values.iter_mut().for_each(|height| *height *= treatment.scale);
     let Heights { values, .. } = Heights::new(points, values).map_err(refuse)?;
     let heights = field(points, values);
@@ -94,35 +171,85 @@ pub(super) fn read(source: &Source, written: &ValueAt<'_>, treatment: Treatment)
         Treatment { level: true, .. } => levelled(heights),
         _ => heights,
     };
-    let doubt = not_periodic(&heights, treatment);
-    Ok(FromFile { heights, period: period.map(|period| period.map(|length| length * treatment.unit)), doubt })
+    doubts.extend(not_periodic(&heights, &treatment));
+    let period = sides.and_then(|sides| treatment.sides(sides, length));
+    Ok(FromFile { heights, period, treatment, doubts })
 }
 
-type Read = Result<(Heights, Option<[f64; 2]>), Fault>;
-
-/// The heights as they stand in the file, and the period of a file that tells it; refused when there is no such file.
-fn heights(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Read, Refusal> {
+/// What stands in a file, with what is doubtful about the numbers; refused when there is no such file.
+fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<Stored, Fault>, Refusal> {
     let shown = path.display();
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    if !["npy", "csv", "txt", "dat", "xyz"].contains(&&extension[..]) {
+    let is_named = ["npy", "csv", "txt", "dat", "xyz"].contains(&&extension[..]);
+    if !is_named && !source.is_pipe(written.text()?) {
         let message = format!("`{}`: {shown} has an ending by which no format is known", written.path);
         return Err(Refusal::new(written.node.place, message, "which format?").help(format!("allowed: {FORMATS}")));
     }
-    let (reader, bytes) = source.open(written.text()?).map_err(|error| {
+    let (mut reader, bytes) = source.open(written.text()?).map_err(|error| {
         let message = format!("`{}`: cannot read {shown}: {error}", written.path);
         Refusal::new(written.node.place, message, "this file").help(
             "needed: one period of heights, float64 in a `.npy` file for example; a path is relative to the case file",
         )
     })?;
-    Ok(match &extension[..] {
-        "npy" => npy::read(reader, bytes).map(|heights| (heights, None)),
-        "xyz" => xyz::read(reader, bytes).map(|(heights, period)| (heights, Some(period))),
-        _ => text::read(reader, bytes).map(|heights| (heights, None)),
-    })
+    // A pipe has no ending.
+    let is_array = !is_named && reader.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"\x93NUMPY"));
+    let found = match &extension[..] {
+        _ if is_array => npy::read(reader, bytes).and_then(of_array),
+        "npy" => npy::read(reader, bytes).and_then(of_array),
+        "xyz" => xyz::read(reader, bytes).map(|(points, header)| Stored::points(points, &header)),
+        _ => text::read(reader, bytes).and_then(of_table),
+    };
+    Ok(found.and_then(|mut stored| {
+        telltale::no_data(&stored.heights)?;
+        stored.doubts.extend(telltale::doubts(&stored.heights));
+        Ok(stored)
+    }))
+}
+
+impl Stored {
+    fn points(Points { heights, period }: Points, header: &Header) -> Self {
+        let side = |value: f64| Length { value, unit: header.of_coordinates() };
+        Self { heights, sides: Some(period.map(side)), unit: header.heights().cloned(), doubts: Vec::new() }
+    }
+}
+
+/// An array of NumPy: no points.
+fn of_array(heights: Heights) -> Result<Stored, Fault> {
+    if xyz::of_table(&heights, &[]).is_some() {
+        let [lines, columns] = heights.points;
+        let what = format!("holds {lines} rows of {columns} numbers, of which the first two are places of a grid");
+        return Err(
+            Fault::new(what, "points x y z?").help("save heights of shape (n1, n2), or the points in a file .xyz")
+        );
+    }
+    Ok(Stored { heights, sides: None, unit: None, doubts: Vec::new() })
+}
+
+/// A table of a text: points, an image, or lines along a₁.
+fn of_table(table: Table) -> Result<Stored, Fault> {
+    let Table { heights, lines, header, doubts } = table;
+    if let Some(points) = xyz::of_table(&heights, &lines) {
+        return Ok(Stored::points(points?, &header));
+    }
+    let Heights { points: [lines, numbers], values } = heights;
+    let Heights { values, .. } = Heights::new([lines, numbers], values)?;
+    let sides = header.sides([numbers, lines])?;
+    let heights = match header.is_image() {
+        true => upright([numbers, lines], &values)?,
+        false => Heights { points: [lines, numbers], values },
+    };
+    Ok(Stored { heights, sides, unit: header.heights().cloned(), doubts })
+}
+
+/// An image of n₁ numbers a line and n₂ lines, the first one on top, with x along a₁ and y along a₂: `image[::-1].T`.
+fn upright([n1, n2]: [usize; 2], values: &[f64]) -> Result<Heights, Fault> {
+    fits(8 * values.len() as u64)?;
+    let at = |k: usize| values[(n2 - 1 - k % n2) * n1 + k / n2];
+    Ok(Heights { points: [n1, n2], values: (0..n1 * n2).map(at).collect() })
 }
 
 /// That a surface jumps where it meets its next period.
-fn not_periodic(heights: &Array2<f64>, treatment: Treatment) -> Option<String> {
+fn not_periodic(heights: &Array2<f64>, treatment: &Treatment) -> Option<String> {
     let jumps = border_jumps(heights.view());
     let (axis, jump) = if jumps[0] >= jumps[1] { ("a₁", jumps[0]) } else { ("a₂", jumps[1]) };
     let advice = match treatment {

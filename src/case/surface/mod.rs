@@ -3,10 +3,14 @@
 //! `file` reads one of the formats (`npy`, `text`, `xyz`; `fault` says what is wrong with any) in its `unit`, `random` has
 //! the keys of a generated surface. Which index runs where is drawn in [`ORIENTATION`].
 
+mod commas;
 mod fault;
 mod file;
+mod header;
+mod lines;
 mod npy;
 mod random;
+mod telltale;
 mod text;
 mod unit;
 mod xyz;
@@ -47,8 +51,11 @@ pub enum SurfaceSection {
     File {
         /// Its path, absolute, so that a copy of the case still finds it; its name, if it is in memory.
         heights: String,
-        /// Factor of its heights.
+        /// Factor of its heights, beside that of their unit.
         scale: f64,
+        /// What its heights are in, where the case or the file says so.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        unit: Option<String>,
         /// Whether its mean plane is taken away.
         level: bool,
         /// How its border is tapered, if it is.
@@ -106,10 +113,13 @@ pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, R
 }
 
 fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
-    let treatment = Treatment::read(section, around.length.as_deref())?;
-    let FromFile { heights: stored, period: own, doubt } = file::read(around.source, heights, treatment)?;
+    let length = around.length.as_deref();
+    let treatment = Treatment::read(section, length)?;
+    let FromFile { heights: stored, period: own, treatment, doubts } =
+        file::read(around.source, heights, treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(section, around, points, own)?;
+    let across = across(points, cell);
     let sampling = grid::read(&around.grid, Some(points))?;
     let (on_grid, lost) = match sampling {
         Sampling::Points(wanted) if wanted != points => resampled(heights, cell, stored, wanted)?,
@@ -118,13 +128,29 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let squeezed = own.and_then(|own| squeezed(own, cell));
     let name = heights.text()?;
     let heights = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
-    let Treatment { scale, level, window, .. } = treatment;
+    let Treatment { own_scale, name: unit, level, window, .. } = treatment;
     Ok(Read {
-        section: SurfaceSection::File { heights, scale, level, window },
+        section: SurfaceSection::File { heights, scale: own_scale.unwrap_or(1.0), unit, level, window },
         lattice,
         topography: topography(section, cell, on_grid)?,
         sampling,
-        doubts: doubt.into_iter().chain(lost).chain(squeezed).collect(),
+        doubts: doubts.into_iter().chain(across).chain(lost).chain(squeezed).collect(),
+    })
+}
+
+/// That samples stand unequally far apart along a₁ and a₂, and would stand equally far were lines and numbers exchanged.
+fn across([n1, n2]: [usize; 2], cell: Cell) -> Option<String> {
+    let [side1, side2] = cell.vectors().map(|[x, y]| x.hypot(y));
+    let is_one = |ratio: f64, near: f64| (ratio - 1.0).abs() < near;
+    let (as_read, exchanged) = (side1 / n1 as f64 * (n2 as f64 / side2), side1 / n2 as f64 * (n1 as f64 / side2));
+    (n1 != n2 && !is_one(as_read, 0.02) && is_one(exchanged, 0.002)).then(|| {
+        format!(
+            "surface.heights: {n1} lines stand {} apart along a₁ and the {n2} numbers of a line {} along a₂; were lines read along \
+             a₂, both would stand {} apart: is it an image? Its lines run along x: give image[::-1].T, or exchange the sides",
+            number(side1 / n1 as f64),
+            number(side2 / n2 as f64),
+            number(side1 / n2 as f64)
+        )
     })
 }
 
@@ -135,8 +161,8 @@ fn squeezed(own: [f64; 2], cell: Cell) -> Option<String> {
     differs.then(|| {
         let [own, sides] = [own, sides].map(|sides| sides.map(number).join(" × "));
         format!(
-            "the points of the surface's file lie on {own}, in the unit of its heights; the case makes that {sides}: \
-             leave [lattice], surface.period and surface.pixel out, or say the unit of the file"
+            "the surface's file says that it is {own} large; the case makes that {sides}: leave [lattice], surface.period and \
+             surface.pixel out, or say the unit of the file"
         )
     })
 }

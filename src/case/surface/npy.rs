@@ -63,6 +63,13 @@ impl Head {
         Some(Self { kind: kind?, fortran: fortran?, shape: shape? })
     }
 
+    /// Its type in words: as written where it is one of NumPy's short ones, since a head may hold anything.
+    fn told(&self) -> String {
+        let short =
+            self.kind.len() <= 6 && self.kind.chars().all(|c| c.is_ascii_alphanumeric() || "<>|='\"".contains(c));
+        if short { format!("type {}", self.kind) } else { "another type".to_owned() }
+    }
+
     /// Bytes of a value, and what they are as a number; `None` for a type that is no real number.
     fn decode(&self) -> Option<(usize, Decode)> {
         macro_rules! number {
@@ -113,7 +120,7 @@ fn read_heights(reader: &mut impl Read, bytes: u64) -> Result<Heights, Fault> {
             return Err(Fault::new(what, shape));
         }
     };
-    let kind = format!("type {}", head.kind);
+    let kind = head.told();
     let Some((size, number)) = head.decode() else {
         return Err(Fault::new(format!("holds values of {kind}"), kind));
     };

@@ -211,7 +211,7 @@ fn files_of_other_contents_are_refused_with_what_they_hold() {
     assert!(fault().contains("ends before its 20 × 20 values"), "{}", fault());
     std::fs::write(folder.path().join("surface.csv"), "1,2\n3,x\n").unwrap();
     let told = read(folder.path(), "heights = \"surface.csv\"", "").unwrap_err().to_string();
-    assert!(told.contains("surface.csv line 2 holds \"x\" as number 2"), "{told}");
+    assert!(told.contains("surface.csv line 2 holds what is no number as number 2"), "{told}");
     std::fs::write(folder.path().join("surface.png"), "").unwrap();
     let told = read(folder.path(), "heights = \"surface.png\"", "").unwrap_err().to_string();
     assert!(told.contains("no format is known") && told.contains("`.npy`") && told.contains("`.xyz`"), "{told}");
@@ -282,4 +282,42 @@ fn a_file_in_memory_is_read_as_one_on_disk() {
 
     let other = Source { files: [("other.npy".to_owned(), Arc::from([0; 4]))].into(), ..nowhere };
     assert!(Case::read(&other, &[]).unwrap_err().to_string().contains("cannot read"));
+}
+
+/// A header's image stands upright: x along its lines, the last line at the bottom; its sides make the cell.
+#[test]
+fn a_file_with_a_header_is_the_image_that_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = |i: usize| (0..4).map(|j| format!("{:.5e}", 1e-6 * (10 * i + j) as f64)).collect::<Vec<_>>().join("\t");
+    let image: String = (0..3).map(|i| line(i) + "\n").collect();
+    let text = format!("# Channel: Z\n# Width: 8 µm\n# Height: 3000 nm\n# Value units: m\n{image}");
+    std::fs::write(folder.path().join("a.txt"), text).unwrap();
+    let of = |more: &str| {
+        let text = format!("[units]\nlength = \"µm\"\n[surface]\nheights = \"a.txt\"\n{more}\n{REST}");
+        let case = Case::read(&source(folder.path(), text), &[]).unwrap_or_else(|error| panic!("{error}"));
+        reads_back(&case);
+        case
+    };
+    let case = of("");
+    let expected = Array2::from_shape_fn((4, 3), |(i, j)| (10 * (2 - j) + i) as f64);
+    assert!((heights(&case) - expected).iter().all(|d| d.abs() < 1e-4));
+    assert_eq!(case.counterbody().cell().vectors(), [[8.0, 0.0], [0.0, 3.0]]);
+    assert!(case.to_toml().contains("unit = \"m\""), "{}", case.to_toml());
+    let turned = of("unit = \"m\"\nscale = -2");
+    assert_eq!(heights(&turned), heights(&case) * -2.0);
+}
+
+/// Points in a text are points: x along a₁, with a period of their own.
+#[test]
+fn points_in_a_text_are_read_as_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let points: String =
+        (0..20).map(|k| format!("{} {} {k}\n", 0.5 * f64::from(k % 5), 0.25 * f64::from(k / 5))).collect();
+    for name in ["a.txt", "a.csv", "a.dat", "a.xyz"] {
+        std::fs::write(folder.path().join(name), &points).unwrap();
+        let text = format!("[surface]\nheights = \"{name}\"\n{REST}");
+        let case = Case::read(&source(folder.path(), text), &[]).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(heights(&case), Array2::from_shape_fn((5, 4), |(i, j)| (5 * j + i) as f64), "{name}");
+        assert_eq!(case.counterbody().cell().vectors(), [[2.5, 0.0], [0.0, 1.0]], "{name}");
+    }
 }

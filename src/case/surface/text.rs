@@ -1,9 +1,13 @@
 //! Matrices of numbers as text: one line a row along **a**₁, its numbers along **a**₂.
 //!
 //! Numbers stand apart by semicolons, tabs, commas or blanks, whichever the first line has, in this order. Where commas do
-//! not separate, they are decimal commas. Lines that begin with # or %, and empty ones, count for nothing.
+//! not separate, they are decimal commas. Lines that begin with # or % are comments, of which [`Header`] knows some; empty ones
+//! count for nothing.
 
-use super::fault::{Fault, Heights, Lines, MOST, fits};
+use super::commas::Commas;
+use super::fault::{Fault, Heights, MOST, fits};
+use super::header::Header;
+use super::lines::{Line, Lines};
 use std::io::BufRead;
 
 /// What stands between the numbers of a line.
@@ -50,44 +54,93 @@ impl Separator {
     }
 }
 
+/// A table of numbers, one line of it a line of the file.
+#[derive(Debug)]
+pub(super) struct Table {
+    /// Numbers line by line; points [lines, numbers of a line].
+    pub heights: Heights,
+    /// Numbers of the lines in the file, of a table of few columns alone.
+    pub lines: Vec<usize>,
+    /// What its comments say.
+    pub header: Header,
+    /// What is doubtful about how it is written.
+    pub doubts: Vec<String>,
+}
+
+/// Columns up to which a table may be one of points.
+pub(super) const FEW: usize = 6;
+
 /// Read a matrix of `bytes` bytes.
-pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<Heights, Fault> {
+pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
     let mut lines = Lines::new(reader);
     let (mut values, mut rows, mut columns, mut separator) = (Vec::new(), 0, 0, None);
-    while let Some((number, line)) = lines.next_line()? {
-        let own = *separator.get_or_insert_with(|| Separator::of(&line));
-        let parts = own.split(&line);
+    let (mut commas, mut numbers, mut blocks) = (Commas::default(), Vec::new(), vec![0_usize]);
+    while let Some(Line { number, text, is_apart }) = lines.next_line()? {
+        let own = *separator.get_or_insert_with(|| Separator::of(&text));
+        let parts = own.split(&text);
         if rows == 0 {
             columns = parts.len();
-            let expected = bytes / (line.len() as u64 + 1) + 1;
+            let expected = bytes / (text.len() as u64 + 1) + 1;
             // The list of values grows by doubling.
             fits(16 * expected * columns as u64)?;
+        } else if is_apart {
+            blocks.push(0);
         }
-        for (column, part) in (1..).zip(&parts) {
-            match own.number(part) {
-                Some(value) => values.push(value),
-                None if rows == 0 => {
-                    let what = format!("line {number} holds \"{part}\", which is no number");
-                    return Err(Fault::new(what, format!("line {number}: a header?"))
-                        .help("remove a header, or begin its lines with #"));
-                }
-                None => {
-                    let what = format!("line {number} holds \"{part}\" as number {column}");
-                    return Err(Fault::new(what, format!("line {number}"))
-                        .help("every height must be a number, none left out: fill what was not measured before"));
-                }
+        for (column, part) in parts.iter().enumerate() {
+            values.push(own.number(part).ok_or_else(|| no_number(number, column, part, rows == 0))?);
+            if own == Separator::Mark(',') {
+                commas.note(column, part);
             }
         }
         if parts.len() != columns {
             let what = format!("line {number} holds {} numbers, those before {columns}", parts.len());
-            return Err(Fault::new(what, format!("line {number}")));
+            let fault = Fault::new(what, format!("line {number}"));
+            let may_be_decimal = own == Separator::Mark(',') && !text.contains('.');
+            return Err(if may_be_decimal { fault.help(DECIMAL) } else { fault });
+        }
+        if columns <= FEW {
+            numbers.push(number);
         }
         rows += 1;
-        if rows > MOST || columns > MOST {
+        *blocks.last_mut().expect("one at least") += 1;
+        if columns > MOST || (rows > MOST && columns > FEW) {
             break;
         }
     }
-    Heights::new([rows, columns], values)
+    commas.refuse([rows, columns])?;
+    let heights = Heights { points: [rows, columns], values };
+    let doubts = commas.doubt(&heights).into_iter().chain(several(&blocks, columns)).collect();
+    Ok(Table { heights, lines: numbers, header: lines.header, doubts })
+}
+
+const DECIMAL: &str = "if its commas are decimal ones, write points, or part the numbers by semicolons, tabs or blanks";
+
+/// Number `column` of a line, from 0, that is none; what it holds is nobody's business.
+fn no_number(line: usize, column: usize, part: &str, is_first: bool) -> Fault {
+    let kind = match part {
+        "" => "nothing",
+        _ if part.contains(',') && part.contains('.') => "a number with a comma and a point",
+        _ => "what is no number",
+    };
+    let what = format!("line {line} holds {kind} as number {}", column + 1);
+    match is_first && !part.is_empty() {
+        true => Fault::new(what, format!("line {line}: a header?")).help("remove a header, or begin its lines with #"),
+        false => Fault::new(what, format!("line {line}"))
+            .help("every height must be a number, none left out: fill what was not measured before"),
+    }
+}
+
+/// That empty lines part a matrix into equal blocks of several lines.
+fn several(blocks: &[usize], columns: usize) -> Option<String> {
+    let [first, rest @ ..] = blocks else { return None };
+    let are_equal = !rest.is_empty() && *first > 1 && rest.iter().all(|lines| lines == first);
+    (are_equal && columns > FEW).then(|| {
+        format!(
+            "surface.heights: empty lines part the file into {} blocks of {first} lines, which are read as one surface: several \
+             images? Give each a file of its own",
+            blocks.len()
+        )
+    })
 }
 
 #[cfg(test)]
@@ -95,7 +148,8 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> Result<Heights, Fault> {
-        read(text.as_bytes(), text.len() as u64)
+        let Heights { points, values } = read(text.as_bytes(), text.len() as u64)?.heights;
+        Heights::new(points, values)
     }
 
     #[test]
@@ -124,14 +178,15 @@ mod tests {
     #[test]
     fn what_is_no_matrix_is_refused_with_its_line() {
         for (text, words) in [
-            ("x,y\n1,2\n3,4\n", ["line 1 holds \"x\"", "begin its lines with #"]),
-            ("# a\n1,2\n3,\n", ["line 3 holds 1 numbers, those before 2", ""]),
-            ("1;2\n3;;4\n", ["line 2 holds \"\" as number 2", "none left out"]),
-            ("1 2\n3 ---\n", ["line 2 holds \"---\"", ""]),
-            ("1.234,5;2\n1;2\n", ["line 1 holds \"1.234,5\"", ""]),
+            ("x,y\n1,2\n3,4\n", ["line 1 holds what is no number as number 1", "begin its lines with #"]),
+            ("# a\n1,2\n3,\n", ["line 3 holds 1 numbers, those before 2", "decimal ones"]),
+            ("1;2\n3;;4\n", ["line 2 holds nothing as number 2", "none left out"]),
+            ("1 2\n3 ---\n", ["line 2 holds what is no number as number 2", ""]),
+            ("1.234,5;2\n1;2\n", ["line 1 holds a number with a comma and a point", ""]),
             ("1 2\n3 nan\n", ["holds nan at [1, 1]", "finite"]),
             ("1 2 3\n", ["1 × 3 heights", ""]),
             ("", ["0 × 0 heights", ""]),
+            ("\u{1}\u{0}", ["line 1", ""]),
         ] {
             let fault = of(text).unwrap_err();
             let told = format!("{} {} {}", fault.what, fault.label, fault.help.clone().unwrap_or_default());

@@ -23,8 +23,15 @@ pub(in crate::case) struct UnknownUnit(pub String);
 
 /// A unit of length in metres.
 fn metres(name: &str) -> Result<f64, UnknownUnit> {
-    let known = UNITS.iter().find(|(names, _)| names.contains(&name.trim()));
+    // The micro sign of Latin-1 is no text of UTF-8.
+    let own = name.trim().replace('\u{fffd}', "µ");
+    let known = UNITS.iter().find(|(names, _)| names.contains(&&own[..]));
     known.map(|(_, metres)| *metres).ok_or_else(|| UnknownUnit(name.to_owned()))
+}
+
+/// Whether a name is that of a unit of length.
+pub(in crate::case) fn is_known(name: &str) -> bool {
+    metres(name).is_ok()
 }
 
 /// What a length in the unit `from` is multiplied by to be in the unit `to`.

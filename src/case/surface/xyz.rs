@@ -4,7 +4,10 @@
 //! rise by more than half of their largest rise. Every point must then stand within a tenth of a spacing of its place, and
 //! every place must have one point.
 
-use super::fault::{Fault, Heights, Lines, MOST, fits};
+use super::fault::{Fault, Heights, MOST, fits};
+use super::header::Header;
+use super::lines::{Line, Lines};
+use super::text::FEW;
 use std::io::BufRead;
 
 /// How far a point may stand from its place, in spacings.
@@ -49,28 +52,89 @@ impl Axis {
     }
 }
 
-/// Read points from a file of `bytes` bytes; also the period along x and y, n times the spacing.
-pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<(Heights, [f64; 2]), Fault> {
+/// A regular grid of points.
+#[derive(Debug)]
+pub(super) struct Points {
+    /// Along x and y.
+    pub heights: Heights,
+    /// Along x and y, n times the spacing.
+    pub period: [f64; 2],
+}
+
+/// Read points from a file of `bytes` bytes; also what its comments say.
+pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault> {
     let mut lines = Lines::new(reader);
     let mut points = Vec::new();
-    while let Some((line, text)) = lines.next_line()? {
+    while let Some(Line { number: line, text, .. }) = lines.next_line()? {
         if points.is_empty() {
             fits(PER_POINT * (bytes / (text.len() as u64 + 1) + 1))?;
         }
         let parts = text.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|part| !part.is_empty());
         let numbers: Vec<Option<f64>> = parts.map(|part| part.parse().ok().filter(|x: &f64| x.is_finite())).collect();
         let [Some(x), Some(y), Some(height)] = numbers[..] else {
-            let shown: String = text.chars().take(40).collect();
-            let what = format!("line {line} holds \"{shown}\", not three finite numbers x y z");
-            let help = "remove a header, or begin its lines with #; fill what was not measured before";
+            let what = format!("line {line} does not hold three finite numbers x y z");
+            let help = match numbers.len() {
+                6 if !text.contains('.') => "if its commas are decimal ones, write points instead",
+                _ => "remove a header, or begin its lines with #; fill what was not measured before",
+            };
             return Err(Fault::new(what, format!("line {line}")).help(help));
         };
         points.push(Point { at: [x, y], height, line });
     }
+    Ok((on_grid(&points)?, lines.header))
+}
+
+/// A table whose first two columns are the places of a regular grid; `None` of one whose are not. Refused where points are missing, and
+/// where more than a height follows. `lines` are the numbers of the table's in the file, or none: then they count from 1.
+pub(super) fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault>> {
+    let [count, columns] = table.points;
+    if !(3..=FEW).contains(&columns) || count < 4 {
+        return None;
+    }
+    if let Err(fault) = fits(PER_POINT * count as u64) {
+        return Some(Err(fault));
+    }
+    let rows = table.values.chunks_exact(columns).enumerate();
+    let line = |k: usize| lines.get(k).copied().unwrap_or(k + 1);
+    let points: Vec<Point> =
+        rows.map(|(k, row)| Point { at: [row[0], row[1]], height: row[2], line: line(k) }).collect();
+    if points.iter().any(|point| point.at.iter().any(|x| !x.is_finite())) {
+        return None;
+    }
+    let axes = axes(&points);
+    let [n1, n2] = axes.map(|axis| axis.count);
+    // Small whole numbers fill a grid by chance while they are few.
+    let most = if count < 9 { count } else { 2 * count };
+    if n1.min(n2) < 2 || n1.max(n2) > count / 2 || !(count..=most).contains(&(n1 * n2)) {
+        return None;
+    }
+    let mut taken = vec![false; n1 * n2];
+    for point in &points {
+        let place = axes[0].index(point.at[0])? * n2 + axes[1].index(point.at[1])?;
+        if std::mem::replace(taken.get_mut(place)?, true) {
+            return None;
+        }
+    }
+    Some(match columns {
+        3 => on_grid(&points),
+        _ => Err(Fault::new(
+            format!("holds lines of {columns} numbers, of which the first two are the places of a {n1} × {n2} grid"),
+            "points with more than a height?",
+        )
+        .help("keep x, y and z of each point alone")),
+    })
+}
+
+fn axes(points: &[Point]) -> [Axis; 2] {
+    [0, 1].map(|axis| Axis::of(points.iter().map(|point| point.at[axis]).collect()))
+}
+
+/// The heights of points, and the period along x and y.
+fn on_grid(points: &[Point]) -> Result<Points, Fault> {
     if points.len() < 4 {
         return Err(Fault::new(format!("holds {} points, too few for a surface", points.len()), "too few points"));
     }
-    let axes = [0, 1].map(|axis| Axis::of(points.iter().map(|point| point.at[axis]).collect()));
+    let axes = axes(points);
     let counts = axes.map(|axis| axis.count);
     let mut values = vec![f64::NAN; 0];
     let mut lines_of = vec![0usize; 0];
@@ -78,18 +142,18 @@ pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<(Heights, [f64; 2
         values.resize(counts[0] * counts[1], f64::NAN);
         lines_of.resize(counts[0] * counts[1], 0);
     }
-    for Point { at, height, line } in &points {
+    for Point { at, height, line } in points {
         let place = axes[0].index(at[0]).zip(axes[1].index(at[1])).map(|(i, j)| i * counts[1] + j);
         let Some(place) = place.filter(|place| *place < values.len()) else {
             let what = format!(
-                "line {line}: the point ({}, {}) stands on no grid of equal spacings along x and y ({} × {} were found)",
-                at[0], at[1], counts[0], counts[1]
+                "line {line}: its point stands on no grid of equal spacings along x and y ({} × {} were found)",
+                counts[0], counts[1]
             );
             return Err(Fault::new(what, format!("line {line}"))
                 .help("every x must occur with every y, at equal distances: put the points on a regular grid before"));
         };
         if lines_of[place] != 0 {
-            let what = format!("lines {} and {line} hold the same point ({}, {})", lines_of[place], at[0], at[1]);
+            let what = format!("lines {} and {line} hold the same point", lines_of[place]);
             return Err(Fault::new(what, format!("line {line}")).help("give every point once"));
         }
         (values[place], lines_of[place]) = (*height, *line);
@@ -100,7 +164,7 @@ pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<(Heights, [f64; 2
         let what = format!("{missing} of {} × {} points are missing, the first at ({x}, {y})", counts[0], counts[1]);
         return Err(Fault::new(what, "points are missing").help("fill what was not measured before"));
     }
-    Ok((Heights::new(counts, values)?, axes.map(|axis| axis.count as f64 * axis.step)))
+    Ok(Points { heights: Heights::new(counts, values)?, period: axes.map(|axis| axis.count as f64 * axis.step) })
 }
 
 #[cfg(test)]
@@ -108,7 +172,7 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> Result<(Heights, [f64; 2]), Fault> {
-        read(text.as_bytes(), text.len() as u64)
+        read(text.as_bytes(), text.len() as u64).map(|(Points { heights, period }, _)| (heights, period))
     }
 
     /// 3 × 2 points, spacing ⅓ and 2, of height 10 i + j.
@@ -143,11 +207,11 @@ mod tests {
         let told = with(&|lines| drop(lines.remove(3)));
         assert!(told.contains("1 of 3 × 2 points are missing, the first at (-0.66") && told.contains(", 7)"), "{told}");
         let told = with(&|lines| lines[4] = lines[0].clone());
-        assert!(told.contains("lines 1 and 5 hold the same point (-1, 5)"), "{told}");
+        assert!(told.contains("lines 1 and 5 hold the same point"), "{told}");
         let told = with(&|lines| lines[3] = "-0.6 7 11".to_owned());
-        assert!(told.contains("line 4: the point (-0.6, 7)"), "{told}");
+        assert!(told.contains("line 4: its point stands"), "{told}");
         let told = with(&|lines| lines[2] = "1 2".to_owned());
-        assert!(told.contains("line 3 holds \"1 2\", not three"), "{told}");
+        assert!(told.contains("line 3 does not hold three"), "{told}");
         let told = with(&|lines| lines[0] = "-1 5 nan".to_owned());
         assert!(told.contains("line 1"), "{told}");
         assert!(with(&|lines| lines.truncate(2)).contains("too few"));

@@ -1,0 +1,132 @@
+//! Decimal commas in a text whose numbers commas part: "0,5,0,3" is two heights or four.
+//!
+//! Read number by number, every second one is then the digits behind a comma: no sign, leading zeros, exponents behind these
+//! digits alone. Where the spelling proves nothing the numbers do: along a line of a surface both halves are alike, the
+//! neighbours but one no farther apart than the neighbours, and the halves no farther from each other than from themselves.
+
+use super::fault::{Fault, Heights};
+
+/// Squares of the rises between neighbours but one of one half over those of the other, beyond which they are not alike.
+const UNLIKE: f64 = 4.0;
+/// Mean distance of the halves over the rms distance of neighbours, beyond which they are apart.
+const APART: f64 = 0.6;
+/// Fewest pairs of numbers that tell.
+const FEWEST: usize = 16;
+
+/// How the numbers of a text are spelt, by their place in the line: the first, third, … and the second, fourth, …
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Commas {
+    has_points: bool,
+    leading_zeros: [bool; 2],
+    signs: [usize; 2],
+    exponents: [bool; 2],
+}
+
+impl Commas {
+    /// Takes number `column` of a line, from 0.
+    pub fn note(&mut self, column: usize, part: &str) {
+        let half = column % 2;
+        let digits = part.trim_start_matches(['+', '-']);
+        let bytes = digits.as_bytes();
+        self.has_points |= digits.contains('.');
+        self.signs[half] += usize::from(digits.len() < part.len());
+        self.leading_zeros[half] |= bytes.len() > 1 && bytes[0] == b'0' && bytes[1].is_ascii_digit();
+        self.exponents[half] |= digits.contains(['e', 'E']);
+    }
+
+    /// Refuses what its spelling shows to be decimal commas.
+    pub fn refuse(&self, [lines, columns]: [usize; 2]) -> Result<(), Fault> {
+        let could_be = !self.has_points && columns.is_multiple_of(2) && self.signs[1] == 0 && !self.exponents[0];
+        if could_be && ((self.leading_zeros[1] && !self.leading_zeros[0]) || self.exponents[1]) {
+            let what = format!(
+                "holds {lines} lines of {columns} whole numbers between commas, every second one spelt like the digits behind a \
+                 decimal comma"
+            );
+            return Err(Fault::new(what, format!("decimal commas, {lines} × {}?", columns / 2)).help(HELP));
+        }
+        Ok(())
+    }
+
+    /// That the numbers, if not their spelling, look like decimal commas.
+    pub fn doubt(&self, heights: &Heights) -> Option<String> {
+        let [lines, columns] = heights.points;
+        let could_be = !self.has_points && self.signs[1] == 0 && !self.exponents.contains(&true);
+        if !could_be || columns % 2 == 1 || columns < 4 || lines * columns < 2 * FEWEST {
+            return None;
+        }
+        // Below zero in every second column alone.
+        let signed = columns >= 8 && 8 * self.signs[0] >= lines * columns;
+        (signed || halves_differ(heights)).then(|| {
+            format!(
+                "surface.heights holds {lines} lines of {columns} whole numbers between commas, every second one unlike its \
+                 neighbours, and is read so: decimal commas, {lines} × {}? {HELP}",
+                columns / 2
+            )
+        })
+    }
+}
+
+const HELP: &str = "write decimal points, or part the numbers by semicolons, tabs or blanks";
+
+/// Whether every second number of the lines is another quantity than those between.
+fn halves_differ(heights: &Heights) -> bool {
+    let columns = heights.points[1];
+    let (mut own, mut risen, mut across, mut between, mut count) = ([0.0; 2], [0.0; 2], 0.0, 0.0, 0.0);
+    for line in heights.values.chunks_exact(columns) {
+        for (j, three) in line.windows(3).enumerate() {
+            own[j % 2] += (three[2] - three[0]).powi(2);
+            risen[j % 2] += f64::from(u8::from(three[2] != three[0]));
+            // Neighbours against the mean of theirs: a slope and a curvature cancel between the halves.
+            let bend = three[1] - 0.5 * (three[0] + three[2]);
+            across += if j.is_multiple_of(2) { bend } else { -bend };
+            between += bend * bend;
+            count += 1.0;
+        }
+    }
+    let (mean, rms): (f64, f64) = (across / count, f64::sqrt(between / count));
+    let livelier = usize::from(own[1] > own[0]);
+    // A few peaks in one half are a surface's.
+    let are_unlike = own[livelier] > UNLIKE * own[1 - livelier] && risen[livelier] > 0.25 * count;
+    are_unlike || mean.abs() > APART * rms
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(heights: &[f64], columns: usize, digits: usize) -> String {
+        let line = |line: &[f64]| line.iter().map(|h| format!("{h:.digits$}").replace('.', ",")).collect::<Vec<_>>();
+        heights.chunks(columns).map(|own| line(own).join(",") + "\n").collect()
+    }
+
+    fn found(text: &str) -> (bool, bool) {
+        let (mut commas, mut values, mut columns) = (Commas::default(), Vec::new(), 0);
+        for line in text.lines() {
+            columns = line.split(',').count();
+            line.split(',').enumerate().for_each(|(k, part)| commas.note(k, part));
+            values.extend(line.split(',').map(|part| part.parse::<f64>().unwrap()));
+        }
+        let points = [values.len() / columns, columns];
+        (commas.refuse(points).is_err(), commas.doubt(&Heights { points, values }).is_some())
+    }
+
+    fn waves(size: f64) -> Vec<f64> {
+        let wave = |k: usize| (0.37 * (k / 24) as f64).sin() + (0.51 * (k % 24) as f64).cos() + (1.7 * k as f64).sin();
+        (0..24 * 24).map(|k| size * wave(k)).collect()
+    }
+
+    #[test]
+    fn decimal_commas_between_commas_do_not_pass_and_whole_numbers_do() {
+        for size in [0.3, 1.0, 7.0, 40.0, 300.0] {
+            for offset in [0.0, 100.0, 1000.0] {
+                let heights: Vec<f64> = waves(size).iter().map(|h| h + offset).collect();
+                for digits in [1, 2, 3, 6] {
+                    let (refused, doubted) = found(&table(&heights, 24, digits));
+                    assert!(refused || doubted, "{size} {offset} {digits}");
+                }
+                assert_eq!(found(&table(&heights, 24, 0)), (false, false), "{size} {offset}");
+            }
+        }
+        assert!(found("1,5E-3,2,5E-3\n1,5E-3,2,5E-3\n").0);
+    }
+}

@@ -1,0 +1,289 @@
+//! What the comments before a text of heights say of it, as Gwyddion, SPIP and others write them.
+//!
+//! ```text
+//! # Width: 10.00 µm         # x-pixels = 512          # h=650 w=650
+//! # Height: 10.00 µm        # x-length = 5000         # pixel size=3.7e-7 m
+//! # Value units: m          # x-unit = nm
+//! ```
+//!
+//! Such a text is an image: a line runs along x, the first one on top. Comments of other keys count for nothing.
+
+use super::fault::Fault;
+use super::unit;
+
+/// A length as written, and its unit where it has one.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Length {
+    pub value: f64,
+    pub unit: Option<String>,
+}
+
+/// What heights are measured in, by the file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum HeightsUnit {
+    /// A unit of length that is known.
+    Known(String),
+    /// No length, or a factor that was not applied.
+    Other,
+}
+
+/// What comments say.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Header {
+    /// Of an image along its lines, and across them.
+    sides: [Option<Length>; 2],
+    pixel: Option<Length>,
+    /// Numbers of a line, and lines.
+    counts: [Option<usize>; 2],
+    /// Of sides that are written without one.
+    lateral: Option<String>,
+    heights: Option<HeightsUnit>,
+    has_channel: bool,
+}
+
+/// What a key is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum About {
+    /// Along a line (0), across the lines (1).
+    Side(usize),
+    Pixel,
+    /// Of a line (0), of lines (1).
+    Count(usize),
+    Lateral,
+    Heights,
+    Factor,
+    Channel,
+}
+
+/// Keys in small letters, with blanks for `-` and `_`.
+const KEYS: [(&[&str], About); 9] = [
+    (&["width", "breite", "largeur", "larghezza", "ancho", "x length", "scan width"], About::Side(0)),
+    (&["height", "höhe", "h\u{fffd}he", "hauteur", "altezza", "alto", "y length", "scan height"], About::Side(1)),
+    (&["pixel size", "pixelsize", "pixel"], About::Pixel),
+    (&["w", "x pixels", "columns", "ncols"], About::Count(0)),
+    (&["h", "y pixels", "lines", "rows", "nrows"], About::Count(1)),
+    (&["lateral units", "lateral unit", "xy units", "xy unit", "x unit", "y unit"], About::Lateral),
+    (&["value units", "value unit", "z units", "z unit", "data unit", "data units", "height unit"], About::Heights),
+    (&["bit2nm", "bit2unit", "z scale", "zscale", "z factor"], About::Factor),
+    (&["channel", "kanal"], About::Channel),
+];
+
+impl About {
+    fn of(key: &str) -> Option<Self> {
+        let small = key.to_lowercase().replace(['-', '_'], " ");
+        let key = small.split_whitespace().collect::<Vec<_>>().join(" ");
+        let known = KEYS.iter().find(|(names, _)| names.contains(&&key[..])).map(|(_, about)| *about);
+        known.or_else(|| key.starts_with("height conversion factor").then_some(Self::Factor))
+    }
+}
+
+impl Header {
+    /// Takes a comment at line `number`, without its mark; `begun`: numbers stand before it.
+    pub fn note(&mut self, number: usize, comment: &str, begun: bool) -> Result<(), Fault> {
+        for (about, value) in pairs(comment) {
+            if begun || (about == About::Channel && self.has_channel) {
+                let what = format!("line {number} begins a second header: several images in one file?");
+                return Err(Fault::new(what, format!("line {number}")).help("give each image a file of its own"));
+            }
+            self.take(number, about, value)?;
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, number: usize, about: About, value: &str) -> Result<(), Fault> {
+        let (amount, unit) = measured(value);
+        let counted = || amount.filter(|n| n.fract() == 0.0 && (1.0..=1e6).contains(n)).map(|n| n as usize);
+        let known = |name: &str| unit::is_known(name).then(|| name.to_owned());
+        let unreadable = |what: &str| {
+            Fault::new(format!("line {number} gives {what}"), format!("line {number}: not read"))
+                .help("write a number and a unit of length, such as 10 µm, or remove the line")
+        };
+        match about {
+            About::Channel => self.has_channel = true,
+            About::Count(axis) => self.counts[axis] = counted(),
+            About::Side(axis) if ["px", "pixel", "pixels"].contains(&unit) => self.counts[axis] = counted(),
+            // "Height: nm"; other words are none of a header.
+            About::Side(1) if amount.is_none() => {
+                self.heights = known(value.trim()).map(HeightsUnit::Known).or(self.heights.take());
+            }
+            About::Side(1) if self.sides[0].is_none() => {}
+            About::Side(_) | About::Pixel => {
+                let Some(value) = amount.filter(|x| x.is_finite() && *x > 0.0) else {
+                    return Err(unreadable("a side of the image that is no length greater than 0"));
+                };
+                let own = known(unit);
+                if own.is_none() && !unit.is_empty() {
+                    return Err(unreadable("a side of the image in a unit of length that is not known"));
+                }
+                let length = Some(Length { value, unit: own });
+                match about {
+                    About::Side(axis) => self.sides[axis] = length,
+                    _ => self.pixel = length,
+                }
+            }
+            About::Lateral => match known(value.trim()) {
+                Some(name) => self.lateral = Some(name),
+                None => return Err(unreadable("sides in a unit of length that is not known")),
+            },
+            // A factor stands before the unit that it leads to.
+            About::Heights if self.heights == Some(HeightsUnit::Other) => {}
+            About::Heights => {
+                self.heights = Some(known(value.trim()).map_or(HeightsUnit::Other, HeightsUnit::Known));
+            }
+            About::Factor => self.heights = Some(HeightsUnit::Other),
+        }
+        Ok(())
+    }
+
+    /// Whether lines are those of an image.
+    pub fn is_image(&self) -> bool {
+        self.sides.iter().any(Option::is_some) || self.pixel.is_some() || self.counts.iter().any(Option::is_some)
+    }
+
+    /// What heights are measured in.
+    pub fn heights(&self) -> Option<&HeightsUnit> {
+        self.heights.as_ref()
+    }
+
+    /// What coordinates of points are measured in: said, or that of the heights.
+    pub fn of_coordinates(&self) -> Option<String> {
+        let heights = match &self.heights {
+            Some(HeightsUnit::Known(name)) => Some(name.clone()),
+            _ => None,
+        };
+        self.lateral.clone().or(heights)
+    }
+
+    /// Sides of an image of so many `numbers` a line and `lines`; `None` where nothing tells them. Refused where it has other
+    /// counts, or one side alone.
+    pub fn sides(&self, [numbers, lines]: [usize; 2]) -> Result<Option<[Length; 2]>, Fault> {
+        let says = [self.counts[0].unwrap_or(numbers), self.counts[1].unwrap_or(lines)];
+        if says != [numbers, lines] {
+            let what = format!(
+                "holds {lines} lines of {numbers} numbers, and its header says {} lines of {}",
+                says[1], says[0]
+            );
+            return Err(Fault::new(what, "header and numbers differ").help("correct or remove the header"));
+        }
+        let with_unit =
+            |length: &Length| Length { unit: length.unit.clone().or_else(|| self.lateral.clone()), ..*length };
+        match (&self.sides, &self.pixel) {
+            ([Some(width), Some(height)], _) => Ok(Some([with_unit(width), with_unit(height)])),
+            ([Some(_), None], _) => Err(Fault::new("has a header with a width and no height", "which height?")
+                .help("add a line # Height: …, or remove that of the width and give surface.period")),
+            (_, Some(pixel)) => {
+                let side = |count: usize| Length { value: pixel.value * count as f64, ..with_unit(pixel) };
+                Ok(Some([side(numbers), side(lines)]))
+            }
+            _ => Ok(None),
+        }
+    }
+}
+
+/// Known keys of a comment with their values: `key: value`, `key = value`, or several `k=v` of one letter.
+fn pairs(comment: &str) -> Vec<(About, &str)> {
+    let short = comment.split_whitespace().filter_map(|word| word.split_once('='));
+    let short: Vec<(About, &str)> = short
+        .filter_map(|(key, value)| Some((About::of(key)?, value)))
+        .filter(|(about, _)| matches!(about, About::Count(_)))
+        .collect();
+    if !short.is_empty() {
+        return short;
+    }
+    let whole = comment.split_once(['=', ':']).and_then(|(key, value)| Some((About::of(key)?, value)));
+    whole.into_iter().collect()
+}
+
+/// A number at the beginning and what follows it, in the spelling of the micro sign that is known.
+fn measured(value: &str) -> (Option<f64>, &str) {
+    let value = value.trim();
+    let end = value.find(|c: char| !(c.is_ascii_digit() || "+-.,eE".contains(c))).unwrap_or(value.len());
+    (value[..end].replace(',', ".").parse().ok(), value[end..].trim().trim_matches(['[', ']', '(', ')']))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(comments: &[&str]) -> Result<Header, Fault> {
+        let mut header = Header::default();
+        for (number, comment) in (1..).zip(comments) {
+            header.note(number, comment, false)?;
+        }
+        Ok(header)
+    }
+
+    fn length(value: f64, unit: &str) -> Length {
+        Length { value, unit: Some(unit.to_owned()) }
+    }
+
+    #[test]
+    fn headers_of_the_usual_programs_are_read() {
+        let metres = Some(HeightsUnit::Known("m".to_owned()));
+        for (comments, sides, heights) in [
+            (
+                &[" Channel: ZSensor", " Width: 10.00 µm", " Height: 5.00 µm", " Value units: m"][..],
+                Some([length(10.0, "µm"), length(5.0, "µm")]),
+                metres.clone(),
+            ),
+            (
+                &["Kanal: Z", "Breite: 12,5 \u{fffd}m", "H\u{fffd}he: 567 nm", "Value units: m"],
+                Some([length(12.5, "\u{fffd}m"), length(567.0, "nm")]),
+                metres.clone(),
+            ),
+            (
+                &[
+                    "Created by SPIP 4.4",
+                    "x-pixels = 4",
+                    "y-pixels = 3",
+                    "x-length = 50",
+                    "y-length = 40",
+                    "x-unit = nm",
+                ],
+                Some([length(50.0, "nm"), length(40.0, "nm")]),
+                None,
+            ),
+            (
+                &["h=3 w=4", "pixel size=2e-7 m", "height conversion factor (-> m)=6e-8", "data unit=m"],
+                Some([length(8e-7, "m"), length(6e-7, "m")]),
+                Some(HeightsUnit::Other),
+            ),
+            (&["Width: 4 px", "Height: 3 px", "Height: nm"], None, Some(HeightsUnit::Known("nm".to_owned()))),
+            (
+                &["Channel: Current", "Width: 1 m", "Height: 1 m", "Value units: V"],
+                Some([length(1.0, "m"), length(1.0, "m")]),
+                Some(HeightsUnit::Other),
+            ),
+            (&["heights of a disc: good", "tip radius = 2 nm", "Height: 3 nm", "wavelength: 632.8 nm"], None, None),
+        ] {
+            let header = of(comments).unwrap();
+            let found = header.sides([4, 3]).unwrap();
+            for (found, expected) in found.iter().flatten().zip(sides.iter().flatten()) {
+                assert!(
+                    (found.value / expected.value - 1.0).abs() < 1e-12 && found.unit == expected.unit,
+                    "{comments:?}"
+                );
+            }
+            assert_eq!((found.is_some(), header.heights().cloned()), (sides.is_some(), heights), "{comments:?}");
+        }
+    }
+
+    #[test]
+    fn headers_that_cannot_be_meant_are_refused_by_their_line() {
+        for (comments, words) in [
+            (&["Width: 10 furlong", "Height: 5 µm"][..], "line 1 gives a side of the image in a unit"),
+            (&["", "Width: wide"], "line 2 gives a side of the image that is no length"),
+            (&["Width: -1 µm"], "no length greater than 0"),
+            (&["Channel: a", "Channel: b"], "line 2 begins a second header"),
+            (&["Lateral units: s"], "line 1 gives sides in a unit"),
+        ] {
+            let fault = of(comments).unwrap_err();
+            assert!(fault.what.contains(words), "{comments:?}: {}", fault.what);
+        }
+        let late = Header::default().note(9, "Width: 1 m", true).unwrap_err();
+        assert!(late.what.contains("line 9 begins a second header"));
+        for comments in [&["h=4 w=3"][..], &["x-pixels = 5"], &["Width: 10 µm"]] {
+            assert!(of(comments).unwrap().sides([4, 3]).is_err(), "{comments:?}");
+        }
+    }
+}
