@@ -13,7 +13,7 @@ pub fn write(case: &Case, folder: &Path) -> Result<(), Failure> {
     let Some(topography) = case.counterbody().topography() else {
         return Err(Failure::Refused("-o is for the power spectrum of a [surface], and this case has none".into()));
     };
-    let spectrum = Spectrum::of(topography.cell(), topography.heights()).map_err(Failure::refused)?;
+    let spectrum = Spectrum::of(topography.cell(), topography.own_heights().view()).map_err(Failure::refused)?;
     let random = case.surface.as_ref().and_then(SurfaceSection::random).map(RandomSection::surface);
     let names = ["spectrum.png", "spectrum.csv"].map(str::to_owned).to_vec();
     let claim = RunFolder::claim(folder, Plan { names, ..Plan::new(Writer::Check) })?;

@@ -1,9 +1,10 @@
 //! One period of a measured or generated surface.
 
 use super::CounterbodyError;
-use super::roughness::Spectrum;
+use super::roughness::{RunOut, Spectrum};
 use crate::lattice::{Cell, LatticeError};
 use ndarray::{Array2, ArrayView2};
+use std::borrow::Cow;
 use std::fmt;
 
 /// One period of a measured or generated topography.
@@ -12,6 +13,7 @@ pub struct Topography {
     cell: Cell,
     /// In standard layout.
     heights: Array2<f64>,
+    run_out: Option<RunOut>,
 }
 
 impl Topography {
@@ -29,7 +31,27 @@ impl Topography {
             return Err(CounterbodyError::Height { place: [i, j], value });
         }
         let heights = if heights.is_standard_layout() { heights } else { heights.as_standard_layout().into_owned() };
-        Ok(Self { cell, heights })
+        Ok(Self { cell, heights, run_out: None })
+    }
+
+    /// The same whose heights were [tapered](super::roughness::tapered) at the border of the cell.
+    #[must_use]
+    pub fn with_run_out(self, run_out: RunOut) -> Self {
+        Self { run_out: Some(run_out), ..self }
+    }
+
+    /// How it runs out at the border of the cell, if it does.
+    pub fn run_out(&self) -> Option<&RunOut> {
+        self.run_out.as_ref()
+    }
+
+    /// Heights of which statistics and spectrum are those of a surface: tapered, where they are, but not run out below it. Lengths,
+    /// axes along a₁ and a₂.
+    pub fn own_heights(&self) -> Cow<'_, Array2<f64>> {
+        match &self.run_out {
+            Some(run_out) => Cow::Owned(run_out.undone(self.heights.clone())),
+            None => Cow::Borrowed(&self.heights),
+        }
     }
 
     /// The cell.

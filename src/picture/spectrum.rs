@@ -12,7 +12,8 @@ use std::f64::consts::TAU;
 
 /// The picture; `None` for a flat surface. `random`: what a generated one was asked to be.
 pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Option<&SelfAffine>) -> Option<Canvas> {
-    let own = Spectrum::of(topography.cell(), topography.heights()).ok()?;
+    let heights = topography.own_heights();
+    let own = Spectrum::of(topography.cell(), heights.view()).ok()?;
     let rings: Vec<[f64; 2]> = own.radial().iter().map(|ring| [ring.wavenumber, ring.density]).collect();
     let most = rings.iter().map(|[_, density]| *density).fold(0.0, f64::max);
     // What rounding leaves where there are no waves is no spectrum.
@@ -43,7 +44,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
             .from_to(0.3 * least, 3.0 * most),
         curves,
     };
-    let statistics = Statistics::of(topography.heights());
+    let statistics = Statistics::of(heights.view());
     let [n1, n2] = topography.points();
     let caption = format!(
         "{}{}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean \

@@ -26,6 +26,7 @@ pub(crate) mod places;
 mod record;
 mod recorder;
 mod sampling;
+mod tapered;
 pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
@@ -36,6 +37,7 @@ pub use places::{Cut, StressRequest, Volume};
 pub use record::StepRecord;
 pub use recorder::Recorder;
 pub use sampling::Sampling;
+pub use tapered::Tapered;
 
 use crate::body::MeanStress;
 use crate::counterbody::Surface;

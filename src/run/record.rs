@@ -1,5 +1,6 @@
 //! Every scalar of a load step, as `summary.json` has them.
 
+use super::Tapered;
 use crate::body::HalfSpace;
 use crate::reading::{Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness};
 use crate::spectral::{Certificate, Report, Step, Stop};
@@ -21,6 +22,8 @@ pub struct StepRecord {
     pub points: [usize; 2],
     /// What is read of the contact of a topography.
     pub rough: Option<RoughReading>,
+    /// What of the contact stands where the window of a topography is below 1, if it has one.
+    pub tapered: Option<Tapered>,
     /// Largest stresses, where stresses are asked for and there is contact.
     pub stress: Option<StressReading>,
     /// What each criterion with a strength takes up, where there is contact.
@@ -43,6 +46,7 @@ impl StepRecord {
             convolutions,
             points: step.grid().points(),
             rough,
+            tapered: Tapered::of(step.finest()),
             stress: None,
             strength: Vec::new(),
             seconds: None,
@@ -127,7 +131,7 @@ impl serde::Serialize for StepRecord {
         use crate::spectral::Route;
         use serde::ser::SerializeStruct;
         let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 26)?;
+        let mut keys = serializer.serialize_struct("step", 27)?;
         keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
         keys.serialize_field("penetration", &reading.penetration)?;
         // Eq. (8): δ is measured from the mean plane of the deformed surface.
@@ -152,6 +156,10 @@ impl serde::Serialize for StepRecord {
         match &self.rough {
             Some(rough) => keys.serialize_field("rough", rough)?,
             None => keys.skip_field("rough")?,
+        }
+        match &self.tapered {
+            Some(tapered) => keys.serialize_field("tapered", tapered)?,
+            None => keys.skip_field("tapered")?,
         }
         if self.slides {
             let outer_iterations = report.outer;

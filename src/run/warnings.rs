@@ -7,6 +7,7 @@
 use super::StepRecord;
 use super::accuracy::End;
 use crate::counterbody::Shape;
+use crate::counterbody::roughness::Window;
 use crate::numeric::number::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
@@ -17,6 +18,8 @@ use std::f64::consts::PI;
 pub(crate) const STEEP: f64 = 0.5;
 /// Peak pressure over E* beyond which strains are not small.
 pub(crate) const HIGH: f64 = 1.0 / 3.0;
+/// A larger part of load or contact on tapered heights than this is worth a warning.
+const AT_BORDER: f64 = 0.02;
 /// A larger error of the stresses on the surface than this is worth a warning.
 const WORTH_SAYING: f64 = 0.02;
 
@@ -45,6 +48,7 @@ pub(super) fn of_judged(
         small_spots(judged),
         end.and_then(|end| not_accurate(end, change)),
         rough_surface(judged),
+        at_border(problem, judged),
         steep_flank(problem, judged),
         high_pressure(problem, judged),
     ];
@@ -114,6 +118,26 @@ fn rough_surface(steps: &[Numbered]) -> Option<String> {
         "stresses on the surface near the edge of contact may err by {:.0} % (stress.surface_error of each step); raise \
          grid.points",
         100.0 * worst
+    ))
+}
+
+/// Contact where the window of a topography tapers its heights.
+fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
+    let window = problem.counterbody().topography()?.run_out()?.window;
+    let part = |step: &StepRecord| step.tapered.map_or(0.0, |own| own.load.max(own.area));
+    let list = list(steps, |step| part(step) > AT_BORDER)?;
+    let worst = steps.iter().filter_map(|(_, step)| step.tapered).max_by(|a, b| a.load.total_cmp(&b.load))?;
+    let advice = match window {
+        Window::Hann => {
+            "\"hann\" is below 1 everywhere and made for spectra: press the surface with surface.window = \"tukey\""
+        }
+        Window::Tukey => "press less, or a surface that is periodic without a window",
+    };
+    Some(format!(
+        "surface.window: up to {:.0} % of the load and {:.0} % of the contact stand where the window is below 1, in step {list}: \
+         heights there are not those of the surface; {advice}",
+        100.0 * worst.load,
+        100.0 * worst.area
     ))
 }
 

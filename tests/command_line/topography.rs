@@ -151,3 +151,34 @@ fn check_draws_which_index_runs_where() {
     let answer = desk.percoat(&["check", "waves.toml"]);
     assert!(answer.code == 0 && answer.out.contains("\n   a₂ ↑"), "{}", answer.err);
 }
+
+/// The border of a window lies below all heights: it carries nothing at loads at which a border at the mean plane is pressed.
+#[test]
+fn the_border_of_a_window_carries_nothing_and_load_on_tapered_heights_is_told() {
+    let desk = Desk::new();
+    let height = |i: usize, j: usize| {
+        let (s, t) = (i as f64 / 48.0, j as f64 / 48.0);
+        AMPLITUDE * ((TAU * 5.3 * s).cos() + (TAU * 4.7 * t + 1.0).cos() + s)
+    };
+    let line = |i: usize| (0..48).map(|j| format!("{:.8}", height(i, j))).collect::<Vec<_>>().join(" ") + "\n";
+    desk.write("surface.txt", (0..48).map(line).collect::<String>());
+    desk.write("waves.toml", CASE.replace("surface.npy", "surface.txt"));
+    for (window, load, told) in [("tukey", "0.05", "press less"), ("hann", "0.03", "made for spectra")] {
+        let set = format!("surface={{ heights = \"surface.txt\", level = true, window = \"{window}\" }}");
+        let arguments = ["solve", "waves.toml", "-o", window, "--no-pictures", "--set", &set, "--set"];
+        let load = format!("load.mean_pressure={load}");
+        let answer = desk.percoat(&[&arguments[..], &[&load]].concat());
+        assert_eq!(answer.code, 0, "{}", answer.err);
+        let folder = Folder(desk.path(window));
+        let pressure = folder.contact().field("pressure").values;
+        let is_border = |k: usize| [k / 48, k % 48].iter().any(|index| [0, 47].contains(index));
+        assert!((0..48 * 48).all(|k| !is_border(k) || pressure[k] == 0.0), "{window}");
+        let step = &folder.steps()[0];
+        let parts = ["load", "area"].map(|part| number(step, &format!("/tapered/{part}")));
+        assert!(parts.iter().all(|part| (0.02..=1.0).contains(part)), "{parts:?}");
+        assert!(answer.err.contains("surface.window: up to") && answer.err.contains(told), "{}", answer.err);
+    }
+    let set = "surface={ heights = \"surface.txt\", level = true }";
+    let plain = desk.percoat(&["solve", "waves.toml", "-o", "plain", "--no-pictures", "--set", set]);
+    assert!(!plain.err.contains("surface.window: up to"), "{}", plain.err);
+}

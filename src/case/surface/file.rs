@@ -14,7 +14,7 @@ use super::text::Table;
 use super::unit::{self, KNOWN};
 use super::xyz::Points;
 use super::{npy, telltale, text, xyz};
-use crate::counterbody::roughness::{JUMP, Window, border_jumps, levelled, tapered};
+use crate::counterbody::roughness::{JUMP, RunOut, Window, border_jumps, levelled, tapered};
 use crate::numeric::array::field;
 use crate::numeric::number::number;
 use ndarray::Array2;
@@ -41,6 +41,8 @@ pub(super) struct Treatment {
 pub(super) struct FromFile {
     /// Heights, lengths of the case, axis 0 along a₁, axis 1 along a₂.
     pub heights: Array2<f64>,
+    /// How its border runs out, if it does.
+    pub run_out: Option<RunOut>,
     /// Its own period along a₁ and a₂, if it knows it, a length of the case.
     pub period: Option<[f64; 2]>,
     /// How its heights became these.
@@ -166,14 +168,17 @@ pub(super) fn read(
     values.iter_mut().for_each(|height| *height *= treatment.scale);
     let Heights { values, .. } = Heights::new(points, values).map_err(refuse)?;
     let heights = field(points, values);
-    let heights = match treatment {
-        Treatment { window: Some(window), level, .. } => tapered(heights, window, level),
-        Treatment { level: true, .. } => levelled(heights),
-        _ => heights,
+    let (heights, run_out) = match treatment {
+        Treatment { window: Some(window), level, .. } => {
+            let (heights, run_out) = tapered(heights, window, level);
+            (heights, Some(run_out))
+        }
+        Treatment { level: true, .. } => (levelled(heights), None),
+        _ => (heights, None),
     };
     doubts.extend(not_periodic(&heights, &treatment));
     let period = sides.and_then(|sides| treatment.sides(sides, length));
-    Ok(FromFile { heights, period, treatment, doubts })
+    Ok(FromFile { heights, run_out, period, treatment, doubts })
 }
 
 /// What stands in a file, with what is doubtful about the numbers; refused when there is no such file.

@@ -115,7 +115,7 @@ pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, R
 fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
     let length = around.length.as_deref();
     let treatment = Treatment::read(section, length)?;
-    let FromFile { heights: stored, period: own, treatment, doubts } =
+    let FromFile { heights: stored, run_out, period: own, treatment, doubts } =
         file::read(around.source, heights, treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(section, around, points, own)?;
@@ -128,11 +128,13 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let squeezed = own.and_then(|own| squeezed(own, cell));
     let name = heights.text()?;
     let heights = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
+    let topography = topography(section, cell, on_grid)?;
+    let topography = run_out.into_iter().fold(topography, Topography::with_run_out);
     let Treatment { own_scale, name: unit, level, window, .. } = treatment;
     Ok(Read {
         section: SurfaceSection::File { heights, scale: own_scale.unwrap_or(1.0), unit, level, window },
         lattice,
-        topography: topography(section, cell, on_grid)?,
+        topography,
         sampling,
         doubts: doubts.into_iter().chain(across).chain(lost).chain(squeezed).collect(),
     })

@@ -183,9 +183,10 @@ fn what_is_not_periodic_is_doubted_until_it_is_made_so() {
     assert!(doubt.is_empty(), "{doubt}");
     // The wave itself has no mean slope along a₂, and a little along a₁.
     assert!(level.iter().zip(wave(24, 24)).all(|(h, w)| (h - w).abs() < 2e-3));
+    let lowest = level.iter().copied().fold(f64::INFINITY, f64::min);
     for window in ["true", "\"tukey\"", "\"hann\""] {
         let (tapered, doubt) = of(&format!("level = true\nwindow = {window}"));
-        assert!(doubt.is_empty() && tapered[[0, 0]].abs() < 1e-3 && tapered.mean().unwrap().abs() < 1e-15, "{window}");
+        assert!(doubt.is_empty() && tapered[[0, 0]] < lowest && tapered[[23, 12]] < lowest, "{window}");
     }
     assert_eq!(of("window = true").0, of("window = \"tukey\"").0);
     assert_eq!(of("window = false").0, of("").0);

@@ -17,4 +17,4 @@ pub use plane::levelled;
 pub use self_affine::{Rms, SelfAffine, SelfAffineError};
 pub use spectrum::{Radial, Spectrum};
 pub use statistics::Statistics;
-pub use window::{Window, tapered};
+pub use window::{RunOut, Window, tapered};

@@ -1,12 +1,13 @@
-//! Tapers that make a surface periodic which is not.
+//! Tapers that make a surface periodic which is not, and let its border run out below all that can touch.
 //!
-//! h ← P + w₁(i) w₂(j) (h − P), with the weights at the N samples of a direction at u = (k + ½)/N:
+//! h ← P + w₁(i) w₂(j) (h − P) − D (1 − w₁(i) w₂(j)), with the weights at the N samples of a direction at u = (k + ½)/N:
 //!
 //! - Hann: w = sin²(πu);
 //! - Tukey: w = sin²(πu/2a) within a = 1/10 of either end, 1 between them.
 //!
 //! P is the plane, or the mean, that fits the surface best in squares weighted by w₁w₂. Then w₁w₂(h − P) has no mean and no
-//! slope: the mean plane of the tapered surface is P.
+//! slope. D = max(h − P) − min(h − P): the border lies as far below the deepest pit as the highest peak above P, and touches
+//! nothing before all of the surface does.
 
 use super::plane::Plane;
 use ndarray::Array2;
@@ -34,32 +35,74 @@ impl Window {
         }
     }
 
+    /// The weight at u, in parts of the length, between 0 and 1.
+    fn weight(self, u: f64) -> f64 {
+        let to_end = u.min(1.0 - u);
+        match self {
+            Self::Hann => (PI * to_end).sin().powi(2),
+            Self::Tukey if to_end < RISE => (FRAC_PI_2 * to_end / RISE).sin().powi(2),
+            Self::Tukey => 1.0,
+        }
+    }
+
     /// The weights at `n` samples, between 0 and 1.
     pub fn weights(self, n: usize) -> Vec<f64> {
-        let weight = |k: usize| {
-            let u = (k as f64 + 0.5) / n as f64;
-            let to_end = u.min(1.0 - u);
-            match self {
-                Self::Hann => (PI * to_end).sin().powi(2),
-                Self::Tukey if to_end < RISE => (FRAC_PI_2 * to_end / RISE).sin().powi(2),
-                Self::Tukey => 1.0,
-            }
-        };
-        (0..n).map(weight).collect()
+        (0..n).map(|k| self.weight((k as f64 + 0.5) / n as f64)).collect()
     }
 }
 
-/// Heights drawn toward their mean at the border; with `level` toward their mean plane, which is then taken away.
-pub fn tapered(mut heights: Array2<f64>, window: Window, level: bool) -> Array2<f64> {
+/// How a surface runs out at its border.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunOut {
+    /// Its taper.
+    pub window: Window,
+    /// D, how far the border lies below P, a length.
+    pub depth: f64,
+    /// Samples along a₁ and a₂ that were tapered.
+    pub points: [usize; 2],
+}
+
+impl RunOut {
+    /// w₁w₂ at fractions [s, t] of the cell vectors, sample \[0, 0\] at the origin.
+    fn weight(&self, place: [f64; 2]) -> f64 {
+        let [one, other] =
+            [0, 1].map(|axis| self.window.weight((place[axis] + 0.5 / self.points[axis] as f64).rem_euclid(1.0)));
+        one * other
+    }
+
+    /// Whether the window is below 1 at fractions [s, t] of the cell vectors: heights there are not those of the surface.
+    pub fn is_tapered(&self, place: [f64; 2]) -> bool {
+        self.weight(place) < 1.0
+    }
+
+    /// Tapered heights without what they run out by: P + w₁w₂(h − P), lengths, on any grid of the same cell.
+    pub fn undone(&self, mut heights: Array2<f64>) -> Array2<f64> {
+        let (n1, n2) = heights.dim();
+        for ((i, j), height) in heights.indexed_iter_mut() {
+            *height += self.depth * (1.0 - self.weight([i as f64 / n1 as f64, j as f64 / n2 as f64]));
+        }
+        heights
+    }
+}
+
+/// Heights drawn toward their mean at the border and run out below it; with `level` toward their mean plane, which is then
+/// taken away. Mean and plane are weighted by the window.
+pub fn tapered(mut heights: Array2<f64>, window: Window, level: bool) -> (Array2<f64>, RunOut) {
     let (n1, n2) = heights.dim();
     let weights = [window.weights(n1), window.weights(n2)];
     let fitted = Plane::fit(heights.view(), &weights);
     let plane = if level { fitted } else { Plane { slopes: [0.0; 2], ..fitted } };
     let kept = if level { 0.0 } else { plane.mean };
     for ((i, j), height) in heights.indexed_iter_mut() {
-        *height = kept + weights[0][i] * weights[1][j] * (*height - plane.at([i, j]));
+        *height -= plane.at([i, j]);
     }
-    heights
+    let depth = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        - heights.iter().copied().fold(f64::INFINITY, f64::min);
+    for ((i, j), height) in heights.indexed_iter_mut() {
+        let weight = weights[0][i] * weights[1][j];
+        *height = kept + weight * *height - depth * (1.0 - weight);
+    }
+    (heights, RunOut { window, depth, points: [n1, n2] })
 }
 
 #[cfg(test)]
@@ -76,18 +119,34 @@ mod tests {
     }
 
     #[test]
-    fn a_tapered_surface_is_periodic_and_keeps_its_mean_plane() {
+    fn a_tapered_surface_is_periodic_and_keeps_its_mean_plane_but_for_its_run_out() {
         for window in [Window::Hann, Window::Tukey] {
-            let level = tapered(surface(), window, true);
-            let uniform = [vec![1.0; 40], vec![1.0; 30]];
-            let Plane { mean, slopes, .. } = Plane::fit(level.view(), &uniform);
-            assert!(mean.abs() < 1e-13 && slopes.iter().all(|slope| slope.abs() < 1e-13), "{mean} {slopes:?}");
+            let (level, run_out) = tapered(surface(), window, true);
             assert!(border_jumps(surface().view()).iter().all(|jump| *jump > 3.0));
             assert!(border_jumps(level.view()).iter().all(|jump| *jump < 1.0));
+            let uniform = [vec![1.0; 40], vec![1.0; 30]];
+            let Plane { mean, slopes, .. } = Plane::fit(run_out.undone(level).view(), &uniform);
+            assert!(mean.abs() < 1e-12 && slopes.iter().all(|slope| slope.abs() < 1e-12), "{mean} {slopes:?}");
             let weights = [window.weights(40), window.weights(30)];
             let kept = Plane::fit(surface().view(), &weights).mean;
-            let own = tapered(surface(), window, false);
-            assert!((own.mean().unwrap() - kept).abs() < 1e-13);
+            let (own, run_out) = tapered(surface(), window, false);
+            assert!((run_out.undone(own).mean().unwrap() - kept).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_border_lies_below_every_height_and_the_middle_is_left_as_it_is() {
+        for window in [Window::Hann, Window::Tukey] {
+            let (own, run_out) = tapered(surface(), window, false);
+            let lowest = surface().iter().copied().fold(f64::INFINITY, f64::min);
+            let border = [own.row(0), own.row(39), own.column(0), own.column(29)];
+            let highest = border.iter().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
+            assert!(highest < lowest, "{window:?}");
+            let place = |(i, j): (usize, usize)| [i as f64 / 40.0, j as f64 / 30.0];
+            let same = |(at, height): ((usize, usize), &f64)| (height - surface()[at]).abs() < 1e-12;
+            assert!(own.indexed_iter().all(|own| run_out.is_tapered(place(own.0)) || same(own)));
+            let whole = own.indexed_iter().filter(|own| !run_out.is_tapered(place(own.0))).count();
+            assert_eq!(whole, if window == Window::Tukey { 32 * 24 } else { 0 });
         }
     }
 

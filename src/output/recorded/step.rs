@@ -4,7 +4,7 @@ use super::number::{or_none, plain, value};
 use super::stress::{StressKeys, UtilisationKeys, stress, utilisation};
 use super::unreadable::{Unreadable, read};
 use crate::reading::{Errors, Histogram, LevelErrors, LevelReading, Reading, RoughReading};
-use crate::run::StepRecord;
+use crate::run::{StepRecord, Tapered};
 use crate::spectral::{Certificate, Report, Route, Stop};
 use serde::{Deserialize, Deserializer};
 use serde_json::Value;
@@ -52,6 +52,7 @@ struct StepKeys {
     strength: Vec<UtilisationKeys>,
     seconds: Option<f64>,
     rough: Option<RoughReading>,
+    tapered: Option<Tapered>,
     /// Of an unfinished run.
     #[serde(default)]
     histograms: Vec<Histogram>,
@@ -135,6 +136,7 @@ fn record(keys: StepKeys) -> StepRecord {
         convolutions: keys.convolutions,
         points: keys.points,
         rough: keys.rough.map(|rough| RoughReading { histograms: keys.histograms, ..rough }),
+        tapered: keys.tapered,
         stress: keys.stress.map(stress),
         strength: keys.strength.into_iter().filter_map(utilisation).collect(),
         seconds: keys.seconds,

@@ -1,0 +1,29 @@
+//! What of the contact of a topography stands where a window tapers its heights.
+
+use crate::spectral::Contact;
+
+/// Parts of load and contact where the [window](crate::counterbody::roughness::Window) of a topography is below 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Tapered {
+    /// Of the load, 0 to 1.
+    pub load: f64,
+    /// Of the samples in contact, 0 to 1.
+    pub area: f64,
+}
+
+impl Tapered {
+    /// Of a contact; `None` where no window tapers anything, and without contact.
+    pub fn of(contact: &Contact) -> Option<Self> {
+        let run_out = contact.problem().counterbody().topography()?.run_out()?;
+        let (grid, pressure) = (contact.grid(), contact.pressure());
+        let (mut load, mut area, mut all) = (0.0, 0.0, [0.0; 2]);
+        for (index, pressure) in pressure.iter().enumerate().filter(|(_, pressure)| **pressure > 0.0) {
+            all = [all[0] + pressure, all[1] + 1.0];
+            if run_out.is_tapered(grid.fractions(index)) {
+                (load, area) = (load + pressure, area + 1.0);
+            }
+        }
+        (all[1] > 0.0).then(|| Self { load: load / all[0], area: area / all[1] })
+    }
+}
