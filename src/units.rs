@@ -102,6 +102,17 @@ impl Units {
     }
 }
 
+/// Whether a name is that of a metre with a prefix, or of another length of engineers.
+pub fn is_length(name: &str) -> bool {
+    matches!(Unit::called(name, "m"), Unit::Si { .. }) || ["cm", "in", "inch", "mil", "Å", "micron"].contains(&name)
+}
+
+/// Whether a name is that of a pascal with a prefix, or of another pressure of engineers.
+pub fn is_pressure(name: &str) -> bool {
+    let others = ["hPa", "bar", "psi", "ksi", "Msi", "N/mm²", "N/mm2", "N/mm^2", "N/m²", "N/m2", "N/m^2", "atm"];
+    matches!(Unit::called(name, "Pa"), Unit::Si { .. }) || others.contains(&name)
+}
+
 impl Unit {
     /// By its name, which may be that of an SI unit `base` with a prefix.
     fn called(name: &str, base: &'static str) -> Self {

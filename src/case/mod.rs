@@ -37,6 +37,7 @@ pub mod plausibility;
 mod reader;
 pub mod resources;
 mod room;
+mod sizes;
 mod solver;
 mod source;
 mod stress;

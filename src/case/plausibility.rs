@@ -1,6 +1,6 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
-use super::{Case, LayerSection, LoadSection, sublayers};
+use super::{Case, LayerSection, LoadSection, sizes, sublayers};
 use crate::body::{Interface, Layer, Material, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
@@ -22,6 +22,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(case).into_iter().collect();
     doubts.extend(moduli(case));
+    doubts.extend(sizes::doubts(case, &materials(case).collect::<Vec<_>>()));
     doubts.extend(strengths(case));
     doubts.extend(friction(case));
     doubts.extend(drifting(case, cell));

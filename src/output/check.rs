@@ -1,6 +1,7 @@
 //! What a case means, as `percoat check` tells it: nothing is solved but the first touches.
 
-use super::number::{number, with_error};
+use super::described;
+use super::number::number;
 use crate::case::resources::{Job, Needs, bytes, needs};
 use crate::case::{Case, ORIENTATION, RandomSection, Room, SurfaceSection, foreseen, plausibility, sublayer_error};
 use crate::counterbody::roughness::{Spectrum, Statistics};
@@ -25,8 +26,8 @@ pub struct Check {
     pub title: String,
     /// Counterbody and half-space in words.
     pub problem: [String; 2],
-    /// What numbers are measured in, in words; empty where that has no name.
-    pub units: String,
+    /// What numbers are measured in.
+    pub units: Units,
     /// Of each layer the number of its sublayers, and the error that they make of the surface compliance; `None` where no
     /// layer is graded.
     pub sublayers: Option<(Vec<usize>, f64)>,
@@ -72,8 +73,12 @@ pub struct Roughness {
     pub statistics: Statistics,
     /// √⟨|∇h|²⟩.
     pub rms_slope: f64,
+    /// Distance of samples along a₁ and a₂, lengths.
+    pub spacing: [f64; 2],
     /// Whether its heights are those of a file.
     pub from_file: bool,
+    /// Whether a window tapers its border.
+    pub has_window: bool,
 }
 
 /// Why a case cannot be solved.
@@ -97,8 +102,9 @@ impl Check {
         let cell = case.counterbody().cell();
         let grids = case.grid.grids(&cell).map_err(RunError::<Infallible>::from)?;
         let points = grids[grids.len() - 1];
+        let units = case.units();
         let (accuracy, grid) = match case.grid {
-            Sampling::Points(points) => (None, Grid::new(cell, points)?.to_string()),
+            Sampling::Points(points) => (None, described::grid(&units, &Grid::new(cell, points)?)),
             Sampling::Accuracy(accuracy) => {
                 (Some(accuracy), format!("grid: refined until results change by less than {accuracy}"))
             }
@@ -110,8 +116,11 @@ impl Check {
         let counts = || case.layers.iter().map(crate::case::LayerSection::sublayers).collect();
         Ok(Self {
             title: if case.title.is_empty() { name.to_owned() } else { case.title.clone() },
-            problem: [case.counterbody().to_string(), case.half_space().to_string()],
-            units: units(&case.units()),
+            problem: [
+                described::counterbody(&units, case.counterbody()),
+                described::half_space(&units, case.half_space()),
+            ],
+            units,
             sublayers: sublayer_error(case).map(|error| (counts(), error)),
             points,
             accuracy,
@@ -163,11 +172,15 @@ impl Touches {
 impl Roughness {
     fn of(case: &Case) -> Result<Option<Self>, LatticeError> {
         let Some(topography) = case.counterbody().topography() else { return Ok(None) };
-        let spectrum = Spectrum::of(topography.cell(), topography.heights())?;
+        let heights = topography.own_heights();
+        let spectrum = Spectrum::of(topography.cell(), heights.view())?;
+        let (sides, points) = (topography.cell().vectors().map(|[x, y]| x.hypot(y)), topography.points());
         Ok(Some(Self {
-            points: topography.points(),
-            statistics: Statistics::of(topography.heights()),
+            points,
+            statistics: Statistics::of(heights.view()),
             rms_slope: spectrum.rms_slope(),
+            spacing: [0, 1].map(|axis| sides[axis] / points[axis] as f64),
+            has_window: topography.run_out().is_some(),
             from_file: case.surface.as_ref().and_then(SurfaceSection::random).map(RandomSection::surface).is_none(),
         }))
     }
@@ -195,7 +208,7 @@ fn touches(case: &Case, first: [usize; 2]) -> Result<Option<Touches>, LatticeErr
 }
 
 /// What all numbers are measured in, where units have names.
-fn units(units: &Units) -> String {
+fn named(units: &Units) -> String {
     let named = |of: &str, unit: &Unit| unit.name().map(|name| format!("{of} in {name}"));
     let names =
         [named("lengths", units.length()), named("pressures", units.pressure()), named("forces", &units.force())];
@@ -206,8 +219,9 @@ impl fmt::Display for Check {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [counterbody, half_space] = &self.problem;
         writeln!(f, "{}\n\n{counterbody}\n\n{half_space}\n", plain::line(&self.title))?;
-        if !self.units.is_empty() {
-            writeln!(f, "units: {}", self.units)?;
+        let units = named(&self.units);
+        if !units.is_empty() {
+            writeln!(f, "units: {units}")?;
         }
         if let Some((sublayers, error)) = &self.sublayers {
             write_sublayers(f, sublayers, *error)?;
@@ -224,7 +238,8 @@ impl fmt::Display for Check {
             bytes(self.room.memory)
         )?;
         writeln!(f, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;
-        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(number);
+        let unit = if self.quantity == "penetration" { self.units.length() } else { self.units.pressure() };
+        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(|load| unit.told(load, number));
         match self.loads.len() {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
             count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,
@@ -234,13 +249,14 @@ impl fmt::Display for Check {
             for (level, touch) in (1..).zip(levels) {
                 match touch {
                     Some(FirstTouch { mean_pressure, error }) => {
-                        writeln!(f, "  level {level}: mean pressure {}", with_error(*mean_pressure, *error))?;
+                        let pressure = described::pressure_with_error(&self.units, *mean_pressure, *error);
+                        writeln!(f, "  level {level}: mean pressure {pressure}")?;
                     }
                     None => writeln!(f, "  level {level}: never, it is hidden behind the others")?,
                 }
             }
         }
-        self.surface.as_ref().map_or(Ok(()), |surface| surface.fmt(f))
+        self.surface.as_ref().map_or(Ok(()), |surface| surface.write(f, &self.units))
     }
 }
 
@@ -261,16 +277,18 @@ fn write_sublayers(f: &mut fmt::Formatter<'_>, sublayers: &[usize], error: f64) 
     writeln!(f, "surface compliance: error by the sublayers about {error:.1e}\n")
 }
 
-impl fmt::Display for Roughness {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Roughness {
+    fn write(&self, f: &mut fmt::Formatter<'_>, units: &Units) -> fmt::Result {
         let ([n1, n2], slope) = (self.points, number(self.rms_slope));
+        let [d1, d2] = self.spacing.map(|spacing| described::length(units, spacing));
         let Statistics { rms_height, range, skewness, kurtosis, .. } = self.statistics;
-        writeln!(f, "surface on {n1} × {n2} samples: rms height {}, rms slope {slope}", number(rms_height))?;
-        writeln!(
-            f,
-            "  range {}, skewness {skewness:.3}, kurtosis {kurtosis:.3} (a Gaussian has 0 and 3)",
-            number(range)
-        )?;
+        let [rms_height, range] = [rms_height, range].map(|height| described::length(units, height));
+        writeln!(f, "surface on {n1} × {n2} samples, {d1} apart along a₁ and {d2} along a₂:")?;
+        writeln!(f, "  rms height {rms_height}, rms slope {slope}, range {range}")?;
+        writeln!(f, "  skewness {skewness:.3}, kurtosis {kurtosis:.3} (a Gaussian has 0 and 3)")?;
+        if self.has_window {
+            writeln!(f, "  its window's run-out at the border left out")?;
+        }
         if self.from_file { writeln!(f, "{ORIENTATION}") } else { Ok(()) }
     }
 }

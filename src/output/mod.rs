@@ -31,6 +31,7 @@ mod checkpoint;
 mod clock;
 pub mod columns;
 mod comparison;
+mod described;
 mod fields;
 mod fingerprint;
 mod folder;

@@ -43,3 +43,58 @@ fn any_name_stands_behind_numbers_as_they_are_and_none_is_null() {
     let check = desk.percoat(&["check", "dlc-on-steel"]).out;
     assert!(check.contains("units: lengths in µm, pressures in GPa, forces in mN"), "{check}");
 }
+
+#[test]
+fn the_tables_of_check_have_units() {
+    let desk = Desk::new();
+    let check = |arguments: &[&str]| {
+        let answer = desk.percoat(&[&["check"], arguments].concat());
+        assert_eq!(answer.code, 0, "{}", answer.err);
+        answer.out.replace('\u{a0}', " ")
+    };
+    let out = check(&["tin-on-steel"]);
+    for words in [
+        "cell a₁ = (34.641, 0.0000) µm",
+        "area 1.0392e-9 m²",
+        "level 1: sphere, radius 80.000 µm, drop 0.0000 m",
+        "level 2: sphere, radius 80.000 µm, drop 100.00 nm",
+        "layer 1: thickness 3.0000 µm",
+        "E 450.00 GPa",
+        "spacing 67.658 nm",
+        "load: mean_pressure 50.000 MPa … 1.0000 GPa, 10 steps",
+        "  level 2: mean pressure ",
+        "Pa\n",
+    ] {
+        assert!(out.contains(words), "{words}: {out}");
+    }
+    let spring = "layers.1.interface={ tangential_stiffness = 3.0 }";
+    let out = check(&["dlc-on-steel", "--set", spring]);
+    assert!(out.contains("σ_r -2.0000 GPa") && out.contains("tangential stiffness 3.0000 GPa/µm"), "{out}");
+    desk.write("surface.csv", "0,0,0\n0,1,0\n0,0,0\n");
+    desk.write("rough.toml", "[units]\nlength = \"nm\"\n[surface]\nheights = \"surface.csv\"\npixel = [2, 3]\n[substrate]\nyoung = 1\npoisson = 0.3\n[load]\npenetration = 0.1\n");
+    let out = check(&["rough.toml"]);
+    for words in ["2.0000 nm apart along a₁ and 3.0000 nm along a₂", "range 1.0000 nm", "load: penetration 0.10000 nm"]
+    {
+        assert!(out.contains(words), "{words}: {out}");
+    }
+    // Without names numbers stand as they are.
+    let out = check(&["fig2"]);
+    assert!(
+        out.contains("layer 1: thickness 0.50000, χ 2.0000, E ") && out.contains("cell a₁ = (1.7321, 0.0000), a₂"),
+        "{out}"
+    );
+}
+
+#[test]
+fn units_that_no_body_has_are_doubted_by_name() {
+    let desk = Desk::new();
+    for (set, words) in [
+        ("units.pressure=mm", "units.pressure = \"mm\" is a unit of length"),
+        ("substrate.young=210e9", "Young's modulus 2.1000e11 of the substrate"),
+        ("substrate.young=210000", "Young's modulus 210000 of the substrate"),
+        ("units.length=m", "levels[0].radius = 50.000"),
+    ] {
+        let answer = desk.percoat(&["check", "dlc-on-steel", "--set", set]);
+        assert!(answer.code == 0 && answer.err.contains(words), "{set}: {}", answer.err);
+    }
+}

@@ -1,0 +1,116 @@
+//! Counterbody, half-space and grid of a case in words, every length and pressure with its unit.
+
+use super::number::{number, with_error};
+use crate::body::{HalfSpace, Interface, Layer, Material};
+use crate::counterbody::{Counterbody, Shape};
+use crate::lattice::{Cell, Grid};
+use crate::units::{Unit, Units};
+
+/// A length with its unit, five digits.
+pub(super) fn length(units: &Units, x: f64) -> String {
+    units.length().told(x, number)
+}
+
+/// A pressure with its unit, five digits.
+pub(super) fn pressure(units: &Units, x: f64) -> String {
+    units.pressure().told(x, number)
+}
+
+/// A pressure and its error with their unit.
+pub(super) fn pressure_with_error(units: &Units, x: f64, error: Option<f64>) -> String {
+    let prefixed = units.pressure().prefixed(x);
+    prefixed.behind(&with_error(prefixed.shown(x), error.map(|error| prefixed.shown(error))))
+}
+
+/// A number in a unit that is made of others, without a prefix of its own; `of` makes it of their names.
+fn compound(x: f64, units: &[&Unit], of: impl Fn(&[String]) -> String) -> String {
+    match units.iter().map(|unit| unit.name()).collect::<Option<Vec<String>>>() {
+        Some(names) => format!("{}\u{a0}{}", number(x), of(&names)),
+        None => number(x),
+    }
+}
+
+fn area(units: &Units, x: f64) -> String {
+    compound(x, &[units.length()], |names| format!("{}²", names[0]))
+}
+
+fn cell(units: &Units, cell: Cell) -> String {
+    let vectors = cell.vectors();
+    let prefixed = units.length().suited(vectors.into_iter().flatten());
+    let [a1, a2] = vectors.map(|[x, y]| {
+        let [x, y] = [x, y].map(|x| number(prefixed.shown(x)));
+        prefixed.behind(&format!("({x}, {y})"))
+    });
+    format!("cell a₁ = {a1}, a₂ = {a2}, area {}", area(units, cell.area()))
+}
+
+fn shape(units: &Units, shape: Shape) -> String {
+    let sizes = match shape {
+        Shape::Paraboloid { radius } | Shape::Sphere { radius } => format!("radius {}", length(units, radius)),
+        Shape::Cone { slope } => format!("slope {}", number(slope)),
+        Shape::Power { coefficient, exponent } => {
+            let own = compound(coefficient, &[units.length()], |names| format!("{}^{}", names[0], 1.0 - exponent));
+            format!("coefficient {own}, exponent {}", number(exponent))
+        }
+    };
+    format!("{}, {sizes}", shape.name())
+}
+
+/// What is pressed into the body, one line a level.
+pub(super) fn counterbody(units: &Units, counterbody: &Counterbody) -> String {
+    let own = cell(units, counterbody.cell());
+    let Some(indenters) = counterbody.indenters() else {
+        let [n1, n2] = counterbody.topography().map_or([0, 0], |topography| topography.points());
+        return format!("{own}, topography of {n1} × {n2} samples");
+    };
+    let counts: Vec<String> = indenters.lattice().sites().iter().map(|sites| sites.len().to_string()).collect();
+    let levels = (1..).zip(indenters.levels().iter().zip(indenters.drops()));
+    let levels = levels.map(|(index, (level, drop)): (usize, _)| {
+        format!("\nlevel {index}: {}, drop {}", shape(units, level.shape()), length(units, drop))
+    });
+    format!("{own}, indenters per level: {}{}", counts.join(", "), levels.collect::<String>())
+}
+
+fn material(units: &Units, material: Material) -> String {
+    let [young, shear, contact] =
+        [material.young(), material.shear(), material.contact_modulus()].map(|x| pressure(units, x));
+    // As it was given, without what rounding has left between the ends of a graded layer.
+    let poisson = (1e9 * material.poisson()).round() / 1e9;
+    format!("E {young}, ν {poisson}, G {shear}, E* {contact}")
+}
+
+fn interface(units: &Units, interface: Interface) -> String {
+    let Interface::Spring { tangential, normal } = interface else { return interface.to_string() };
+    let [tangential, normal] = [tangential, normal]
+        .map(|x| compound(x, &[units.pressure(), units.length()], |names| format!("{}/{}", names[0], names[1])));
+    format!("spring, tangential stiffness {tangential}, normal stiffness {normal}")
+}
+
+/// Layers and substrate, one a line.
+pub(super) fn half_space(units: &Units, half_space: &HalfSpace) -> String {
+    let substrate = half_space.substrate();
+    let layers = (1..).zip(half_space.layers()).map(|(index, layer): (usize, &Layer)| {
+        let residual = match layer.residual_stress() {
+            0.0 => String::new(),
+            residual => format!(", σ_r {}", pressure(units, residual)),
+        };
+        format!(
+            "layer {index}: thickness {}, χ {}, {}, {}{residual}\n",
+            length(units, layer.thickness()),
+            number(layer.material().shear() / substrate.shear()),
+            material(units, layer.material()),
+            interface(units, layer.interface())
+        )
+    });
+    format!("{}substrate: {}", layers.collect::<String>(), material(units, substrate))
+}
+
+/// Its points, and how far they stand apart.
+pub(super) fn grid(units: &Units, grid: &Grid) -> String {
+    let [n1, n2] = grid.points();
+    format!(
+        "grid {n1} × {n2}, spacing {}, sample area {}",
+        length(units, grid.spacing()),
+        area(units, grid.sample_area())
+    )
+}
