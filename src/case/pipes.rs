@@ -24,7 +24,7 @@ pub(super) fn is_pipe(path: &Path) -> bool {
 }
 
 impl Pipes {
-    /// All that comes out of a pipe; read again, the same.
+    /// All bytes of the pipe at `path`. A pipe can be read once: later calls return the bytes of the first.
     pub(super) fn read(&self, path: &Path) -> io::Result<Arc<[u8]>> {
         let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(bytes) = known.get(path) {

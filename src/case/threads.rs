@@ -23,7 +23,7 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// As many as are asked for by the option `source`, else as the environment says, else one a core.
+    /// The number `asked` by the option named `source`; without it that of `RAYON_NUM_THREADS`, else one thread a core.
     ///
     /// # Errors
     /// A sentence when the environment says what is no number.

@@ -238,7 +238,7 @@ fn answer(error: &clap::Error, message: Option<String>, words: &[String]) -> u8 
         None => error.print().and_then(|()| terminal::out().flush()),
     };
     match printed {
-        // Messages that cannot be printed change nothing; help that nobody reads is no fault.
+        // A closed pipe behind help is no error; an error message that cannot be printed keeps its exit code.
         Err(failed) if !error.use_stderr() && failed.kind() != ErrorKind::BrokenPipe => {
             let failure = Failure::Print(failed);
             failure.tell();

@@ -104,7 +104,7 @@ impl From<Infallible> for Failure {
 }
 
 impl Failure {
-    /// What is asked for is refused, for this reason.
+    /// The command or its case is refused (exit code 2), with the reason as plain text.
     pub fn refused(reason: impl fmt::Display) -> Self {
         Self::Refused(reason.to_string())
     }

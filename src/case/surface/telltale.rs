@@ -1,7 +1,7 @@
 //! Signs that heights are something else: coordinates, places without a measurement, digits.
 //!
-//! A file of numbers says little of what they are. What no surface has is refused, [`no_data`]; what hardly any has is told,
-//! [`doubts`]: the numbers are pressed as they are, and the reader knows.
+//! [`no_data`] refuses numbers that no surface has; [`doubts`] returns a warning for what hardly any surface has, and the numbers
+//! are then pressed as they are.
 
 use super::fault::{Fault, Heights};
 use crate::numeric::sums;

@@ -115,7 +115,7 @@ pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
 
 const DECIMAL: &str = "if its commas are decimal ones, write points, or part the numbers by semicolons, tabs or blanks";
 
-/// Number `column` of a line, from 0, that is none; what it holds is nobody's business.
+/// The fault of a cell that is no number, `column` counted from 0; its text is not repeated.
 fn no_number(line: usize, column: usize, part: &str, is_first: bool) -> Fault {
     let kind = match part {
         "" => "nothing",
