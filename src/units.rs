@@ -113,6 +113,11 @@ pub fn is_pressure(name: &str) -> bool {
     matches!(Unit::called(name, "Pa"), Unit::Si { .. }) || others.contains(&name)
 }
 
+/// Whether a name is that of a newton with a prefix.
+pub fn is_force(name: &str) -> bool {
+    matches!(Unit::called(name, "N"), Unit::Si { .. })
+}
+
 impl Unit {
     /// By its name, which may be that of an SI unit `base` with a prefix.
     fn called(name: &str, base: &'static str) -> Self {

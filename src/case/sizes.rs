@@ -9,7 +9,7 @@ use crate::counterbody::roughness::Statistics;
 use crate::counterbody::{Level, Shape, Topography};
 use crate::numeric::number::number;
 use crate::run::warnings::{HIGH, ratio};
-use crate::units::{Unit, is_length, is_pressure};
+use crate::units::{Unit, is_force, is_length, is_pressure};
 
 /// Moduli of all materials, Pa.
 const MODULI: [f64; 2] = [1e3, 1.3e12];
@@ -48,6 +48,12 @@ fn names(case: &Case) -> Vec<String> {
     }
     if is_length(pressure) {
         doubts.push(format!("units.pressure = \"{pressure}\" is a unit of length: are both names exchanged?"));
+    }
+    for (key, name) in [("length", length), ("pressure", pressure)].into_iter().filter(|(_, name)| is_force(name)) {
+        doubts.push(format!(
+            "units.{key} = \"{name}\" is a unit of force, and that of a case is its pressure times its length squared: which \
+             unit is the {key} in?"
+        ));
     }
     for (key, name, is_known, meant) in [
         ("length", length, is_length as fn(&str) -> bool, ["m", "mm", "µm", "nm", "pm"]),

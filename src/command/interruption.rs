@@ -1,4 +1,4 @@
-//! Ctrl-C, SIGTERM and a hang-up: the command ends at once and says what it has saved.
+//! Ctrl-C, SIGTERM, a hang-up and the end of the time allowed (`ulimit -t`): the command ends at once and says what it has saved.
 
 use super::terminal::{self, tell};
 use crate::output::{OutputError, RunFolder};
@@ -82,17 +82,24 @@ pub fn watch() {
     let _ = ctrlc::set_handler(answer);
 }
 
+/// From now on a file that grows beyond the largest one allowed (`ulimit -f`) fails to be written; without this the process ends
+/// without a word.
+pub fn outlive_large_files() {
+    #[cfg(unix)]
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
+}
+
 /// Signals to end that are not ignored. Where the system does not tell which are, a hang-up alone is taken for ignored.
 #[cfg(unix)]
 fn watched() -> Vec<i32> {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
     let status = std::fs::read_to_string("/proc/self/status").ok();
     let ignored = status.as_deref().and_then(|status| {
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"))?;
         u64::from_str_radix(mask.trim(), 16).ok()
     });
     let ignored = ignored.unwrap_or(1 << (SIGHUP - 1));
-    [SIGHUP, SIGINT, SIGTERM].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0).collect()
+    [SIGHUP, SIGINT, SIGTERM, SIGXCPU].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0).collect()
 }
 
 fn answer() {

@@ -41,6 +41,7 @@ pub fn main(typed: impl IntoIterator<Item = OsString>) -> u8 {
 }
 
 fn run(arguments: &Arguments) -> u8 {
+    interruption::outlive_large_files();
     let ended = arguments.computes().map_or(Ok(()), |(count, quiet)| threads::start(count, quiet));
     let ended = ended.and_then(|()| carry_out(&arguments.command));
     // What stands in the buffer may not fit on the disk.

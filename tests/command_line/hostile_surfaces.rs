@@ -119,6 +119,18 @@ fn files_that_hold_something_else_are_refused_or_told() {
         ),
         ("whole numbers and zeros", "a.csv", interleaved, Told(&["every second number along a₂ is 0"])),
         (
+            "thousands between commas",
+            "a.csv",
+            matrix([16, 16], ",", |i, j| format!("{},{:03}.5", 5 + i % 3, (100.0 * (height(i, j) + 3.0)).round())),
+            Refused(&["16 lines of 32 numbers", "commas between thousands, 16 × 16?"]),
+        ),
+        (
+            "thousands or decimal commas",
+            "a.txt",
+            matrix([16, 16], "\t", |i, j| format!("{},{:03}", 5 + i % 3, (100.0 * (height(i, j) + 3.0)).round())),
+            Told(&["three digits behind its comma", "thousands?"]),
+        ),
+        (
             "some numbers whole",
             "a.csv",
             matrix([16, 16], ",", |i, j| {
@@ -394,5 +406,24 @@ fn heights_and_cases_come_out_of_pipes() {
             .unwrap();
         let [out, err] = [&answer.stdout, &answer.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned());
         assert!(answer.status.success() && out.contains("16 × 16 samples"), "{script}: {out}\n{err}");
+    }
+}
+
+/// On a square cell with equal counts nothing else shows which way the lines of a text run.
+#[test]
+fn a_run_says_which_way_the_lines_of_a_text_were_taken_to_run() {
+    let image = format!("# Width: 64 µm\n# Height: 64 µm\n# Value units: um\n{}", plain(1.0, "\t"));
+    for (name, content, surface, said) in [
+        ("a.txt", plain(1.0, " "), PERIOD, true),
+        ("b.csv", plain(1.0, ","), PERIOD, true),
+        ("image.txt", image, "", false),
+        ("points.txt", points(" ", 4.0, 1.0), "", false),
+    ] {
+        let desk = Desk::new();
+        desk.write(name, content);
+        desk.write("case.toml", format!("{MICROMETRES}\n[surface]\nheights = \"{name}\"\n{surface}\n{REST}"));
+        let Answer { code, out, err } = desk.percoat(&["solve", "case.toml", "--no-pictures"]);
+        let found = out.contains(&format!("{name}: its lines run along a₁")) && out.contains("image[::-1].T");
+        assert!(code == 0 && found == said, "{name}: {code}\n{out}\n{err}");
     }
 }

@@ -96,6 +96,48 @@ fn few_addresses_are_an_error_of_one_line() {
     }
 }
 
+/// A file that may not grow is a full disk: what is finished stays, and the same command ends once it may.
+#[test]
+fn small_files_are_an_error_and_what_is_finished_stays() {
+    let desk = Desk::new();
+    let mut failed = 0;
+    for most in [0, 1, 4, 16, 64] {
+        for arguments in [
+            &["solve", "fig2", "--set=grid.points=32", "--set=load.mean_pressure=[0.02,0.06]", "--no-pictures"][..],
+            &["solve", "fig2", "--set=grid.points=32"],
+            &["sweep", "fig2", "--set=grid.points=32,36", "--no-pictures"],
+            &["limit", "--set=grid.points=32", "--no-pictures"],
+            &["check", "rough", "--set=grid.points=128", "-o", "checked"],
+        ] {
+            let arguments =
+                if arguments[0] == "check" { arguments.to_vec() } else { [arguments, &["-o", "out"]].concat() };
+            let what = format!("files of {most} kB: {arguments:?}");
+            let answer = under(&desk, &format!("ulimit -f {most}"), &arguments).unwrap();
+            if answer.code == 0 {
+                continue;
+            }
+            failed += 1;
+            assert!(
+                answer.code == 4 && answer.err.contains("error: cannot write"),
+                "{what}: {} {}",
+                answer.code,
+                answer.err
+            );
+            assert!(
+                answer.err.contains("File too large") && !answer.err.contains("panicked"),
+                "{what}: {}",
+                answer.err
+            );
+            let again = under(&desk, "ulimit -f unlimited", &arguments).unwrap();
+            assert_eq!(again.code, 0, "{what}, then allowed: {}", again.err);
+            for folder in ["out", "checked"] {
+                let _ = fs::remove_dir_all(desk.path(folder));
+            }
+        }
+    }
+    assert!(failed >= 10, "no limit was felt: {failed}");
+}
+
 #[test]
 fn help_that_cannot_be_written_is_an_error() {
     let desk = Desk::new();

@@ -93,6 +93,7 @@ fn units_that_no_body_has_are_doubted_by_name() {
         ("substrate.young=210e9", "Young's modulus 2.1000e11 of the substrate"),
         ("substrate.young=210000", "Young's modulus 210000 of the substrate"),
         ("units.length=m", "levels[0].radius = 50.000"),
+        ("units.pressure=kN", "units.pressure = \"kN\" is a unit of force"),
     ] {
         let answer = desk.percoat(&["check", "dlc-on-steel", "--set", set]);
         assert!(answer.code == 0 && answer.err.contains(words), "{set}: {}", answer.err);

@@ -3,6 +3,9 @@
 //! Read number by number, every second one is then the digits behind a comma: no sign, leading zeros, exponents behind these
 //! digits alone. Where the spelling proves nothing the numbers do: along a line of a surface both halves are alike, the
 //! neighbours but one no farther apart than the neighbours, and the halves no farther from each other than from themselves.
+//!
+//! A comma may part thousands too: "5,234.50". Between commas these are pairs of one to three digits and of three with a point.
+//! Where commas do not part the numbers, "5,234" is 5.234 or 5234: three digits behind every comma, and no zero before one.
 
 use super::fault::{Fault, Heights};
 
@@ -20,6 +23,18 @@ pub(super) struct Commas {
     leading_zeros: [bool; 2],
     signs: [usize; 2],
     exponents: [bool; 2],
+    /// Numbers that are no thousands: in commas not one to three digits in the first half, three before a point in the second;
+    /// elsewhere without a comma, with other than three digits behind it, or a zero before it.
+    no_thousands: bool,
+}
+
+/// Whether a number without its sign could stand before a comma that parts thousands.
+fn is_first_group(digits: &str) -> bool {
+    (1..=3).contains(&digits.len()) && !digits.starts_with('0') && is_digits(digits)
+}
+
+fn is_digits(text: &str) -> bool {
+    text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 impl Commas {
@@ -32,6 +47,27 @@ impl Commas {
         self.signs[half] += usize::from(digits.len() < part.len());
         self.leading_zeros[half] |= bytes.len() > 1 && bytes[0] == b'0' && bytes[1].is_ascii_digit();
         self.exponents[half] |= digits.contains(['e', 'E']);
+        let group = digits.split_once('.').map_or(digits, |(whole, _)| whole);
+        self.no_thousands |= match half {
+            0 => !is_first_group(digits),
+            _ => part.len() > digits.len() || group.len() != 3 || !is_digits(group),
+        };
+    }
+
+    /// Takes a number of a text whose numbers something else parts: its comma is read as a decimal one.
+    pub fn note_decimal(&mut self, part: &str) {
+        let digits = part.trim_start_matches(['+', '-']);
+        let is_thousand = |(first, rest): (&str, &str)| is_first_group(first) && rest.len() == 3 && is_digits(rest);
+        self.no_thousands |= !digits.split_once(',').is_some_and(is_thousand);
+    }
+
+    /// That every comma of a text whose numbers something else parts may stand for thousands.
+    pub fn doubt_decimal(&self, count: usize) -> Option<String> {
+        (!self.no_thousands && count >= FEWEST).then(|| {
+            "surface.heights: every number has three digits behind its comma, which is read as a decimal one, 5,234 as 5.234: \
+             thousands? Write them without commas"
+                .to_owned()
+        })
     }
 
     /// Refuses what its spelling shows to be decimal commas.
@@ -43,6 +79,13 @@ impl Commas {
                  decimal comma"
             );
             return Err(Fault::new(what, format!("decimal commas, {lines} × {}?", columns / 2)).help(HELP));
+        }
+        if self.has_points && columns.is_multiple_of(2) && !self.no_thousands {
+            let what = format!(
+                "holds {lines} lines of {columns} numbers between commas, in turn one to three digits and three before a point"
+            );
+            let label = format!("commas between thousands, {lines} × {}?", columns / 2);
+            return Err(Fault::new(what, label).help("write numbers without commas between thousands"));
         }
         Ok(())
     }
@@ -128,5 +171,22 @@ mod tests {
             }
         }
         assert!(found("1,5E-3,2,5E-3\n1,5E-3,2,5E-3\n").0);
+    }
+
+    #[test]
+    fn commas_between_thousands_do_not_pass() {
+        assert!(found("1,234.5,-5,234.0\n12,000.,123,999.25\n").0);
+        for other in ["1,234.5,0,234.0\n", "1,234.5,5,-234.0\n", "1,234.5,5,23.0\n", "1.5,234.5,5.5,231.0\n"] {
+            assert!(!found(other).0, "{other}");
+        }
+        let doubted = |numbers: &[&str]| {
+            let mut commas = Commas::default();
+            (0..FEWEST).for_each(|k| commas.note_decimal(numbers[k % numbers.len()]));
+            commas.doubt_decimal(FEWEST).is_some()
+        };
+        assert!(doubted(&["5,234", "-12,000", "+999,999"]));
+        for other in ["0,234", "5,23", "5,2345", "5234", "5,234e3", "1,234,567"] {
+            assert!(!doubted(&["5,234", other]), "{other}");
+        }
     }
 }

@@ -47,6 +47,8 @@ pub(super) struct FromFile {
     pub period: Option<[f64; 2]>,
     /// How its heights became these.
     pub treatment: Treatment,
+    /// Whether it is a text whose lines run along a₁ because nothing in it says what they are.
+    pub lines_along_a1: bool,
     /// What is doubtful about it.
     pub doubts: Vec<String>,
 }
@@ -59,6 +61,8 @@ struct Stored {
     sides: Option<[Length; 2]>,
     /// What its heights are in, if it says so.
     unit: Option<HeightsUnit>,
+    /// As in [`FromFile`].
+    lines_along_a1: bool,
     /// What is doubtful about how it is written.
     doubts: Vec<String>,
 }
@@ -162,7 +166,7 @@ pub(super) fn read(
         let refusal = Refusal::new(written.node.place, message, fault.label);
         fault.help.into_iter().fold(refusal, Refusal::help)
     };
-    let Stored { heights: Heights { points, mut values }, sides, unit, mut doubts } =
+    let Stored { heights: Heights { points, mut values }, sides, unit, lines_along_a1, mut doubts } =
         stored(source, &path, written)?.map_err(refuse)?;
     let treatment = treatment.of_file(unit.as_ref(), length).map_err(refuse)?;
     values.iter_mut().for_each(|height| *height *= treatment.scale);
@@ -178,7 +182,7 @@ pub(super) fn read(
     };
     doubts.extend(not_periodic(&heights, &treatment));
     let period = sides.and_then(|sides| treatment.sides(sides, length));
-    Ok(FromFile { heights, run_out, period, treatment, doubts })
+    Ok(FromFile { heights, run_out, period, treatment, lines_along_a1, doubts })
 }
 
 /// What stands in a file, with what is doubtful about the numbers; refused when there is no such file.
@@ -214,7 +218,8 @@ fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<
 impl Stored {
     fn points(Points { heights, period }: Points, header: &Header) -> Self {
         let side = |value: f64| Length { value, unit: header.of_coordinates() };
-        Self { heights, sides: Some(period.map(side)), unit: header.heights().cloned(), doubts: Vec::new() }
+        let (sides, unit) = (Some(period.map(side)), header.heights().cloned());
+        Self { heights, sides, unit, lines_along_a1: false, doubts: Vec::new() }
     }
 }
 
@@ -227,7 +232,7 @@ fn of_array(heights: Heights) -> Result<Stored, Fault> {
             Fault::new(what, "points x y z?").help("save heights of shape (n1, n2), or the points in a file .xyz")
         );
     }
-    Ok(Stored { heights, sides: None, unit: None, doubts: Vec::new() })
+    Ok(Stored { heights, sides: None, unit: None, lines_along_a1: false, doubts: Vec::new() })
 }
 
 /// A table of a text: points, an image, or lines along a₁.
@@ -243,7 +248,7 @@ fn of_table(table: Table) -> Result<Stored, Fault> {
         true => upright([numbers, lines], &values)?,
         false => Heights { points: [lines, numbers], values },
     };
-    Ok(Stored { heights, sides, unit: header.heights().cloned(), doubts })
+    Ok(Stored { heights, sides, unit: header.heights().cloned(), lines_along_a1: !header.is_image(), doubts })
 }
 
 /// An image of n₁ numbers a line and n₂ lines, the first one on top, with x along a₁ and y along a₂: `image[::-1].T`.

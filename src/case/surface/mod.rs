@@ -29,10 +29,12 @@ use crate::counterbody::Topography;
 use crate::counterbody::roughness::{Spectrum, Window};
 use crate::lattice::Cell;
 use crate::numeric::number::number;
+use crate::plain;
 use crate::run::Sampling;
 use fault::fits;
 use file::{FromFile, Treatment};
 use ndarray::Array2;
+use std::path::Path;
 
 pub use random::{RandomSection, RmsKey};
 
@@ -61,6 +63,9 @@ pub enum SurfaceSection {
         /// How its border is tapered, if it is.
         #[serde(skip_serializing_if = "Option::is_none")]
         window: Option<Window>,
+        /// Whether the file is a text that does not say what its lines are, so that they were taken to run along a₁.
+        #[serde(skip)]
+        lines_along_a1: bool,
     },
     /// Heights from a seed.
     Random {
@@ -75,6 +80,17 @@ impl SurfaceSection {
         match self {
             Self::Random { random } => Some(random),
             Self::File { .. } => None,
+        }
+    }
+
+    /// Which way the lines of its file were taken to run, a sentence, where the file does not say so.
+    pub fn lines(&self) -> Option<String> {
+        match self {
+            Self::File { heights, lines_along_a1: true, .. } => Some(format!(
+                "{}: its lines run along a₁, the numbers of a line along a₂; of an image, whose lines run along x, give image[::-1].T",
+                plain::path(Path::new(heights))
+            )),
+            Self::File { .. } | Self::Random { .. } => None,
         }
     }
 }
@@ -115,7 +131,7 @@ pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, R
 fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
     let length = around.length.as_deref();
     let treatment = Treatment::read(section, length)?;
-    let FromFile { heights: stored, run_out, period: own, treatment, doubts } =
+    let FromFile { heights: stored, run_out, period: own, treatment, lines_along_a1, doubts } =
         file::read(around.source, heights, treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
     let (lattice, cell) = cell(section, around, points, own)?;
@@ -132,7 +148,7 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     let topography = run_out.into_iter().fold(topography, Topography::with_run_out);
     let Treatment { own_scale, name: unit, level, window, .. } = treatment;
     Ok(Read {
-        section: SurfaceSection::File { heights, scale: own_scale.unwrap_or(1.0), unit, level, window },
+        section: SurfaceSection::File { heights, scale: own_scale.unwrap_or(1.0), unit, level, window, lines_along_a1 },
         lattice,
         topography,
         sampling,

@@ -90,6 +90,8 @@ pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
             values.push(own.number(part).ok_or_else(|| no_number(number, column, part, rows == 0))?);
             if own == Separator::Mark(',') {
                 commas.note(column, part);
+            } else {
+                commas.note_decimal(part);
             }
         }
         if parts.len() != columns {
@@ -107,9 +109,15 @@ pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
             break;
         }
     }
-    commas.refuse([rows, columns])?;
     let heights = Heights { points: [rows, columns], values };
-    let doubts = commas.doubt(&heights).into_iter().chain(several(&blocks, columns)).collect();
+    let doubt = match separator {
+        Some(Separator::Mark(',')) => {
+            commas.refuse([rows, columns])?;
+            commas.doubt(&heights)
+        }
+        _ => commas.doubt_decimal(heights.values.len()),
+    };
+    let doubts = doubt.into_iter().chain(several(&blocks, columns)).collect();
     Ok(Table { heights, lines: numbers, header: lines.header, doubts })
 }
 

@@ -16,7 +16,7 @@ pub use text::{Table, Worded};
 
 use super::Timing;
 use super::number::{ROUNDING, number, with_error};
-use crate::case::Case;
+use crate::case::{Case, SurfaceSection};
 use crate::comparison::Comparison;
 use crate::numeric::search::largest;
 use crate::plain;
@@ -62,9 +62,11 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     text
 }
 
-/// The title of a case as a line; nothing where it has none.
+/// The title of a case as a line, and how the file of its surface was read where that had to be assumed.
 fn heading(case: &Case) -> String {
-    if case.title.is_empty() { String::new() } else { format!("{}\n", plain::line(&case.title)) }
+    let title = Some(plain::line(&case.title).to_string()).filter(|title| !title.is_empty());
+    let lines = case.surface.as_ref().and_then(SurfaceSection::lines);
+    title.into_iter().chain(lines).map(|line| line + "\n").collect()
 }
 
 /// All that is said of the limit loads of a case.
