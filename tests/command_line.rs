@@ -20,6 +20,8 @@ mod exit_codes;
 mod explain;
 #[path = "command_line/folder.rs"]
 mod folder;
+#[path = "command_line/hostile_folders.rs"]
+mod hostile_folders;
 #[path = "command_line/hostile_surfaces.rs"]
 mod hostile_surfaces;
 #[path = "command_line/hostile_words.rs"]

@@ -2,7 +2,7 @@
 
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
-use super::input::read_case;
+use super::input::{default_folder, read_case};
 use super::roughness;
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
@@ -14,7 +14,7 @@ use std::path::Path;
 pub fn run(path: &Path, output: Option<&Path>, set: &[String]) -> Result<Ending, Failure> {
     let (case, name) = read_case(Some(path), set)?;
     let job = Job::Solve { pictures: true, fields: true };
-    let Allowed { room, .. } = Allowed::new(&case, &Path::new("out").join(&name), job)?;
+    let Allowed { room, .. } = Allowed::new(&case, &default_folder(&name).unwrap_or_else(|_| "out".into()), job)?;
     let check = Check::of(&case, &name, room).map_err(Failure::refused)?;
     let mut out = terminal::out();
     write!(out, "{check}")?;

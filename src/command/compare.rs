@@ -2,7 +2,7 @@
 
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
-use super::input::read_case;
+use super::input::{output_folder, read_case};
 use super::interruption;
 use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
@@ -32,7 +32,7 @@ pub fn run(
                 .to_owned(),
         ));
     }
-    let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let folder = output_folder(common, &name)?;
     let started = Instant::now();
     let (task, steps) = (case.comparison(), case.load.values().len());
     let run = Run { loads: vec![task.load], stress: None, ..case.run() };

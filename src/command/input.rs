@@ -1,8 +1,10 @@
 //! The case that a command works on.
 
 use super::ending::Failure;
+use super::options::Common;
 use crate::case::{Case, NoCase, Source, embedded, find};
-use std::path::Path;
+use crate::plain;
+use std::path::{Path, PathBuf};
 
 /// The case a command works on, changed by the overrides `set`, and its name.
 pub fn read_case(case: Option<&Path>, set: &[String]) -> Result<(Case, String), Failure> {
@@ -22,4 +24,42 @@ pub fn read_source(case: Option<&Path>) -> Result<(Source, String), Failure> {
         return Ok((source, embedded::DEFAULT.to_owned()));
     };
     Ok((find(path)?, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
+}
+
+/// Where the result of a case of that name goes: the folder that is asked for, or `out/<case name>`.
+pub fn output_folder(common: &Common, name: &str) -> Result<PathBuf, Failure> {
+    common.output.clone().map_or_else(|| default_folder(name), Ok)
+}
+
+/// `out/<case name>`, where the name is that of a folder in `out`, and not one that is hard to see or to type.
+pub fn default_folder(name: &str) -> Result<PathBuf, Failure> {
+    // Scripts and small pictures join letters by marks without width.
+    let is_hidden = |c: char| plain::is_hidden(c) && !matches!(c, '\u{200c}' | '\u{200d}');
+    // Systems that drop dots and spaces at the end would see `..` in `.. `.
+    let is_plain = !name.is_empty() && !name.ends_with(['.', ' ']) && name != ".percoat" && !name.contains('/');
+    if is_plain && !name.contains(is_hidden) {
+        return Ok(Path::new("out").join(name));
+    }
+    Err(Failure::Refused(format!(
+        "the name of the case, `{}`, is none for a folder in out/: say with -o where the result shall go, or rename the file",
+        plain::line(name)
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_whose_name_is_none_of_a_folder_has_no_default_one() {
+        for name in ["fig2", "a.b", ".hidden", "..x", "µ 1", "-"] {
+            assert_eq!(default_folder(name).unwrap(), Path::new("out").join(name));
+        }
+        for name in
+            ["", ".", "..", "...", "a.", "a ", ".. ", " ", ".percoat", "a\nb", "a\u{1b}[2J", "a\u{202e}b", "a/../.."]
+        {
+            let refused = default_folder(name).unwrap_err();
+            assert!(refused.code() == 2 && refused.to_string().contains("-o"), "{name:?}: {refused}");
+        }
+    }
 }

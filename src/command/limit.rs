@@ -2,7 +2,7 @@
 
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
-use super::input::read_case;
+use super::input::{output_folder, read_case};
 use super::interruption;
 use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
@@ -70,7 +70,7 @@ pub fn run(
 ) -> Result<Ending, Failure> {
     let started = Instant::now();
     let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &changes.set)?;
-    let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let folder = output_folder(common, &name)?;
     let run = case.run();
     let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() })?;
     run.check_limits()?;

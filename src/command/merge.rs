@@ -6,7 +6,7 @@ use super::options::Saying;
 use super::pictures::PictureOptions;
 use super::sweep;
 use super::terminal::{self, tell};
-use crate::output::{RunFolder, SWEEP_LOG};
+use crate::output::{RunFolder, SWEEP_LOG, disk};
 use crate::plain;
 use crate::sweep::{Asked, Row, description, join, read};
 use serde_json::Value;
@@ -54,6 +54,13 @@ pub fn run(
 /// The description and the rows of a part, finished or not.
 fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
     let unfinished = folder.join("unfinished-sweep");
+    if let Some(own) = disk::found(&unfinished).ok().flatten().filter(|own| !own.is_dir()) {
+        return Err(Failure::refused(format!(
+            "{} is {}, where percoat keeps a folder of its own: move it away",
+            plain::path(&unfinished),
+            disk::kind(&own)
+        )));
+    }
     match (read_part(folder)?, read_part(&unfinished)?) {
         (Some((finished, _)), Some((begun, _))) if finished["fingerprint"] != begun["fingerprint"] => {
             Err(Failure::refused(format!(
@@ -76,16 +83,19 @@ fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
 /// Those in a place, if it has any.
 fn read_part(place: &Path) -> Result<Option<(Value, Vec<Row>)>, Failure> {
     let path = place.join("sweep.json");
-    if !path.is_file() {
+    if matches!(disk::found(&path), Ok(None)) {
         return Ok(None);
     }
-    let text = std::fs::read_to_string(&path).map_err(|error| Failure::Input { path: path.clone(), error })?;
+    let text = disk::read_text(&path).map_err(|error| Failure::Input { path: path.clone(), error })?;
     let description = serde_json::from_str(&text)
         .map_err(|error| Failure::refused(format!("{} is no description of a sweep: {error}", plain::path(&path))))?;
     let log = place.join(SWEEP_LOG);
     // A part that was killed before its first combination has no log.
-    let rows =
-        if log.is_file() { read(&log).map_err(|error| Failure::Input { path: log, error })? } else { Vec::new() };
+    let rows = if matches!(disk::found(&log), Ok(None)) {
+        Vec::new()
+    } else {
+        read(&log).map_err(|error| Failure::Input { path: log, error })?
+    };
     Ok(Some((description, rows)))
 }
 

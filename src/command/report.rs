@@ -3,7 +3,7 @@
 use super::ending::{Ending, Failure};
 use super::interruption;
 use super::terminal;
-use crate::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
+use crate::output::{OutputError, Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
 use crate::plain;
 use crate::report::{self, ReportError};
 use std::fs;
@@ -32,6 +32,8 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
         None => {
             file.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), make_folder)?;
             write_text(&file, &page)?;
+            let parent = file.parent().unwrap_or(Path::new(""));
+            disk::sync_folder(parent).map_err(|error| Failure::from(OutputError::new(&file, error)))?;
         }
     }
     if !quiet {

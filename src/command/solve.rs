@@ -2,7 +2,7 @@
 
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
-use super::input::read_case;
+use super::input::{output_folder, read_case};
 use super::interruption::{self, Saved};
 use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
@@ -13,13 +13,12 @@ use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};
 use crate::output::summary::summary;
-use crate::output::{self, Clock, Plan, Recording, RunFolder, is_beside, steps_of, table, write_scalars};
+use crate::output::{self, Clock, Plan, Recording, RunFolder, disk, is_beside, steps_of, table, write_scalars};
 use crate::picture::Snapshot;
 use crate::plain;
 use crate::run::{Finished, Sampling, StepRecord};
 use clap::Args;
 use serde_json::Value;
-use std::fs;
 use std::io::Write;
 use std::path::Path;
 
@@ -43,7 +42,7 @@ pub fn run(
 ) -> Result<Ending, Failure> {
     let clock = Clock::start();
     let (case, name) = read_case(case, &changes.set)?;
-    let folder = common.output.clone().unwrap_or_else(|| Path::new("out").join(&name));
+    let folder = output_folder(common, &name)?;
     let run = case.run();
     let job = Job::Solve { pictures: pictures.wanted(), fields: !options.no_fields };
     let mut room = Room::on_this_machine(&folder);
@@ -134,11 +133,12 @@ fn done(earlier: &Finished) -> usize {
 
 /// How the result that stands in a folder ended, if it is of this case, and its summary.
 fn finished(case: &Case, folder: &Path, fields: bool) -> Option<(Ending, String)> {
-    let is_own = |name: &str| folder.join(name).is_file() && is_beside("summary.json", folder, name).unwrap_or(false);
+    let is_own =
+        |name: &str| disk::is_file(&folder.join(name)) && is_beside("summary.json", folder, name).unwrap_or(false);
     if !is_own("summary.json") || fields && !is_own("contact.npz") {
         return None;
     }
-    let text = fs::read_to_string(folder.join("summary.json")).ok()?;
+    let text = disk::read_text(&folder.join("summary.json")).ok()?;
     let summary: Value = serde_json::from_str(&text).ok()?;
     if summary["fingerprint"] != output::fingerprint(case, "") {
         return None;

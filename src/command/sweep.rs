@@ -1,14 +1,14 @@
 //! `percoat sweep`: a case, solved for many settings of its keys.
 
 use super::ending::{Ending, Failure};
-use super::input::read_source;
+use super::input::{output_folder, read_source};
 use super::interruption::{self, Saved};
 use super::options::{Common, Saying};
 use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::terminal::{self, tell};
 use crate::case::{Case, Room, Source};
-use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer, write_text};
+use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer, disk, write_text};
 use crate::picture;
 use crate::plain;
 use crate::sweep::{self, Asked, Axis, Combinations, Group, Log, Row, Status, Study, Task};
@@ -86,10 +86,10 @@ pub fn run(
         Some((part, of)) => combinations.shard(part, of),
         None => combinations,
     };
-    let folder = common.output.clone().unwrap_or_else(|| {
-        let folder = Path::new("out").join(&name);
-        options.shard.map_or(folder.clone(), |(part, of)| folder.join(format!("shard-{part}-of-{of}")))
-    });
+    let mut folder = output_folder(common, &name)?;
+    if let (Some((part, of)), None) = (options.shard, &common.output) {
+        folder.push(format!("shard-{part}-of-{of}"));
+    }
     let (room, task) = (Room::on_this_machine(&folder), if options.limit { Task::Limit } else { Task::Solve });
     let study = Study::new(&source, &fixed, &combinations, task, room)?;
     let study = if options.keep_fields { study.keeping_fields() } else { study };
@@ -206,7 +206,7 @@ fn combinations(options: &SweepOptions, set: &[String]) -> Result<(Combinations,
 /// Rows of an earlier sweep into this folder, unfinished or finished.
 fn earlier(claim: &RunFolder, folder: &Path) -> Result<Vec<Row>, Failure> {
     let path = if claim.resumes() { claim.staging() } else { folder.to_owned() }.join(SWEEP_LOG);
-    if !path.is_file() {
+    if matches!(disk::found(&path), Ok(None)) {
         return Ok(Vec::new());
     }
     sweep::read(&path).map_err(|error| Failure::Input { path, error })

@@ -4,7 +4,7 @@ use super::ending::{Ending, Failure};
 use super::interruption;
 use super::options::Studies;
 use super::terminal::{self, tell};
-use crate::output::{Plan, RunFolder, Scope, Writer, make_folder, write_text};
+use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
 use crate::picture::Format;
 use crate::plain;
 use crate::validation::paper::table;
@@ -113,7 +113,7 @@ fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) ->
     if studies.iter().any(|study| study.name.starts_with("paper/")) {
         names.push(PAGE.to_owned());
         // Who edits the text around the table builds the page into the program before the table is renewed.
-        let page = std::fs::read_to_string(folder.join(PAGE)).unwrap_or_default();
+        let page = disk::read_text(&folder.join(PAGE)).unwrap_or_default();
         adopted.extend(table::is_around(&page).then(|| PAGE.to_owned()));
     }
     Plan { names, adopted, scope: Scope { within, except: Vec::new() }, ..Plan::new(Writer::Validate) }

@@ -7,7 +7,7 @@ use super::layout::COARSER;
 use super::npz::{Archive, values};
 use super::recorded::{self, Unreadable};
 use super::steps_log;
-use super::{OutputError, write_file};
+use super::{OutputError, disk, write_file};
 use crate::run::{Finished, Last, StepRecord};
 use crate::spectral::{Certificate, Checkpoint, Report, Stop, Unknowns};
 use serde::de::DeserializeOwned;
@@ -208,7 +208,7 @@ fn foreseen(last: &Checkpoint) -> Duration {
 /// [`CannotGoOn`].
 pub fn finished(folder: &Path, fingerprint: &str) -> Result<Option<Finished>, CannotGoOn> {
     let path = folder.join(NAME);
-    if !path.is_file() {
+    if !disk::is_file(&path) {
         return Ok(None);
     }
     let failed = |error: io::Error| CannotGoOn::Unreadable { path: path.clone(), reason: error.to_string() };
@@ -220,7 +220,7 @@ pub fn finished(folder: &Path, fingerprint: &str) -> Result<Option<Finished>, Ca
     let last = place.solved.as_ref().map(|solved| saved.last(solved)).transpose().map_err(failed)?;
     let changes = saved.array("changes").map_err(failed)?;
     let (path, coarser) = (folder.join(steps_log::NAME), folder.join(COARSER).join(steps_log::NAME));
-    let own = if path.is_file() { steps(&path)? } else { Vec::new() };
+    let own = if disk::is_file(&path) { steps(&path)? } else { Vec::new() };
     // The steps of the grid before move aside after the finer one has been saved as begun.
     let (mut own, before) = match own.first() {
         Some(step) if step.points != place.points => (Vec::new(), Some(own)),
@@ -251,7 +251,7 @@ struct Saved<R>(ZipArchive<R>);
 
 impl Saved<BufReader<File>> {
     fn open(path: &Path) -> io::Result<Self> {
-        Ok(Self(ZipArchive::new(BufReader::new(File::open(path)?))?))
+        Ok(Self(ZipArchive::new(BufReader::new(disk::open(path)?))?))
     }
 }
 

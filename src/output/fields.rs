@@ -45,6 +45,11 @@ impl Fields {
         Ok(())
     }
 
+    /// Brings the names of the step's fields to the disk.
+    pub(super) fn sync(&self) -> Result<(), OutputError> {
+        self.arrays.sync()
+    }
+
     /// Gathers all steps in `contact.npz`, with the places of the samples and whose they are; what waits stays if that fails.
     pub(super) fn finish(self) -> Result<(), OutputError> {
         let surface = &self.surface;

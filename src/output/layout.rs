@@ -10,6 +10,8 @@ use std::path::{Path, PathBuf};
 pub(super) const OWN: &str = ".percoat";
 /// Marks a folder as one in which a run of percoat gathers its result.
 pub(super) const MARK: &str = ".percoat";
+/// The list of a result that is to be published, beside its files.
+pub(super) const DECIDED: &str = ".publish.json";
 /// The combinations of a sweep that are done, one line each.
 pub const SWEEP_LOG: &str = "sweep.jsonl";
 /// Where the combinations of a sweep keep their fields.
@@ -27,6 +29,16 @@ pub enum FolderError {
         path: PathBuf,
         /// Whose it is.
         reason: &'static str,
+    },
+    /// Something stands where percoat keeps what is its own, and cannot be percoat's.
+    #[error("{} is {found}, where percoat keeps {place} of its own: move it away, or choose another folder with -o", path.display())]
+    Stranger {
+        /// Where.
+        path: PathBuf,
+        /// What it is.
+        found: &'static str,
+        /// What has its place there.
+        place: &'static str,
     },
     /// Another run has the folder.
     #[error("another run ({owner}) is writing into {}: wait for it, or choose another folder with -o", folder.display())]
@@ -60,6 +72,20 @@ pub(super) fn staging(folder: &Path, writer: Writer) -> PathBuf {
     }
 }
 
+/// Where the place in which a writer has gathered its result stands after that is published, until it is removed.
+pub(super) fn retired(folder: &Path, writer: Writer) -> PathBuf {
+    let name = match writer {
+        Writer::Solve => "retired",
+        Writer::Check => "retired-check",
+        Writer::Compare => "retired-compare",
+        Writer::Limit => "retired-limit",
+        Writer::Validate => "retired-validate",
+        Writer::Sweep => "retired-sweep",
+        Writer::Report => "retired-report",
+    };
+    own(folder, name)
+}
+
 /// Whether a file of a folder is as percoat wrote it there beside its `result`. Where no list has the result, as in a copy,
 /// every file is.
 ///
@@ -76,14 +102,6 @@ pub(super) fn foreign(standing: Standing) -> Option<&'static str> {
         Standing::Absent | Standing::Written => None,
         Standing::Changed => Some("was changed since percoat wrote it"),
         Standing::Foreign => Some("is not listed as a result of percoat (in .percoat/written.json)"),
-    }
-}
-
-/// Removes a folder of percoat's own if it is there.
-pub(super) fn remove_folder(path: &Path) -> Result<(), OutputError> {
-    match fs::remove_dir_all(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(OutputError::new(path, error)),
-        _ => Ok(()),
     }
 }
 

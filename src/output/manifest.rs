@@ -5,9 +5,10 @@
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path};
+
+use super::disk::{self, found};
 
 /// A command that leaves a result in an output folder. Each replaces its own files alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -99,12 +100,15 @@ impl Manifest {
 
     /// The list at `path`; an empty one where there is none that can be read, so that in doubt no file is percoat's.
     pub(super) fn read(path: &Path) -> Self {
-        let list = fs::read_to_string(path).ok().and_then(|text| serde_json::from_str::<Self>(&text).ok());
-        let mut list = list.unwrap_or_else(Self::empty);
+        Self::at(path).unwrap_or_else(Self::empty)
+    }
+
+    /// The list at `path`, if there is one that can be read.
+    pub(super) fn at(path: &Path) -> Option<Self> {
+        let mut list: Self = serde_json::from_str(&disk::read_text(path).ok()?).ok()?;
         // Nothing outside the folder, whoever wrote the list.
-        let inside = |name: &str| Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-        list.files.retain(|name, _| !name.is_empty() && inside(name));
-        list
+        list.files.retain(|name, _| is_inside(name));
+        Some(list)
     }
 
     /// As indented JSON.
@@ -123,6 +127,11 @@ impl Manifest {
     /// Whether it has a file of that name.
     pub(super) fn has(&self, name: &str) -> bool {
         self.files.contains_key(name)
+    }
+
+    /// Whether it has a file as this one, under any name.
+    pub(super) fn holds(&self, file: &Written) -> bool {
+        self.files.values().any(|own| own == file)
     }
 
     /// Adds a file.
@@ -155,19 +164,15 @@ impl Manifest {
     }
 }
 
-/// What stands at `path` itself, if anything does.
-fn found(path: &Path) -> io::Result<Option<fs::Metadata>> {
-    match fs::symlink_metadata(path) {
-        Ok(found) => Ok(Some(found)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error),
-    }
+/// Whether a name stands in the folder, or in one below it.
+pub(super) fn is_inside(name: &str) -> bool {
+    !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
 }
 
 impl Written {
     /// The file at `path` as it is now.
     pub(super) fn of(path: &Path, by: Writer) -> io::Result<Self> {
-        let (bytes, checksum) = checksum(&mut File::open(path)?)?;
+        let (bytes, checksum) = checksum(&mut disk::open(path)?)?;
         Ok(Self { by, bytes, checksum: format!("{checksum:016x}") })
     }
 }
@@ -209,6 +214,7 @@ pub fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn every_bit_of_a_file_and_its_length_count() {

@@ -5,14 +5,12 @@
 //! are in place and listed the whole new result stands there, and then that folder goes in one move.
 
 use super::gathered::{remove_gathered, set_aside};
-use super::layout::{FolderError, foreign, own, staging};
+use super::layout::{DECIDED, FolderError, OWN, foreign, own, retired, staging};
 use super::manifest::{Manifest, Scope, Standing, Writer, Written};
-use super::{OutputError, write_text};
-use std::fs;
+use super::{OutputError, disk, make_folder, write_text};
+use std::collections::BTreeSet;
+use std::io;
 use std::path::{Path, PathBuf};
-
-/// The list of a result that is to be published, beside its files.
-const DECIDED: &str = ".publish.json";
 
 /// The result a writer has gathered in an output folder.
 #[derive(Debug)]
@@ -52,11 +50,13 @@ impl<'a> Publication<'a> {
         let others = self.writer.takes_along().iter().filter(|writer| **writer != self.writer);
         let mut new =
             others.fold(old.without(self.writer, scope), |list, &writer| list.without(writer, &Scope::default()));
+        let mut folders = BTreeSet::from([self.staging.clone()]);
         for name in planned {
             let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
-            if !gathered.is_file() {
+            if !disk::is_file(&gathered) {
                 continue;
             }
+            folders.extend(above(name).map(|part| self.staging.join(part)));
             let file = Written::of(&gathered, self.writer).map_err(|error| OutputError::new(&gathered, error))?;
             match foreign(self.standing(&old, name)?) {
                 None => new.add(name, file),
@@ -65,7 +65,10 @@ impl<'a> Publication<'a> {
                 Some(reason) => return Err(FolderError::Foreign { path, reason }),
             }
         }
-        Ok(write_text(&self.staging.join(DECIDED), &new.to_json())?)
+        // All of it is on the disk before that is decided, and the decision before anything is done about it.
+        sync_folders(&folders)?;
+        write_text(&self.staging.join(DECIDED), &new.to_json())?;
+        Ok(sync_folders(&BTreeSet::from([self.staging.clone()]))?)
     }
 
     /// Does what is left of a decided publication, and sweeps up after a retired one; where what is not percoat's there
@@ -83,22 +86,18 @@ impl<'a> Publication<'a> {
 
     /// Removes what is percoat's of a retired folder; anything else there is moved aside.
     fn sweep(&self) -> Result<Option<PathBuf>, OutputError> {
-        let (retired, list) = (self.retired(), Manifest::read(&self.list()));
-        let own = |name: &str| name == DECIDED || list.names(self.writer).any(|listed| listed == name);
-        if remove_gathered(&retired, self.writer, &own)? { Ok(None) } else { set_aside(&retired, self.folder) }
+        let (retired, list) = (retired(self.folder, self.writer), Manifest::read(&self.list()));
+        let own = |name: &str| list.names(self.writer).any(|listed| listed == name);
+        if !disk::is_folder(&retired) || remove_gathered(&retired, &own)? {
+            Ok(None)
+        } else {
+            set_aside(&retired, self.folder)
+        }
     }
 
-    fn retired(&self) -> PathBuf {
-        let name = match self.writer {
-            Writer::Solve => "retired",
-            Writer::Check => "retired-check",
-            Writer::Compare => "retired-compare",
-            Writer::Limit => "retired-limit",
-            Writer::Validate => "retired-validate",
-            Writer::Sweep => "retired-sweep",
-            Writer::Report => "retired-report",
-        };
-        own(self.folder, name)
+    /// The list of the new result, once it is decided.
+    fn decided(&self) -> Option<Manifest> {
+        Manifest::at(&self.staging.join(DECIDED)).filter(|_| disk::is_folder(&self.staging))
     }
 
     fn standing(&self, manifest: &Manifest, name: &str) -> Result<Standing, OutputError> {
@@ -108,14 +107,10 @@ impl<'a> Publication<'a> {
 
     /// What is left to do, in order: `summary.json` is the last name, and so the last file to come.
     fn actions(&self) -> Result<Vec<Action>, FolderError> {
-        let decided = self.staging.join(DECIDED);
-        if !decided.is_file() {
-            return Ok(Vec::new());
-        }
-        let [old, new] = [self.list(), decided].map(|path| Manifest::read(&path));
+        let (old, Some(new)) = (Manifest::read(&self.list()), self.decided()) else { return Ok(Vec::new()) };
         let mut actions = Vec::new();
         for name in new.names(self.writer) {
-            if self.standing(&new, name)? == Standing::Written || !self.staging.join(name).is_file() {
+            if self.standing(&new, name)? == Standing::Written || !disk::is_file(&self.staging.join(name)) {
                 continue;
             }
             if let Some(reason) = foreign(self.standing(&old, name)?) {
@@ -137,32 +132,67 @@ impl<'a> Publication<'a> {
     fn act(&self, action: &Action) -> Result<(), OutputError> {
         match action {
             Action::Place(name) => {
-                let [gathered, path] = [self.staging.join(name), self.folder.join(name)];
-                let second = own(self.folder, "placing");
-                let place = || {
-                    path.parent().map_or(Ok(()), fs::create_dir_all)?;
-                    if second.exists() {
-                        fs::remove_file(&second)?;
-                    }
-                    // Where a file cannot have two names it leaves the other place.
-                    match fs::hard_link(&gathered, &second) {
-                        Ok(()) => fs::rename(&second, &path),
-                        Err(_) => fs::rename(&gathered, &path),
-                    }
-                };
-                place().map_err(|error| OutputError::new(&path, error))
+                let path = self.folder.join(name);
+                path.parent().map_or(Ok(()), make_folder)?;
+                self.place(name, &path).map_err(|error| OutputError::new(&path, error))
             }
             Action::Remove(name) => {
                 let path = self.folder.join(name);
-                fs::remove_file(&path).map_err(|error| OutputError::new(&path, error))
+                disk::remove(&path).map_err(|error| OutputError::new(&path, error))
             }
-            Action::List => write_text(&self.list(), &Manifest::read(&self.staging.join(DECIDED)).to_json()),
+            Action::List => {
+                let [old, new] = [self.list(), self.staging.join(DECIDED)].map(|path| Manifest::read(&path));
+                // What is in its place stays there, and what has gone does not come back.
+                let names = self.writer.takes_along().iter().flat_map(|&own| old.names(own).chain(new.names(own)));
+                let folders = names.flat_map(above).map(|part| self.folder.join(part)).filter(|part| part.is_dir());
+                sync_folders(&folders.chain([self.folder.to_owned()]).collect())?;
+                write_text(&self.list(), &new.to_json())?;
+                sync_folders(&BTreeSet::from([self.folder.join(OWN)]))
+            }
             Action::Retire => {
-                let retired = self.retired();
-                fs::rename(&self.staging, &retired).map_err(|error| OutputError::new(&self.staging, error))
+                let moved = disk::move_to(&self.staging, &retired(self.folder, self.writer));
+                moved.map_err(|error| OutputError::new(&self.staging, error))?;
+                // A list that is gone ahead of its folder would leave a result that nobody has decided about.
+                sync_folders(&BTreeSet::from([self.folder.to_owned(), self.folder.join(OWN)]))
             }
         }
     }
+
+    /// Gives a gathered file its place, by a second name under which it waits for the move.
+    fn place(&self, name: &str, path: &Path) -> io::Result<()> {
+        let (gathered, second) = (self.staging.join(name), own(self.folder, PLACING));
+        if disk::is_file(&second) && self.is_placed(&second) {
+            disk::remove(&second)?;
+        }
+        match disk::link(&gathered, &second) {
+            Ok(()) => disk::replace(&second, path),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                let reason = format!("{} is not of percoat: move it away", second.display());
+                Err(io::Error::new(io::ErrorKind::AlreadyExists, reason))
+            }
+            // Where a file cannot have two names it leaves the other place.
+            Err(_) => disk::replace(&gathered, path),
+        }
+    }
+
+    /// Whether a file is one of the decided result.
+    fn is_placed(&self, file: &Path) -> bool {
+        let decided = self.decided();
+        let own = Written::of(file, self.writer).ok();
+        decided.zip(own).is_some_and(|(decided, own)| decided.holds(&own))
+    }
+}
+
+/// The second name of a file that is on its way to its place.
+pub(super) const PLACING: &str = "placing";
+
+/// The folders that lead to a name, innermost first, relative to that in which it stands.
+fn above(name: &str) -> impl Iterator<Item = &Path> {
+    Path::new(name).ancestors().skip(1).filter(|part| *part != Path::new(""))
+}
+
+fn sync_folders(folders: &BTreeSet<PathBuf>) -> Result<(), OutputError> {
+    folders.iter().try_for_each(|folder| disk::sync_folder(folder).map_err(|error| OutputError::new(folder, error)))
 }
 
 #[cfg(test)]
@@ -171,6 +201,7 @@ mod tests {
     use super::super::{Plan, RunFolder};
     use super::*;
     use std::collections::BTreeMap;
+    use std::fs;
 
     const PLAN: [&str; 5] = ["case.toml", "curve.csv", "stress.npz", "study/figure.png", "summary.json"];
 

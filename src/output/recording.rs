@@ -5,7 +5,7 @@ use super::clock::{Clock, Phase};
 use super::fields::Fields;
 use super::steps_log::StepsLog;
 use super::stress::Stresses;
-use super::{OutputError, RunFolder, write_text};
+use super::{OutputError, RunFolder, disk, write_text};
 use crate::load::Load;
 use crate::run::{Finished, Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Checkpoint, Solver, Step};
@@ -214,6 +214,11 @@ impl Recorder for Recording<'_> {
             }
             _ => {}
         }
+        // What the line names is on the disk before it.
+        files.fields.as_ref().map_or(Ok(()), Fields::sync)?;
+        files.stresses.as_ref().map_or(Ok(()), Stresses::sync)?;
+        let folder = self.claim.staging();
+        disk::sync_folder(&folder).map_err(|error| OutputError::new(&folder, error))?;
         files.log.add(record)?;
         files.steps += 1;
         self.clock.turn(Phase::Setup);

@@ -5,7 +5,7 @@
 use super::gathered::remove_waiting;
 use super::layout::names;
 use super::npz::{Archive, complete, header, npy, values};
-use super::{Draft, OutputError, make_folder, write_file};
+use super::{Draft, OutputError, disk, make_folder, write_file};
 use std::fs;
 use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -44,7 +44,7 @@ impl StepArrays {
         let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps: 0 };
         let partial = arrays.partial();
         make_folder(folder)?;
-        fs::create_dir(&partial).map_err(|error| OutputError::new(&partial, error))?;
+        disk::create_folder(&partial).map_err(|error| OutputError::new(&partial, error))?;
         Ok(arrays)
     }
 
@@ -58,7 +58,7 @@ impl StepArrays {
     ) -> Result<Option<Self>, OutputError> {
         let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps };
         let partial = arrays.partial();
-        if last && arrays.archive().is_file() {
+        if last && disk::is_file(&arrays.archive()) {
             remove_waiting(&partial)?;
             return Ok(None);
         }
@@ -122,6 +122,12 @@ impl StepArrays {
         }
     }
 
+    /// Brings the names of the present step's entries to the disk, where their content is.
+    pub(super) fn sync(&self) -> Result<(), OutputError> {
+        let partial = self.partial();
+        disk::sync_folder(&partial).map_err(|error| OutputError::new(&partial, error))
+    }
+
     /// Gathers all steps in the archive, after the arrays that `constants` adds; the waiting files stay if that fails.
     pub(super) fn finish(
         self,
@@ -147,6 +153,8 @@ impl StepArrays {
             }
             archive.finish()
         })?;
+        // The archive has its name before what it is made of goes.
+        disk::sync_folder(&self.folder).map_err(|error| OutputError::new(&self.folder, error))?;
         remove_waiting(&self.partial()).map(|_| ())
     }
 }
@@ -166,7 +174,7 @@ impl GrowingEntry {
 }
 
 fn read(path: &Path) -> io::Result<Vec<f64>> {
-    values(BufReader::new(fs::File::open(path)?))
+    values(BufReader::new(disk::open(path)?))
 }
 
 #[cfg(test)]

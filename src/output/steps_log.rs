@@ -3,11 +3,11 @@
 //! A line is the step as it will stand in `summary.json`, with what a run that goes on needs besides. Whatever ends the
 //! run, the lines that end are whole steps: a step is finished where its line ends.
 
-use super::{OutputError, write_text};
+use super::disk::{self, Appended};
+use super::{OutputError, write_file, write_text};
 use crate::reading::Histogram;
 use crate::run::StepRecord;
 use serde::Serialize;
-use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ pub(super) const NAME: &str = "steps.jsonl";
 pub(super) struct StepsLog {
     path: PathBuf,
     /// Open from the first step on.
-    file: Option<File>,
+    file: Option<Appended>,
     /// Lines of an earlier run with which it begins.
     known: Option<String>,
 }
@@ -58,13 +58,15 @@ impl StepsLog {
         let line = line.expect("a step is numbers and texts under names") + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {
-            Some(file) => file.write_all(line.as_bytes()).map_err(failed),
-            None if self.known.is_none() && self.path.exists() => Err(failed(io::ErrorKind::AlreadyExists.into())),
+            Some(file) => file.add(line.as_bytes()).map_err(failed),
+            None if self.known.is_none() && disk::found(&self.path).map_err(failed)?.is_some() => {
+                Err(failed(io::ErrorKind::AlreadyExists.into()))
+            }
             None => {
                 // The first line and the file come at once.
                 write_text(&self.path, &(self.known.take().unwrap_or_default() + &line))?;
-                self.file = Some(OpenOptions::new().append(true).open(&self.path).map_err(failed)?);
-                Ok(())
+                self.file = Some(Appended::open(&self.path).map_err(failed)?);
+                self.path.parent().map_or(Ok(()), disk::sync_folder).map_err(failed)
             }
         }
     }
@@ -72,7 +74,7 @@ impl StepsLog {
 
 /// Whether a log is there and has a whole line.
 pub(super) fn has_whole_line(path: &Path) -> bool {
-    let line = File::open(path).and_then(|file| {
+    let line = disk::open(path).and_then(|file| {
         let mut line = Vec::new();
         BufReader::new(file).read_until(b'\n', &mut line)?;
         Ok(line)
@@ -83,16 +85,14 @@ pub(super) fn has_whole_line(path: &Path) -> bool {
 /// Cuts off what a kill or a full disk has left of one more line than are whole; a log without a whole line goes.
 pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
     let failed = |error| OutputError::new(path, error);
-    if !path.is_file() {
+    if !disk::is_file(path) {
         return Ok(());
     }
-    let bytes = std::fs::read(path).map_err(failed)?;
+    let bytes = disk::read(path).map_err(failed)?;
     match bytes.iter().rposition(|byte| *byte == b'\n') {
-        None => std::fs::remove_file(path).map_err(failed),
-        Some(end) if end + 1 < bytes.len() => {
-            let file = OpenOptions::new().write(true).open(path).map_err(failed)?;
-            file.set_len(end as u64 + 1).map_err(failed)
-        }
+        None => disk::remove(path).map_err(failed),
+        // The file may have another name elsewhere, whose content is not percoat's to cut.
+        Some(end) if end + 1 < bytes.len() => write_file(path, |writer| writer.write_all(&bytes[..=end])),
         Some(_) => Ok(()),
     }
 }
@@ -102,7 +102,7 @@ pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
 /// # Errors
 /// When it cannot be read.
 pub fn whole_lines(path: &Path) -> io::Result<Vec<String>> {
-    let mut bytes = std::fs::read(path)?;
+    let mut bytes = disk::read(path)?;
     bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
     let text = String::from_utf8(bytes).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
     Ok(text.lines().map(str::to_owned).collect())

@@ -75,6 +75,11 @@ impl Stresses {
         Ok(())
     }
 
+    /// Brings the names of the step's stresses to the disk, but for those of volumes, which stand beside the log.
+    pub(super) fn sync(&self) -> Result<(), OutputError> {
+        self.arrays.sync()
+    }
+
     /// Gathers all steps in `stress.npz`, what waits stays if that fails; what the section shows of the last one.
     pub(super) fn finish(self) -> Result<Option<Section>, OutputError> {
         let Self { arrays, request, half_space, section, .. } = self;

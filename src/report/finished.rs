@@ -1,9 +1,8 @@
 //! What a folder holds of finished results.
 
 use super::ReportError;
-use crate::output::is_beside;
+use crate::output::{disk, is_beside};
 use serde_json::Value;
-use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -37,7 +36,7 @@ impl Finished {
         let sweep = match json(&folder.join("sweep.json"))? {
             Some(file) => {
                 let path = folder.join("sweep.csv");
-                let table = fs::read_to_string(&path).map_err(ReportError::input(&path))?;
+                let table = disk::read_text(&path).map_err(ReportError::input(&path))?;
                 Some(Swept { file, table })
             }
             None => None,
@@ -45,7 +44,7 @@ impl Finished {
         let [run, limit] = ["summary.json", "limit.json"].map(|name| json(&folder.join(name)));
         let finished = Self { folder: folder.to_owned(), run: run?, limit: limit?, sweep };
         if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
-            let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| folder.join(name).is_dir());
+            let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| disk::is_folder(&folder.join(name)));
             return Err(ReportError::Nothing { folder: folder.to_owned(), unfinished });
         }
         Ok(finished)
@@ -56,8 +55,8 @@ impl Finished {
         for (ending, kind) in [("svg", "image/svg+xml"), ("png", "image/png")] {
             let file = format!("{name}.{ending}");
             let path = self.folder.join(&file);
-            if path.is_file() && is_beside(result, &self.folder, &file).map_err(ReportError::input(&path))? {
-                return fs::read(&path).map(|bytes| Some((kind, bytes))).map_err(ReportError::input(&path));
+            if disk::is_file(&path) && is_beside(result, &self.folder, &file).map_err(ReportError::input(&path))? {
+                return disk::read(&path).map(|bytes| Some((kind, bytes))).map_err(ReportError::input(&path));
             }
         }
         Ok(None)
@@ -65,7 +64,7 @@ impl Finished {
 }
 
 fn text(path: &Path) -> Result<Option<String>, ReportError> {
-    match fs::read_to_string(path) {
+    match disk::read_text(path) {
         Ok(text) => Ok(Some(text)),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(ReportError::input(path)(error)),

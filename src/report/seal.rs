@@ -1,7 +1,6 @@
 //! The last line of a page: whoever meets the file knows by it that percoat wrote all of it and nobody has changed it since.
 
-use crate::output::checksum;
-use std::fs;
+use crate::output::{checksum, disk};
 use std::io;
 use std::path::Path;
 
@@ -18,10 +17,10 @@ pub(super) fn sealed(page: &str) -> String {
 /// # Errors
 /// When it cannot be read.
 pub fn is_own(path: &Path) -> io::Result<bool> {
-    if !fs::symlink_metadata(path)?.is_file() {
+    if disk::found(path)?.is_some_and(|own| !own.is_file()) {
         return Ok(false);
     }
-    let bytes = fs::read(path)?;
+    let bytes = disk::read(path)?;
     let own = || {
         let text = str::from_utf8(&bytes).ok()?;
         let (page, seal) = text.rsplit_once(BEFORE)?;
@@ -38,6 +37,7 @@ fn sum(page: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn a_page_is_percoats_until_a_letter_is_changed() {

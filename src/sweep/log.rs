@@ -3,10 +3,10 @@
 //! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
 
 use super::row::Row;
+use crate::output::disk::{self, Appended};
 use crate::output::{OutputError, SWEEP_LOG as LOG, whole_lines, write_text};
 use crate::plain;
-use std::fs::{File, OpenOptions};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// The log of a sweep that goes on.
@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub struct Log {
     path: PathBuf,
     /// Open from the first row on.
-    file: Option<File>,
+    file: Option<Appended>,
 }
 
 impl Log {
@@ -36,7 +36,7 @@ impl Log {
     /// When it cannot be written.
     pub fn add(&mut self, row: &Row) -> Result<(), OutputError> {
         match &mut self.file {
-            Some(file) => file.write_all(line(row).as_bytes()).map_err(|error| OutputError::new(&self.path, error)),
+            Some(file) => file.add(line(row).as_bytes()).map_err(|error| OutputError::new(&self.path, error)),
             None => self.open(&line(row)),
         }
     }
@@ -44,9 +44,9 @@ impl Log {
     /// The file and its first lines come at once.
     fn open(&mut self, text: &str) -> Result<(), OutputError> {
         write_text(&self.path, text)?;
-        let file = OpenOptions::new().append(true).open(&self.path);
-        self.file = Some(file.map_err(|error| OutputError::new(&self.path, error))?);
-        Ok(())
+        let failed = |error| OutputError::new(&self.path, error);
+        self.file = Some(Appended::open(&self.path).map_err(failed)?);
+        self.path.parent().map_or(Ok(()), disk::sync_folder).map_err(failed)
     }
 }
 
@@ -94,7 +94,7 @@ mod tests {
         let mut log = Log::begin(folder.path(), &[row(1)]).unwrap();
         log.add(&row(2)).unwrap();
         // Killed within a letter.
-        log.file.as_mut().unwrap().write_all(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
+        log.file.as_mut().unwrap().add(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
         let path = folder.path().join(LOG);
         assert_eq!(read(&path).unwrap(), [row(1), row(2)]);
         // Going on cuts it off.

@@ -8,10 +8,10 @@ use super::task::Task;
 use super::workers;
 use crate::case::resources::{Job, bytes, needs, refusal};
 use crate::case::{Case, CaseError, Room, Source};
-use crate::output::{self, COMBINATIONS, OutputError, solved_plan};
+use crate::output::{self, COMBINATIONS, OutputError, disk, solved_plan};
 use crate::run::Sampling;
 use std::collections::{HashMap, HashSet};
-use std::fs;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -168,7 +168,7 @@ impl<'a> Study<'a> {
             let fields = from.join(folder_of(combination.number));
             let is_there = || {
                 let case = self.case(combination).map(|case| case.to_toml()).ok();
-                fields.join("contact.npz").is_file() && fs::read_to_string(fields.join("case.toml")).ok() == case
+                disk::is_file(&fields.join("contact.npz")) && disk::read_text(&fields.join("case.toml")).ok() == case
             };
             let has_fields = !self.keeps_fields || row.combination == combination.number && is_there();
             let settings = self.settings(combination);
@@ -187,16 +187,22 @@ impl<'a> Study<'a> {
         }
         for row in known {
             let folder = folder_of(row.combination);
-            output::make_folder(&to.join(&folder))?;
+            let place = to.join(&folder);
+            output::make_folder(&place)?;
             let planned = self.planned.iter().find(|own| self.combinations.all[own.index].number == row.combination);
             for name in planned.map_or(&[][..], |planned| &planned.files) {
                 let [old, new] = [from, to].map(|place| place.join(&folder).join(name));
-                if old.is_file() && fs::hard_link(&old, &new).is_err() {
-                    fs::copy(&old, &new).map_err(|error| OutputError::new(&new, error))?;
+                if disk::is_file(&old) && disk::link(&old, &new).is_err() {
+                    output::write_file(&new, |writer| io::copy(&mut disk::open(&old)?, writer).map(|_| ()))?;
                 }
             }
+            disk::sync_folder(&place).map_err(|error| OutputError::new(&place, error))?;
         }
-        Ok(())
+        // The log is going to say that they are there.
+        let all = to.join(COMBINATIONS);
+        let synced =
+            if known.is_empty() { Ok(()) } else { disk::sync_folder(&all).and_then(|()| disk::sync_folder(to)) };
+        synced.map_err(|error| OutputError::new(&all, error))
     }
 
     /// How many combinations are solved at once by `threads`.
@@ -303,9 +309,11 @@ fn folder_of(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Axis, Group};
+    use super::super::{Axis, Group, Log};
     use super::*;
     use crate::case::embedded;
+    use crate::output::journal::Journal;
+    use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer};
 
     #[test]
     fn results_that_take_more_memory_than_there_is_are_refused() {
@@ -378,6 +386,52 @@ mod tests {
             });
             assert_eq!(done, Ok(()));
             assert_eq!(reasons, vec![Some("stopped before its end".to_owned()); 3]);
+        }
+    }
+
+    /// Whatever of the changes has come to the disk.
+    #[test]
+    fn after_a_power_cut_the_fields_of_every_combination_of_the_log_are_whole() {
+        let source = embedded::source("fig2").unwrap();
+        let fixed = ["grid.points=16".to_owned()];
+        let axis = Axis::parse("layers.0.poisson=0.1,0.2,0.3").unwrap();
+        let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
+        let room = Room { memory: 1 << 30, disk: u64::MAX };
+        let study = Study::new(&source, &fixed, &combinations, Task::Solve, room).unwrap().keeping_fields();
+        let place = tempfile::tempdir().unwrap();
+        let journal = Journal::begin(place.path());
+        let claim = RunFolder::claim(place.path(), Plan::new(Writer::Sweep)).unwrap();
+        let staging = claim.staging();
+        let mut log = Log::begin(&staging, &[]).unwrap();
+        let mut told = Vec::new();
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let done = one.install(|| {
+            study.run(&HashSet::new(), &staging, |row| {
+                log.add(&row)?;
+                told.push(journal.lock().unwrap().images.len());
+                Ok::<(), OutputError>(())
+            })
+        });
+        done.unwrap();
+        Journal::end(&journal);
+        let images = std::mem::take(&mut journal.lock().unwrap().images);
+        assert!(told.len() == 3 && images.len() > 200, "{told:?} of {}", images.len());
+        for (index, image) in images.iter().enumerate() {
+            let within = |name: &str| image.get(&Path::new("unfinished-sweep").join(name)).and_then(Option::as_deref);
+            let log = within(SWEEP_LOG).unwrap_or_default();
+            let rows: Vec<Row> = log
+                .split_inclusive(|byte| *byte == b'\n')
+                .filter(|line| line.ends_with(b"\n"))
+                .map(|line| serde_json::from_slice(line).unwrap())
+                .collect();
+            assert!(rows.len() >= told.iter().filter(|images| **images <= index).count());
+            for name in rows.iter().flat_map(|row| {
+                ["contact.npz", "case.toml", "summary.json"]
+                    .map(|name| format!("{}/{name}", folder_of(row.combination)))
+            }) {
+                let whole = std::fs::read(staging.join(&name)).unwrap();
+                assert!(within(&name).is_some_and(|found| found == whole), "{name} in image {index}");
+            }
         }
     }
 }

@@ -1,0 +1,289 @@
+//! What a power cut leaves of a folder: a journal of the changes that percoat makes there, for the tests.
+//!
+//! Content is lost until it is synced: such a file is empty, or as long as it was and full of zeros. Each change of names
+//! happens at once; those whose folder is not synced are there or not, each by itself, but those of one name one after the
+//! other. [`Journal::images`] has what may stand there, after every change.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+/// A change of the disk.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Change<'a> {
+    Created(&'a Path),
+    CreatedFolder(&'a Path),
+    /// From where, and to where.
+    Moved(&'a Path, &'a Path),
+    /// The file, and its second name.
+    Linked(&'a Path, &'a Path),
+    Removed(&'a Path),
+    Appended(&'a Path, &'a [u8]),
+    Synced(&'a Path),
+    SyncedFolder(&'a Path),
+}
+
+/// A folder as it may stand there: files with their content by their names, folders without.
+pub(crate) type Image = BTreeMap<PathBuf, Option<Vec<u8>>>;
+
+/// A name in a folder, by the folder's number.
+type Name = (usize, String);
+
+/// The journal of one folder.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    root: PathBuf,
+    things: Vec<Thing>,
+    /// What the running system sees.
+    seen: BTreeMap<Name, usize>,
+    /// What has come to the disk.
+    durable: BTreeMap<Name, usize>,
+    /// Changes of names that have not, each with all names it changes.
+    pending: Vec<Vec<(Name, Option<usize>)>>,
+    pub(crate) images: Vec<Image>,
+    known: BTreeSet<Image>,
+    /// What has been noted, in words.
+    pub(super) told: Vec<String>,
+    /// Whether it takes everything for not synced.
+    pub(super) deaf: bool,
+}
+
+#[derive(Debug, Clone)]
+enum Thing {
+    Folder,
+    /// What has come to the disk of its content, if any of it has; and what was added since.
+    File {
+        durable: Option<Vec<u8>>,
+        added: Vec<u8>,
+    },
+}
+
+/// What stands where content has not come to the disk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Lost {
+    Nothing,
+    Zeros,
+    Part,
+}
+
+static JOURNALS: Mutex<Vec<Arc<Mutex<Journal>>>> = Mutex::new(Vec::new());
+
+/// Tells the journal of the folder in which a change is, if there is one.
+pub(super) fn note(change: Change<'_>) {
+    use Change::{Appended, Created, CreatedFolder, Linked, Moved, Removed, Synced, SyncedFolder};
+    let (Created(path)
+    | CreatedFolder(path)
+    | Moved(path, _)
+    | Linked(path, _)
+    | Removed(path)
+    | Appended(path, _)
+    | Synced(path)
+    | SyncedFolder(path)) = change;
+    let journals = JOURNALS.lock().unwrap().clone();
+    for journal in journals {
+        let mut journal = journal.lock().unwrap();
+        if path.starts_with(&journal.root) {
+            journal.note(change);
+        }
+    }
+}
+
+impl Journal {
+    /// Begins one of an empty folder that is on the disk; it ends when this is dropped by all but the list.
+    pub(crate) fn begin(root: &Path) -> Arc<Mutex<Self>> {
+        let journal = Arc::new(Mutex::new(Self {
+            root: root.to_owned(),
+            things: vec![Thing::Folder],
+            seen: BTreeMap::new(),
+            durable: BTreeMap::new(),
+            pending: Vec::new(),
+            images: Vec::new(),
+            known: BTreeSet::new(),
+            told: Vec::new(),
+            deaf: false,
+        }));
+        JOURNALS.lock().unwrap().push(Arc::clone(&journal));
+        journal
+    }
+
+    /// Ends it: further changes are not noted.
+    pub(crate) fn end(journal: &Arc<Mutex<Self>>) {
+        JOURNALS.lock().unwrap().retain(|own| !Arc::ptr_eq(own, journal));
+    }
+
+    /// Everything so far has come to the disk, and what could have stood there before is forgotten.
+    pub(super) fn settle(&mut self) {
+        self.durable = self.seen.clone();
+        self.pending.clear();
+        self.images.clear();
+        self.known.clear();
+    }
+
+    fn note(&mut self, change: Change<'_>) {
+        let short = |path: &Path| path.strip_prefix(&self.root).unwrap_or(path).display().to_string();
+        self.told.push(match change {
+            Change::Created(path) => format!("create {}", short(path)),
+            Change::CreatedFolder(path) => format!("folder {}", short(path)),
+            Change::Moved(from, to) => format!("move {} {}", short(from), short(to)),
+            Change::Linked(from, to) => format!("link {} {}", short(from), short(to)),
+            Change::Removed(path) => format!("remove {}", short(path)),
+            Change::Appended(path, _) => format!("append {}", short(path)),
+            Change::Synced(path) => format!("sync {}", short(path)),
+            Change::SyncedFolder(path) => format!("sync-folder {}", short(path)),
+        });
+        match change {
+            Change::Synced(_) | Change::SyncedFolder(_) if self.deaf => {}
+            Change::Created(path) => self.create(path, Thing::File { durable: None, added: Vec::new() }),
+            Change::CreatedFolder(path) => self.create(path, Thing::Folder),
+            Change::Moved(from, to) => {
+                let own = self.seen[&self.name(from)];
+                self.change(vec![(self.name(from), None), (self.name(to), Some(own))]);
+            }
+            Change::Linked(from, to) => {
+                let own = self.seen[&self.name(from)];
+                self.change(vec![(self.name(to), Some(own))]);
+            }
+            Change::Removed(path) => self.change(vec![(self.name(path), None)]),
+            Change::Appended(path, bytes) => {
+                let own = self.seen[&self.name(path)];
+                if let Thing::File { added, .. } = &mut self.things[own] {
+                    added.extend(bytes);
+                }
+            }
+            Change::Synced(path) => {
+                let own = self.seen[&self.name(path)];
+                self.things[own] = Thing::File { durable: Some(fs::read(path).unwrap()), added: Vec::new() };
+            }
+            Change::SyncedFolder(path) => {
+                let own = self.folder(path);
+                self.sync_folder(own);
+            }
+        }
+        self.remember();
+    }
+
+    fn create(&mut self, path: &Path, thing: Thing) {
+        let name = self.name(path);
+        self.things.push(thing);
+        self.change(vec![(name, Some(self.things.len() - 1))]);
+    }
+
+    fn change(&mut self, names: Vec<(Name, Option<usize>)>) {
+        apply(&mut self.seen, &names);
+        self.pending.push(names);
+    }
+
+    /// The number of a folder.
+    fn folder(&self, path: &Path) -> usize {
+        let parts = path.strip_prefix(&self.root).expect("below the root").components();
+        parts.fold(0, |folder, part| self.seen[&(folder, part.as_os_str().to_str().unwrap().to_owned())])
+    }
+
+    fn name(&self, path: &Path) -> Name {
+        (self.folder(path.parent().unwrap()), path.file_name().unwrap().to_str().unwrap().to_owned())
+    }
+
+    /// Brings the changes in a folder to the disk, and those before of the same names.
+    fn sync_folder(&mut self, folder: usize) {
+        let mut names: BTreeSet<Name> = BTreeSet::new();
+        let mut needed = vec![false; self.pending.len()];
+        for (index, change) in self.pending.iter().enumerate().rev() {
+            if change.iter().any(|(name, _)| name.0 == folder || names.contains(name)) {
+                needed[index] = true;
+                names.extend(change.iter().map(|(name, _)| name.clone()));
+            }
+        }
+        let mut needed = needed.into_iter();
+        let durable = &mut self.durable;
+        self.pending.retain(|change| {
+            let needed = needed.next().unwrap();
+            if needed {
+                apply(durable, change);
+            }
+            !needed
+        });
+    }
+
+    fn remember(&mut self) {
+        let mut seed = 2_463_534_242 + self.told.len() as u64;
+        let mut coin = || {
+            seed ^= seed << 13;
+            seed ^= seed >> 7;
+            seed ^= seed << 17;
+            seed & 1 == 1
+        };
+        let mut images = vec![
+            self.image(&mut || false, Lost::Nothing),
+            self.image(&mut || true, Lost::Nothing),
+            self.image(&mut || true, Lost::Zeros),
+            self.image(&mut || true, Lost::Part),
+        ];
+        images.extend((0..3).map(|_| self.image(&mut coin, Lost::Zeros)));
+        for image in images {
+            if self.known.insert(image.clone()) {
+                self.images.push(image);
+            }
+        }
+    }
+
+    /// What may stand there, where `comes` says of each change on its way whether it has come.
+    fn image(&self, comes: &mut dyn FnMut() -> bool, lost: Lost) -> Image {
+        let (mut names, mut held) = (self.durable.clone(), BTreeSet::new());
+        for change in &self.pending {
+            if change.iter().any(|(name, _)| held.contains(name)) || !comes() {
+                held.extend(change.iter().map(|(name, _)| name.clone()));
+            } else {
+                apply(&mut names, change);
+            }
+        }
+        let mut image = Image::new();
+        let mut folders = vec![(0, PathBuf::new())];
+        while let Some((folder, path)) = folders.pop() {
+            for ((_, name), &own) in names.range((folder, String::new())..(folder + 1, String::new())) {
+                let path = path.join(name);
+                match &self.things[own] {
+                    Thing::Folder => {
+                        folders.push((own, path.clone()));
+                        image.insert(path, None);
+                    }
+                    Thing::File { durable, added } => {
+                        image.insert(path, Some(left(durable.as_deref(), added, lost)));
+                    }
+                }
+            }
+        }
+        image
+    }
+}
+
+/// What is left of content.
+fn left(durable: Option<&[u8]>, added: &[u8], lost: Lost) -> Vec<u8> {
+    let mut content = durable.unwrap_or_default().to_vec();
+    match (durable, lost) {
+        (_, Lost::Nothing) => {}
+        (None, Lost::Zeros | Lost::Part) => content.resize(13, 0),
+        (Some(_), Lost::Zeros) => content.resize(content.len() + added.len(), 0),
+        (Some(_), Lost::Part) => content.extend(&added[..added.len() / 2]),
+    }
+    content
+}
+
+fn apply(names: &mut BTreeMap<Name, usize>, change: &[(Name, Option<usize>)]) {
+    for (name, own) in change {
+        match own {
+            Some(own) => names.insert(name.clone(), *own),
+            None => names.remove(name),
+        };
+    }
+}
+
+/// Puts an image on the disk.
+pub(super) fn lay(image: &Image, root: &Path) {
+    for (path, content) in image {
+        match content {
+            None => fs::create_dir_all(root.join(path)).unwrap(),
+            Some(content) => fs::write(root.join(path), content).unwrap(),
+        }
+    }
+}

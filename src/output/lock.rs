@@ -1,0 +1,107 @@
+//! `.percoat/lock`: the file that a run locks to have its output folder for itself. It holds the number of the process.
+//!
+//! Only a file that nothing but percoat can have written is written into: one that it has just created, or one with the
+//! number of a process, or the beginning of one, that has no second name.
+
+use super::OutputError;
+use super::disk;
+use super::layout::{FolderError, own};
+use std::fs::{File, TryLockError};
+use std::io::{self, ErrorKind, Read, Seek, Write};
+use std::path::Path;
+
+/// Name of the file.
+pub(super) const NAME: &str = "lock";
+/// What stands before the number.
+const BEFORE: &str = "process ";
+/// Bytes of the longest content.
+const LONGEST: u64 = 40;
+
+/// Has the folder for this process as long as the file is open; the system ends that however the process ends.
+///
+/// # Errors
+/// [`FolderError`], also of a file that is somebody else's.
+pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
+    let path = own(folder, NAME);
+    let failed = |error| OutputError::new(&path, error);
+    let opened = match disk::create(&path) {
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => disk::open_to_change(&path),
+        created => created,
+    };
+    let mut file = opened.map_err(failed)?;
+    match file.try_lock() {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => {
+            let owner = content(&file).ok().filter(|content| is_own(content));
+            let owner = owner.map(|own| String::from_utf8_lossy(&own).trim().to_owned()).unwrap_or_default();
+            return Err(FolderError::Busy { folder: folder.to_owned(), owner });
+        }
+        // Some network file systems have no locks; their users are on their own.
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
+        Err(TryLockError::Error(error)) => return Err(failed(error).into()),
+    }
+    if !content(&file).map_err(failed)?.is_empty() && is_foreign(&path) {
+        return Err(FolderError::Foreign { path, reason: "is not of percoat" });
+    }
+    let written = file.set_len(0).and_then(|()| file.rewind());
+    written.and_then(|()| writeln!(file, "{BEFORE}{}", std::process::id())).map_err(failed)?;
+    Ok(file)
+}
+
+/// Whether a file in the place of the lock is somebody else's: by its content, or because it has another name elsewhere.
+pub(super) fn is_foreign(path: &Path) -> bool {
+    let Ok(file) = disk::open(path) else { return false };
+    has_other_name(&file) || !content(&file).is_ok_and(|content| is_own(&content))
+}
+
+/// What a lock says, and a little of anything else.
+fn content(mut file: &File) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    file.rewind()?;
+    file.take(LONGEST).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Whether it is the number of a process, or what a kill or a power cut leaves of it.
+fn is_own(content: &[u8]) -> bool {
+    let whole = content.len() < LONGEST as usize;
+    let Ok(text) = str::from_utf8(content) else { return false };
+    let text = text.trim_matches('\0').trim_end_matches('\n');
+    let number = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    whole && (BEFORE.starts_with(text) || text.strip_prefix(BEFORE).is_some_and(number))
+}
+
+#[cfg(unix)]
+fn has_other_name(file: &File) -> bool {
+    file.metadata().is_ok_and(|own| std::os::unix::fs::MetadataExt::nlink(&own) > 1)
+}
+
+#[cfg(not(unix))]
+fn has_other_name(_: &File) -> bool {
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_lock_of_somebody_else_is_told_by_its_content_and_by_its_other_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(NAME);
+        let foreign = |content: &str| {
+            fs::write(&path, content).unwrap();
+            is_foreign(&path)
+        };
+        for own in ["", "process 4711\n", "process 1", "proc", "\0\0\0\0\0", "process \n"] {
+            assert!(!foreign(own), "{own:?}");
+        }
+        for other in ["mine", "process of my own\n", "\n\nprocess 1\n", "process 1\nmine", &"1".repeat(100), "é"] {
+            assert!(foreign(other), "{other:?}");
+        }
+        assert!(!foreign("process 1\n"));
+        fs::hard_link(&path, folder.path().join("mine")).unwrap();
+        assert!(cfg!(not(unix)) || is_foreign(&path));
+    }
+}
