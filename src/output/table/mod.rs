@@ -232,11 +232,9 @@ pub fn solved(steps: &[StepRecord]) -> String {
 
 /// The contact spots of a topography in the last step that has any, in a line; `None` without.
 fn spots(steps: &[StepRecord]) -> Option<String> {
-    let (number, spots) = (1..).zip(steps).filter_map(|(n, step)| Some((n, step.rough.as_ref()?.spots))).next_back()?;
-    Some(format!(
-        "contact spots in step {number}: {}; samples that share an edge or a corner are one spot",
-        spots.count
-    ))
+    let last = steps.iter().rposition(|step| step.rough.is_some())?;
+    let count = steps[last].rough.as_ref()?.spots.count;
+    Some(format!("contact spots in step {}: {count}; samples that share an edge or a corner are one spot", last + 1))
 }
 
 /// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.
