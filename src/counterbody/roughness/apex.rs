@@ -3,8 +3,8 @@
 //! h(s, t) = h̄ + Σ ĥ_κ e^{2πi(κ₁s + κ₂t)}, s and t fractions of **a**₁ and **a**₂, is known between the samples. Newton's method
 //! climbs from the sixteen highest summits (samples that none of the eight around exceeds), and from the sixteen that are highest
 //! by the paraboloid through the nine: of waves down to three samples the highest summit may have a lower sample than others. All
-//! climb at once: a round takes one sum over the waves. Where −∇∇h is not positive, as along a ridge, the step is that of its absolute value; no step is longer than
-//! a spacing, and one that leads down is taken again at a quarter of its length.
+//! climb at once: a round takes one sum over the waves. Where −∇∇h is not positive, as along a ridge, the step is that of its
+//! absolute value; no step is longer than a spacing, and one that leads down is taken again at a quarter of its length.
 //!
 //! The apex is where contact begins, whichever grid holds the waves: the highest sample lies below it by up to the square of a
 //! spacing times half the curvature.
@@ -43,7 +43,8 @@ pub(crate) fn apex(cell: Cell, heights: ArrayView2<'_, f64>) -> Result<f64, Latt
     let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let enough = ROUNDING * (highest - lowest);
-    let places: Vec<[f64; 2]> = summits(grid, heights, lowest).into_iter().map(|index| grid.fractions(index)).collect();
+    let places: Vec<[f64; 2]> =
+        summits(grid, heights, lowest - (highest - lowest)).into_iter().map(|index| grid.fractions(index)).collect();
     let points = grid.points().map(|n| n as f64);
     let mut climbers: Vec<Climber> = spectrum
         .jets(&places)
@@ -72,8 +73,9 @@ pub(crate) fn apex(cell: Cell, heights: ArrayView2<'_, f64>) -> Result<f64, Latt
     Ok(if rise > enough && rise.is_finite() { highest + rise } else { highest })
 }
 
-/// The highest samples that none of the eight around exceeds, by themselves and by the paraboloid around: flat indices.
-fn summits(grid: &Grid, heights: ArrayView2<'_, f64>, lowest: f64) -> Vec<usize> {
+/// The highest samples that none of the eight around exceeds, by themselves and by the paraboloid around: flat indices. All heights
+/// are above the `ground`, but of a flat surface.
+fn summits(grid: &Grid, heights: ArrayView2<'_, f64>, ground: f64) -> Vec<usize> {
     let heights = heights.as_standard_layout();
     let heights = heights.as_slice().expect("in standard layout");
     let is_summit = |&index: &usize| grid.neighbours(index).all(|next| heights[next] <= heights[index]);
@@ -88,10 +90,9 @@ fn summits(grid: &Grid, heights: ArrayView2<'_, f64>, lowest: f64) -> Vec<usize>
     let [n1, n2] = grid.points().map(|n| n as i32);
     for (height, index) in &mut summits {
         let (row, column) = (*index as i32 / n2, *index as i32 % n2);
-        // Above the lowest: the paraboloid is that of positive values.
-        let above = |i: i32, j: i32| {
-            1.0 + (heights[((row + i).rem_euclid(n1) * n2 + (column + j).rem_euclid(n2)) as usize] - lowest)
-        };
+        // The paraboloid is that of positive values.
+        let above =
+            |i: i32, j: i32| heights[((row + i).rem_euclid(n1) * n2 + (column + j).rem_euclid(n2)) as usize] - ground;
         *height += paraboloid::rise(1, above).unwrap_or(0.0);
     }
     starts.extend(highest(&mut summits));
