@@ -90,12 +90,22 @@ impl Units {
 
     /// Of forces: a pressure times an area. None where one of both has no name.
     pub fn force(&self) -> Unit {
+        self.pressure_times(2, "N", "²")
+    }
+
+    /// Of energies: a pressure times a volume. None where one of both has no name.
+    pub fn energy(&self) -> Unit {
+        self.pressure_times(3, "J", "³")
+    }
+
+    /// A pressure times a power of a length, in SI `base`.
+    fn pressure_times(&self, power: i32, base: &'static str, raised: &str) -> Unit {
         match (&self.pressure, &self.length) {
             (Unit::Si { exponent, .. }, Unit::Si { exponent: length, .. }) => {
-                Unit::Si { base: "N", exponent: exponent + 2 * length }
+                Unit::Si { base, exponent: exponent + power * length }
             }
             (pressure, length) => match (pressure.name(), length.name()) {
-                (Some(pressure), Some(length)) => Unit::Named(format!("{pressure}·{length}²")),
+                (Some(pressure), Some(length)) => Unit::Named(format!("{pressure}·{length}{raised}")),
                 _ => Unit::None,
             },
         }
@@ -244,6 +254,16 @@ mod tests {
         assert_eq!(shown("m", "Pa", [1e-20, 1e20, 0.0]), ["0 pm", "100000000 TPa", "0 N"]);
         assert_eq!(shown("in", "psi", [1e-3, 3e7, 1.0]), ["0.001 in", "30000000 psi", "1 psi·in²"]);
         assert_eq!(shown("pm", "Pa", [1.0, 1.0, 1.0]), ["1 pm", "1 Pa", "0 pN"]);
+    }
+
+    #[test]
+    fn an_energy_is_a_pressure_times_a_volume() {
+        let energy = |length: &str, pressure: &str| {
+            units(1.0, 1.0, 1.0).named(Some(length), Some(pressure)).energy().told(2.0, |x| format!("{x}"))
+        };
+        let told = [("µm", "GPa"), ("mm", "MPa"), ("m", "Pa"), ("in", "psi")].map(|(l, p)| energy(l, p));
+        // GPa·µm³ = nJ, MPa·mm³ = mJ.
+        assert_eq!(told.map(|text| text.replace('\u{a0}', " ")), ["2 nJ", "2 mJ", "2 J", "2 psi·in³"]);
     }
 
     #[test]

@@ -90,6 +90,7 @@ fn stated(reading: &Reading) -> Vec<Stated> {
     note("mean pressure", Some(reading.mean_pressure), errors.mean_pressure);
     note("penetration", Some(reading.penetration), errors.penetration);
     note("contact fraction", Some(reading.contact_fraction), errors.contact_fraction);
+    note("elastic energy", Some(reading.elastic_energy), errors.elastic_energy);
     note("largest pressure", reading.finite_peak(), errors.max_pressure);
     for level in &reading.levels {
         let errors = level.errors;

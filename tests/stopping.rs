@@ -5,9 +5,10 @@ mod common;
 use common::{PAPER, Random, bare, one_level, paraboloid};
 use ndarray::Array2;
 use percoat::{
-    Cell, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, Method, Problem, Route, Settings, Solver,
-    Step, Stop, Topography,
+    Cell, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, Method, Problem, Route, Settings,
+    Solver, Step, Stop, Topography,
 };
+use std::sync::Arc;
 
 fn one_indenter(cell: Cell, place: [f64; 2], radius: f64) -> Indenters {
     one_level(Lattice::new(cell, vec![vec![place]]).unwrap(), paraboloid(radius, 0.0))
@@ -97,6 +98,50 @@ fn stiff_thin_plates_converge_on_fine_grids() {
         let base = plate(points, 0.001, Method::PolonskyKeer).solve(load);
         println!("baseline: {}; {} convolutions", base.report, base.convolutions);
         assert!(step.convolutions < base.convolutions, "{} / {}", step.convolutions, base.convolutions);
+    }
+}
+
+/// A stiff thin coating from light loads to complete contact: towards that, 1e-14 is less than rounding leaves of the gap. Every step
+/// is solved, and what the usual tolerance finds is the same to what that promises.
+#[test]
+fn a_tolerance_below_rounding_ends_as_converged_to_what_doubles_carry() {
+    let mut at_rounding = 0;
+    for points in [96, 128, 192] {
+        let problem = Arc::clone(plate(points, 0.002, Method::Preconditioned).problem());
+        let solver = |tolerance: f64| {
+            let settings = Settings { tolerance, ..Settings::default() };
+            Solver::new(Arc::clone(&problem), [points; 2], settings).unwrap()
+        };
+        let [mut sharpest, mut usual] = [1e-14, 1e-8].map(solver);
+        let full = sharpest.full_contact_pressure();
+        for part in [0.03, 0.3, 0.9, 2.0] {
+            let load = Load::MeanPressure(part * full);
+            let step = sharpest.solve(load);
+            println!("N = {points}, {part}: {}; {}", step.report, step.certificate);
+            assert!(matches!(step.report.stop, Stop::Converged | Stop::Rounding), "N = {points}: {}", step.report);
+            assert!(step.report.residual < 1e-13 && step.certificate.energy_gap < 1e-10, "{}", step.certificate);
+            at_rounding += usize::from(step.report.stop == Stop::Rounding);
+            let usual = usual.solve(load);
+            assert_eq!(usual.report.stop, Stop::Converged, "{}", usual.report);
+            assert!((usual.penetration() / step.penetration() - 1.0).abs() < 1e-6);
+        }
+    }
+    assert!(at_rounding >= 3, "{at_rounding}");
+    assert!(Stop::Rounding.solved() && Stop::Rounding.to_string() == "converged to rounding");
+}
+
+/// The baseline is not made for coupled friction, and stops far above rounding: that is no convergence, whatever the tolerance.
+#[test]
+fn a_stall_above_rounding_is_a_stall() {
+    let friction = Friction::new(0.8, [1.0, 0.0]).unwrap();
+    let indenters = one_indenter(Cell::hexagonal(1.0).unwrap(), [0.0, 0.0], 0.8);
+    let problem = Problem::new(indenters, bare()).sliding(friction).unwrap();
+    for tolerance in [1e-8, 1e-14] {
+        let settings = Settings { method: Method::PolonskyKeer, tolerance, ..Settings::default() };
+        let step = Solver::new(problem.clone(), [96; 2], settings).unwrap().solve(Load::MeanPressure(0.03));
+        println!("{}; {}", step.report, step.certificate);
+        assert_eq!(step.report.stop, Stop::Stalled, "{}", step.report);
+        assert!(!step.report.stop.solved() && step.report.residual > 1e-7);
     }
 }
 

@@ -158,6 +158,7 @@ class Step:
     penetration: float
     additional_displacement: float
     contact_fraction: float
+    elastic_energy: float
     max_pressure: Optional[float]
     converged: bool
     stop_reason: str

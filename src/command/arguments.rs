@@ -136,7 +136,7 @@ pub enum Command {
     Check {
         /// Case file, the name of an embedded case, or - for standard input
         case: PathBuf,
-        /// Folder for the power spectrum of a surface, as picture and table [default: none is written]
+        /// Folder for the power spectrum C(q) of a surface, h_rms² = ∫ C d²q, as picture and table [default: none is written]
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
         #[command(flatten)]

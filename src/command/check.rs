@@ -20,7 +20,11 @@ pub fn run(path: &Path, output: Option<&Path>, set: &[String]) -> Result<Ending,
     write!(out, "{check}")?;
     if let Some(folder) = output {
         roughness::write(&case, folder)?;
-        writeln!(out, "power spectrum written to {}", plain::path(folder))?;
+        let folder = plain::path(folder);
+        writeln!(
+            out,
+            "power spectrum C(q), with h_rms² = ∫ C d²q, written to {folder} (4π²C is what SurfaceTopography has)"
+        )?;
     }
     check.warnings.iter().for_each(|doubt| tell!("warning: {doubt}"));
     Ok(Ending::Done)

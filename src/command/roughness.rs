@@ -6,6 +6,7 @@ use crate::case::{Case, RandomSection, SurfaceSection};
 use crate::counterbody::roughness::{Radial, Spectrum};
 use crate::output::{Plan, RunFolder, Writer, write_text};
 use crate::picture::{self, Format};
+use std::f64::consts::TAU;
 use std::path::Path;
 
 /// Writes the spectrum of the surface of a case as `spectrum.png` and `spectrum.csv` into a folder.
@@ -24,8 +25,11 @@ pub fn write(case: &Case, folder: &Path) -> Result<(), Failure> {
     Ok(interruption::publish(claim, folder, false)?)
 }
 
-/// One row a ring of wavevectors.
+/// One row a ring of wavevectors: its mean wavenumber q, the mean of C with h_rms² = ∫ C d²q, how many waves it has, and 4π²C,
+/// which others call the density (h_rms² = ∫ 4π²C d²q/4π²).
 fn table(rings: &[Radial]) -> String {
-    let row = |ring: &Radial| format!("{:e},{:e},{}\n", ring.wavenumber, ring.density, ring.waves);
-    "wavenumber,density,waves\n".to_owned() + &rings.iter().map(row).collect::<String>()
+    let row = |ring: &Radial| {
+        format!("{:e},{:e},{},{:e}\n", ring.wavenumber, ring.density, ring.waves, TAU * TAU * ring.density)
+    };
+    "wavenumber,density,waves,density_times_4pi2\n".to_owned() + &rings.iter().map(row).collect::<String>()
 }

@@ -1,7 +1,7 @@
 //! One period of a measured or generated surface.
 
 use super::CounterbodyError;
-use super::roughness::{RunOut, Spectrum};
+use super::roughness::{RunOut, Spectrum, apex};
 use crate::lattice::{Cell, LatticeError};
 use ndarray::{Array2, ArrayView2};
 use std::borrow::Cow;
@@ -69,8 +69,9 @@ impl Topography {
         self.heights.dim().into()
     }
 
-    /// Depths on a grid of `points` = [N₁, N₂] below its highest sample, lengths: of the [sum of waves](Spectrum::resampled)
-    /// through all samples, without those that the grid cannot hold.
+    /// Depths on a grid of `points` = [N₁, N₂] below its apex, lengths ≥ 0: of the [sum of waves](Spectrum::resampled) through
+    /// all samples, without those that the grid cannot hold. The apex is the highest point of that sum, between the samples
+    /// too: grids that hold all waves measure from the same point.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
@@ -79,8 +80,8 @@ impl Topography {
             true => self.heights.clone(),
             false => Spectrum::of(self.cell, self.heights.view())?.resampled(points)?,
         };
-        let highest = on_grid.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        Ok(on_grid.mapv_into(|height| highest - height))
+        let apex = apex(self.cell, on_grid.view())?;
+        Ok(on_grid.mapv_into(|height| apex - height))
     }
 }
 
@@ -107,14 +108,14 @@ mod tests {
     }
 
     #[test]
-    fn other_grids_have_the_waves_between_the_samples_below_their_own_highest_one() {
+    fn other_grids_have_the_waves_between_the_samples_below_the_same_apex() {
         let wave = |i: usize, n: usize| (std::f64::consts::TAU * (i as f64 / n as f64 - 0.04)).cos();
         let on = |[n1, n2]: [usize; 2]| Array2::from_shape_fn([n1, n2], |(i, j)| wave(i, n1) + 0.2 * wave(j, n2));
         let surface = Topography::new(Cell::hexagonal(1.0).unwrap(), on([12, 6])).unwrap();
         for points in [[12, 6], [4, 3], [30, 18], [7, 5]] {
             let (depths, expected) = (surface.depths(points).unwrap(), on(points));
-            let highest = expected.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            assert!(depths.indexed_iter().all(|(at, d)| (d - (highest - expected[at])).abs() < 1e-14), "{points:?}");
+            // Both crests, of 1 and 0.2, stand between the samples.
+            assert!(depths.indexed_iter().all(|(at, d)| (d - (1.2 - expected[at])).abs() < 1e-14), "{points:?}");
         }
         assert!(surface.depths([0, 3]).is_err());
     }

@@ -1,8 +1,8 @@
 //! Connected sets of samples of a periodic grid: contact spots, and what is open between or inside them.
 
-use crate::lattice::Grid;
+use crate::lattice::{Grid, Joined};
 
-/// Samples joined along the directions of the nearest ones.
+/// Samples that hang together.
 #[derive(Debug, Clone)]
 pub struct Component {
     /// Rows and columns of the samples, followed through the set over the borders of the cell.
@@ -52,10 +52,10 @@ impl Component {
 }
 
 /// The connected sets of the samples that are `members`.
-pub fn components(grid: &Grid, members: impl Fn(usize) -> bool) -> Vec<Component> {
+pub fn components(grid: &Grid, joined: Joined, members: impl Fn(usize) -> bool) -> Vec<Component> {
     const UNSEEN: [i32; 2] = [i32::MIN; 2];
     let points = grid.points();
-    let ways: Vec<[i32; 2]> = grid.directions().iter().flat_map(|to| [to.step, to.step.map(|k| -k)]).collect();
+    let ways: Vec<[i32; 2]> = grid.ways(joined).into_iter().flat_map(|way| [way, way.map(|k| -k)]).collect();
     let mut seen = vec![UNSEEN; grid.len()];
     let mut found = Vec::new();
     for start in 0..grid.len() {
@@ -145,7 +145,7 @@ mod tests {
     fn a_spot_across_the_border_is_one_and_a_stripe_wraps() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
         let corner = |index: usize| [0, 7].contains(&(index / 8)) && [0, 7].contains(&(index % 8));
-        let found = components(&grid, corner);
+        let found = components(&grid, Joined::AtEdges, corner);
         assert!(found.len() == 1 && found[0].samples.len() == 4 && !found[0].wraps);
         let centre = found[0].centre(&grid);
         let [x, y] = centre.map(|x| (x + 0.5).rem_euclid(1.0) - 0.5);
@@ -153,14 +153,50 @@ mod tests {
         assert!((found[0].farthest(&grid, centre) - 0.0625 * 2f64.sqrt()).abs() < 1e-12);
         let near: Vec<_> = around(&grid, centre, 0.1).collect();
         assert!(near.len() == 4 && near.iter().all(|&(index, _)| corner(index)));
-        assert!(components(&grid, |index| index / 8 == 3)[0].wraps);
+        assert!(components(&grid, Joined::AtEdges, |index| index / 8 == 3)[0].wraps);
+    }
+
+    /// Cells of a square or oblique grid share corners with four more than the four at their edges, hexagons with none; the
+    /// vectors that describe the cell do not matter.
+    #[test]
+    fn samples_at_corners_are_joined_where_cells_have_neighbours_there() {
+        let joined = |a2: [f64; 2], set: &[[i32; 2]]| {
+            let grid = Grid::new(Cell::new([1.0, 0.0], a2).unwrap(), [8, 8]).unwrap();
+            let members: Vec<usize> = set.iter().map(|sample| index([8, 8], *sample)).collect();
+            [Joined::AtEdges, Joined::AtCorners]
+                .map(|joined| components(&grid, joined, |index| members.contains(&index)).len())
+        };
+        let [up, down] = [[[2, 2], [3, 3]], [[2, 3], [3, 2]]];
+        for a2 in [[0.0, 1.0], [0.2, 0.9]] {
+            assert_eq!((joined(a2, &up), joined(a2, &down)), ([2, 1], [2, 1]), "{a2:?}");
+        }
+        // The shorter diagonal of a rhombus of 60° leads to a neighbour, the longer one past two others.
+        let hexagonal = [0.5, 0.75f64.sqrt()];
+        assert_eq!((joined(hexagonal, &up), joined(hexagonal, &down)), ([2, 2], [1, 1]));
+        // a₂ + a₁ in the place of a₂: the diagonals are (1, 0) + (−1, 1) and (1, 0) − (−1, 1).
+        assert_eq!(joined([1.0, 1.0], &[[2, 2], [2, 3]]), [2, 1]);
+        assert_eq!(joined([1.0, 1.0], &[[2, 2], [4, 1]]), [2, 1]);
+        assert_eq!(joined([1.0, 1.0], &[[2, 2], [3, 3]]), [2, 2]);
+    }
+
+    /// Four samples around one meet at corners: one spot, with a hole that is not joined to what lies outside.
+    #[test]
+    fn a_ring_closed_at_corners_keeps_its_hole() {
+        let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
+        let ring = [[3, 4], [5, 4], [4, 3], [4, 5]].map(|sample| index([8, 8], sample));
+        let spots = components(&grid, Joined::AtCorners, |index| ring.contains(&index));
+        let open = components(&grid, Joined::AtEdges, |index| !ring.contains(&index));
+        let sizes = |found: &[Component]| found.iter().map(|set| (set.samples.len(), set.wraps)).collect::<Vec<_>>();
+        assert_eq!((sizes(&spots), sizes(&open)), (vec![(4, false)], vec![(59, true), (1, false)]));
     }
 
     #[test]
     fn half_of_the_load_decides_which_spot_counts() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
         let mut pressure = [0.0; 64];
-        let counts = |pressure: &[f64]| Counts::of(&components(&grid, |index| pressure[index] > 0.0), &grid, pressure);
+        let counts = |pressure: &[f64]| {
+            Counts::of(&components(&grid, Joined::AtCorners, |index| pressure[index] > 0.0), &grid, pressure)
+        };
         assert_eq!((counts(&pressure), counts(&pressure).half_load()), (Counts::default(), None));
         // One sample of load 1, two of 1 each, four of 2 each.
         pressure[0] = 1.0;

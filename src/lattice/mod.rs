@@ -14,4 +14,5 @@ pub use cell::{Cell, Reduced};
 pub use error::LatticeError;
 pub use grid::{Grid, NotOnGrid};
 pub(crate) use interpolation::{Interpolation, resampled};
+pub(crate) use nearest::Joined;
 pub use sites::Lattice;

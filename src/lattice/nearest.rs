@@ -50,7 +50,32 @@ impl Direction {
     }
 }
 
+/// Which samples of a set hang together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Joined {
+    /// Those whose cells share an edge: what is open.
+    AtEdges,
+    /// Those whose cells share an edge or a corner: contact. A ring of samples that meet at corners encloses what is open in it.
+    AtCorners,
+}
+
 impl Grid {
+    /// Ways to the samples that are joined to one, in rows and columns, one of each pair ±.
+    pub(crate) fn ways(&self, joined: Joined) -> Vec<[i32; 2]> {
+        let mut ways: Vec<[i32; 2]> = self.directions().iter().map(|direction| direction.step).collect();
+        if let (&[[i1, j1], [i2, j2]], Joined::AtCorners) = (&ways[..], joined) {
+            ways.extend([[i1 + i2, j1 + j2], [i1 - i2, j1 - j2]]);
+        }
+        ways
+    }
+
+    /// The sample a way from one; both flat indices.
+    pub(crate) fn along(&self, [rows, columns]: [i32; 2], index: usize) -> usize {
+        let [n1, n2] = self.points();
+        let moved = |k: usize, n: usize, way: i32| (k as i64 + i64::from(way)).rem_euclid(n as i64) as usize;
+        moved(index / n2, n1, rows) * n2 + moved(index % n2, n2, columns)
+    }
+
     /// The directions of the nearest samples, one of each pair ±: two, or three where they are tied. Their weights add to two.
     pub(crate) fn directions(&self) -> Vec<Direction> {
         let [e1, e2] = self.steps();

@@ -2,8 +2,9 @@
 
 use super::boundary::{Boundary, Scale};
 use super::edge::Edge;
+use super::fraction::{Fraction, Fractions};
 use super::spots::{self, SpotReading};
-use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak};
+use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak, rough};
 use crate::body::TransferFunction;
 use crate::numeric::number::number;
 use crate::numeric::sums;
@@ -18,10 +19,14 @@ pub struct Reading {
     pub mean_pressure: f64,
     /// Penetration δ, a length.
     pub penetration: f64,
-    /// Fraction of the cell in contact.
+    /// Fraction of the cell in contact: read between the samples, or counted and corrected by the perimeter where that errs
+    /// less, as on rough surfaces whose spots have few samples.
     pub contact_fraction: f64,
-    /// What the reading of the fraction says of its own error.
+    /// What the reading of the fraction says of its own error, from the samples of this grid alone.
     pub contact_fraction_uncertainty: f64,
+    /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length: see
+    /// [`Contact::elastic_energy`](crate::spectral::Contact::elastic_energy).
+    pub elastic_energy: f64,
     /// Largest pressure, between the samples, in the unit of Young's modulus; what the grid resolves of it where it is
     /// infinite ([`Reading::singular`]).
     pub max_pressure: f64,
@@ -39,6 +44,8 @@ pub struct Reading {
     pub boundaries: Vec<Option<Boundary>>,
     /// Estimated discretisation errors, where coarser grids tell them.
     pub errors: Errors,
+    /// All readings of the fraction in contact.
+    pub(crate) fractions: Fractions,
 }
 
 impl Reading {
@@ -148,14 +155,20 @@ impl Reading {
         let counts = contact.spots(None);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
         let spot_resolution = (typical as f64 / PI).sqrt();
-        let contact_fraction = contact_area / cell;
-        let contact_fraction_uncertainty = located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error;
+        let between = Fraction {
+            value: contact_area / cell,
+            uncertainty: located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error,
+        };
+        let corrected = surface.owners().is_empty().then(|| rough::corrected_fraction(grid, pressure));
+        let fractions = Fractions { between, corrected };
+        let (fraction, _) = fractions.best(|own, _| own.uncertainty);
         let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
         Self {
             mean_pressure,
             penetration: contact.penetration(),
-            contact_fraction,
-            contact_fraction_uncertainty,
+            contact_fraction: fraction.value,
+            contact_fraction_uncertainty: fraction.uncertainty,
+            elastic_energy: contact.elastic_energy(),
             // Between the samples the highest of them need not be the highest peak.
             max_pressure: levels.iter().map(|level| level.max_pressure).fold(max_pressure, f64::max),
             peak_to_edge: highest.map_or(0.0, |index| peak::samples_to_edge(grid, pressure, index, spot_resolution)),
@@ -164,6 +177,7 @@ impl Reading {
             levels,
             boundaries,
             errors: Errors::default(),
+            fractions,
         }
     }
 }

@@ -2,7 +2,9 @@
 //!
 //! [`Errors`] has the laws.
 
-use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading, peak};
+use super::fraction::Fraction;
+use super::rough::corrected_fraction;
+use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading};
 use crate::load::Load;
 use crate::spectral::Step;
 
@@ -26,6 +28,11 @@ fn penetration_law(samples: f64) -> f64 {
     0.01 * samples.powi(-2)
 }
 
+/// The same for penetration and elastic energy of a topography.
+fn topography_law(samples: f64) -> f64 {
+    0.05 * samples.powi(-2)
+}
+
 /// The same for the centre of the pressure, relative to the contact radius.
 fn centre_law(samples: f64) -> f64 {
     0.005 * samples.powi(-2)
@@ -38,8 +45,13 @@ impl Step {
         let coarser: Vec<Reading> = self.coarser().iter().take(CHANGES.len()).map(Reading::of).collect();
         let levels = self.problem().counterbody().levels();
         let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
-        let (errors, of_levels) = between(&reading, &coarser, &exponents, self.load, apex_above_samples(self));
+        let (errors, of_levels) = between(&reading, &coarser, &exponents, self.load);
         reading.errors = errors;
+        if !coarser.is_empty() && reading.mean_pressure > 0.0 {
+            let (fraction, error) = best_fraction(&reading, &coarser);
+            (reading.contact_fraction, reading.contact_fraction_uncertainty) = (fraction.value, fraction.uncertainty);
+            reading.errors.contact_fraction = Some(error);
+        }
         for (level, errors) in reading.levels.iter_mut().zip(of_levels) {
             level.errors = errors;
         }
@@ -53,52 +65,30 @@ impl Step {
         let coarser: Vec<RoughReading> =
             self.coarser().iter().take(CHANGES.len()).filter_map(RoughReading::of).collect();
         if !coarser.is_empty() {
-            let border = BORDER * (rough.counted_fraction - rough.corrected_fraction);
             let error = |safety: f64, open: f64, of: fn(&RoughReading) -> f64| {
                 Some(widest(safety, open, of(&rough), coarser.iter().map(|coarse| Some(of(coarse)))))
             };
-            let fraction = error(CORRECTED, border, |rough| rough.corrected_fraction);
+            let border = corrected_fraction(self.grid(), self.finest().pressures()).uncertainty;
+            let fraction = error(AREA, border, |rough| rough.corrected_fraction);
             // The mean gap is that to complete contact, less the penetration.
-            let depth = reading.penetration.abs() * penetration_law(reading.spot_resolution.max(1.0));
-            let gap = error(PENETRATION, depth, |rough| rough.mean_gap);
+            let depth = reading.penetration.abs() * topography_law(reading.spot_resolution.max(1.0));
+            let gap = error(TOPOGRAPHY, depth, |rough| rough.mean_gap);
             (rough.corrected_fraction_error, rough.mean_gap_error) = (fraction, gap);
         }
         Some(rough)
     }
 }
 
-/// How far the apex of a topography lies above its highest sample, from which the penetration is measured: a length. An
-/// indenter's apex is known.
-fn apex_above_samples(step: &Step) -> f64 {
-    let (grid, surface) = (step.grid(), step.surface());
-    if !surface.owners().is_empty() {
-        return 0.0;
-    }
-    // Positive everywhere, as a pressure is.
-    let lowest = surface.gaps().iter().copied().fold(0.0, f64::max) + surface.range();
-    let height: Vec<f64> = surface.gaps().iter().map(|depth| lowest - depth).collect();
-    // Another hill than that of the highest sample may rise higher between its own.
-    let is_summit = |&index: &usize| grid.neighbours(index).all(|next| height[next] <= height[index]);
-    let summits = (0..grid.len()).filter(is_summit);
-    let apex = summits.map(|index| peak::interpolated(grid, &height, index)).fold(0.0, f64::max);
-    let highest = height.iter().copied().fold(0.0, f64::max);
-    (apex - highest).max(0.0)
-}
-
 /// By how much the largest of all is multiplied, so that the estimates hold in some 97 % of the cases from which these
 /// numbers were read.
 const MEAN_PRESSURE: f64 = 2.0;
 const PENETRATION: f64 = 3.2;
+/// Of penetration, mean gap and elastic energy of a topography, whose coarser grids are measured from the same apex.
+const TOPOGRAPHY: f64 = 1.6;
 const LOAD: f64 = 3.0;
 const SHARE: f64 = 3.0;
 const PEAK: f64 = 2.2;
-const APEX: f64 = 1.25;
 const AREA: f64 = 2.0;
-const CORRECTED: f64 = 2.0;
-
-/// Part of what the correction by the perimeter takes off that it leaves open: the factor of a border depends on its
-/// directions.
-const BORDER: f64 = 0.25;
 const CENTRE: f64 = 2.0;
 
 /// Parts of the changes against the coarser grids that count, the next coarser first.
@@ -111,14 +101,16 @@ fn widest(safety: f64, open: f64, value: f64, coarser: impl Iterator<Item = Opti
     safety * changes.filter_map(|(part, coarse)| Some(part * (coarse? - value).abs())).fold(open, f64::max)
 }
 
-/// Errors of `fine` from the readings of the coarser grids; `apex`: see [`apex_above_samples`].
-fn between(
-    fine: &Reading,
-    coarser: &[Reading],
-    exponents: &[f64],
-    load: Load,
-    apex: f64,
-) -> (Errors, Vec<LevelErrors>) {
+/// The fraction in contact with the smaller error, and that.
+fn best_fraction(fine: &Reading, coarser: &[Reading]) -> (Fraction, f64) {
+    fine.fractions.best(|own, of| {
+        let coarser = coarser.iter().map(|coarse| Some(of(&coarse.fractions)?.value));
+        widest(AREA, own.uncertainty, own.value, coarser)
+    })
+}
+
+/// Errors of `fine` from the readings of the coarser grids, but that of the fraction in contact, which decides what that is.
+fn between(fine: &Reading, coarser: &[Reading], exponents: &[f64], load: Load) -> (Errors, Vec<LevelErrors>) {
     if coarser.is_empty() || fine.mean_pressure <= 0.0 {
         return (Errors::default(), vec![LevelErrors::default(); fine.levels.len()]);
     }
@@ -170,11 +162,15 @@ fn between(
         }
     };
     let prescribed = |free: Option<f64>, prescribed: bool| if prescribed { Some(0.0) } else { free };
-    let apex = APEX * apex;
     let load = fine.mean_pressure * load_law(largest);
-    let depth = fine.penetration.abs() * penetration_law(largest);
     let mean_pressure = estimate(MEAN_PRESSURE, load, &|reading| Some(reading.mean_pressure));
-    let penetration = estimate(PENETRATION, depth, &|reading| Some(reading.penetration));
+    let [depth, safety] = match fine.levels.is_empty() {
+        true => [topography_law(largest), TOPOGRAPHY],
+        false => [penetration_law(largest), PENETRATION],
+    };
+    let penetration = estimate(safety, fine.penetration.abs() * depth, &|reading| Some(reading.penetration));
+    let [stored, safety] = if by_load { [depth, safety] } else { [load_law(largest), MEAN_PRESSURE] };
+    let energy = estimate(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
     let peak = fine.max_pressure * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
     let levels: Vec<LevelErrors> = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
     // The highest of all may be that of any level that reaches as high within its own error.
@@ -183,8 +179,9 @@ fn between(
     let beyond = peaks.fold(0.0, f64::max) - fine.max_pressure;
     let errors = Errors {
         mean_pressure: prescribed(mean_pressure, by_load),
-        penetration: prescribed(penetration, !by_load).map(|error| error + apex),
-        contact_fraction: estimate(AREA, fine.contact_fraction_uncertainty, &|reading| Some(reading.contact_fraction)),
+        penetration: prescribed(penetration, !by_load),
+        contact_fraction: None,
+        elastic_energy: energy,
         max_pressure: estimate(PEAK, peak, &|reading| reading.finite_peak()).map(|error| error.max(beyond)),
     };
     (errors, levels)

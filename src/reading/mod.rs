@@ -11,6 +11,7 @@ mod contact;
 mod edge;
 mod errors;
 mod estimate;
+mod fraction;
 mod governing;
 mod histogram;
 mod level;

@@ -11,18 +11,27 @@
 //!
 //! The factor is that of square samples, a mean over the directions of a border; on others it is taken over as it is.
 //!
-//! [`Reading::contact_fraction`](super::Reading::contact_fraction) reads the border between the samples instead, from p² and
-//! g^{2/3}; where spots have fewer than some ten samples across it has no more to read than counting has, and the corrected
-//! fraction is another estimate of the same.
+//! Where spots have fewer than some ten samples across, what can be read between the samples errs by more: of both
+//! [`Reading::contact_fraction`](super::Reading::contact_fraction) is the one with the smaller error.
+//!
+//! **Spots** are samples in contact whose cells share an edge or a corner, as the usual tools of the field join them; what is
+//! open joins at edges alone, so that a spot closed at corners keeps its hole. Cells of samples are parallelograms of the reduced
+//! basis of the samples' lattice, squares on a square cell, with eight neighbours; on a hexagonal cell they are hexagons, whose
+//! six neighbours all share edges.
 //!
 //! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū.
 
+use super::fraction::Fraction;
 use super::histogram::Histogram;
 use crate::lattice::Grid;
 use crate::lattice::components::Counts;
 use crate::numeric::sums;
 use crate::spectral::Contact;
 use std::f64::consts::{LN_2, PI};
+
+/// Part of what the correction by the perimeter takes off that it leaves open: the factor of a border depends on its
+/// directions.
+const BORDER: f64 = 0.25;
 
 /// (π − 1 + ln 2)/24.
 const PART: f64 = (PI - 1.0 + LN_2) / 24.0;
@@ -83,14 +92,13 @@ impl RoughReading {
         contact.problem().counterbody().topography()?;
         let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
         let total = grid.len() as f64;
-        let (counted, [pairs, length]) = (pressure.iter().filter(|p| **p > 0.0).count(), borders(grid, pressure));
+        let (counted, length) = (pressure.iter().filter(|p| **p > 0.0).count(), borders(grid, pressure)[1]);
         let (spots, areas) = spots(grid, contact.spots(None));
         let touching = pressure.iter().copied().filter(|p| *p > 0.0);
         let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
-        let corrected = counted as f64 - PART * pairs;
         Some(Self {
             counted_fraction: counted as f64 / total,
-            corrected_fraction: corrected.max(0.0) / total,
+            corrected_fraction: corrected_fraction(grid, pressure).value,
             corrected_fraction_error: None,
             perimeter_density: length / grid.cell().area(),
             spots,
@@ -105,6 +113,15 @@ impl RoughReading {
             ],
         })
     }
+}
+
+/// The counted fraction in contact corrected by the perimeter.
+pub(super) fn corrected_fraction(grid: &Grid, pressure: &[f64]) -> Fraction {
+    let total = grid.len() as f64;
+    let [pairs, _] = borders(grid, pressure);
+    let counted = pressure.iter().filter(|p| **p > 0.0).count() as f64;
+    let value = (counted - PART * pairs).max(0.0) / total;
+    Fraction { value, uncertainty: BORDER * (counted / total - value) }
 }
 
 /// Number of pairs of neighbours of which one is in contact, and length of the edges between them, along the other vector of
@@ -185,8 +202,8 @@ const APART: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Cell;
     use crate::lattice::components::components;
+    use crate::lattice::{Cell, Joined};
 
     /// Discs whose centres lie anywhere between samples. How well the correction does on contacts is shown in
     /// `tests/roughness.rs`.
@@ -215,7 +232,7 @@ mod tests {
         let grid = Grid::new(Cell::square(2.0).unwrap(), [8, 8]).unwrap();
         let mut pressure = [0.0; 64];
         let spots = |pressure: &[f64]| {
-            let found = components(&grid, |index| pressure[index] > 0.0);
+            let found = components(&grid, Joined::AtCorners, |index| pressure[index] > 0.0);
             spots(&grid, &Counts::of(&found, &grid, pressure))
         };
         assert_eq!(spots(&pressure).0, SpotSizes::default());

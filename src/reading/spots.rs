@@ -1,6 +1,7 @@
 //! The contact spots of a grid: whose they are, whether they have merged, where they are open, and their boundaries.
 
 use super::boundary::{Boundary, Polar, Scale};
+use crate::lattice::Joined;
 use crate::lattice::components::{Component, around, components};
 use crate::spectral::Contact;
 use rayon::prelude::*;
@@ -33,12 +34,10 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
         return spots;
     }
     let offset = |index: usize| surface.offset(&reduced, surface.owners()[index], index);
-    // The ways to the next samples.
-    let directions = grid.directions();
-    let steps: Vec<[f64; 2]> = directions
-        .iter()
-        .map(|to| reduced.nearest([f64::from(to.step[0]) / n1 as f64, f64::from(to.step[1]) / n2 as f64]))
-        .collect();
+    // The ways to the samples that are joined to one in contact.
+    let ways = grid.ways(Joined::AtCorners);
+    let steps: Vec<[f64; 2]> =
+        ways.iter().map(|[i, j]| reduced.nearest([f64::from(*i) / n1 as f64, f64::from(*j) / n2 as f64])).collect();
     let tolerance = 1e-6 * grid.spacing();
     for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
         let owner = surface.owners()[index];
@@ -55,8 +54,8 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
             }
         }
         // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
-        for (direction, step) in directions.iter().zip(&steps) {
-            let neighbour = direction.sample([n1, n2], index, 1);
+        for (&way, step) in ways.iter().zip(&steps) {
+            let neighbour = grid.along(way, index);
             if pressure[neighbour] <= 0.0 {
                 continue;
             }
@@ -76,11 +75,11 @@ pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
 /// Open samples that one contact encloses: `label` tells contacts apart.
 fn holes(contact: &Contact, label: impl Fn(usize) -> u32) -> Vec<(u32, Component)> {
     let (grid, pressure) = (contact.grid(), contact.pressures());
-    let directions = grid.directions();
+    let ways = grid.ways(Joined::AtEdges);
     let enclosed = |open: Component| {
         let around = |index: usize| {
-            let both = directions.iter().flat_map(|to| [to, to].into_iter().zip([1, -1]));
-            both.map(move |(to, count)| to.sample(grid.points(), index, count))
+            let both = ways.iter().flat_map(|way| [*way, way.map(|k| -k)]);
+            both.map(move |way| grid.along(way, index))
         };
         let mut beside = open.indices(grid).flat_map(around).filter(|&next| pressure[next] > 0.0);
         let owner = label(beside.next()?);
@@ -89,7 +88,7 @@ fn holes(contact: &Contact, label: impl Fn(usize) -> u32) -> Vec<(u32, Component
         alone.then_some((owner, open))
     };
     // What lies outside meets its own images, or several contacts.
-    components(grid, |index| pressure[index] <= 0.0)
+    components(grid, Joined::AtEdges, |index| pressure[index] <= 0.0)
         .into_iter()
         .filter(|open| !open.wraps)
         .filter_map(enclosed)

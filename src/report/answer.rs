@@ -38,6 +38,7 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
         ("penetration", numbers(&penetration)),
         ("part of the surface in contact", numbers(&fraction)),
         ("peak pressure", numbers(&peak)),
+        ("elastic energy of a cell", numbers(&told(&units.energy(), reading.elastic_energy, errors.elastic_energy))),
     ];
     let shares = reading.levels.iter().map(|level| {
         let share = percent_with_error(level.load_share, level.errors.load_share);
@@ -52,7 +53,10 @@ pub(super) fn answer(steps: &[StepRecord], units: &Units) -> Markup {
             "counted, corrected by the perimeter",
             numbers(&percent_with_error(rough.corrected_fraction, rough.corrected_fraction_error)),
         ));
-        rows.push(("contact spots in the cell", rough.spots.count.to_string().into()));
+        rows.push((
+            "contact spots in the cell, joined at edges and corners of samples",
+            rough.spots.count.to_string().into(),
+        ));
         rows.push(("mean gap", numbers(&told(units.length(), rough.mean_gap, rough.mean_gap_error))));
         rows.extend(stiffness.map(|text| ("stiffness dp̄/dδ, a pressure per length", numbers(&text))));
     }

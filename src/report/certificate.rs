@@ -21,6 +21,7 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
     if solved.is_empty() {
         return Markup::default();
     }
+    let at_rounding = solved.iter().any(|step| step.is_at_rounding());
     let most = |of: fn(&StepRecord) -> f64| largest(solved.iter().map(|&step| of(step)));
     let slides = solved.iter().any(|step| step.slides);
     let criteria = [
@@ -58,10 +59,14 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
             means: "What was prescribed, mean pressure or penetration, is met to this part.",
         },
     ];
-    let entry = |own: &Criterion| vec![tag("dt", stands(own)), tag("dd", own.means)].into();
+    let entry = |own: &Criterion| vec![tag("dt", stands(own, at_rounding)), tag("dd", own.means)].into();
     let entries: Markup = criteria.iter().map(entry).collect();
     let converged = steps.iter().filter(|step| step.converged()).count();
-    let text = if converged == steps.len() {
+    let text = if converged == steps.len() && at_rounding {
+        "Every load step meets what convergence asks, or comes as near to it as double precision carries: what is above its limit is \
+         rounding, measured by computing the gap twice. The certificate speaks of the equations on this grid; what the grid itself \
+         leaves open are the errors above."
+    } else if converged == steps.len() {
         "Every load step meets what convergence asks. The certificate speaks of the equations on this grid; what the grid \
          itself leaves open are the errors above."
     } else {
@@ -71,14 +76,15 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
     vec![tag("p", text), with("dl", &[("class", "certificate")], entries)].into()
 }
 
-/// The quantity, and how far it is below what it must be.
-fn stands(own: &Criterion) -> Markup {
+/// The quantity, and how far it is below what it must be; `at_rounding`: whether a step has converged to rounding instead.
+fn stands(own: &Criterion, at_rounding: bool) -> Markup {
     let value = if own.value == 0.0 { "0".to_owned() } else { format!("{:.1e}", own.value) };
     let Some(below) = own.below else { return format!("{}: {value}", own.name).into() };
     let margin = match below / own.value {
         ratio if own.value == 0.0 || ratio > 1e6 => "zero to rounding".to_owned(),
         ratio if ratio >= 10.0 => format!("{ratio:.0} times below"),
         ratio if ratio > 1.0 => format!("{ratio:.1} times below"),
+        ratio if ratio.is_finite() && at_rounding => format!("{:.1} times above, by rounding", 1.0 / ratio),
         ratio if ratio.is_finite() => format!("{:.1} times above, not met", 1.0 / ratio),
         _ => "not a number".to_owned(),
     };

@@ -36,6 +36,6 @@ pub(super) fn measured_in(units: &Units) -> String {
     let force = name(&units.force(), "a pressure times an area of these units");
     format!(
         "Where nothing else is said, lengths are in {length}, pressures, stresses and moduli in {pressure}; the load on one \
-         indenter is a force, in {force}. z points into the body; stresses are positive in tension, pressures in compression."
+         indenter is a force, in {force}, an energy a pressure times a cubed length. z points into the body; stresses are positive in tension, pressures in compression."
     )
 }

@@ -89,6 +89,11 @@ impl StepRecord {
         self.report.stop.solved() && self.is_finite()
     }
 
+    /// Whether it has converged as far as double precision carries, which is less far than the tolerance asks.
+    pub fn is_at_rounding(&self) -> bool {
+        self.report.stop == Stop::Rounding && self.is_finite()
+    }
+
     /// Why the iteration ended.
     pub fn stop_reason(&self) -> String {
         if self.is_finite() { self.report.stop.to_string() } else { "not a number".to_owned() }
@@ -131,12 +136,13 @@ impl serde::Serialize for StepRecord {
         use crate::spectral::Route;
         use serde::ser::SerializeStruct;
         let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 27)?;
+        let mut keys = serializer.serialize_struct("step", 28)?;
         keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
         keys.serialize_field("penetration", &reading.penetration)?;
         // Eq. (8): δ is measured from the mean plane of the deformed surface.
         keys.serialize_field("additional_displacement", &reading.penetration)?;
         keys.serialize_field("contact_fraction", &reading.contact_fraction)?;
+        keys.serialize_field("elastic_energy", &reading.elastic_energy)?;
         keys.serialize_field("max_pressure", &reading.finite_peak())?;
         keys.serialize_field("singular", &reading.singular())?;
         keys.serialize_field("errors", &reading.errors)?;

@@ -2,9 +2,10 @@
 
 use super::iteration::{Certificate, Unknowns};
 use crate::counterbody::Surface;
-use crate::lattice::Grid;
 use crate::lattice::components::{Component, Counts, components};
+use crate::lattice::{Grid, Joined};
 use crate::numeric::array::view;
+use crate::numeric::sums;
 use crate::problem::Problem;
 use ndarray::ArrayView2;
 use std::sync::{Arc, OnceLock};
@@ -72,6 +73,19 @@ impl Contact {
         self.penetration
     }
 
+    /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length.
+    ///
+    /// It is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean, δ is measured from the mean
+    /// plane, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
+    /// coupled friction p w is what the pressure has stored; the work of the traction is not in it.
+    pub fn elastic_energy(&self) -> f64 {
+        let mean = sums::mean(&self.pressure);
+        // w = g − f + δ; what is uniform of the pressure meets a displacement without mean, and would add rounding alone.
+        let f = self.surface.gaps();
+        let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i])]);
+        0.5 * sum * self.grid().sample_area()
+    }
+
     /// Pressure sample by sample, a₂ fastest.
     pub(crate) fn pressures(&self) -> &[f64] {
         &self.pressure
@@ -89,8 +103,8 @@ impl Contact {
         })
     }
 
-    /// The contact spots; merged contacts are one.
+    /// The contact spots: samples in contact whose cells share an edge or a corner; merged contacts are one.
     pub(crate) fn touching(&self) -> Vec<Component> {
-        components(self.grid(), |index| self.pressure[index] > 0.0)
+        components(self.grid(), Joined::AtCorners, |index| self.pressure[index] > 0.0)
     }
 }

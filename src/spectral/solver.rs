@@ -157,7 +157,10 @@ impl Solver {
         }
         let (mut report, work) = nests[0].solve(coarser, load, *settings, &mut working, progress);
         drop(working);
-        if report.stop == Stop::Converged && !load.is_mean_pressure() && !nests[0].is_resolved() {
+        if matches!(report.stop, Stop::Converged | Stop::Rounding)
+            && !load.is_mean_pressure()
+            && !nests[0].is_resolved()
+        {
             report.stop = Stop::Unresolved;
         }
         let part = |index: &usize| left_out.iter().all(|(out, _)| out != index);

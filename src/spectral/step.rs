@@ -76,6 +76,11 @@ impl Step {
     pub fn penetration(&self) -> f64 {
         self.finest.penetration()
     }
+
+    /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length; see [`Contact::elastic_energy`].
+    pub fn elastic_energy(&self) -> f64 {
+        self.finest.elastic_energy()
+    }
 }
 
 impl fmt::Display for Step {

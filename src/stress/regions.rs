@@ -1,7 +1,7 @@
 //! Contact spots and what is open between them, as the surface stresses see them.
 
-use crate::lattice::Grid;
 use crate::lattice::components::components;
+use crate::lattice::{Grid, Joined};
 use std::f64::consts::PI;
 
 /// The spots of a periodic grid and the open places around and inside them.
@@ -19,9 +19,9 @@ impl Regions {
     /// Spots of a `pressure`.
     pub fn new(grid: &Grid, pressure: &[f64]) -> Self {
         let mut of = vec![0; grid.len()];
-        let mut all = components(grid, |index| pressure[index] > 0.0);
+        let mut all = components(grid, Joined::AtCorners, |index| pressure[index] > 0.0);
         let count = all.len() as u32;
-        all.extend(components(grid, |index| pressure[index] <= 0.0));
+        all.extend(components(grid, Joined::AtEdges, |index| pressure[index] <= 0.0));
         for (number, spot) in (0..).zip(&all) {
             spot.indices(grid).for_each(|index| of[index] = number);
         }

@@ -56,9 +56,11 @@ fn a_topography_is_pressed_where_it_is_high() {
     assert_close(pressure.values.iter().sum::<f64>() / samples as f64, 0.003, 1e-12);
     let penetration = contact.field("penetration").values[0];
     let heights: Vec<f64> = (0..samples).map(|k| height(k / POINTS[1], k % POINTS[1])).collect();
-    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    // Both crests meet between the samples.
+    let apex = 1.5 * AMPLITUDE;
+    assert!(heights.iter().all(|height| *height < apex - 1e-6));
     for k in 0..samples {
-        let gap_expected = displacement.values[k] + highest - heights[k] - penetration;
+        let gap_expected = displacement.values[k] + apex - heights[k] - penetration;
         assert!((gap.values[k] - gap_expected).abs() < 1e-12, "sample {k}");
     }
     assert!(pressure.values.contains(&0.0), "contact is partial");
@@ -116,8 +118,8 @@ fn the_table_and_the_report_of_a_topography_print_the_same_numbers_with_their_er
     let mut rows = answer.out.lines().filter(|line| line.contains('%'));
     let last = rows.next_back().expect("a row of the last step");
     let cells: Vec<&str> = last.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
-    // Penetration, contact and peak pressure; the mean pressure is prescribed.
-    assert_eq!(cells.len(), 4, "{last}");
+    // Penetration, contact, peak pressure and elastic energy; the mean pressure is prescribed.
+    assert_eq!(cells.len(), 5, "{last}");
     for cell in &cells[1..] {
         assert!(cell.contains(" ± "), "{cell} has no error: {last}");
         assert!(page.matches(cell.trim_end_matches(" %")).count() >= 2, "{cell} is not in the answer and the table");
@@ -135,7 +137,16 @@ fn check_describes_a_surface_and_writes_its_spectrum_where_it_is_asked_to() {
         let answer = desk.percoat(&[&asked[..], &["-o", "spectrum"]].concat());
         assert!(answer.code == 0 && answer.out.contains("written to spectrum"), "{}", answer.err);
         let table = std::fs::read_to_string(desk.path("spectrum/spectrum.csv")).unwrap();
-        assert!(table.starts_with("wavenumber,density,waves\n") && table.lines().count() > 10);
+        assert!(table.starts_with("wavenumber,density,waves,density_times_4pi2\n") && table.lines().count() > 10);
+        assert!(answer.out.contains("h_rms² = ∫ C d²q"), "{}", answer.out);
+        // Σ C over the waves times their share (2π/l)² of the plane of wavevectors is the mean square of the heights.
+        let rows: Vec<Vec<f64>> =
+            table.lines().skip(1).map(|row| row.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+        let square: f64 = rows.iter().map(|row| row[1] * row[2] * (TAU / 40.0).powi(2)).sum();
+        let mut told = answer.out.split("rms height ").nth(1).unwrap().split(&[' ', '\u{a0}', ','][..]);
+        let (rms, unit): (f64, &str) = (told.next().unwrap().parse().unwrap(), told.next().unwrap());
+        assert_close(square.sqrt(), rms * if unit == "nm" { 1e-3 } else { 1.0 }, 1e-3);
+        assert!(rows.iter().all(|row| (row[3] / (TAU * TAU * row[1]) - 1.0).abs() < 1e-12));
         assert!(std::fs::read(desk.path("spectrum/spectrum.png")).unwrap().starts_with(b"\x89PNG"));
     }
     desk.write("spectrum/spectrum.csv", "mine");

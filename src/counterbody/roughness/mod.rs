@@ -4,14 +4,17 @@
 //! the sum of the shortest waves through them, h(**x**) = h̄ + Σ ĥ_**q** e^{i**q**·**x**} over the first Brillouin zone of the
 //! samples; on another grid it is that sum ([`Spectrum::resampled`]).
 
+mod apex;
 mod band;
 mod border;
+mod jet;
 mod plane;
 mod self_affine;
 mod spectrum;
 mod statistics;
 mod window;
 
+pub(crate) use apex::apex;
 pub use border::{JUMP, border_jumps};
 pub use plane::levelled;
 pub use self_affine::{Rms, SelfAffine, SelfAffineError};

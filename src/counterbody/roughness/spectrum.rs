@@ -5,8 +5,9 @@
 //!
 //! h_rms² = Σ |ĥ_**q**|² = ∫ C d²q,  h′_rms² = ⟨|∇h|²⟩ = Σ q² |ĥ_**q**|²
 //!
-//! (B. N. J. Persson et al., J. Phys.: Condens. Matter 17 (2005) R1; C^{2D} of T. D. B. Jacobs, T. Junge & L. Pastewka, Surf.
-//! Topogr.: Metrol. Prop. 5 (2017) 013001 is 4π² times it).
+//! (B. N. J. Persson et al., J. Phys.: Condens. Matter 17 (2005) R1). C^{2D} = A |ĥ_**q**|² of T. D. B. Jacobs, T. Junge & L.
+//! Pastewka, Surf. Topogr.: Metrol. Prop. 5 (2017) 013001, which SurfaceTopography computes, is 4π² times it: h_rms² =
+//! ∫ C^{2D} d²q/4π².
 
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::fourier::field;
@@ -32,7 +33,7 @@ pub struct Spectrum {
 pub struct Radial {
     /// Mean wavenumber q, 1/length.
     pub wavenumber: f64,
-    /// Mean of C over them, length⁴.
+    /// Mean of C over them, length⁴; h_rms² = ∫ C d²q.
     pub density: f64,
     /// How many of them the surface has.
     pub waves: f64,
@@ -53,6 +54,21 @@ impl Spectrum {
     /// Of components (k₁, k₂), k₂ ≤ N₂/2, on a grid.
     pub(super) fn new(grid: Grid, components: Array2<Complex<f64>>) -> Self {
         Self { grid, common: 0.0, components }
+    }
+
+    /// The grid of its samples.
+    pub(super) fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// A height that all samples have in common, a length: what is left out of the components.
+    pub(super) fn common(&self) -> f64 {
+        self.common
+    }
+
+    /// ĥ of the components (k₁, k₂), k₂ ≤ N₂/2, lengths.
+    pub(super) fn components(&self) -> ArrayView2<'_, Complex<f64>> {
+        self.components.view()
     }
 
     /// The heights at the samples of its own grid, lengths, axis 0 along a₁, axis 1 along a₂.

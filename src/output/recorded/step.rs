@@ -31,6 +31,8 @@ struct StepKeys {
     mean_pressure: Option<f64>,
     penetration: Option<f64>,
     contact_fraction: Option<f64>,
+    /// Absent from what earlier versions wrote.
+    elastic_energy: Option<f64>,
     max_pressure: Option<f64>,
     errors: Errors,
     stop_reason: String,
@@ -116,6 +118,7 @@ fn record(keys: StepKeys) -> StepRecord {
             penetration: plain(keys.penetration),
             contact_fraction: plain(keys.contact_fraction),
             contact_fraction_uncertainty: 0.0,
+            elastic_energy: plain(keys.elastic_energy),
             max_pressure,
             peak_to_edge: 0.0,
             contact_spots: keys.contact_spots,
@@ -123,6 +126,7 @@ fn record(keys: StepKeys) -> StepRecord {
             levels,
             boundaries: Vec::new(),
             errors: keys.errors,
+            fractions: Default::default(),
         },
         report: Report {
             stop,

@@ -42,6 +42,7 @@ pub fn outcome(case: &Case, steps: &[StepRecord], change: Option<f64>, width: us
     let units = case.units();
     let mut text = heading(case);
     text += &format!("\n{}\n\n{}\n", self::steps(steps, &units).fitted(width), solved(steps));
+    text += &spots(steps).map_or(String::new(), |spots| format!("{spots}\n"));
     let largest = largest_stresses(steps, &units);
     if let Some(largest) = &largest {
         text += &format!("\n{}\n\n", largest.fitted(width));
@@ -166,8 +167,9 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
     let mut header = vec![mean.headed("mean pressure"), penetration.headed("penetration"), "contact".to_owned()];
     header.extend((1..=levels).map(|level| pressure.headed(&format!("peak {level}"))));
     header.extend((1..=levels).map(|level| format!("share {level}")));
+    let energy = units.energy().suited(readings().map(|reading| reading.elastic_energy));
     if levels == 0 {
-        header.push(pressure.headed("peak pressure"));
+        header.extend([pressure.headed("peak pressure"), energy.headed("elastic energy")]);
     }
     let row = |reading: &Reading| {
         let mut row = vec![
@@ -180,6 +182,7 @@ fn compact(steps: &[StepRecord], levels: usize, units: &Units) -> Table {
         row.extend(reading.levels.iter().map(|level| percent_with_error(level.load_share, level.errors.load_share)));
         if levels == 0 {
             row.push(finite(&pressure, reading.finite_peak(), reading.errors.max_pressure));
+            row.push(in_unit(&energy, reading.elastic_energy, reading.errors.elastic_energy));
         }
         row
     };
@@ -218,11 +221,22 @@ pub fn solved(steps: &[StepRecord]) -> String {
     let most = steps.iter().map(|step| step.report.iterations).max().unwrap_or(0);
     let gap = largest(steps.iter().map(|step| step.certificate.energy_gap));
     let done = steps.iter().filter(|step| step.converged()).count();
+    let at_rounding = match steps.iter().filter(|step| step.is_at_rounding()).count() {
+        0 => String::new(),
+        count => format!("; {count} of them as far as double precision carries, short of solver.tolerance"),
+    };
     format!(
         "{done} of {} load steps converged on {n1} × {n2} samples, at most {most} iterations each, energy of the \
-         error below {gap:.0e} of the elastic",
+         error below {gap:.0e} of the elastic{at_rounding}",
         steps.len()
     )
+}
+
+/// The contact spots of a topography in the last step that has any, in a line; `None` without.
+fn spots(steps: &[StepRecord]) -> Option<String> {
+    let last = steps.iter().rposition(|step| step.rough.is_some())?;
+    let count = steps[last].rough.as_ref()?.spots.count;
+    Some(format!("contact spots in step {}: {count}; samples that share an edge or a corner are one spot", last + 1))
 }
 
 /// The largest estimated discretisation errors of all steps, in a line; `None` where there are none.

@@ -125,9 +125,14 @@ impl Check {
     }
 
     /// What must fall below the tolerance.
-    fn criteria(&self) -> [f64; 3] {
+    pub(super) fn criteria(&self) -> [f64; 3] {
         let Certificate { energy_gap, penetration, .. } = self.certificate;
-        [self.residual, energy_gap / Certificate::ENERGY_GAP, penetration / Certificate::PENETRATION]
+        Self::criteria_of([self.residual, energy_gap, penetration])
+    }
+
+    /// What must fall below the tolerance, of a residual, an energy gap and a penetration outside contact.
+    pub(super) fn criteria_of([residual, energy_gap, penetration]: [f64; 3]) -> [f64; 3] {
+        [residual, energy_gap / Certificate::ENERGY_GAP, penetration / Certificate::PENETRATION]
     }
 }
 

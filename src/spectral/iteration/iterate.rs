@@ -9,7 +9,7 @@ use super::problem::GridProblem;
 use super::report::{Report, Route, Stop};
 use super::settings::Method;
 use super::unknowns::Unknowns;
-use super::{polonsky_keer, preconditioned};
+use super::{polonsky_keer, preconditioned, rounding};
 use crate::spectral::operator::Coupling::{self, Follows, Stands};
 
 /// Largest part of the operator that coupling may be for the traction to follow every step.
@@ -20,7 +20,8 @@ type Way = ((Beyond, Coupling), Route);
 /// Iterates from and into `unknowns`; `iterations` are those before.
 pub(super) fn iterate(problem: &mut GridProblem<'_>, iterations: usize, unknowns: &mut Unknowns) -> Report {
     if problem.settings.method == Method::PolonskyKeer {
-        return polonsky_keer::solve(problem, iterations, unknowns);
+        let report = polonsky_keer::solve(problem, iterations, unknowns);
+        return Report { stop: unless_rounding(problem, unknowns, report.stop), ..report };
     }
     let coupling = problem.operator.coupling();
     let ways: &[Way] = match coupling {
@@ -36,6 +37,7 @@ pub(super) fn iterate(problem: &mut GridProblem<'_>, iterations: usize, unknowns
         Report { stop: Stop::Stalled, route: Route::Direct, iterations, outer: 0, residual: f64::INFINITY };
     for &(way, route) in ways {
         report = Report { route, ..preconditioned::solve(problem, way, report.iterations, unknowns) };
+        report.stop = unless_rounding(problem, unknowns, report.stop);
         if report.stop != Stop::Stalled {
             return report;
         }
@@ -44,5 +46,13 @@ pub(super) fn iterate(problem: &mut GridProblem<'_>, iterations: usize, unknowns
         return report;
     }
     let rest = polonsky_keer::solve(problem, report.iterations, unknowns);
-    Report { route: Route::BaselineAfterStall, ..rest }
+    let stop = unless_rounding(problem, unknowns, rest.stop);
+    Report { stop, route: Route::BaselineAfterStall, ..rest }
+}
+
+/// That an iteration has stalled or come to its limit, unless rounding is all that keeps it from the tolerance.
+pub(super) fn unless_rounding(problem: &mut GridProblem<'_>, unknowns: &mut Unknowns, stop: Stop) -> Stop {
+    let ended = matches!(stop, Stop::Stalled | Stop::IterationLimit);
+    let rounding = ended && rounding::is_all_that_is_left(problem, unknowns);
+    if rounding { Stop::Rounding } else { stop }
 }

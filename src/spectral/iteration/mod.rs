@@ -16,6 +16,8 @@
 //! grid errs on the few samples of the edges alone, and ε lets it pass; the energy gap does not. Under load control
 //! Σ pg = 0, the gap is |min g| Σp, and ½⟨p, Cp⟩ ≤ ½ δ Σp: the first line then holds |min g|, in contact too, to the
 //! third line's 10 tolerance · δ. That is where the 20 comes from.
+//!
+//! Where an iteration stalls at what rounding alone makes of these, it has converged as far as double precision carries (`rounding`).
 
 mod certificate;
 mod check;
@@ -27,6 +29,7 @@ mod preconditioned;
 mod problem;
 mod report;
 mod residuals;
+mod rounding;
 mod settings;
 mod solve;
 mod steps;

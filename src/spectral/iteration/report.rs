@@ -8,6 +8,9 @@ use std::fmt;
 pub enum Stop {
     /// ε < tolerance, energy gap < 20 tolerance and penetration outside contact < 10 tolerance · δ.
     Converged,
+    /// The tolerance is not reached, and no iteration gets nearer: ε, energy gap and penetration outside contact are each
+    /// below their multiple of the tolerance, or below eight times what rounding in double precision makes of them.
+    Rounding,
     /// Over the last window of iterations the mean of what must fall below the tolerance was not below 0.9 of that over
     /// the window before, half as long; or the load is no finite number.
     Stalled,
@@ -27,8 +30,9 @@ pub enum Stop {
 
 impl Stop {
     /// Every one.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Converged,
+        Self::Rounding,
         Self::Stalled,
         Self::IterationLimit,
         Self::NoContact,
@@ -37,9 +41,9 @@ impl Stop {
         Self::Interrupted,
     ];
 
-    /// Whether the returned pressure solves the problem to the tolerance.
+    /// Whether the returned pressure solves the problem, to the tolerance or as far as double precision carries.
     pub fn solved(self) -> bool {
-        matches!(self, Self::Converged | Self::NoContact)
+        matches!(self, Self::Converged | Self::Rounding | Self::NoContact)
     }
 }
 
@@ -47,6 +51,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
             Self::Converged => "converged",
+            Self::Rounding => "converged to rounding",
             Self::Stalled => "stalled",
             Self::IterationLimit => "iteration limit",
             Self::NoContact => "no contact",

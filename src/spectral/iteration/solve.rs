@@ -1,7 +1,7 @@
 //! The way to a solution: at once where there is nothing to iterate, by iteration, or by a search for the load.
 
 use super::check::Check;
-use super::iterate::iterate;
+use super::iterate::{iterate, unless_rounding};
 use super::load_search;
 use super::problem::GridProblem;
 use super::report::{Report, Route, Stop};
@@ -54,7 +54,8 @@ impl GridProblem<'_> {
                 if report.stop != Stop::Stalled {
                     return report;
                 }
-                load_search::solve(self, penetration, report.iterations, unknowns)
+                let report = load_search::solve(self, penetration, report.iterations, unknowns);
+                Report { stop: unless_rounding(self, unknowns, report.stop), ..report }
             }
         }
     }

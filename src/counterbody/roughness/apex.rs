@@ -1,0 +1,219 @@
+//! The apex of a topography: the highest point of the sum of waves through its samples.
+//!
+//! h(s, t) = h̄ + Σ ĥ_κ e^{2πi(κ₁s + κ₂t)}, s and t fractions of **a**₁ and **a**₂, is known between the samples. Newton's method
+//! climbs from the sixteen highest summits (samples that none of the eight around exceeds), and from the sixteen that are highest
+//! by the paraboloid through the nine: of waves down to three samples the highest summit may have a lower sample than others. All
+//! climb at once: a round takes one sum over the waves. Where −∇∇h is not positive, as along a ridge, the step is that of its
+//! absolute value; no step is longer than a spacing, and one that leads down is taken again at a quarter of its length.
+//!
+//! The apex is where contact begins, whichever grid holds the waves: the highest sample lies below it by up to the square of a
+//! spacing times half the curvature.
+
+use super::Spectrum;
+use super::jet::Jet;
+use crate::lattice::{Cell, Grid, LatticeError};
+use crate::numeric::paraboloid;
+use ndarray::ArrayView2;
+
+/// Summits from which the climb begins, the highest by either measure.
+const SUMMITS: usize = 16;
+/// Most rounds of Newton's method.
+const ROUNDS: usize = 24;
+/// Part of the range of the heights below which a rise above the highest sample is rounding.
+const ROUNDING: f64 = 1e-13;
+/// Part of the largest curvature below which another one counts as none.
+const FLAT: f64 = 1e-10;
+
+/// A climber: where it stands, and where it goes next.
+#[derive(Debug, Clone, Copy)]
+struct Climber {
+    place: [f64; 2],
+    jet: Jet,
+    /// In fractions; none once it has arrived.
+    step: Option<[f64; 2]>,
+}
+
+/// Height of the apex of the surface on a cell with these heights at its samples, a length.
+///
+/// # Errors
+/// [`LatticeError`] when there are none.
+pub(crate) fn apex(cell: Cell, heights: ArrayView2<'_, f64>) -> Result<f64, LatticeError> {
+    let spectrum = Spectrum::of(cell, heights)?;
+    let grid = spectrum.grid();
+    let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let enough = ROUNDING * (highest - lowest);
+    let places: Vec<[f64; 2]> =
+        summits(grid, heights, lowest - (highest - lowest)).into_iter().map(|index| grid.fractions(index)).collect();
+    let points = grid.points().map(|n| n as f64);
+    let mut climbers: Vec<Climber> = spectrum
+        .jets(&places)
+        .into_iter()
+        .zip(places)
+        .map(|(jet, place)| Climber { place, jet, step: upward(&jet, points, enough) })
+        .collect();
+    for _ in 0..ROUNDS {
+        let goals: Vec<[f64; 2]> = climbers.iter().filter_map(Climber::goal).collect();
+        if goals.is_empty() {
+            break;
+        }
+        let under_way = climbers.iter_mut().filter(|climber| climber.step.is_some());
+        for (climber, (jet, place)) in under_way.zip(spectrum.jets(&goals).into_iter().zip(goals)) {
+            climber.step = if jet.height >= climber.jet.height {
+                (climber.place, climber.jet) = (place, jet);
+                upward(&jet, points, enough)
+            } else {
+                // Where rounding alone is left to gain it has arrived.
+                let shorter = climber.step.map(|step| step.map(|x| 0.25 * x));
+                shorter.filter(|step| climber.jet.rise(*step) > enough)
+            };
+        }
+    }
+    let rise = climbers.iter().map(|climber| spectrum.common() + climber.jet.height - highest).fold(0.0, f64::max);
+    Ok(if rise > enough && rise.is_finite() { highest + rise } else { highest })
+}
+
+/// The highest samples that none of the eight around exceeds, by themselves and by the paraboloid around: flat indices. All heights
+/// are above the `ground`, but of a flat surface.
+fn summits(grid: &Grid, heights: ArrayView2<'_, f64>, ground: f64) -> Vec<usize> {
+    let heights = heights.as_standard_layout();
+    let heights = heights.as_slice().expect("in standard layout");
+    let is_summit = |&index: &usize| grid.neighbours(index).all(|next| heights[next] <= heights[index]);
+    let mut summits: Vec<(f64, usize)> =
+        (0..heights.len()).filter(is_summit).map(|index| (heights[index], index)).collect();
+    // Of equally high ones the first.
+    let highest = |summits: &mut Vec<(f64, usize)>| {
+        summits.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        summits.iter().take(SUMMITS).map(|(_, index)| *index).collect::<Vec<usize>>()
+    };
+    let mut starts = highest(&mut summits);
+    let [n1, n2] = grid.points().map(|n| n as i32);
+    for (height, index) in &mut summits {
+        let (row, column) = (*index as i32 / n2, *index as i32 % n2);
+        // The paraboloid is that of positive values.
+        let above =
+            |i: i32, j: i32| heights[((row + i).rem_euclid(n1) * n2 + (column + j).rem_euclid(n2)) as usize] - ground;
+        *height += paraboloid::rise(1, above).unwrap_or(0.0);
+    }
+    starts.extend(highest(&mut summits));
+    starts.sort_unstable();
+    starts.dedup();
+    starts
+}
+
+impl Climber {
+    fn goal(&self) -> Option<[f64; 2]> {
+        self.step.map(|step| [self.place[0] + step[0], self.place[1] + step[1]])
+    }
+}
+
+/// The next step, in fractions; `None` where it would gain less than `enough`.
+fn upward(jet: &Jet, [n1, n2]: [f64; 2], enough: f64) -> Option<[f64; 2]> {
+    // In units of the samples, of which one is the longest step.
+    let [g1, g2] = [jet.slope[0] / n1, jet.slope[1] / n2];
+    let [h11, h12, h22] = [jet.curvature[0] / (n1 * n1), jet.curvature[1] / (n1 * n2), jet.curvature[2] / (n2 * n2)];
+    let (mean, half) = (0.5 * (h11 + h22), 0.5 * (h11 - h22));
+    let radius = half.hypot(h12);
+    let largest = mean.abs() + radius;
+    // Directions of the principal curvatures.
+    let angle = 0.5 * h12.atan2(half);
+    let axes = [([angle.cos(), angle.sin()], mean + radius), ([-angle.sin(), angle.cos()], mean - radius)];
+    let mut step = [0.0; 2];
+    for ([x, y], curvature) in axes {
+        let slope = g1 * x + g2 * y;
+        if curvature.abs() > FLAT * largest {
+            let length = slope / curvature.abs();
+            step = [step[0] + length * x, step[1] + length * y];
+        }
+    }
+    let length = step[0].hypot(step[1]);
+    let part = if length > 1.0 { 1.0 / length } else { 1.0 };
+    let gain = part * (g1 * step[0] + g2 * step[1]);
+    (gain > enough).then_some([part * step[0] / n1, part * step[1] / n2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::counterbody::roughness::{Rms, SelfAffine};
+    use ndarray::Array2;
+    use std::f64::consts::TAU;
+
+    /// Waves κ of amplitude and phase.
+    fn sampled(waves: &[([f64; 2], f64, f64)], [n1, n2]: [usize; 2]) -> Array2<f64> {
+        Array2::from_shape_fn((n1, n2), |(i, j)| height(waves, [i as f64 / n1 as f64, j as f64 / n2 as f64]))
+    }
+
+    fn height(waves: &[([f64; 2], f64, f64)], [s, t]: [f64; 2]) -> f64 {
+        waves.iter().map(|([k1, k2], size, phase)| size * (TAU * (k1 * s + k2 * t) + phase).cos()).sum()
+    }
+
+    fn apex_of(cell: Cell, heights: &Array2<f64>) -> f64 {
+        apex(cell, heights.view()).unwrap()
+    }
+
+    fn cells() -> [Cell; 3] {
+        [Cell::square(2.0), Cell::hexagonal(1.5), Cell::new([1.0, 0.1], [-0.3, 1.4])].map(Result::unwrap)
+    }
+
+    /// Of many hills, against a fine mesh of places and a paraboloid through the best of them.
+    #[test]
+    fn the_apex_is_the_highest_place_of_the_sum_of_waves_on_any_grid() {
+        let waves = [
+            ([1.0, 2.0], 1.0, 0.3),
+            ([-2.0, 1.0], 0.5, 1.1),
+            ([3.0, 0.0], 0.2, -0.4),
+            ([0.0, 3.0], 0.3, 2.0),
+            ([2.0, 3.0], 0.4, 0.9),
+        ];
+        let fine = 1500;
+        let places = (0..fine * fine).map(|k| [(k / fine) as f64 / fine as f64, (k % fine) as f64 / fine as f64]);
+        let mut best = places.max_by(|a, b| height(&waves, *a).total_cmp(&height(&waves, *b))).unwrap();
+        for level in 1..24 {
+            let h = 0.5f64.powi(level) / fine as f64;
+            let around = (0..9).map(|k| [best[0] + h * f64::from(k / 3 - 1), best[1] + h * f64::from(k % 3 - 1)]);
+            best = around.max_by(|a, b| height(&waves, *a).total_cmp(&height(&waves, *b))).unwrap();
+        }
+        let exact = height(&waves, best);
+        for cell in cells() {
+            for points in [[9, 8], [10, 14], [24, 24], [31, 64]] {
+                let heights = sampled(&waves, points);
+                let found = apex_of(cell, &heights);
+                let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                assert!(
+                    (found - exact).abs() < 1e-12 && found > highest + 1e-4,
+                    "{points:?}: {found} {exact} {highest}"
+                );
+            }
+        }
+    }
+
+    /// Random surfaces with waves down to two and three samples, whose highest place need not lie beside the highest sample;
+    /// exactly from the same waves on five times the points.
+    #[test]
+    fn surfaces_rough_down_to_the_grid_have_the_apex_of_finer_grids() {
+        for (number, (seed, n)) in (1..=20).flat_map(|seed| [24, 60].map(|n| (seed, n))).enumerate() {
+            let cell = cells()[number % 3];
+            let (hurst, shortest) = ([0.2, 0.5, 0.8][number % 3], [2.0, 2.5, 3.0, 4.0][number % 4] / n as f64);
+            let surface =
+                SelfAffine { hurst, longest: 0.5, rolloff: 0.5, shortest: 1.5 * shortest, rms: Rms::Slope(0.1), seed };
+            let heights = surface.heights(cell, [n; 2]).unwrap();
+            let finer = Spectrum::of(cell, heights.view()).unwrap().resampled([5 * n; 2]).unwrap();
+            let range = heights.iter().copied().fold(0.0, f64::max) - heights.iter().copied().fold(0.0, f64::min);
+            let (found, exact) = (apex_of(cell, &heights), apex_of(cell, &finer));
+            assert!((found - exact).abs() < 1e-9 * range, "{n}, {seed}: {found} {exact}");
+        }
+    }
+
+    #[test]
+    fn a_crest_along_a_line_a_plane_and_an_apex_on_a_sample_are_exact() {
+        let cell = Cell::square(1.0).unwrap();
+        let ridge = sampled(&[([1.0, 0.0], 0.7, 0.123)], [16, 12]);
+        assert!((apex_of(cell, &ridge) - 0.7).abs() < 1e-14);
+        let oblique = sampled(&[([1.0, -2.0], 0.7, 0.123)], [16, 12]);
+        assert!((apex_of(cell, &oblique) - 0.7).abs() < 1e-14);
+        assert_eq!(apex_of(cell, &Array2::from_elem((6, 5), 3.25)), 3.25);
+        let crest = sampled(&[([1.0, 0.0], 1.0, 0.0), ([0.0, 1.0], 1.0, 0.0)], [16, 16]);
+        assert_eq!(apex_of(cell, &crest), 2.0);
+    }
+}
