@@ -4,7 +4,7 @@ use super::gathered::{is_moved, is_partial, remove_gathered, remove_own, remove_
 use super::layout::{COARSER, FolderError, MARK, OWN, SWEEP_LOG, foreign, names, own, remove_folder, staging};
 use super::manifest::{Manifest, Scope, Writer, Written};
 use super::publication::Publication;
-use super::{OutputError, make_folder, write_text};
+use super::{Files, OutputError, make_folder, write_text};
 use super::{checkpoint, steps_log};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
@@ -118,6 +118,17 @@ impl RunFolder {
         Ok(aside)
     }
 
+    /// Begins anew because what an earlier run has finished is damaged: all of it is moved aside, nothing removed; where to.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path that cannot be moved.
+    pub fn begin_after_damage(&mut self) -> Result<Option<PathBuf>, OutputError> {
+        self.resumed = false;
+        let aside = set_aside(&self.staging(), &self.folder)?;
+        self.make_staging()?;
+        Ok(aside)
+    }
+
     /// The writer's earlier files whose names begin like this stay as they are.
     pub fn keeps(&mut self, beginning: String) {
         self.plan.scope.except.push(beginning);
@@ -225,12 +236,19 @@ impl RunFolder {
     }
 }
 
-/// Gives up what percoat keeps for itself in a folder whose files become part of another result.
+/// Gives up what percoat keeps for itself in a folder whose files become part of another result: those that were solved there.
 ///
 /// # Errors
 /// [`OutputError`] with the path.
-pub fn release(folder: &Path) -> Result<(), OutputError> {
-    remove_folder(&folder.join(OWN))
+pub fn release(folder: &Path) -> Result<Files, OutputError> {
+    let files = Files::published(folder, Writer::Solve);
+    remove_folder(&folder.join(OWN))?;
+    Ok(files)
+}
+
+/// Whether a folder is one that was [released](release): a result stands there, and nobody has it.
+pub fn is_released(folder: &Path) -> bool {
+    !folder.join(OWN).exists() && names(folder).is_ok_and(|names| !names.is_empty())
 }
 
 /// Whether a step or a combination has been finished where a result is gathered, on its grid or a coarser one.

@@ -8,10 +8,9 @@ use super::task::Task;
 use super::workers;
 use crate::case::resources::{Job, bytes, needs, refusal};
 use crate::case::{Case, CaseError, Room, Source};
-use crate::output::{self, COMBINATIONS, OutputError, solved_plan};
+use crate::output::{self, COMBINATIONS, solved_plan};
 use crate::run::Sampling;
-use std::collections::{HashMap, HashSet};
-use std::fs;
+use std::collections::HashSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -42,25 +41,25 @@ pub struct Study<'a> {
     source: &'a Source,
     /// What all combinations set, `KEY=VALUE`.
     fixed: &'a [String],
-    combinations: &'a Combinations,
+    pub(super) combinations: &'a Combinations,
     task: Task,
     room: Room,
-    keeps_fields: bool,
+    pub(super) keeps_fields: bool,
     stop: Arc<AtomicBool>,
-    planned: Vec<Planned>,
+    pub(super) planned: Vec<Planned>,
 }
 
 /// A combination before it is solved.
 #[derive(Debug)]
-struct Planned {
+pub(super) struct Planned {
     /// Its index among the combinations.
-    index: usize,
-    fingerprint: String,
+    pub(super) index: usize,
+    pub(super) fingerprint: String,
     /// What solving it takes, bytes.
     memory: u64,
     is_small: bool,
     /// What it leaves when its fields are kept.
-    files: Vec<String>,
+    pub(super) files: Vec<String>,
 }
 
 impl<'a> Study<'a> {
@@ -157,48 +156,6 @@ impl<'a> Study<'a> {
         .collect()
     }
 
-    /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again; so is what keeps
-    /// fields and has none under its number in the folder `from`, where the rows stand.
-    pub fn known(&self, rows: &[Row], from: &Path) -> Vec<Row> {
-        let by_print: HashMap<&str, &Row> =
-            rows.iter().filter(|row| !row.results.is_empty()).map(|row| (row.fingerprint.as_str(), row)).collect();
-        let known = |planned: &Planned| {
-            let combination = &self.combinations.all[planned.index];
-            let row = *by_print.get(planned.fingerprint.as_str())?;
-            let fields = from.join(folder_of(combination.number));
-            let is_there = || {
-                let case = self.case(combination).map(|case| case.to_toml()).ok();
-                fields.join("contact.npz").is_file() && fs::read_to_string(fields.join("case.toml")).ok() == case
-            };
-            let has_fields = !self.keeps_fields || row.combination == combination.number && is_there();
-            let settings = self.settings(combination);
-            has_fields.then(|| Row { combination: combination.number, settings, ..row.clone() })
-        };
-        self.planned.iter().filter_map(known).collect()
-    }
-
-    /// Gives the files of known combinations a second name in the folder `to`, where the result is gathered.
-    ///
-    /// # Errors
-    /// [`OutputError`] with the path.
-    pub fn take_over(&self, known: &[Row], from: &Path, to: &Path) -> Result<(), OutputError> {
-        if !self.keeps_fields || from == to {
-            return Ok(());
-        }
-        for row in known {
-            let folder = folder_of(row.combination);
-            output::make_folder(&to.join(&folder))?;
-            let planned = self.planned.iter().find(|own| self.combinations.all[own.index].number == row.combination);
-            for name in planned.map_or(&[][..], |planned| &planned.files) {
-                let [old, new] = [from, to].map(|place| place.join(&folder).join(name));
-                if old.is_file() && fs::hard_link(&old, &new).is_err() {
-                    fs::copy(&old, &new).map_err(|error| OutputError::new(&new, error))?;
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// How many combinations are solved at once by `threads`.
     pub fn workers(&self, threads: usize) -> usize {
         let small = self.planned.iter().filter(|planned| planned.is_small);
@@ -237,7 +194,7 @@ impl<'a> Study<'a> {
         refusal(case, self.room, self.job()).map_or(Ok(()), |why| Err(StudyError::Refused(why)))
     }
 
-    fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
+    pub(super) fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
         self.combinations.keys.iter().cloned().zip(combination.values.iter().cloned()).collect()
     }
 
@@ -256,7 +213,7 @@ impl<'a> Study<'a> {
         let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
         // One combination that brings the program down leaves the others as they are.
         let ended = catch_unwind(AssertUnwindSafe(|| self.ended(combination, folder, room)));
-        let Ended { status, reason, warnings, results } =
+        let Ended { status, reason, warnings, results, files } =
             ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
         Row {
             combination: combination.number,
@@ -267,6 +224,7 @@ impl<'a> Study<'a> {
             warnings,
             results,
             seconds: started.elapsed().as_secs_f64(),
+            files,
         }
     }
 
@@ -297,7 +255,7 @@ impl<'a> Study<'a> {
 }
 
 /// Where a combination keeps its fields.
-fn folder_of(number: usize) -> String {
+pub(super) fn folder_of(number: usize) -> String {
     format!("{COMBINATIONS}/{number:04}")
 }
 
