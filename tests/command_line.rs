@@ -14,6 +14,14 @@ mod cases;
 mod compare;
 #[path = "command_line/daily.rs"]
 mod daily;
+#[path = "command_line/damaged_records.rs"]
+mod damaged_records;
+#[path = "command_line/damaged_reports.rs"]
+mod damaged_reports;
+#[path = "command_line/damaged_sweeps.rs"]
+mod damaged_sweeps;
+#[path = "command_line/damages.rs"]
+mod damages;
 #[path = "command_line/exit_codes.rs"]
 mod exit_codes;
 #[path = "command_line/explain.rs"]
@@ -32,6 +40,8 @@ mod inspection;
 mod interruption;
 #[path = "command_line/limit.rs"]
 mod limit;
+#[path = "command_line/mortal.rs"]
+mod mortal;
 #[path = "command_line/numpy.rs"]
 mod numpy;
 #[path = "command_line/pictures.rs"]

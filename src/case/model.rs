@@ -77,7 +77,7 @@ impl Case {
 
     /// The case as TOML, complete with its defaults; it reads back equal.
     pub fn to_toml(&self) -> String {
-        written(self)
+        written(self).expect("keys are strings, integers come from TOML, absent values are skipped")
     }
 
     /// What is pressed into what.
@@ -139,10 +139,10 @@ impl Case {
     }
 }
 
-/// A case as TOML: one that has been read, or what a result says of it.
-pub(crate) fn written(case: &impl Serialize) -> String {
-    let text = plain::toml(case).expect("keys are strings, integers come from TOML, absent values are skipped");
-    text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n")
+/// A case as TOML: one that has been read, or what a result says of it, which may be anything.
+pub(crate) fn written(case: &impl Serialize) -> Result<String, toml::ser::Error> {
+    let text = plain::toml(case)?;
+    Ok(text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n"))
 }
 
 /// A line `key = value` with the numbers of the value as a person would write them: 2e-7 for 0.0000002.

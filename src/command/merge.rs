@@ -6,11 +6,19 @@ use super::options::Saying;
 use super::pictures::PictureOptions;
 use super::sweep;
 use super::terminal::{self, tell};
-use crate::output::{RunFolder, SWEEP_LOG, disk};
+use crate::output::{RunFolder, SWEEP_LOG, disk, unlike_published};
 use crate::plain;
-use crate::sweep::{Asked, Row, description, join, read};
-use serde_json::Value;
+use crate::sweep::{Description, Part, PartError, Row, UNFINISHED, description, join};
 use std::path::{Path, PathBuf};
+
+impl From<PartError> for Failure {
+    fn from(error: PartError) -> Self {
+        match error {
+            PartError::Input { path, error } => Self::Input { path, error },
+            refused => Self::refused(refused),
+        }
+    }
+}
 
 pub fn run(
     folders: &[PathBuf],
@@ -18,31 +26,38 @@ pub fn run(
     pictures: &PictureOptions,
     saying: &Saying,
 ) -> Result<Ending, Failure> {
-    let parts = folders.iter().map(|folder| part(folder)).collect::<Result<Vec<_>, _>>()?;
-    let (descriptions, parts): (Vec<Value>, Vec<Vec<Row>>) = parts.into_iter().unzip();
-    let first = &descriptions[0];
-    let same = |key: &str| descriptions.iter().zip(folders).find(|(own, _)| own[key] != first[key]);
-    for key in ["fingerprint", "case", "task", "of", "percoat"] {
-        if let Some((_, other)) = same(key) {
+    let parts: Vec<Vec<Part>> = folders.iter().map(|folder| parts(folder)).collect::<Result<_, _>>()?;
+    let first = parts[0][0].description.clone();
+    for (own, folder) in parts.iter().zip(folders) {
+        if let Some(key) = own.iter().find_map(|own| unlike(&own.description, &first)) {
             return Err(Failure::refused(format!(
                 "{} and {} are not parts of one sweep: `{key}` in their sweep.json differs",
                 plain::path(&folders[0]),
-                plain::path(other)
+                plain::path(folder)
             )));
         }
     }
-    let rows = join(parts.into_iter()).map_err(Failure::refused)?;
+    if first.percoat != env!("CARGO_PKG_VERSION") {
+        return Err(Failure::refused(format!(
+            "{} was written by percoat {}, and this is {}: merge its parts with that version, or compute them again",
+            plain::path(&folders[0]),
+            first.percoat,
+            env!("CARGO_PKG_VERSION")
+        )));
+    }
+    let parts: Vec<Part> = parts.into_iter().flatten().collect();
+    let seconds: f64 = parts.iter().map(|own| own.description.seconds()).sum();
+    let (rows, twice) = join(parts)?;
+    if twice > 0 && !saying.quiet {
+        tell!("note: {twice} combinations stand in several parts, with the same results");
+    }
     let folder = output.map_or_else(|| common_parent(folders), |folder| Ok(folder.to_owned()))?;
     interruption::watch();
     let claim = RunFolder::claim(&folder, sweep::plan(pictures))?;
     terminal::tell_aside(claim.set_aside(), saying.quiet);
-    let text = |key: &str| first[key].as_str().unwrap_or_default();
-    let seconds: f64 = descriptions.iter().filter_map(|own| own["timing"]["wall"].as_f64()).sum();
-    let of = first["of"].as_u64().unwrap_or_default() as usize;
-    let asked =
-        Asked { title: text("title"), case: text("case"), task: text("task"), fingerprint: text("fingerprint"), of };
+    let (asked, of) = (first.asked(), first.of);
     let description = description(asked, &rows, seconds);
-    sweep::finish(claim, &folder, &rows, &description, pictures, saying.quiet)?;
+    sweep::finish(claim, &folder, &asked.identity(), &rows, &description, pictures, saying.quiet)?;
     sweep::print(&rows, &description, &folder, saying)?;
     if rows.len() < of {
         tell!("warning: {} of {of} combinations are missing: {}", of - rows.len(), missing(&rows, of));
@@ -51,52 +66,50 @@ pub fn run(
     Ok(sweep::ending(&rows))
 }
 
-/// The description and the rows of a part, finished or not.
-fn part(folder: &Path) -> Result<(Value, Vec<Row>), Failure> {
-    let unfinished = folder.join("unfinished-sweep");
-    if let Some(own) = disk::found(&unfinished).ok().flatten().filter(|own| !own.is_dir()) {
-        return Err(Failure::refused(format!(
-            "{} is {}, where percoat keeps a folder of its own: move it away",
-            plain::path(&unfinished),
-            disk::kind(&own)
-        )));
+/// What a part says otherwise of the whole sweep than another: the key.
+fn unlike(own: &Description, other: &Description) -> Option<&'static str> {
+    let [own, other] = [own, other].map(|it| {
+        let of = it.of.to_string();
+        [
+            ("fingerprint", it.fingerprint.clone()),
+            ("case", it.case.clone()),
+            ("title", it.title.clone()),
+            ("task", it.task.clone()),
+            ("of", of),
+            ("percoat", it.percoat.clone()),
+        ]
+    });
+    own.iter().zip(&other).find(|(own, other)| own != other).map(|((key, _), _)| *key)
+}
+
+/// What a folder holds of a sweep: a finished part, an unfinished one, or both of one.
+fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
+    let unfinished = folder.join(UNFINISHED);
+    if let (Some((name, reason)), true) = (damaged(folder), disk::is_file(&folder.join("sweep.json"))) {
+        let path = folder.join(name);
+        let first = if path.exists() { "move it away and " } else { "" };
+        let path = plain::path(&path);
+        return Err(Failure::refused(format!("{path} {reason}; {first}give the command of this part again")));
     }
-    match (read_part(folder)?, read_part(&unfinished)?) {
-        (Some((finished, _)), Some((begun, _))) if finished["fingerprint"] != begun["fingerprint"] => {
+    let found: Vec<Part> = [Part::read(folder)?, Part::read(&unfinished)?].into_iter().flatten().collect();
+    match &found[..] {
+        [] => Err(Failure::refused(format!(
+            "{} holds no sweep: give the folders that `percoat sweep --shard` wrote",
+            plain::path(folder)
+        ))),
+        [finished, begun] if finished.description.fingerprint != begun.description.fingerprint => {
             Err(Failure::refused(format!(
                 "{} holds a finished sweep and an unfinished one of another: finish this with --resume, or move one away",
                 plain::path(folder)
             )))
         }
-        (Some((description, rows)), Some((_, more))) => {
-            let rows = join([rows, more].into_iter()).map_err(Failure::refused)?;
-            Ok((description, rows))
-        }
-        (Some(own), None) | (None, Some(own)) => Ok(own),
-        (None, None) => Err(Failure::refused(format!(
-            "{} holds no sweep: give the folders that `percoat sweep --shard` wrote",
-            plain::path(folder)
-        ))),
+        _ => Ok(found),
     }
 }
 
-/// Those in a place, if it has any.
-fn read_part(place: &Path) -> Result<Option<(Value, Vec<Row>)>, Failure> {
-    let path = place.join("sweep.json");
-    if matches!(disk::found(&path), Ok(None)) {
-        return Ok(None);
-    }
-    let text = disk::read_text(&path).map_err(|error| Failure::Input { path: path.clone(), error })?;
-    let description = serde_json::from_str(&text)
-        .map_err(|error| Failure::refused(format!("{} is no description of a sweep: {error}", plain::path(&path))))?;
-    let log = place.join(SWEEP_LOG);
-    // A part that was killed before its first combination has no log.
-    let rows = if matches!(disk::found(&log), Ok(None)) {
-        Vec::new()
-    } else {
-        read(&log).map_err(|error| Failure::Input { path: log, error })?
-    };
-    Ok(Some((description, rows)))
+/// A file of a finished part that is not as percoat wrote it there.
+fn damaged(folder: &Path) -> Option<(String, String)> {
+    unlike_published(folder).into_iter().find(|(name, _)| ["sweep.json", SWEEP_LOG].contains(&name.as_str()))
 }
 
 /// The folder in which all parts stand.

@@ -5,7 +5,7 @@ use super::interruption;
 use super::terminal;
 use crate::output::{OutputError, Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
 use crate::plain;
-use crate::report::{self, ReportError};
+use crate::report::{self, Page, ReportError};
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -25,17 +25,18 @@ impl From<ReportError> for Failure {
 pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, Failure> {
     let file = output.map_or_else(|| folder.join(NAME), Path::to_path_buf);
     // Nothing is made in a folder without a result.
-    let page = report::page(folder)?;
+    let mut page = report::page(folder)?;
     let own = owned(&file)?;
     match file.file_name().and_then(|name| name.to_str()).filter(|_| is_in(&file, folder)) {
-        Some(name) => publish(folder, name, own)?,
+        Some(name) => page = publish(folder, name, own)?,
         None => {
             file.parent().filter(|parent| !parent.as_os_str().is_empty()).map_or(Ok(()), make_folder)?;
-            write_text(&file, &page)?;
+            write_text(&file, &page.html)?;
             let parent = file.parent().unwrap_or(Path::new(""));
             disk::sync_folder(parent).map_err(|error| Failure::from(OutputError::new(&file, error)))?;
         }
     }
+    terminal::warn(&page.missing, quiet);
     if !quiet {
         writeln!(terminal::out(), "written to {}", plain::path(&file))?;
     }
@@ -43,15 +44,17 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
 }
 
 /// Writes the page beside its result, in the place of the one before.
-fn publish(folder: &Path, name: &str, own: bool) -> Result<(), Failure> {
+fn publish(folder: &Path, name: &str, own: bool) -> Result<Page, Failure> {
     let names = vec![name.to_owned()];
     let adopted = if own { names.clone() } else { Vec::new() };
     // Pages of other names stay.
     let scope = Scope { within: name.to_owned(), except: Vec::new() };
     let claim = RunFolder::claim(folder, Plan { names, adopted, scope, ..Plan::new(Writer::Report) })?;
     // No run writes there now: what is read belongs together.
-    write_text(&claim.staging().join(name), &report::page(folder)?)?;
-    Ok(interruption::publish(claim, folder, true)?)
+    let page = report::page(folder)?;
+    write_text(&claim.staging().join(name), &page.html)?;
+    interruption::publish(claim, folder, true)?;
+    Ok(page)
 }
 
 /// Whether an earlier page stands there that may be replaced; anything else is refused.

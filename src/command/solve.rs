@@ -13,10 +13,13 @@ use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};
 use crate::output::summary::summary;
-use crate::output::{self, Clock, Plan, Recording, RunFolder, disk, is_beside, steps_of, table, write_scalars};
+use crate::output::{
+    self, CannotGoOn, Clock, Plan, Recording, RunFolder, disk, is_beside, solved_plan, steps_of, table,
+    unlike_published, write_scalars,
+};
 use crate::picture::Snapshot;
 use crate::plain;
-use crate::run::{Finished, Sampling, StepRecord};
+use crate::run::{Finished, Run, Sampling, StepRecord};
 use clap::Args;
 use serde_json::Value;
 use std::io::Write;
@@ -60,10 +63,10 @@ pub fn run(
     let mut claim = RunFolder::claim(&folder, Plan { resumes: goes_on, ..plan })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let fingerprint = output::fingerprint(&case, if options.no_fields { "scalars" } else { "fields" });
-    let earlier = earlier(&mut claim, &fingerprint, options.resume, common.quiet)?;
+    let earlier = earlier(&mut claim, &fingerprint, &run, options.resume, common.quiet)?;
     if options.resume
         && earlier.is_none()
-        && let Some((ending, summary)) = finished(&case, &folder, !options.no_fields)
+        && let Some((ending, summary)) = finished(&case, &folder, run.loads.len(), !options.no_fields)
     {
         claim.leave()?;
         if !common.quiet {
@@ -108,22 +111,43 @@ pub fn run(
     Ok(ending)
 }
 
-/// What an earlier run into the folder has finished, if this one is to go on from there. What cannot be gone on with is an
-/// error where that is `demanded`.
-fn earlier(claim: &mut RunFolder, fingerprint: &str, demanded: bool, quiet: bool) -> Result<Option<Finished>, Failure> {
-    let found = match claim.resumes().then(|| output::finished(&claim.staging(), fingerprint)) {
-        Some(Err(reason)) if demanded => return Err(Failure::refused(reason)),
-        Some(Ok(found)) => found,
-        Some(Err(_)) | None => None,
+/// What an earlier run into the folder has finished, if this one is to go on from there. What is of another run is an error
+/// where that is `demanded`; what is damaged is moved aside, and solved again.
+fn earlier(
+    claim: &mut RunFolder,
+    fingerprint: &str,
+    run: &Run,
+    demanded: bool,
+    quiet: bool,
+) -> Result<Option<Finished>, Failure> {
+    if !claim.resumes() {
+        return Ok(None);
+    }
+    let found = match output::finished(&claim.staging(), fingerprint, run) {
+        Err(damaged @ CannotGoOn::Damaged { .. }) if demanded => {
+            let reason = damaged.to_string();
+            terminal::tell_damage(&reason, claim.begin_after_damage()?.as_deref(), "all steps are solved again");
+            return Ok(None);
+        }
+        Err(foreign) if demanded => return Err(Failure::refused(foreign)),
+        Ok(found) => found,
+        Err(_) => None,
     };
-    if claim.resumes() && found.is_none() {
-        terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
-    }
-    if let (Some(found), false) = (&found, quiet) {
+    let Some(found) = found else {
+        if demanded {
+            let reason =
+                format!("{}/checkpoint.npz is missing, no load can be given again", plain::path(&claim.staging()));
+            terminal::tell_damage(&reason, claim.begin_after_damage()?.as_deref(), "all steps are solved again");
+        } else {
+            terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
+        }
+        return Ok(None);
+    };
+    if !quiet {
         let [n1, n2] = found.points;
-        tell!("note: goes on after step {} on {n1} × {n2} samples", done(found));
+        tell!("note: goes on after step {} on {n1} × {n2} samples", done(&found));
     }
-    Ok(found)
+    Ok(Some(found))
 }
 
 /// Number of loads that an earlier run has solved on its last grid.
@@ -131,16 +155,26 @@ fn done(earlier: &Finished) -> usize {
     earlier.steps.len() + usize::from(earlier.last.is_some())
 }
 
-/// How the result that stands in a folder ended, if it is of this case, and its summary.
-fn finished(case: &Case, folder: &Path, fields: bool) -> Option<(Ending, String)> {
+/// How the result that stands in a folder ended, if it is of this case and whole, and its summary. What is missing of it is told.
+fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(Ending, String)> {
     let is_own =
         |name: &str| disk::is_file(&folder.join(name)) && is_beside("summary.json", folder, name).unwrap_or(false);
-    if !is_own("summary.json") || fields && !is_own("contact.npz") {
+    if !is_own("summary.json") {
         return None;
     }
     let text = disk::read_text(&folder.join("summary.json")).ok()?;
     let summary: Value = serde_json::from_str(&text).ok()?;
     if summary["fingerprint"] != output::fingerprint(case, "") {
+        return None;
+    }
+    let planned = solved_plan(case, steps, fields).names;
+    let unlike = unlike_published(folder);
+    if let Some((name, reason)) = unlike.iter().find(|(name, _)| planned.contains(name)) {
+        tell!("warning: {} {reason}; all steps are solved again", plain::path(&folder.join(name)));
+        return None;
+    }
+    // An earlier run without fields has left none.
+    if fields && !is_own("contact.npz") {
         return None;
     }
     let reached = match case.grid {

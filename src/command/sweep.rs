@@ -98,13 +98,24 @@ pub fn run(
     planned.names.extend(study.files());
     let mut claim = RunFolder::claim(&folder, planned)?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
+    let identity = asked.identity();
     let mut rows = Vec::new();
     if options.resume {
-        let earlier = earlier(&claim, &folder)?;
         let mut from = if claim.resumes() { claim.staging() } else { folder.clone() };
-        rows = study.known(&earlier, &from);
+        let log = from.join(SWEEP_LOG);
+        let input = |error| Failure::Input { path: log.clone(), error };
+        let lines = match disk::found(&log) {
+            Ok(None) => Vec::new(),
+            _ => sweep::read(&log).map_err(input)?,
+        };
+        let (earlier, damaged): (Vec<_>, Vec<_>) = lines.into_iter().partition(Result::is_ok);
+        let earlier: Vec<Row> = earlier.into_iter().flatten().map(|own| own.row).collect();
+        let known = study.known(&earlier, &from);
+        let damaged = damaged.into_iter().filter_map(Result::err);
+        let damaged = damaged.map(|damage| format!("{}, {damage}", plain::path(&log))).chain(known.damaged).collect();
+        rows = known.rows;
         let solved = earlier.iter().filter(|row| !row.results.is_empty()).count();
-        if rows.is_empty() && solved > 0 {
+        if rows.is_empty() && solved > 0 && Vec::is_empty(&damaged) {
             return Err(Failure::refused(format!(
                 "none of the {solved} combinations that are done in {} is of this sweep: the case, a --set, --limit, \
                  --keep-fields, a surface or the version of percoat is another one; give the same command again, or leave \
@@ -113,7 +124,11 @@ pub fn run(
             )));
         }
         // What cannot be used again is not lost.
-        if rows.len() < solved && claim.resumes() {
+        if !damaged.is_empty() {
+            let aside = if claim.resumes() { claim.begin_after_damage()? } else { None };
+            tell_damaged(&damaged, aside.as_deref());
+            from = aside.unwrap_or(from);
+        } else if claim.resumes() && (rows.len() < solved || study.has_unlogged(&rows, &from)) {
             let aside = claim.begin_anew()?;
             terminal::tell_aside(aside.as_deref(), common.quiet);
             from = aside.unwrap_or(from);
@@ -124,7 +139,7 @@ pub fn run(
         }
     }
     let staging = claim.staging();
-    let mut log = Log::begin(&staging, &rows)?;
+    let mut log = Log::begin(&staging, &identity, &rows)?;
     let describe = |rows: &[Row]| sweep::description(asked, rows, started.elapsed().as_secs_f64());
     // For who merges a part that was killed.
     write_text(&staging.join("sweep.json"), &format!("{:#}\n", describe(&rows)))?;
@@ -157,7 +172,7 @@ pub fn run(
     drop(log);
     rows.sort_by_key(|row| row.combination);
     let description = describe(&rows);
-    finish(claim, &folder, &rows, &description, pictures, common.quiet)?;
+    finish(claim, &folder, &identity, &rows, &description, pictures, common.quiet)?;
     print(&rows, &description, &folder, &Saying { quiet: common.quiet, json: common.json })?;
     Ok(ending(&rows))
 }
@@ -166,6 +181,7 @@ pub fn run(
 pub fn finish(
     claim: RunFolder,
     folder: &Path,
+    identity: &str,
     rows: &[Row],
     description: &Value,
     pictures: &PictureOptions,
@@ -173,7 +189,7 @@ pub fn finish(
 ) -> Result<(), Failure> {
     let staging = claim.staging();
     // In the order of the combinations, not in that of their ends.
-    drop(Log::begin(&staging, rows)?);
+    drop(Log::begin(&staging, identity, rows)?);
     write_text(&staging.join("sweep.csv"), &sweep::table(rows))?;
     write_text(&staging.join("sweep.json"), &format!("{description:#}\n"))?;
     let text = |key: &str| description[key].as_str().unwrap_or_default().to_owned();
@@ -203,13 +219,16 @@ fn combinations(options: &SweepOptions, set: &[String]) -> Result<(Combinations,
     Ok((combinations, fixed))
 }
 
-/// Rows of an earlier sweep into this folder, unfinished or finished.
-fn earlier(claim: &RunFolder, folder: &Path) -> Result<Vec<Row>, Failure> {
-    let path = if claim.resumes() { claim.staging() } else { folder.to_owned() }.join(SWEEP_LOG);
-    if matches!(disk::found(&path), Ok(None)) {
-        return Ok(Vec::new());
+/// What of an earlier sweep is not as it was written, line by line of the first some, and where all of it is now.
+fn tell_damaged(damaged: &[String], aside: Option<&Path>) {
+    /// Damages told one by one.
+    const TOLD: usize = 5;
+    for reason in damaged.iter().take(TOLD) {
+        terminal::tell_damage(reason, aside, "this combination is solved again");
     }
-    sweep::read(&path).map_err(|error| Failure::Input { path, error })
+    if damaged.len() > TOLD {
+        tell!("warning: and {} more that are damaged; their combinations are solved again", damaged.len() - TOLD);
+    }
 }
 
 /// How many are done, and why others are not.

@@ -68,6 +68,12 @@ pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     }
 }
 
+/// Says what of an earlier run is damaged, where all of it is now, and what is done: also to who wants no warnings, since work is lost.
+pub fn tell_damage(reason: &str, aside: Option<&Path>, done: &str) {
+    let aside = aside.map_or(String::new(), |place| format!("; it is kept in {}", plain::path(place)));
+    tell!("warning: {reason}{aside}; {done}");
+}
+
 /// Letters in a line of standard output; where it is no terminal, 80.
 pub fn width() -> usize {
     let size = terminal_size::terminal_size_of(io::stdout());

@@ -3,18 +3,15 @@
 //! It is replaced by the next one at once, and comes before what is read off its step. Writing them takes a small part of
 //! the time of a run with several loads; what is solved in between is solved again by the run that goes on.
 
-use super::layout::COARSER;
-use super::npz::{Archive, values};
-use super::recorded::{self, Unreadable};
-use super::steps_log;
-use super::{OutputError, disk, write_file};
-use crate::run::{Finished, Last, StepRecord};
+use super::npy::vector;
+use super::npz::Archive;
+use super::{OutputError, disk, recorded, write_file};
+use crate::run::Last;
 use crate::spectral::{Certificate, Checkpoint, Report, Stop, Unknowns};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use zip::ZipArchive;
@@ -26,36 +23,17 @@ const PLACE: &str = "place.json";
 /// What is solved between two checkpoints takes so many times the time of writing one, at least.
 const SHARE: u32 = 20;
 
-/// Why a run cannot go on with what stands unfinished in its folder.
-#[derive(Debug, thiserror::Error)]
-pub enum CannotGoOn {
-    /// It is of another run.
-    #[error(
-        "{} is of another run: the case, its surface, --no-fields or the version of percoat is another one; give the same \
-         command again, or leave --resume out, which moves its finished steps aside", .0.display()
-    )]
-    Foreign(PathBuf),
-    /// It cannot be read, or is not whole.
-    #[error("cannot go on from {}: {reason}; leave --resume out to begin anew, which moves finished steps aside", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        reason: String,
-    },
-}
-
 /// Where a run was.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-struct Place {
+pub(super) struct Place {
     /// Of what decides about the result.
-    fingerprint: String,
+    pub(super) fingerprint: String,
     /// The grid.
-    points: [usize; 2],
+    pub(super) points: [usize; 2],
     /// Whether all steps are done on a coarser one.
-    refined: bool,
+    pub(super) refined: bool,
     /// Number of loads solved on it.
-    steps: usize,
+    pub(super) steps: usize,
     /// What the solver says of the last, if there is one.
     solved: Option<Solved>,
 }
@@ -75,7 +53,7 @@ struct Solved {
 /// Saves the checkpoints of a run.
 #[derive(Debug)]
 pub(super) struct Checkpoints {
-    fingerprint: String,
+    pub(super) fingerprint: String,
     /// Number of all loads.
     loads: usize,
     /// What the grids so far have brought.
@@ -190,9 +168,20 @@ pub fn write_checkpoint(writer: impl Write + Seek, checkpoint: &Checkpoint) -> i
 /// # Errors
 /// Those of the reader, and what is no such checkpoint.
 pub fn read_checkpoint(reader: impl Read + Seek) -> io::Result<Checkpoint> {
-    let mut saved = Saved(ZipArchive::new(reader)?);
+    let mut saved = Saved::new(reader)?;
     let solved: Solved = saved.place()?;
+    saved.has_only(1, Some(&solved))?;
     Ok(saved.last(&solved)?.checkpoint)
+}
+
+/// What was saved of a run: where it was, the changes that its grids have brought, and the last load.
+pub(super) fn read(path: &Path) -> io::Result<(Place, Vec<f64>, Option<Last>)> {
+    let mut saved = Saved::new(BufReader::new(disk::open(path)?))?;
+    let place: Place = saved.place()?;
+    saved.has_only(2, place.solved.as_ref())?;
+    let changes = saved.array("changes")?;
+    let last = place.solved.as_ref().map(|solved| saved.last(solved)).transpose()?;
+    Ok((place, changes, last))
 }
 
 /// How long writing takes, by a disk that is not slow.
@@ -202,74 +191,61 @@ fn foreseen(last: &Checkpoint) -> Duration {
     Duration::from_secs_f64(16.0 * samples as f64 / BYTES_PER_SECOND)
 }
 
-/// What an unfinished run has finished where its result is gathered; `None` where there is no checkpoint.
-///
-/// # Errors
-/// [`CannotGoOn`].
-pub fn finished(folder: &Path, fingerprint: &str) -> Result<Option<Finished>, CannotGoOn> {
-    let path = folder.join(NAME);
-    if !disk::is_file(&path) {
-        return Ok(None);
-    }
-    let failed = |error: io::Error| CannotGoOn::Unreadable { path: path.clone(), reason: error.to_string() };
-    let mut saved = Saved::open(&path).map_err(failed)?;
-    let place: Place = saved.place().map_err(failed)?;
-    if place.fingerprint != fingerprint {
-        return Err(CannotGoOn::Foreign(folder.to_owned()));
-    }
-    let last = place.solved.as_ref().map(|solved| saved.last(solved)).transpose().map_err(failed)?;
-    let changes = saved.array("changes").map_err(failed)?;
-    let (path, coarser) = (folder.join(steps_log::NAME), folder.join(COARSER).join(steps_log::NAME));
-    let own = if disk::is_file(&path) { steps(&path)? } else { Vec::new() };
-    // The steps of the grid before move aside after the finer one has been saved as begun.
-    let (mut own, before) = match own.first() {
-        Some(step) if step.points != place.points => (Vec::new(), Some(own)),
-        _ => (own, None),
-    };
-    let coarser = place.refined.then(|| before.map_or_else(|| steps(&coarser), Ok)).transpose()?;
-    let count = place.steps.saturating_sub(1);
-    if own.len() < count {
-        return Err(CannotGoOn::Unreadable { path, reason: format!("it has {} of {count} steps", own.len()) });
-    }
-    own.truncate(count);
-    Ok(Some(Finished { points: place.points, changes, coarser, steps: own, last }))
-}
-
-/// The steps of a log.
-fn steps(path: &Path) -> Result<Vec<StepRecord>, CannotGoOn> {
-    let failed = |reason: String| CannotGoOn::Unreadable { path: path.to_owned(), reason };
-    let lines = steps_log::whole_lines(path).map_err(|error| failed(error.to_string()))?;
-    let step = |line: &String| -> Result<StepRecord, String> {
-        let value = serde_json::from_str(line).map_err(|error| error.to_string())?;
-        recorded::step(&value).map_err(|error: Unreadable| error.to_string())
-    };
-    lines.iter().map(step).collect::<Result<_, _>>().map_err(failed)
-}
-
-/// A checkpoint that is read back.
-struct Saved<R>(ZipArchive<R>);
-
-impl Saved<BufReader<File>> {
-    fn open(path: &Path) -> io::Result<Self> {
-        Ok(Self(ZipArchive::new(BufReader::new(disk::open(path)?))?))
-    }
+/// A checkpoint that is read back: every entry to its end, where its checksum is looked at.
+struct Saved<R> {
+    zip: ZipArchive<R>,
+    /// Length of the file, bytes: no entry is longer.
+    bytes: u64,
 }
 
 impl<R: Read + Seek> Saved<R> {
-    fn place<T: DeserializeOwned>(&mut self) -> io::Result<T> {
-        Ok(serde_json::from_reader(self.0.by_name(PLACE)?)?)
+    fn new(mut reader: R) -> io::Result<Self> {
+        let bytes = reader.seek(SeekFrom::End(0))?;
+        reader.rewind()?;
+        let zip = ZipArchive::new(reader)?;
+        if zip.has_duplicate_names() {
+            return Err(unlike("it has two entries of one name".to_owned()));
+        }
+        Ok(Self { zip, bytes })
     }
 
+    /// Refuses more entries than so many and those of a solved load; fewer are missed where they are read.
+    fn has_only(&self, others: usize, solved: Option<&Solved>) -> io::Result<()> {
+        const OF_A_GRID: usize = 3;
+        let of = |solved: &Solved| solved.grids.saturating_mul(OF_A_GRID).saturating_add(1);
+        let (found, wanted) = (self.zip.len(), solved.map_or(0, of).saturating_add(others));
+        if found == wanted { Ok(()) } else { Err(unlike(format!("it has {found} entries instead of {wanted}"))) }
+    }
+
+    fn entry<'a>(&'a mut self, name: &str) -> io::Result<(u64, impl Read + use<'a, R>)> {
+        let most = self.bytes;
+        let entry = self.zip.by_name(name).map_err(|error| unlike(format!("its entry `{name}`: {error}")))?;
+        let bytes = entry.size();
+        if bytes > most || entry.compressed_size() != bytes {
+            return Err(unlike(format!("its entry `{name}` is said to have {bytes} bytes")));
+        }
+        Ok((bytes, entry))
+    }
+
+    fn place<T: DeserializeOwned>(&mut self) -> io::Result<T> {
+        let (_, mut entry) = self.entry(PLACE)?;
+        let mut text = String::new();
+        entry.read_to_string(&mut text)?;
+        Ok(serde_json::from_str(&text)?)
+    }
+
+    /// The numbers of an array, all of them finite.
     fn array(&mut self, name: &str) -> io::Result<Vec<f64>> {
-        let mut entry = self.0.by_name(&format!("{name}.npy"))?;
-        let values = values(&mut entry)?;
-        // At its end the checksum is looked at.
-        io::copy(&mut entry, &mut io::sink())?;
-        Ok(values)
+        let (bytes, entry) = self.entry(&format!("{name}.npy"))?;
+        let values = vector(entry, bytes).map_err(|error| unlike(format!("its entry `{name}.npy`: {error}")))?;
+        match values.iter().position(|value| !value.is_finite()) {
+            Some(at) => Err(unlike(format!("value {} of its entry `{name}.npy` is not a number", at + 1))),
+            None => Ok(values),
+        }
     }
 
     fn numbers<const N: usize>(&mut self, name: &str) -> io::Result<[f64; N]> {
-        self.array(name)?.try_into().map_err(|_| unlike(format!("`{name}` has another length")))
+        self.array(name)?.try_into().map_err(|_| unlike(format!("its entry `{name}.npy` has another length")))
     }
 
     fn last(&mut self, solved: &Solved) -> io::Result<Last> {
@@ -278,6 +254,9 @@ impl<R: Read + Seek> Saved<R> {
         let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == solved.stop).ok_or_else(unknown)?;
         let route = recorded::route(&solved.route, solved.trials).ok_or_else(unknown)?;
         let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
+        if convolutions < 0.0 || seconds < 0.0 {
+            return Err(unlike("a count or a time in it is negative".to_owned()));
+        }
         let grids = (0..solved.grids).map(|index| self.unknowns(index)).collect::<io::Result<_>>()?;
         let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids };
         Ok(Last { checkpoint, seconds })
@@ -285,8 +264,12 @@ impl<R: Read + Seek> Saved<R> {
 
     fn unknowns(&mut self, index: usize) -> io::Result<Unknowns> {
         let [penetration, energy_gap, deepest, load] = self.numbers(&format!("proof_{index}"))?;
+        let pressure = self.array(&format!("pressure_{index}"))?;
+        if let Some(at) = pressure.iter().position(|pressure| *pressure < 0.0) {
+            return Err(unlike(format!("value {} of its entry `pressure_{index}.npy` is negative", at + 1)));
+        }
         Ok(Unknowns {
-            pressure: Arc::new(self.array(&format!("pressure_{index}"))?),
+            pressure: Arc::new(pressure),
             gap: Arc::new(self.array(&format!("gap_{index}"))?),
             penetration,
             certificate: Certificate { energy_gap, penetration: deepest, load },

@@ -1,7 +1,7 @@
 //! `contact.npz`: the fields of every load step.
 
-use super::OutputError;
 use super::steps::StepArrays;
+use super::{Files, OutputError};
 use crate::counterbody::Surface;
 use crate::spectral::Step;
 use ndarray::Array2;
@@ -23,17 +23,12 @@ impl Fields {
     }
 
     /// The same where an earlier run has left those of so many `steps`, see [`StepArrays::go_on`].
-    pub(super) fn go_on(
-        folder: &Path,
-        surface: Arc<Surface>,
-        steps: usize,
-        last: bool,
-    ) -> Result<Option<Self>, OutputError> {
-        Ok(StepArrays::go_on(folder, "contact", steps, last)?.map(|arrays| Self { arrays, surface }))
+    pub(super) fn go_on(folder: &Path, surface: Arc<Surface>, steps: usize) -> Result<Self, OutputError> {
+        Ok(Self { arrays: StepArrays::go_on(folder, "contact", steps)?, surface })
     }
 
-    /// Puts the fields of the next step on disk; its `mean_pressure` is known.
-    pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<(), OutputError> {
+    /// Puts the fields of the next step on disk; its `mean_pressure` is known. Returns what it has left there.
+    pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<Files, OutputError> {
         self.arrays.next_step();
         self.arrays.add("mean_pressure", &[], [mean_pressure])?;
         self.arrays.add("penetration", &[], [step.penetration()])?;
@@ -42,7 +37,7 @@ impl Fields {
         {
             self.arrays.add(name, field.shape(), field.iter().copied())?;
         }
-        Ok(())
+        Ok(self.arrays.left())
     }
 
     /// Brings the names of the step's fields to the disk.

@@ -6,7 +6,7 @@ use super::leftovers::{has_begun, has_finished, has_steps, move_aside, remove_be
 use super::lock::{self, lock};
 use super::manifest::{Manifest, Scope, Writer, Written};
 use super::publication::{PLACING, Publication};
-use super::{OutputError, disk, stranger, write_text};
+use super::{Files, OutputError, disk, stranger, write_text};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -121,6 +121,16 @@ impl RunFolder {
         Ok(self.make_staging()?.or(aside))
     }
 
+    /// Begins anew because what an earlier run has finished is damaged: all of it is moved aside, nothing removed; where to.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path that cannot be moved.
+    pub fn begin_after_damage(&mut self) -> Result<Option<PathBuf>, OutputError> {
+        self.resumed = false;
+        let aside = set_aside(&self.staging(), &self.folder)?;
+        Ok(self.make_staging()?.or(aside))
+    }
+
     /// The writer's earlier files whose names begin like this stay as they are.
     pub fn keeps(&mut self, beginning: String) {
         self.plan.scope.except.push(beginning);
@@ -227,14 +237,21 @@ fn make_own(folder: &Path) -> Result<(), OutputError> {
     made.map_err(|error| OutputError::new(&own, error))
 }
 
-/// Gives up what percoat keeps for itself in a folder whose files become part of another result. Anything else there stays.
+/// Whether a folder is one that was [released](release): a result stands there, and nobody has it.
+pub fn is_released(folder: &Path) -> bool {
+    matches!(disk::found(&folder.join(OWN)), Ok(None)) && names(folder).is_ok_and(|names| !names.is_empty())
+}
+
+/// Gives up what percoat keeps for itself in a folder whose files become part of another result: those that were solved there.
+/// Anything else there stays.
 ///
 /// # Errors
 /// [`OutputError`] with the path.
-pub fn release(folder: &Path) -> Result<(), OutputError> {
+pub fn release(folder: &Path) -> Result<Files, OutputError> {
+    let files = Files::published(folder, Writer::Solve);
     let place = folder.join(OWN);
     if !disk::is_folder(&place) {
-        return Ok(());
+        return Ok(files);
     }
     for name in ["written.json", lock::NAME] {
         let path = own(folder, name);
@@ -246,7 +263,7 @@ pub fn release(folder: &Path) -> Result<(), OutputError> {
         Err(error) if error.kind() == io::ErrorKind::DirectoryNotEmpty => Ok(()),
         gone => gone.and_then(|()| disk::sync_folder(folder)),
     };
-    gone.map_err(|error| OutputError::new(&place, error))
+    gone.map(|()| files).map_err(|error| OutputError::new(&place, error))
 }
 
 /// The list of a folder, with the adopted names on it.

@@ -3,9 +3,10 @@
 //! A file is percoat's as long as its length and checksum are those listed. Everything else is its owner's: a file that
 //! is not listed, one that was changed since, and a folder or a link in its place.
 
+use super::checksum::{Checksum, checksum};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::io::{self, Read};
+use std::io;
 use std::path::{Component, Path};
 
 use super::disk::{self, found};
@@ -144,6 +145,11 @@ impl Manifest {
         self.files.iter().filter(move |(_, file)| file.by == writer).map(|(name, _)| name.as_str())
     }
 
+    /// A writer's files, sorted by their names.
+    pub(super) fn files(&self, writer: Writer) -> impl Iterator<Item = (&String, &Written)> {
+        self.files.iter().filter(move |(_, file)| file.by == writer)
+    }
+
     /// Whose the name is in `folder`.
     pub(super) fn standing(&self, folder: &Path, name: &str) -> io::Result<Standing> {
         let path = folder.join(name);
@@ -175,39 +181,11 @@ impl Written {
         let (bytes, checksum) = checksum(&mut disk::open(path)?)?;
         Ok(Self { by, bytes, checksum: format!("{checksum:016x}") })
     }
-}
 
-/// Length and checksum: FNV-1a over words of eight bytes, the upper half of each product folded down. Enough to notice
-/// a change, and as fast as the disk.
-///
-/// # Errors
-/// When the file cannot be read.
-pub fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
-    let (mut length, mut hash) = (0, 0xcbf2_9ce4_8422_2325_u64);
-    let mut add = |word: [u8; 8]| {
-        hash = (hash ^ u64::from_le_bytes(word)).wrapping_mul(0x100_0000_01b3);
-        hash ^= hash >> 32;
-    };
-    let mut buffer = [0; 1 << 16];
-    loop {
-        let mut filled = 0;
-        while filled < buffer.len() {
-            match file.read(&mut buffer[filled..])? {
-                0 => break,
-                more => filled += more,
-            }
-        }
-        let (words, rest) = buffer[..filled].as_chunks();
-        words.iter().for_each(|word| add(*word));
-        if !rest.is_empty() {
-            let mut word = [0; 8];
-            word[..rest.len()].copy_from_slice(rest);
-            add(word);
-        }
-        length += filled as u64;
-        if filled < buffer.len() {
-            return Ok((length, hash));
-        }
+    /// The file that has been added to a checksum while it was written.
+    pub(super) fn added(sum: Checksum, by: Writer) -> Self {
+        let (bytes, checksum) = sum.finish();
+        Self { by, bytes, checksum: format!("{checksum:016x}") }
     }
 }
 
@@ -215,23 +193,6 @@ pub fn checksum(file: &mut impl Read) -> io::Result<(u64, u64)> {
 mod tests {
     use super::*;
     use std::fs;
-
-    #[test]
-    fn every_bit_of_a_file_and_its_length_count() {
-        let content: Vec<u8> = (0..100_000u32).flat_map(|n| n.wrapping_mul(2_654_435_761).to_le_bytes()).collect();
-        let of = |content: &[u8]| checksum(&mut &content[..]).unwrap();
-        let whole = of(&content);
-        assert_eq!(whole.0, content.len() as u64);
-        for bit in [0, 63, 64 * 7 + 63, 8 * content.len() - 1] {
-            let mut other = content.clone();
-            other[bit / 8] ^= 1 << (bit % 8);
-            assert_ne!(of(&other), whole, "bit {bit}");
-            // The sign of a second number does not undo the first.
-            other[(bit / 8) ^ 8] ^= 1 << (bit % 8);
-            assert_ne!(of(&other), whole, "bits {bit}");
-        }
-        assert_ne!(of(b"a"), of(b"a\0"));
-    }
 
     #[test]
     fn only_what_is_listed_and_unchanged_is_percoats() {

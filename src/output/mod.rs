@@ -11,7 +11,8 @@
 //!    is refused; so is a folder in which another run is writing, which a lock on `.percoat/lock` tells: the system
 //!    takes it away however a process ends.
 //! 2. **Gather** ([`RunFolder::staging`]). `solve` writes into `unfinished/`, every file under a temporary name that is
-//!    changed when it is complete. A [`Recording`] appends a line to `steps.jsonl` for each load step; its fields
+//!    changed when it is complete. A [`Recording`] appends a line to `steps.jsonl` for each load step, with the checksums of
+//!    the files that it has left and of the line itself; its fields
 //!    stand as `.npy` files in `contact.partial/` and `stress.partial/` until `contact.npz` and `stress.npz` are made of
 //!    them. Where a finer grid follows, the steps of the coarser one stand in `coarser/`. The result of an earlier run
 //!    stays as it is all the while.
@@ -22,7 +23,7 @@
 //!
 //! A run that is killed leaves `unfinished/` with all steps it has finished, and in `checkpoint.npz` what the solver knew. The
 //! next run into the folder completes a publication that was decided; otherwise it goes on from there if it is told to
-//! ([`Plan::resumes`]), or moves the folder to `interrupted-1/` or the next free number; without a finished step it is
+//! ([`Plan::resumes`]) and all of it is [as it was written](finished()), or moves the folder to `interrupted-1/` or the next free number; without a finished step it is
 //! cleared. Files in `unfinished/` that percoat did not write are not published and not removed: the folder is moved aside
 //! like an interrupted run; what has the name of percoat's own there and is none (a link, a pipe) is refused by a run that goes
 //! on. A power cut leaves what a kill leaves: content is on the disk before its name, and both before a line of a log, the
@@ -32,13 +33,16 @@
 
 mod check;
 mod checkpoint;
+mod checksum;
 mod clock;
 pub mod columns;
 mod comparison;
 mod described;
 pub(crate) mod disk;
 mod fields;
+mod files;
 mod fingerprint;
+mod finished;
 mod folder;
 mod gathered;
 mod histograms;
@@ -50,6 +54,7 @@ mod leftovers;
 mod limit;
 mod lock;
 mod manifest;
+mod npy;
 mod npz;
 mod number;
 #[cfg(test)]
@@ -57,6 +62,8 @@ mod power_cut;
 mod publication;
 mod recorded;
 mod recording;
+mod scattered;
+mod seal;
 mod solved;
 mod steps;
 mod steps_log;
@@ -67,21 +74,25 @@ pub mod table;
 mod volume;
 
 pub use check::{Check, CheckError, Roughness, Touches};
-pub use checkpoint::{CannotGoOn, finished, read_checkpoint, write_checkpoint};
+pub use checkpoint::{read_checkpoint, write_checkpoint};
+pub use checksum::checksum;
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::compare_json;
+pub use files::{Files, unlike_published};
 pub use fingerprint::fingerprint;
-pub use folder::{Plan, RunFolder, release};
+pub use finished::{CannotGoOn, finished};
+pub use folder::{Plan, RunFolder, is_released, release};
 pub use histograms::histograms;
 pub use kernel::{Traction, kernel};
 pub use layout::{COMBINATIONS, FolderError, SWEEP_LOG, is_beside};
 pub use limit::{limit_json, limits_json};
-pub use manifest::{Scope, Writer, checksum};
-pub use npz::{npy_bytes, npy_shared};
+pub use manifest::{Scope, Writer};
+pub use npy::{npy_bytes, npy_shared};
 pub use number::number;
 pub(crate) use number::with_error;
 pub use recorded::{Unreadable, limits_of, steps_of, timing_of};
 pub use recording::Recording;
+pub use seal::{Unsealed, seal, sealed, unsealed};
 pub use solved::{solved_plan, write_scalars};
 pub use steps_log::whole_lines;
 pub use volume::write_volume;

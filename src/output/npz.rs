@@ -1,11 +1,11 @@
 //! NumPy archives: uncompressed zip files of `.npy` arrays.
 
+use super::npy::npy;
 use bytemuck::Pod;
-use npyz::{AutoSerialize, WriterBuilder};
+use npyz::AutoSerialize;
 use std::cell::RefCell;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::rc::Rc;
-use std::sync::Arc;
 use zip::write::SimpleFileOptions;
 
 /// An `.npz` archive that is being written.
@@ -13,9 +13,6 @@ pub(super) struct Archive<W: Write + Seek> {
     zip: zip::ZipWriter<Calm<W>>,
     failure: Failure,
 }
-
-/// Values that are written at a time.
-const CHUNK: usize = 1 << 13;
 
 /// What the system said when a write failed.
 type Failure = Rc<RefCell<Option<io::Error>>>;
@@ -107,95 +104,9 @@ impl<W: Seek> Seek for Calm<W> {
     }
 }
 
-/// Writes one array as `.npy`, in the byte order of the machine, which the header tells.
-pub(super) fn npy<T: AutoSerialize + Pod>(
-    mut writer: impl Write,
-    shape: &[usize],
-    values: impl IntoIterator<Item = T>,
-) -> io::Result<()> {
-    header::<T>(&mut writer, shape)?;
-    let (mut values, mut chunk, mut count) = (values.into_iter(), Vec::with_capacity(CHUNK), 0);
-    loop {
-        chunk.extend(values.by_ref().take(CHUNK));
-        writer.write_all(bytemuck::cast_slice(&chunk))?;
-        count += chunk.len();
-        if chunk.len() < CHUNK {
-            break;
-        }
-        chunk.clear();
-    }
-    complete(shape, count)
-}
-
-/// The same in memory: the content of a `.npy` file.
-///
-/// # Errors
-/// When there are fewer or more values than the shape says.
-pub fn npy_bytes(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    npy(&mut bytes, shape, values)?;
-    Ok(bytes)
-}
-
-/// The same, written where it stays: beside the bytes nothing is taken. `values` are as many as the shape says.
-///
-/// # Errors
-/// When there is no header of such a shape.
-pub fn npy_shared(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<Arc<[u8]>> {
-    let (mut head, mut values, mut value) = (Vec::new(), values.into_iter(), [0; size_of::<f64>()]);
-    header::<f64>(&mut head, shape)?;
-    let (begin, end) = (head.len(), head.len() + size_of_val(&value) * shape.iter().product::<usize>());
-    // The length of a mapped range is known: the bytes are collected without a detour.
-    let byte = |at: usize| {
-        let Some(at) = at.checked_sub(begin) else { return head[at] };
-        let at = at % value.len();
-        if at == 0 {
-            value = values.next().unwrap_or(f64::NAN).to_ne_bytes();
-        }
-        value[at]
-    };
-    Ok((0..end).map(byte).collect())
-}
-
-/// What stands before the values of an array. The library would write those one by one, which takes longer than the disk.
-pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> io::Result<()> {
-    let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
-    let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
-    header.writer(writer).write_header_only()?;
-    Ok(())
-}
-
-/// The values of an array as [`npy`] has written it: behind the header, in the byte order of the machine.
-pub(super) fn values(mut reader: impl Read) -> io::Result<Vec<f64>> {
-    let header = npyz::NpyHeader::from_reader(&mut reader)?;
-    if header.dtype() != f64::default_dtype() {
-        return Err(io::ErrorKind::InvalidData.into());
-    }
-    let mut values = vec![0.0; header.len() as usize];
-    reader.read_exact(bytemuck::cast_slice_mut(&mut values))?;
-    Ok(values)
-}
-
-/// Whether an array has as many values as its shape says.
-pub(super) fn complete(shape: &[usize], count: usize) -> io::Result<()> {
-    if count == shape.iter().product::<usize>() {
-        Ok(())
-    } else {
-        Err(io::Error::new(io::ErrorKind::InvalidData, format!("{count} values for an array of {shape:?}")))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_array_written_where_it_stays_is_the_same() {
-        for shape in [&[][..], &[0], &[5], &[2, 3], &[3, 0, 2], &[40, 50]] {
-            let values = || (0..shape.iter().product::<usize>()).map(|k| (k as f64).sqrt() - 1.5);
-            assert_eq!(&*npy_shared(shape, values()).unwrap(), npy_bytes(shape, values()).unwrap(), "{shape:?}");
-        }
-    }
 
     /// A disk with room for so many bytes.
     struct Disk(io::Cursor<Vec<u8>>, u64);
@@ -226,18 +137,6 @@ mod tests {
         archive.array("a", &[3], [1.0, 2.0, 3.0])?;
         archive.array("b", &[2], [1.0, 2.0])?;
         archive.finish()
-    }
-
-    #[test]
-    fn an_array_is_read_back_and_has_as_many_values_as_its_shape_says() {
-        let mut file = Vec::new();
-        let values: Vec<f64> = (0..3 * CHUNK + 5).map(|k| k as f64 / 7.0).collect();
-        npy(&mut file, &[values.len()], values.iter().copied()).unwrap();
-        assert_eq!(npyz::NpyFile::new(&file[..]).unwrap().into_vec::<f64>().unwrap(), values);
-        for count in [CHUNK - 1, CHUNK + 1] {
-            let error = npy(io::sink(), &[CHUNK], vec![0.0; count]).unwrap_err().to_string();
-            assert!(error.contains(&format!("{count} values")), "{error}");
-        }
     }
 
     #[test]

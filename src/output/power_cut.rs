@@ -180,7 +180,7 @@ fn solve(case: &Case, folder: &Path, journal: Option<&Mutex<Journal>>) -> Vec<us
     let claim = RunFolder::claim(folder, Plan { resumes: true, ..plan }).unwrap();
     let print = fingerprint(case, "test");
     let staging = claim.staging();
-    let earlier = if claim.resumes() { finished(&staging, &print).unwrap() } else { None };
+    let earlier = if claim.resumes() { finished(&staging, &print, &run).unwrap() } else { None };
     let recording = Recording::new(&claim, &run, case.to_toml(), Clock::start()).resumable(print, earlier);
     let mut watched = Watched { recording, journal, steps: Vec::new() };
     let outcome = run.solve(&mut watched).unwrap();

@@ -5,7 +5,7 @@ use super::clock::{Clock, Phase};
 use super::fields::Fields;
 use super::steps_log::StepsLog;
 use super::stress::Stresses;
-use super::{OutputError, RunFolder, disk, write_text};
+use super::{Files, OutputError, RunFolder, disk, write_text};
 use crate::load::Load;
 use crate::run::{Finished, Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Checkpoint, Solver, Step};
@@ -36,16 +36,16 @@ pub struct Recording<'a> {
     /// Whether all steps are done on a coarser grid.
     refined: bool,
     /// None before the first grid.
-    files: Option<Files>,
+    files: Option<OnGrid>,
     set_aside: Option<PathBuf>,
 }
 
 /// Files of the steps on one grid.
 #[derive(Debug)]
-struct Files {
-    /// None where fields are not kept, or gathered already.
+struct OnGrid {
+    /// None where fields are not kept.
     fields: Option<Fields>,
-    /// None where fields are not kept or gathered already, or no stresses wanted.
+    /// None where fields are not kept, or no stresses wanted.
     stresses: Option<Stresses>,
     /// The section of the last step, where stresses are not kept.
     section: Option<Section>,
@@ -77,7 +77,7 @@ impl<'a> Recording<'a> {
     }
 
     /// The same so that a later run with this [fingerprint](super::fingerprint) can go on from it, itself going on with
-    /// what an `earlier` one has [finished](super::finished) in the folder.
+    /// what an `earlier` one has [finished](super::finished()) in the folder.
     pub fn resumable(self, fingerprint: String, earlier: Option<Finished>) -> Self {
         let mut checkpoints = Checkpoints::new(fingerprint, self.loads);
         if let Some(earlier) = &earlier {
@@ -94,25 +94,32 @@ impl<'a> Recording<'a> {
     }
 
     /// The files of the steps on the grid of a solver, of which an earlier run has left so many.
-    fn open(&self, solver: &Solver, standing: Option<usize>) -> Result<Files, OutputError> {
+    fn open(&self, solver: &Solver, standing: Option<usize>) -> Result<OnGrid, OutputError> {
         let folder = self.claim.staging();
         let half_space = solver.problem().half_space().clone();
         let request = self.stress.clone().filter(|_| self.fields);
         let surface = self.fields.then(|| Arc::clone(solver.surface()));
-        let last = standing.is_some_and(|steps| steps + 1 == self.loads);
+        let run = self.checkpoints.as_ref().map(|checkpoints| checkpoints.fingerprint.clone());
         let (fields, stresses, log) = match standing {
             None => (
                 surface.map(|surface| Fields::new(&folder, surface)).transpose()?,
                 request.map(|request| Stresses::new(&folder, request, half_space)).transpose()?,
-                StepsLog::new(&folder),
+                StepsLog::new(&folder, run),
             ),
             Some(steps) => (
-                surface.map_or(Ok(None), |surface| Fields::go_on(&folder, surface, steps, last))?,
-                request.map_or(Ok(None), |request| Stresses::go_on(&folder, request, half_space, steps, last))?,
-                StepsLog::go_on(&folder, steps)?,
+                surface.map(|surface| Fields::go_on(&folder, surface, steps)).transpose()?,
+                request.map(|request| Stresses::go_on(&folder, request, half_space, steps)).transpose()?,
+                StepsLog::go_on(&folder, run, steps)?,
             ),
         };
-        Ok(Files { fields, stresses, section: None, log, points: solver.grid().points(), steps: standing.unwrap_or(0) })
+        Ok(OnGrid {
+            fields,
+            stresses,
+            section: None,
+            log,
+            points: solver.grid().points(),
+            steps: standing.unwrap_or(0),
+        })
     }
 
     /// Number of load steps that are finished on the present grid.
@@ -135,7 +142,7 @@ impl<'a> Recording<'a> {
     /// When nothing has been recorded.
     pub fn finish(mut self) -> Result<(Option<Section>, Clock), OutputError> {
         self.clock.turn(Phase::Output);
-        let Files { fields, stresses, section, .. } = self.files.expect(BEGUN);
+        let OnGrid { fields, stresses, section, .. } = self.files.expect(BEGUN);
         fields.map_or(Ok(()), Fields::finish)?;
         let written = stresses.map_or(Ok(None), Stresses::finish)?;
         Ok((written.or(section), self.clock))
@@ -200,13 +207,13 @@ impl Recorder for Recording<'_> {
 
     fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);
-        let files = self.files.as_mut().expect(BEGUN);
+        let (files, mut left) = (self.files.as_mut().expect(BEGUN), Files::default());
         if let Some(fields) = &mut files.fields {
-            fields.add(step, record.reading.mean_pressure)?;
+            left.append(fields.add(step, record.reading.mean_pressure)?);
         }
         let cut = self.stress.as_ref().and_then(|request| request.cut.as_ref());
         match (field, &mut files.stresses, cut) {
-            (Some(field), Some(stresses), _) => stresses.add(field, &mut self.clock)?,
+            (Some(field), Some(stresses), _) => left.append(stresses.add(field, &mut self.clock)?),
             (Some(field), None, Some(cut)) => {
                 self.clock.turn(Phase::Stress);
                 files.section = Some(field.section(&cut.line, &cut.depths(step.problem().half_space())));
@@ -219,7 +226,7 @@ impl Recorder for Recording<'_> {
         files.stresses.as_ref().map_or(Ok(()), Stresses::sync)?;
         let folder = self.claim.staging();
         disk::sync_folder(&folder).map_err(|error| OutputError::new(&folder, error))?;
-        files.log.add(record)?;
+        files.log.add(step.load, record, left)?;
         files.steps += 1;
         self.clock.turn(Phase::Setup);
         Ok(())

@@ -2,10 +2,12 @@
 //!
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
+use super::checksum::Checksum;
 use super::gathered::remove_waiting;
-use super::layout::names;
-use super::npz::{Archive, complete, header, npy, values};
-use super::{Draft, OutputError, disk, make_folder, write_file};
+use super::npy::{complete, header, npy, values};
+use super::npz::Archive;
+use super::{Draft, Files, OutputError, disk, make_folder, write_file};
+use crate::plain;
 use std::fs;
 use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -17,6 +19,8 @@ pub(super) struct StepArrays {
     name: &'static str,
     arrays: Vec<Entry>,
     steps: usize,
+    /// What the present step has left so far, by its names in the folder.
+    left: Files,
 }
 
 /// What each step adds to an array.
@@ -33,6 +37,8 @@ struct Entry {
 #[derive(Debug)]
 pub(super) struct GrowingEntry {
     file: Draft,
+    path: PathBuf,
+    sum: Checksum,
     shape: Vec<usize>,
     count: usize,
 }
@@ -41,38 +47,23 @@ impl StepArrays {
     /// Nothing yet of the archive `<name>.npz` in `folder`, where the result is gathered. Refused when `<name>.partial/` is
     /// there already, whoever made it.
     pub(super) fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
-        let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps: 0 };
+        let arrays = Self::after(folder, name, 0);
         let partial = arrays.partial();
         make_folder(folder)?;
         disk::create_folder(&partial).map_err(|error| OutputError::new(&partial, error))?;
         Ok(arrays)
     }
 
-    /// The same where an earlier run has left the entries of so many `steps` at least; one more is still to come, the `last`
-    /// of all or another. `None` where that run had come to the last and has gathered the archive.
-    pub(super) fn go_on(
-        folder: &Path,
-        name: &'static str,
-        steps: usize,
-        last: bool,
-    ) -> Result<Option<Self>, OutputError> {
-        let arrays = Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps };
-        let partial = arrays.partial();
-        if last && disk::is_file(&arrays.archive()) {
-            remove_waiting(&partial)?;
-            return Ok(None);
-        }
-        make_folder(&partial)?;
-        let there = names(&partial)?;
-        let gone = (1..=steps).find(|step| !there.iter().any(|name| name.contains(&format!(".{step:04}."))));
-        match gone {
-            // Where no step has left anything, none had to.
-            Some(step) if !there.is_empty() => {
-                let error = io::Error::other(format!("what step {step} has left there is gone; leave --resume out"));
-                Err(OutputError::new(&partial, error))
-            }
-            _ => Ok(Some(arrays)),
-        }
+    /// The same where an earlier run has left the entries of so many `steps`, all of them
+    /// [whole](super::finished::finished).
+    pub(super) fn go_on(folder: &Path, name: &'static str, steps: usize) -> Result<Self, OutputError> {
+        let arrays = Self::after(folder, name, steps);
+        make_folder(&arrays.partial())?;
+        Ok(arrays)
+    }
+
+    fn after(folder: &Path, name: &'static str, steps: usize) -> Self {
+        Self { folder: folder.to_owned(), name, arrays: Vec::new(), steps, left: Files::default() }
     }
 
     fn archive(&self) -> PathBuf {
@@ -80,7 +71,7 @@ impl StepArrays {
     }
 
     fn partial(&self) -> PathBuf {
-        self.folder.join(format!("{}.partial", self.name))
+        partial(&self.folder, self.name)
     }
 
     /// Where the entry of an array for a step (from 1), or a part of it (from 1), waits.
@@ -103,16 +94,39 @@ impl StepArrays {
         values: impl IntoIterator<Item = f64>,
     ) -> Result<(), OutputError> {
         self.enter(array, None, shape);
-        write_file(&self.waiting(array, self.steps, None), |writer| npy(writer, shape, values))
+        let (path, mut sum) = (self.waiting(array, self.steps, None), Checksum::default());
+        write_file(&path, |writer| npy(sum.through(writer), shape, values))?;
+        self.leave(&path, sum);
+        Ok(())
     }
 
     /// Begins the next `part` (from 1) of the present step's entry of an array, its values to come piece by piece: parts
     /// become its first axis.
     pub(super) fn begin(&mut self, array: &str, part: usize, shape: &[usize]) -> Result<GrowingEntry, OutputError> {
         self.enter(array, Some(part), shape);
-        let mut file = Draft::new(&self.waiting(array, self.steps, Some(part)))?;
-        file.write(|writer| header::<f64>(writer, shape))?;
-        Ok(GrowingEntry { file, shape: shape.to_vec(), count: 0 })
+        let (path, mut sum) = (self.waiting(array, self.steps, Some(part)), Checksum::default());
+        let mut file = Draft::new(&path)?;
+        file.write(|writer| header::<f64>(sum.through(writer), shape))?;
+        Ok(GrowingEntry { file, path, sum, shape: shape.to_vec(), count: 0 })
+    }
+
+    /// Ends an entry, all of whose values are there.
+    pub(super) fn end(&mut self, entry: GrowingEntry) -> Result<(), OutputError> {
+        let GrowingEntry { mut file, path, sum, shape, count } = entry;
+        file.write(|_| complete(&shape, count))?;
+        file.keep()?;
+        self.leave(&path, sum);
+        Ok(())
+    }
+
+    fn leave(&mut self, path: &Path, sum: Checksum) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        self.left.add(format!("{}.partial/{name}", self.name), sum);
+    }
+
+    /// What the present step has left, with its checksums.
+    pub(super) fn left(&mut self) -> Files {
+        std::mem::take(&mut self.left)
     }
 
     fn enter(&mut self, array: &str, part: Option<usize>, shape: &[usize]) {
@@ -143,7 +157,7 @@ impl StepArrays {
                     .map(|(step, part)| self.waiting(array, step, part));
                 let mut failure = None;
                 let values = files.flat_map(|file| {
-                    read(&file).unwrap_or_else(|error| {
+                    read(&file, shape).unwrap_or_else(|error| {
                         failure = Some(error);
                         Vec::new()
                     })
@@ -163,18 +177,20 @@ impl GrowingEntry {
     /// Adds the next values.
     pub(super) fn add(&mut self, values: &[f64]) -> Result<(), OutputError> {
         self.count += values.len();
-        self.file.write(|writer| writer.write_all(bytemuck::cast_slice(values)))
-    }
-
-    /// All values are there.
-    pub(super) fn finish(mut self) -> Result<(), OutputError> {
-        self.file.write(|_| complete(&self.shape, self.count))?;
-        self.file.keep()
+        let Self { file, sum, .. } = self;
+        file.write(|writer| sum.through(writer).write_all(bytemuck::cast_slice(values)))
     }
 }
 
-fn read(path: &Path) -> io::Result<Vec<f64>> {
-    values(BufReader::new(disk::open(path)?))
+/// Where the entries of an archive in a folder wait.
+pub(super) fn partial(folder: &Path, name: &str) -> PathBuf {
+    folder.join(format!("{name}.partial"))
+}
+
+/// The values of an entry of this shape; an error tells which.
+fn read(path: &Path, shape: &[usize]) -> io::Result<Vec<f64>> {
+    let read = disk::open(path).and_then(|file| values(BufReader::new(file), shape));
+    read.map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", plain::path(path))))
 }
 
 #[cfg(test)]
@@ -193,7 +209,7 @@ mod tests {
             entry.add(&[1.0, 2.0, 3.0]).unwrap();
             assert_eq!(files(), 1);
             if finished {
-                assert!(entry.finish().unwrap_err().to_string().contains("3 values"));
+                assert!(arrays.end(entry).unwrap_err().to_string().contains("3 values"));
             } else {
                 drop(entry);
             }
@@ -201,7 +217,10 @@ mod tests {
         }
         let mut entry = arrays.begin("a", 1, &[2, 3]).unwrap();
         [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]].iter().for_each(|row| entry.add(row).unwrap());
-        entry.finish().unwrap();
-        assert_eq!(read(&partial.join("a.0001.001.npy")).unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        arrays.end(entry).unwrap();
+        assert_eq!(read(&partial.join("a.0001.001.npy"), &[2, 3]).unwrap(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        let left = arrays.left();
+        assert_eq!(left.names().collect::<Vec<_>>(), ["some.partial/a.0001.001.npy"]);
+        assert_eq!(left.damaged(folder.path()), None, "what is added while it is written is what stands there");
     }
 }

@@ -1,13 +1,17 @@
 //! `steps.jsonl`: every step of an unfinished run, one line each, appended as it is done.
 //!
-//! A line is the step as it will stand in `summary.json`, with what a run that goes on needs besides. Whatever ends the
-//! run, the lines that end are whole steps: a step is finished where its line ends.
+//! A line is the step as it will stand in `summary.json`, with what a run that goes on needs besides: its number and load, which
+//! run it is of, the files that it has left with their checksums, and a [seal](super::seal) of the line itself. Whatever ends
+//! the run, the lines that end are whole steps: a step is finished where its line ends.
 
 use super::disk::{self, Appended};
-use super::{OutputError, write_file, write_text};
+use super::seal::{sealed, unsealed};
+use super::{Files, OutputError, recorded, write_file, write_text};
+use crate::load::Load;
 use crate::reading::Histogram;
 use crate::run::StepRecord;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +22,10 @@ pub(super) const NAME: &str = "steps.jsonl";
 #[derive(Debug)]
 pub(super) struct StepsLog {
     path: PathBuf,
+    /// [Fingerprint](super::fingerprint) of the run; none where no later one goes on from it.
+    run: Option<String>,
+    /// Number of steps that it has.
+    steps: usize,
     /// Open from the first step on.
     file: Option<Appended>,
     /// Lines of an earlier run with which it begins.
@@ -27,35 +35,76 @@ pub(super) struct StepsLog {
 #[derive(Serialize)]
 struct Line<'a> {
     #[serde(flatten)]
+    place: Place,
+    #[serde(flatten)]
     record: &'a StepRecord,
     /// Largest pressures on the grid, of all and of each level, also where they are infinite under a tip.
     peaks: Vec<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     histograms: Option<&'a Vec<Histogram>>,
+    files: Files,
+}
+
+/// Which step of which run a line is of.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Place {
+    /// Its number, from 1.
+    pub(super) step: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) run: Option<String>,
+    pub(super) load: Prescribed,
+}
+
+/// A load as it was given.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Prescribed {
+    MeanPressure(f64),
+    Penetration(f64),
+}
+
+impl From<Load> for Prescribed {
+    fn from(load: Load) -> Self {
+        match load {
+            Load::MeanPressure(value) => Self::MeanPressure(value),
+            Load::Penetration(value) => Self::Penetration(value),
+        }
+    }
+}
+
+/// A line that is as it was written.
+#[derive(Debug)]
+pub(super) struct Logged {
+    pub(super) place: Place,
+    pub(super) record: StepRecord,
+    pub(super) files: Files,
 }
 
 impl StepsLog {
     /// No steps yet; `folder` is where the result is gathered.
-    pub(super) fn new(folder: &Path) -> Self {
-        Self { path: folder.join(NAME), file: None, known: None }
+    pub(super) fn new(folder: &Path, run: Option<String>) -> Self {
+        Self { path: folder.join(NAME), run, steps: 0, file: None, known: None }
     }
 
     /// After an earlier run; of its steps the first so many stay when the next is added.
-    pub(super) fn go_on(folder: &Path, steps: usize) -> Result<Self, OutputError> {
+    pub(super) fn go_on(folder: &Path, run: Option<String>, steps: usize) -> Result<Self, OutputError> {
         let path = folder.join(NAME);
         let lines =
             if steps > 0 { whole_lines(&path).map_err(|error| OutputError::new(&path, error))? } else { Vec::new() };
         let known = lines.into_iter().take(steps).map(|line| line + "\n").collect();
-        Ok(Self { path, file: None, known: Some(known) })
+        Ok(Self { path, run, steps, file: None, known: Some(known) })
     }
 
-    /// Appends a step. Refused when the first one finds steps there already, unless it goes on after them.
-    pub(super) fn add(&mut self, record: &StepRecord) -> Result<(), OutputError> {
+    /// Appends a step with the files that it has left. Refused when the first one finds steps there already, unless it goes on
+    /// after them.
+    pub(super) fn add(&mut self, load: Load, record: &StepRecord, files: Files) -> Result<(), OutputError> {
         let histograms = record.rough.as_ref().map(|rough| &rough.histograms);
         let levels = record.reading.levels.iter().map(|level| level.max_pressure);
         let peaks = std::iter::once(record.reading.max_pressure).chain(levels).collect();
-        let line = serde_json::to_string(&Line { record, peaks, histograms });
-        let line = line.expect("a step is numbers and texts under names") + "\n";
+        self.steps += 1;
+        let place = Place { step: self.steps, run: self.run.clone(), load: load.into() };
+        let line = serde_json::to_string(&Line { place, record, peaks, histograms, files });
+        let line = sealed(&line.expect("a step is numbers and texts under names")) + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {
             Some(file) => file.add(line.as_bytes()).map_err(failed),
@@ -70,6 +119,16 @@ impl StepsLog {
             }
         }
     }
+}
+
+/// A line of a log, if it is as it was written.
+pub(super) fn logged(line: &str) -> Result<Logged, String> {
+    let object = unsealed(line).map_err(|error| error.to_string())?;
+    let value: Value = serde_json::from_str(&object).map_err(|error| error.to_string())?;
+    let place = Place::deserialize(&value).map_err(|error| error.to_string())?;
+    let files = Files::deserialize(&value["files"]).map_err(|error| error.to_string())?;
+    let record = recorded::step(&value).map_err(|error| error.to_string())?;
+    Ok(Logged { place, record, files })
 }
 
 /// Whether a log is there and has a whole line.
@@ -97,13 +156,13 @@ pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
     }
 }
 
-/// The whole lines of a log: whatever a kill or a full disk left of one more is none.
+/// The whole lines of a log: whatever a kill or a full disk left of one more is none. What is no text is shown as such: no line
+/// with it is one that percoat wrote.
 ///
 /// # Errors
 /// When it cannot be read.
 pub fn whole_lines(path: &Path) -> io::Result<Vec<String>> {
     let mut bytes = disk::read(path)?;
     bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
-    let text = String::from_utf8(bytes).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))?;
-    Ok(text.lines().map(str::to_owned).collect())
+    Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
 }

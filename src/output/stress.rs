@@ -3,7 +3,8 @@
 
 use super::clock::{Clock, Phase};
 use super::steps::{GrowingEntry, StepArrays};
-use super::{OutputError, write_volume};
+use super::volume::added_volume;
+use super::{Files, OutputError};
 use crate::body::{Depth, HalfSpace};
 use crate::run::StressRequest;
 use crate::stress::{Section, State, StressField};
@@ -37,17 +38,16 @@ impl Stresses {
         request: StressRequest,
         half_space: HalfSpace,
         steps: usize,
-        last: bool,
-    ) -> Result<Option<Self>, OutputError> {
-        let arrays = StepArrays::go_on(folder, "stress", steps, last)?;
-        Ok(arrays.map(|arrays| Self { folder: folder.to_owned(), arrays, request, half_space, section: None }))
+    ) -> Result<Self, OutputError> {
+        let arrays = StepArrays::go_on(folder, "stress", steps)?;
+        Ok(Self { folder: folder.to_owned(), arrays, request, half_space, section: None })
     }
 
     /// Puts the stresses of the next step on disk, one plane at a time; the clock is told what is computing and what is
-    /// writing, but for a volume, which is both at once.
-    pub(super) fn add(&mut self, field: &StressField, clock: &mut Clock) -> Result<(), OutputError> {
+    /// writing, but for a volume, which is both at once. Returns what the step has left there.
+    pub(super) fn add(&mut self, field: &StressField, clock: &mut Clock) -> Result<Files, OutputError> {
         let Self { folder, arrays, request, half_space, .. } = self;
-        let step = arrays.next_step();
+        let (step, mut volumes) = (arrays.next_step(), Files::default());
         for (number, depth) in (1..).zip(request.plane_depths(half_space)) {
             add_plane(arrays, number, field, depth, clock)?;
         }
@@ -67,12 +67,13 @@ impl Stresses {
         }
         if let Some(volume) = request.volume {
             clock.turn(Phase::Stress);
-            let (path, depths) =
-                (folder.join(format!("stress.{step:04}.vts")), half_space.rows(volume.depth, volume.rows));
-            write_volume(&path, field, &depths, [volume.points; 2])?;
+            let (name, depths) = (format!("stress.{step:04}.vts"), half_space.rows(volume.depth, volume.rows));
+            let sum = added_volume(&folder.join(&name), field, &depths, [volume.points; 2])?;
+            volumes.add(name, sum);
             clock.turn(Phase::Output);
         }
-        Ok(())
+        volumes.append(arrays.left());
+        Ok(volumes)
     }
 
     /// Brings the names of the step's stresses to the disk, but for those of volumes, which stand beside the log.
@@ -123,19 +124,19 @@ fn add_plane(
 ) -> Result<(), OutputError> {
     let points = field.grid().points();
     let [stresses, displacements, derived] = [&COMPONENTS[..6], &COMPONENTS[6..9], &COMPONENTS[9..]];
-    let mut begin = |components: &[&str]| -> Result<Vec<GrowingEntry>, OutputError> {
+    let begin = |arrays: &mut StepArrays, components: &[&str]| -> Result<Vec<GrowingEntry>, OutputError> {
         components.iter().map(|name| arrays.begin(&format!("planes_{name}"), number, &points)).collect()
     };
-    let mut entries = begin(&[stresses, derived].concat())?;
+    let mut entries = begin(arrays, &[stresses, derived].concat())?;
     clock.turn(Phase::Stress);
     field.stresses_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
     clock.turn(Phase::Output);
-    entries.into_iter().try_for_each(GrowingEntry::finish)?;
-    let mut entries = begin(displacements)?;
+    entries.into_iter().try_for_each(|entry| arrays.end(entry))?;
+    let mut entries = begin(arrays, displacements)?;
     clock.turn(Phase::Stress);
     field.displacements_by_rows(depth, points, |rows| add_rows(&mut entries, rows, clock))?;
     clock.turn(Phase::Output);
-    entries.into_iter().try_for_each(GrowingEntry::finish)
+    entries.into_iter().try_for_each(|entry| arrays.end(entry))
 }
 
 /// Adds rows to the entries of their components, in the time of writing.

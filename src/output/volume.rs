@@ -6,6 +6,7 @@
 //! drawn downwards. Everything in the file follows the drawn axes: coordinates are −z, displacements −u_z, and σ_xz, σ_yz
 //! have the opposite sign of [`State`]'s, whose z points into the body.
 
+use super::checksum::Checksum;
 use super::{OutputError, write_file};
 use crate::body::Depth;
 use crate::stress::{State, StressField};
@@ -34,7 +35,19 @@ const SCALARS: [&str; 10] =
 /// # Errors
 /// [`OutputError`] when the file cannot be written, or when there are no depths or no points; nothing is left behind.
 pub fn write_volume(path: &Path, field: &StressField, depths: &[Depth], points: [usize; 2]) -> Result<(), OutputError> {
+    added_volume(path, field, depths, points).map(|_| ())
+}
+
+/// The same, with the checksum of the file.
+pub(super) fn added_volume(
+    path: &Path,
+    field: &StressField,
+    depths: &[Depth],
+    points: [usize; 2],
+) -> Result<Checksum, OutputError> {
+    let mut sum = Checksum::default();
     write_file(path, |writer| {
+        let writer = &mut sum.through(writer);
         let [n1, n2] = points;
         if depths.is_empty() || n1 == 0 || n2 == 0 {
             let reason = format!("a grid of {n1} × {n2} points at {} depths is empty", depths.len());
@@ -60,7 +73,8 @@ pub fn write_volume(path: &Path, field: &StressField, depths: &[Depth], points: 
         };
         block(writer, 3 * states.len(), states.iter().enumerate().flat_map(place))?;
         write!(writer, "\n</AppendedData>\n</VTKFile>\n")
-    })
+    })?;
+    Ok(sum)
 }
 
 /// States of a plane, a₁ fastest, its border repeated.

@@ -2,6 +2,7 @@
 
 use crate::output::Unreadable;
 use crate::plain;
+use serde_json::Value;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -40,6 +41,17 @@ pub enum ReportError {
         /// What is missing or of another kind.
         reason: String,
     },
+    /// A file is not as percoat wrote it there, although it can be read.
+    #[error(
+        "{} {reason}; its numbers are not shown: put back what was written, or compute it again",
+        plain::path(path)
+    )]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is the matter with it.
+        reason: String,
+    },
     /// A file cannot be read.
     #[error("cannot read {}: {error}", plain::path(path))]
     Input {
@@ -54,6 +66,12 @@ impl ReportError {
     pub(super) fn input(path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |error| Self::Input { path, error }
+    }
+
+    /// Of a result that names its version, for a reason.
+    pub(super) fn version(path: &Path, file: &Value, reason: impl Into<String>) -> Self {
+        let version = file["percoat"].as_str().map(str::to_owned);
+        Self::Version { path: path.to_owned(), version, reason: reason.into() }
     }
 
     pub(super) fn unreadable(path: &Path, version: Option<&str>) -> impl FnOnce(Unreadable) -> Self {

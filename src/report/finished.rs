@@ -1,7 +1,7 @@
 //! What a folder holds of finished results.
 
 use super::ReportError;
-use crate::output::{disk, is_beside};
+use crate::output::{disk, is_beside, unlike_published};
 use serde_json::Value;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,12 @@ pub(super) struct Finished {
     pub limit: Option<Value>,
     /// `sweep.json` with its table.
     pub sweep: Option<Swept>,
+    /// Files that do not stand there as percoat wrote them, each with what is the matter with it.
+    unlike: Vec<(String, String)>,
 }
+
+/// Files whose numbers a page shows.
+const SHOWN: [&str; 4] = ["summary.json", "limit.json", "sweep.json", "sweep.csv"];
 
 /// A sweep.
 #[derive(Debug)]
@@ -42,12 +47,26 @@ impl Finished {
             None => None,
         };
         let [run, limit] = ["summary.json", "limit.json"].map(|name| json(&folder.join(name)));
-        let finished = Self { folder: folder.to_owned(), run: run?, limit: limit?, sweep };
+        let unlike = unlike_published(folder);
+        let finished = Self { folder: folder.to_owned(), run: run?, limit: limit?, sweep, unlike };
         if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
             let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| disk::is_folder(&folder.join(name)));
             return Err(ReportError::Nothing { folder: folder.to_owned(), unfinished });
         }
         Ok(finished)
+    }
+
+    /// Refuses a file that is shown and not as it was written.
+    pub(super) fn whole(&self) -> Result<(), ReportError> {
+        match self.unlike.iter().find(|(name, _)| SHOWN.contains(&name.as_str()) && self.folder.join(name).exists()) {
+            Some((name, reason)) => Err(ReportError::Damaged { path: self.folder.join(name), reason: reason.clone() }),
+            None => Ok(()),
+        }
+    }
+
+    /// What is missing of the results or damaged, and so not shown.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        self.unlike.iter().map(|(name, reason)| format!("{name} {reason}")).collect()
     }
 
     /// The picture of a name beside a result, with its kind of file, lines before pixels; `None` where the result has none.

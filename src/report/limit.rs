@@ -7,7 +7,7 @@ use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
 use super::markup::{numbers, tag, with};
-use super::part::{Part, by, case_to_copy, mean_of, section, title, version, warnings};
+use super::part::{Part, by, case_text, case_to_copy, mean_of, section, title, version, warnings};
 use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::{case_of, measured_in, told, units_of};
@@ -35,7 +35,8 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     let path = finished.folder.join("limit.json");
     let case = &file["case"];
     let limits = limits_of(file).map_err(ReportError::unreadable(&path, version(file)))?;
-    let text = crate::case::written(case);
+    let text = case_text(case).map_err(|reason| ReportError::version(&path, file, reason))?;
+    let doubted = warnings(file).map_err(|reason| ReportError::version(&path, file, reason))?;
     let units = units_of(file, case_of(&text, &finished.folder).as_ref());
     let found = tables::limits(&limits, &units);
     let mut sections = vec![
@@ -61,7 +62,7 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
         let caption = "Loads that were solved in the search, by ascending mean pressure";
         sections.push(section("loads", "Loads solved", vec![table(caption, &tables::steps(&limits.steps, &units))]));
     }
-    sections.push(section("warnings", "Warnings", vec![warnings(file)]));
+    sections.push(section("warnings", "Warnings", vec![doubted]));
     if !limits.steps.is_empty() {
         sections.push(section("resolution", "Resolution", vec![resolution(&limits.steps, limits.change)]));
         let tolerance = case["solver"]["tolerance"].as_f64();

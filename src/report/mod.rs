@@ -3,7 +3,8 @@
 //! A run, a sweep and a limit each have a part: the answer with its errors, what was asked, pictures, tables, resolution and
 //! warnings, the certificate in words, the case to copy. The page is read off the files of the folder alone: its numbers
 //! are written as the command line writes them, its pictures are those of the folder, its styles stand in it, it has no
-//! script and asks the network for nothing.
+//! script and asks the network for nothing. A result that is not as percoat wrote it there, or in which a number that is due is
+//! none, is refused; pictures and fields that are missing or damaged are named.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -35,5 +36,5 @@ mod table;
 mod units;
 
 pub use error::ReportError;
-pub use page::page;
+pub use page::{Page, page};
 pub use seal::is_own;

@@ -7,11 +7,20 @@ use super::seal::sealed;
 use super::{ReportError, limit, run, sweep};
 use std::path::Path;
 
-/// The report of an output folder, a whole HTML file.
+/// The report of an output folder.
+#[derive(Debug, Clone)]
+pub struct Page {
+    /// A whole HTML file.
+    pub html: String,
+    /// Files of the folder that are missing or not as percoat wrote them, and so not shown, each with what is the matter with it.
+    pub missing: Vec<String>,
+}
+
+/// The report of an output folder.
 ///
 /// # Errors
-/// [`ReportError`] where there is no finished result, or none that this version can read.
-pub fn page(folder: &Path) -> Result<String, ReportError> {
+/// [`ReportError`] where there is no finished result, or none that this version can read, or one that is not as it was written.
+pub fn page(folder: &Path) -> Result<Page, ReportError> {
     let finished = Finished::read(folder)?;
     let mut parts = Vec::new();
     if let Some(swept) = &finished.sweep {
@@ -23,10 +32,12 @@ pub fn page(folder: &Path) -> Result<String, ReportError> {
     if let Some(file) = &finished.run {
         parts.push(run::part(&finished, file)?);
     }
-    Ok(sealed(&written(&parts)))
+    finished.whole()?;
+    let missing = finished.doubts();
+    Ok(Page { html: sealed(&written(&parts, &missing)), missing })
 }
 
-fn written(parts: &[Part]) -> String {
+fn written(parts: &[Part], missing: &[String]) -> String {
     let mut titles: Vec<&str> =
         parts.iter().map(|part| part.title.as_str()).filter(|title| !title.is_empty()).collect();
     titles.dedup();
@@ -48,7 +59,9 @@ fn written(parts: &[Part]) -> String {
         tag("title", format!("{heading} – percoat")),
         tag("style", Markup::own(include_str!("style.css"))),
     ];
-    let header = vec![with("p", &[("class", "kind")], kinds), tag("h1", heading), contents(parts)];
+    let doubt = |text: &String| with("p", &[("class", "doubt"), ("role", "note")], format!("{text}; it is not shown."));
+    let doubts = missing.iter().map(doubt).collect::<Markup>();
+    let header = vec![with("p", &[("class", "kind")], kinds), tag("h1", heading), doubts, contents(parts)];
     let footer = format!("Written by percoat {} from the files of the output folder.", env!("CARGO_PKG_VERSION"));
     let body = vec![
         tag("header", header),

@@ -2,6 +2,7 @@
 
 use super::markup::{Markup, tag, with};
 use crate::body::MeanStress;
+use serde::Deserialize;
 use serde_json::Value;
 
 /// A result on the page.
@@ -36,12 +37,35 @@ pub(super) fn version(file: &Value) -> Option<&str> {
 }
 
 /// The warnings of a result, or that there are none.
-pub(super) fn warnings(file: &Value) -> Markup {
-    let list: Vec<&str> = file["warnings"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
+///
+/// # Errors
+/// Where they are no list of texts.
+pub(super) fn warnings(file: &Value) -> Result<Markup, String> {
+    let list = Vec::<String>::deserialize(&file["warnings"]).map_err(|error| format!("`warnings`: {error}"))?;
     if list.is_empty() {
-        return tag("p", "None.");
+        return Ok(tag("p", "None."));
     }
-    with("ul", &[("class", "doubt")], list.into_iter().map(|warning| tag("li", warning)).collect::<Markup>())
+    let items = list.iter().map(|warning| tag("li", warning.as_str())).collect::<Markup>();
+    Ok(with("ul", &[("class", "doubt")], items))
+}
+
+/// A number that a result may have; `None` where it has none.
+///
+/// # Errors
+/// Where something else stands in its place.
+pub(super) fn measured(file: &Value, key: &str) -> Result<Option<f64>, String> {
+    Option::<f64>::deserialize(&file[key]).map_err(|error| format!("`{key}`: {error}"))
+}
+
+/// The case of a result as TOML.
+///
+/// # Errors
+/// Where it is none.
+pub(super) fn case_text(case: &Value) -> Result<String, String> {
+    if !case.is_object() {
+        return Err("`case` is missing, or no table".to_owned());
+    }
+    crate::case::written(case).map_err(|error| format!("`case` is no case: {error}"))
 }
 
 /// The case in full, with what to do with it.

@@ -44,10 +44,43 @@ impl<'a> Rows<'a> {
             }
         }
         let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').map(str::trim).collect()).collect();
-        match (2..).zip(&rows).find(|(_, row)| row.len() != names.len()) {
-            Some((line, row)) => Err(format!("line {line} has {} cells, the head {}", row.len(), names.len())),
-            None => Ok(Self { columns: names.iter().cloned().zip(0..).collect(), names, rows }),
+        if let Some((line, row)) = (2..).zip(&rows).find(|(_, row)| row.len() != names.len()) {
+            return Err(format!("line {line} has {} cells, the head {}", row.len(), names.len()));
         }
+        let rows = Self { columns: names.iter().cloned().zip(0..).collect(), names, rows };
+        (2..).zip(rows.lines()).try_for_each(|(number, line)| rows.checked(number, line))?;
+        Ok(rows)
+    }
+
+    /// Refuses a row in which something else than a number stands where one is due, or nothing: which.
+    fn checked(&self, number: usize, line: Line<'_>) -> Result<(), String> {
+        let refused = |name: &str, text: &str, due: &str| Err(format!("line {number}: {name} is {text:?}, {due}"));
+        for (name, text) in self.names.iter().zip(line.cells) {
+            let is_number = text.parse().is_ok_and(f64::is_finite);
+            if is_numeric(name) && !text.is_empty() && !is_number {
+                return refused(name, text, "not a number");
+            }
+        }
+        let combination = line.text("combination").unwrap_or_default();
+        if !combination.parse::<usize>().is_ok_and(|combination| combination > 0) {
+            return refused("combination", combination, "not a number from 1");
+        }
+        let status = line.text("status").unwrap_or_default();
+        if !["done", "not_converged", "failed"].contains(&status) {
+            return refused("status", status, "not one of done, not_converged and failed");
+        }
+        for name in ["mean_pressure", "penetration", "contact_fraction"] {
+            let stops = line.text("stop_reason") == Some("not a number");
+            if status == "done" && !stops && self.has(name) && line.text(name).is_none() {
+                return refused(name, "", "not a number");
+            }
+        }
+        for name in ["mean_pressure", "contact_fraction", "max_pressure"] {
+            if line.float(name).is_some_and(|value| value < 0.0) {
+                return refused(name, line.text(name).unwrap_or_default(), "below zero");
+            }
+        }
+        Ok(())
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -75,6 +108,18 @@ impl<'a> Rows<'a> {
         let limits = self.names.iter().filter_map(|name| name.strip_suffix("_reached"));
         limits.filter(|name| *name != "first" && !name.starts_with("set_")).collect()
     }
+}
+
+/// Whether the cells of a column are numbers, or empty: those that a page shows as such.
+fn is_numeric(name: &str) -> bool {
+    let is_set = name.starts_with("set_");
+    let named = ["step", "mean_pressure", "penetration", "contact_fraction", "max_pressure"].contains(&name);
+    let ends = ["_value", "_error", "_mean_pressure", "_below", "_up_to", "_load_share"];
+    !is_set
+        && (named
+            || name.starts_with("errors_")
+            || name.contains("_errors_")
+            || ends.iter().any(|end| name.ends_with(end)))
 }
 
 impl<'a> Line<'a> {

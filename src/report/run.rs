@@ -7,7 +7,7 @@ use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
 use super::markup::{tag, with};
-use super::part::{Part, by, case_to_copy, mean_of, section, title, version, warnings};
+use super::part::{Part, by, case_text, case_to_copy, mean_of, measured, section, title, version, warnings};
 use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
@@ -55,9 +55,14 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
     let case = &file["case"];
     let unreadable = || ReportError::unreadable(&path, version(file));
     let steps = steps_of(file).map_err(unreadable())?;
-    let text = crate::case::written(case);
+    let text = case_text(case).map_err(|reason| ReportError::version(&path, file, reason))?;
     // Without it the body is not known beyond its tables.
     let read = case_of(&text, &finished.folder);
+    let refused = |reason: String| ReportError::version(&path, file, reason);
+    if let Some(loads) = read.as_ref().map(|case| case.load.values().len()).filter(|loads| *loads != steps.len()) {
+        return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
+    }
+    let (doubted, change) = (warnings(file).map_err(refused)?, measured(file, "accuracy").map_err(refused)?);
     let units = units_of(file, read.as_ref());
 
     let taken = tables::utilisations(&steps, read.as_ref().map(Case::half_space), &units);
@@ -88,8 +93,8 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
             vec![table(caption, &taken.table), tag("p", upper(mean)), tag("p", upper(tables::RIGID))],
         ));
     }
-    sections.push(section("warnings", "Warnings", vec![warnings(file)]));
-    sections.push(section("resolution", "Resolution", vec![resolution(&steps, file["accuracy"].as_f64())]));
+    sections.push(section("warnings", "Warnings", vec![doubted]));
+    sections.push(section("resolution", "Resolution", vec![resolution(&steps, change)]));
     sections.push(section(
         "certificate",
         "Certificate",

@@ -1,6 +1,6 @@
 //! The last line of a page: whoever meets the file knows by it that percoat wrote all of it and nobody has changed it since.
 
-use crate::output::{checksum, disk};
+use crate::output::{disk, seal};
 use std::io;
 use std::path::Path;
 
@@ -9,7 +9,7 @@ const AFTER: &str = " -->\n";
 
 /// The page with its seal.
 pub(super) fn sealed(page: &str) -> String {
-    format!("{page}{BEFORE}{}{AFTER}", sum(page))
+    format!("{page}{BEFORE}{}{AFTER}", seal(page))
 }
 
 /// Whether the file is a report of percoat that nobody has changed.
@@ -23,15 +23,10 @@ pub fn is_own(path: &Path) -> io::Result<bool> {
     let bytes = disk::read(path)?;
     let own = || {
         let text = str::from_utf8(&bytes).ok()?;
-        let (page, seal) = text.rsplit_once(BEFORE)?;
-        Some(seal.strip_suffix(AFTER)? == sum(page))
+        let (page, end) = text.rsplit_once(BEFORE)?;
+        Some(end.strip_suffix(AFTER)? == seal(page))
     };
     Ok(own().unwrap_or(false))
-}
-
-fn sum(page: &str) -> String {
-    let (length, sum) = checksum(&mut page.as_bytes()).expect("memory can be read");
-    format!("{length}-{sum:016x}")
 }
 
 #[cfg(test)]

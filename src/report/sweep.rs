@@ -6,7 +6,7 @@ use super::figures::{Named, figures};
 use super::finished::{Finished, Swept};
 use super::given::{Key, listed};
 use super::markup::{Markup, tag, with};
-use super::part::{Part, by, case_to_copy, section, title, version, warnings};
+use super::part::{Part, by, case_to_copy, section, title, warnings};
 use super::ranges::{ranges, sentences};
 use super::rows::{Limit, Line, Rows};
 use super::table::table;
@@ -44,12 +44,11 @@ struct Keys {
 /// The part of `sweep.json` and `sweep.csv`.
 pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportError> {
     let file = &swept.file;
-    let refused = |name: &str, reason: String| {
-        let version = version(file).map(str::to_owned);
-        ReportError::Version { path: finished.folder.join(name), version, reason }
-    };
+    let refused = |name: &str, reason: String| ReportError::version(&finished.folder.join(name), file, reason);
     let own = Keys::deserialize(file).map_err(|error| refused("sweep.json", error.to_string()))?;
     let rows = Rows::read(&swept.table).map_err(|reason| refused("sweep.csv", reason))?;
+    counted(&own, &rows).map_err(|reason| refused("sweep.csv", reason))?;
+    let doubted = warnings(file).map_err(|reason| refused("sweep.json", reason))?;
     let done = own.combinations.saturating_sub(own.failed + own.not_converged);
     let sentence = format!(
         "{done} of {} combinations are solved{}{}{}.",
@@ -82,7 +81,7 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
         ),
         section("pictures", "Pictures", vec![figures(finished, "sweep.json", &PICTURES)?]),
         section("rows", "Combinations", vec![shown(&rows, &own.keys)]),
-        section("warnings", "Warnings", vec![warnings(file)]),
+        section("warnings", "Warnings", vec![doubted]),
     ];
     if let Some(text) = text {
         // What cannot be read is told in the order of the alphabet.
@@ -98,6 +97,25 @@ pub(super) fn part(finished: &Finished, swept: &Swept) -> Result<Part, ReportErr
         sections.push(section("case", "Case", vec![case_to_copy(text, "sweep")]));
     }
     Ok(Part { name: "sweep", kind: "Sweep", title: title(file), sections })
+}
+
+/// Refuses a table that has not the combinations that the description counts.
+fn counted(own: &Keys, rows: &Rows<'_>) -> Result<(), String> {
+    let mut statuses: BTreeMap<&str, &str> = BTreeMap::new();
+    for line in rows.lines() {
+        statuses.insert(line.text("combination").unwrap_or_default(), line.text("status").unwrap_or_default());
+    }
+    let count = |status: &str| statuses.values().filter(|own| **own == status).count();
+    for (what, found, wanted) in [
+        ("combinations", statuses.len(), own.combinations),
+        ("of them failed", count("failed"), own.failed),
+        ("of them not converged", count("not_converged"), own.not_converged),
+    ] {
+        if found != wanted {
+            return Err(format!("it has {found} {what}, and sweep.json beside it tells of {wanted}"));
+        }
+    }
+    Ok(())
 }
 
 fn told(count: usize, what: &str) -> String {

@@ -1,6 +1,7 @@
 //! What a solver knows after a load: enough to have its step again, and to go on with the next load.
 
-use super::iteration::{Report, Unknowns};
+use super::iteration::{Method, Report, Unknowns};
+use super::solver::nested_points;
 use super::{Solver, Step};
 use crate::load::Load;
 
@@ -23,6 +24,23 @@ pub struct Checkpoint {
 #[error("what was saved of the run is of other grids or loads")]
 pub struct OtherGrids;
 
+impl Checkpoint {
+    /// Whether it is of a solver by `method` whose finest grid has `points`.
+    pub fn fits(&self, points: [usize; 2], method: Method) -> bool {
+        self.is_of(nested_points(points, method).into_iter().map(|[n1, n2]| n1 * n2))
+    }
+
+    /// Whether it is of a solver whose grids have so many samples, the finest first.
+    fn is_of(&self, samples: impl ExactSizeIterator<Item = usize>) -> bool {
+        let count = if self.report.stop.solved() { samples.len() } else { self.coarser.saturating_add(1) };
+        let fits = |(own, samples): (&Unknowns, usize)| own.pressure.len() == samples && own.gap.len() == samples;
+        self.grids.len() == count
+            && self.coarser < count
+            && count <= samples.len()
+            && self.grids.iter().zip(samples).all(fits)
+    }
+}
+
 impl Solver {
     /// What it knows after its last load, whose `step` is given.
     pub fn checkpoint(&self, step: &Step) -> Checkpoint {
@@ -41,18 +59,12 @@ impl Solver {
     /// # Errors
     /// [`OtherGrids`] when it is of a solver on other grids; this one stays as it is.
     pub fn restore(&mut self, load: Load, checkpoint: Checkpoint) -> Result<Step, OtherGrids> {
-        let Checkpoint { report, convolutions, coarser, grids } = checkpoint;
-        let solved = report.stop.solved();
-        let count = if solved { self.unknowns().count() } else { 1 + coarser };
-        let samples = |own: &Unknowns| [own.pressure.len(), own.gap.len()];
-        let fit = |(own, grid): (&Unknowns, &Unknowns)| samples(own) == samples(grid);
-        if grids.len() != count
-            || coarser >= count
-            || count > self.unknowns().count()
-            || !self.unknowns().zip(&grids).all(fit)
-        {
+        let samples: Vec<usize> = self.unknowns().map(|own| own.pressure.len()).collect();
+        if !checkpoint.is_of(samples.into_iter()) {
             return Err(OtherGrids);
         }
+        let Checkpoint { report, convolutions, coarser, grids } = checkpoint;
+        let solved = report.stop.solved();
         self.adopt(grids);
         let step = self.step(load, report, convolutions, coarser);
         if !solved {

@@ -300,7 +300,7 @@ impl fmt::Display for Solver {
 }
 
 /// Points of the nested grids, the finest first. The baseline has one grid.
-fn nested_points(finest: [usize; 2], method: Method) -> Vec<[usize; 2]> {
+pub(super) fn nested_points(finest: [usize; 2], method: Method) -> Vec<[usize; 2]> {
     let coarser = |points: &[usize; 2]| {
         let halved = points.map(|n| fast_points(n.div_ceil(2)));
         (method == Method::Preconditioned && halved.iter().all(|&n| n >= COARSEST)).then_some(halved)

@@ -98,6 +98,6 @@ pub(super) fn keep(case: &Case, folder: &Path, fits: Fits<'_>) -> Result<Ended, 
     write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;
     claim.publish()?;
     // Its files are part of the sweep's result.
-    release(folder)?;
-    Ok(Ended::solved(&outcome, case))
+    let files = release(folder)?;
+    Ok(Ended::solved(&outcome, case).leaving(files))
 }

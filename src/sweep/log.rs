@@ -1,11 +1,14 @@
 //! `sweep.jsonl`: every combination that is done, one line each, appended when it is.
 //!
 //! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
+//! A line says which sweep it is of and ends with a [seal](crate::output::seal()): one that is not as it was written is no row.
 
 use super::row::Row;
 use crate::output::disk::{self, Appended};
-use crate::output::{OutputError, SWEEP_LOG as LOG, whole_lines, write_text};
-use crate::plain;
+use crate::output::{OutputError, SWEEP_LOG as LOG, sealed, unsealed, whole_lines, write_text};
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -13,19 +16,56 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Log {
     path: PathBuf,
+    /// See [`Asked::identity`](super::Asked::identity).
+    sweep: String,
     /// Open from the first row on.
     file: Option<Appended>,
 }
 
+/// A line: the row, and of which sweep it is.
+#[derive(Serialize, Deserialize)]
+struct Line<R> {
+    sweep: String,
+    #[serde(flatten)]
+    row: R,
+}
+
+/// A row that is as it was written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Logged {
+    /// The line on which it stands, from 1.
+    pub line: usize,
+    /// The [identity](super::Asked::identity) of its sweep.
+    pub sweep: String,
+    /// The combination.
+    pub row: Row,
+}
+
+/// A line that is no row of a sweep, or no longer one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Damage {
+    /// Which, from 1.
+    pub line: usize,
+    /// What is the matter with it.
+    pub reason: String,
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.reason)
+    }
+}
+
 impl Log {
-    /// Begins the log in a folder, with the rows that are known already. The file is there from the first row on.
+    /// Begins the log of a sweep of this [identity](super::Asked::identity) in a folder, with the rows that are known already.
+    /// The file is there from the first row on.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn begin(folder: &Path, known: &[Row]) -> Result<Self, OutputError> {
-        let mut log = Self { path: folder.join(LOG), file: None };
+    pub fn begin(folder: &Path, sweep: &str, known: &[Row]) -> Result<Self, OutputError> {
+        let mut log = Self { path: folder.join(LOG), sweep: sweep.to_owned(), file: None };
         if !known.is_empty() {
-            log.open(&known.iter().map(line).collect::<String>())?;
+            log.open(&known.iter().map(|row| log.line(row)).collect::<String>())?;
         }
         Ok(log)
     }
@@ -35,9 +75,10 @@ impl Log {
     /// # Errors
     /// When it cannot be written.
     pub fn add(&mut self, row: &Row) -> Result<(), OutputError> {
+        let line = self.line(row);
         match &mut self.file {
-            Some(file) => file.add(line(row).as_bytes()).map_err(|error| OutputError::new(&self.path, error)),
-            None => self.open(&line(row)),
+            Some(file) => file.add(line.as_bytes()).map_err(|error| OutputError::new(&self.path, error)),
+            None => self.open(&line),
         }
     }
 
@@ -48,31 +89,50 @@ impl Log {
         self.file = Some(Appended::open(&self.path).map_err(failed)?);
         self.path.parent().map_or(Ok(()), disk::sync_folder).map_err(failed)
     }
+
+    fn line(&self, row: &Row) -> String {
+        let line = serde_json::to_string(&Line { sweep: self.sweep.clone(), row });
+        sealed(&line.expect("a row is numbers and texts under names")) + "\n"
+    }
 }
 
-fn line(row: &Row) -> String {
-    serde_json::to_string(row).expect("a row is numbers and texts under names") + "\n"
-}
-
-/// The rows of a log, those of whole lines.
+/// The whole lines of a log: rows, or what is the matter with them. Of a combination that stands there twice no line is a row.
 ///
 /// # Errors
-/// When it cannot be read, or a whole line is none of a log.
-pub fn read(path: &Path) -> io::Result<Vec<Row>> {
+/// When it cannot be read.
+pub fn read(path: &Path) -> io::Result<Vec<Result<Logged, Damage>>> {
     let whole = whole_lines(path)?;
-    let row = |(number, line): (usize, &String)| {
-        serde_json::from_str(line).map_err(|error| {
-            let reason = format!("{}, line {number} is none of a sweep: {error}", plain::path(path));
-            io::Error::new(io::ErrorKind::InvalidData, reason)
-        })
-    };
-    (1..).zip(&whole).map(row).collect()
+    let mut lines: Vec<Result<Logged, Damage>> = (1..).zip(&whole).map(|(number, line)| logged(number, line)).collect();
+    let mut first: HashMap<usize, usize> = HashMap::new();
+    for at in 0..lines.len() {
+        let Ok(Logged { row, .. }) = &lines[at] else { continue };
+        let combination = row.combination;
+        if let Some(&before) = first.get(&combination) {
+            for (line, other) in [(before, at), (at, before)] {
+                let reason = format!("combination {combination} stands on line {} too", other + 1);
+                lines[line] = Err(Damage { line: line + 1, reason });
+            }
+        } else {
+            first.insert(combination, at);
+        }
+    }
+    Ok(lines)
+}
+
+fn logged(line: usize, text: &str) -> Result<Logged, Damage> {
+    let damage = |reason: String| Damage { line, reason };
+    let object = unsealed(text).map_err(|error| damage(error.to_string()))?;
+    let Line { sweep, row }: Line<Row> =
+        serde_json::from_str(&object).map_err(|error| damage(format!("it is no row of a sweep: {error}")))?;
+    row.checked().map_err(damage)?;
+    Ok(Logged { line, sweep, row })
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::row::Status;
     use super::*;
+    use crate::output::Files;
     use serde_json::json;
 
     fn row(combination: usize) -> Row {
@@ -85,23 +145,61 @@ mod tests {
             warnings: vec!["thin".to_owned()],
             results: vec![json!({"mean_pressure": 0.1 + 0.2})],
             seconds: 1.5,
+            files: Files::default(),
         }
     }
 
     #[test]
     fn a_log_is_read_back_bit_for_bit_but_for_what_a_kill_left_of_a_line() {
         let folder = tempfile::tempdir().unwrap();
-        let mut log = Log::begin(folder.path(), &[row(1)]).unwrap();
+        let rows = |path: &Path| -> Vec<Row> { read(path).unwrap().into_iter().map(|own| own.unwrap().row).collect() };
+        let mut log = Log::begin(folder.path(), "1-2", &[row(1)]).unwrap();
         log.add(&row(2)).unwrap();
         // Killed within a letter.
         log.file.as_mut().unwrap().add(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
         let path = folder.path().join(LOG);
-        assert_eq!(read(&path).unwrap(), [row(1), row(2)]);
+        assert_eq!(rows(&path), [row(1), row(2)]);
         // Going on cuts it off.
-        let mut log = Log::begin(folder.path(), &read(&path).unwrap()).unwrap();
+        let mut log = Log::begin(folder.path(), "1-2", &rows(&path)).unwrap();
         log.add(&row(3)).unwrap();
-        assert_eq!(read(&path).unwrap(), [row(1), row(2), row(3)]);
-        std::fs::write(&path, "{\"steps\": 3}\n").unwrap();
-        assert!(read(&path).unwrap_err().to_string().contains("line 1"));
+        assert_eq!(rows(&path), [row(1), row(2), row(3)]);
+        assert!(read(&path).unwrap().iter().all(|own| own.as_ref().unwrap().sweep == "1-2"));
+    }
+
+    #[test]
+    fn a_line_that_is_not_as_it_was_written_or_stands_there_twice_is_no_row_and_the_others_are() {
+        let folder = tempfile::tempdir().unwrap();
+        drop(Log::begin(folder.path(), "1-2", &[row(1), row(2), row(3)]).unwrap());
+        let path = folder.path().join(LOG);
+        let whole = std::fs::read_to_string(&path).unwrap();
+        let lines: Vec<&str> = whole.split_inclusive('\n').collect();
+        let without_seal = lines[1].rsplit_once(",\"seal\"").unwrap().0.to_owned() + "}\n";
+        let failed = Row { status: Status::Failed, ..row(2) };
+        let log = Log { path: path.clone(), sweep: "1-2".to_owned(), file: None };
+        for (second, damaged, words) in [
+            (lines[1].replace("0.30000000000000004", "0.30000000000000005"), &[2][..], "changed or damaged"),
+            (lines[1].replace("0.30000000000000004", "null"), &[2], "changed or damaged"),
+            (without_seal, &[2], "no checksum"),
+            (sealed("{\"steps\":3}") + "\n", &[2], "no row of a sweep"),
+            (lines[0].to_owned(), &[1, 2], "combination 1 stands on line"),
+            (log.line(&failed), &[2], "has results"),
+        ] {
+            std::fs::write(&path, [lines[0], &second, lines[2]].concat()).unwrap();
+            let found = read(&path).unwrap();
+            for (number, own) in (1..).zip(&found) {
+                match own {
+                    Ok(own) => assert!(!damaged.contains(&number) && own.line == number, "{second}"),
+                    Err(damage) => {
+                        assert!(damaged.contains(&number) && damage.line == number, "{second}");
+                        assert!(damage.to_string().contains(words), "{damage}");
+                    }
+                }
+            }
+        }
+        // What is no text is no row either.
+        let mut bytes = whole.clone().into_bytes();
+        bytes[lines[0].len() + 20] = 0xff;
+        std::fs::write(&path, bytes).unwrap();
+        assert_eq!(read(&path).unwrap().iter().map(Result::is_ok).collect::<Vec<_>>(), [true, false, true]);
     }
 }

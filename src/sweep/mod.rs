@@ -5,13 +5,17 @@
 //! at once, large ones one after another by all threads; the rows are the same, bit for bit.
 //!
 //! A row is kept in a [`Log`] as soon as it is done. Whoever goes on after a kill gives the study the rows of the log: those
-//! of the same case, told by a fingerprint, are not solved again.
+//! of the same case, told by a fingerprint, are not solved again. A line of the log that is not as it was written is no row.
 
 mod axis;
 mod combinations;
 mod fields;
+mod known;
 mod log;
 mod memory;
+mod parts;
+#[cfg(test)]
+mod power_cut;
 mod row;
 mod study;
 mod table;
@@ -20,8 +24,10 @@ mod workers;
 
 pub use axis::{Axis, AxisError};
 pub use combinations::{Combination, Combinations, CombinationsError, Group, column};
-pub use log::{Log, read};
+pub use known::Known;
+pub use log::{Damage, Log, Logged, read};
+pub use parts::{Description, Part, PartError, UNFINISHED, join};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
-pub use table::{Asked, description, fingerprint, join, table};
+pub use table::{Asked, description, fingerprint, table};
 pub use task::Task;

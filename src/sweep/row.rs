@@ -1,6 +1,7 @@
 //! What is known of a combination when it is done.
 
 use crate::case::{Case, plausibility};
+use crate::output::Files;
 use crate::output::columns::{Cells, plain, scalars};
 use crate::run::{Limits, Outcome, StepRecord};
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,9 @@ pub struct Row {
     pub results: Vec<Value>,
     /// Wall time, seconds.
     pub seconds: f64,
+    /// Where fields are kept, its files by their names in its folder.
+    #[serde(default, skip_serializing_if = "Files::is_empty")]
+    pub files: Files,
 }
 
 /// How a combination ended, and with what.
@@ -59,12 +63,14 @@ pub(super) struct Ended {
     pub(super) reason: Option<String>,
     pub(super) warnings: Vec<String>,
     pub(super) results: Vec<Value>,
+    pub(super) files: Files,
 }
 
 impl Ended {
     /// Without results.
     pub(super) fn failed(reason: impl Into<String>) -> Self {
-        Self { status: Status::Failed, reason: Some(reason.into()), warnings: Vec::new(), results: Vec::new() }
+        let (reason, files) = (Some(reason.into()), Files::default());
+        Self { status: Status::Failed, reason, warnings: Vec::new(), results: Vec::new(), files }
     }
 
     pub(super) fn solved(outcome: &Outcome, case: &Case) -> Self {
@@ -88,11 +94,35 @@ impl Ended {
 
     fn with(reason: Option<String>, warnings: Vec<String>, results: Vec<Value>) -> Self {
         let status = if reason.is_some() { Status::NotConverged } else { Status::Done };
-        Self { status, reason, warnings, results }
+        Self { status, reason, warnings, results, files: Files::default() }
+    }
+
+    /// The same with the files that it has left.
+    pub(super) fn leaving(self, files: Files) -> Self {
+        Self { files, ..self }
     }
 }
 
 impl Row {
+    /// Refuses what no combination ends with.
+    pub(super) fn checked(&self) -> Result<(), String> {
+        let has_failed = self.status == Status::Failed;
+        if self.combination == 0 {
+            return Err("there is no combination 0".to_owned());
+        }
+        if has_failed != self.results.is_empty() {
+            let has = if has_failed { "has results" } else { "has no results" };
+            return Err(format!("combination {} {has} and is marked {}", self.combination, self.status.name()));
+        }
+        if !self.results.iter().all(Value::is_object) {
+            return Err(format!("a result of combination {} is none", self.combination));
+        }
+        if !(self.seconds >= 0.0 && self.seconds.is_finite()) {
+            return Err(format!("combination {} took {} seconds", self.combination, self.seconds));
+        }
+        Ok(())
+    }
+
     /// Its number and what it sets.
     pub fn named(&self) -> String {
         let settings: Vec<String> = self.settings.iter().map(|(key, value)| format!("{key}={value}")).collect();

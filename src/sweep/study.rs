@@ -8,10 +8,9 @@ use super::task::Task;
 use super::workers;
 use crate::case::resources::{Job, bytes, needs, refusal};
 use crate::case::{Case, CaseError, Room, Source};
-use crate::output::{self, COMBINATIONS, OutputError, disk, solved_plan};
+use crate::output::{self, COMBINATIONS, solved_plan};
 use crate::run::Sampling;
-use std::collections::{HashMap, HashSet};
-use std::io;
+use std::collections::HashSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -42,25 +41,25 @@ pub struct Study<'a> {
     source: &'a Source,
     /// What all combinations set, `KEY=VALUE`.
     fixed: &'a [String],
-    combinations: &'a Combinations,
+    pub(super) combinations: &'a Combinations,
     task: Task,
     room: Room,
-    keeps_fields: bool,
+    pub(super) keeps_fields: bool,
     stop: Arc<AtomicBool>,
-    planned: Vec<Planned>,
+    pub(super) planned: Vec<Planned>,
 }
 
 /// A combination before it is solved.
 #[derive(Debug)]
-struct Planned {
+pub(super) struct Planned {
     /// Its index among the combinations.
-    index: usize,
-    fingerprint: String,
+    pub(super) index: usize,
+    pub(super) fingerprint: String,
     /// What solving it takes, bytes.
     memory: u64,
     is_small: bool,
     /// What it leaves when its fields are kept.
-    files: Vec<String>,
+    pub(super) files: Vec<String>,
 }
 
 impl<'a> Study<'a> {
@@ -157,54 +156,6 @@ impl<'a> Study<'a> {
         .collect()
     }
 
-    /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again; so is what keeps
-    /// fields and has none under its number in the folder `from`, where the rows stand.
-    pub fn known(&self, rows: &[Row], from: &Path) -> Vec<Row> {
-        let by_print: HashMap<&str, &Row> =
-            rows.iter().filter(|row| !row.results.is_empty()).map(|row| (row.fingerprint.as_str(), row)).collect();
-        let known = |planned: &Planned| {
-            let combination = &self.combinations.all[planned.index];
-            let row = *by_print.get(planned.fingerprint.as_str())?;
-            let fields = from.join(folder_of(combination.number));
-            let is_there = || {
-                let case = self.case(combination).map(|case| case.to_toml()).ok();
-                disk::is_file(&fields.join("contact.npz")) && disk::read_text(&fields.join("case.toml")).ok() == case
-            };
-            let has_fields = !self.keeps_fields || row.combination == combination.number && is_there();
-            let settings = self.settings(combination);
-            has_fields.then(|| Row { combination: combination.number, settings, ..row.clone() })
-        };
-        self.planned.iter().filter_map(known).collect()
-    }
-
-    /// Gives the files of known combinations a second name in the folder `to`, where the result is gathered.
-    ///
-    /// # Errors
-    /// [`OutputError`] with the path.
-    pub fn take_over(&self, known: &[Row], from: &Path, to: &Path) -> Result<(), OutputError> {
-        if !self.keeps_fields || from == to {
-            return Ok(());
-        }
-        for row in known {
-            let folder = folder_of(row.combination);
-            let place = to.join(&folder);
-            output::make_folder(&place)?;
-            let planned = self.planned.iter().find(|own| self.combinations.all[own.index].number == row.combination);
-            for name in planned.map_or(&[][..], |planned| &planned.files) {
-                let [old, new] = [from, to].map(|place| place.join(&folder).join(name));
-                if disk::is_file(&old) && disk::link(&old, &new).is_err() {
-                    output::write_file(&new, |writer| io::copy(&mut disk::open(&old)?, writer).map(|_| ()))?;
-                }
-            }
-            disk::sync_folder(&place).map_err(|error| OutputError::new(&place, error))?;
-        }
-        // The log is going to say that they are there.
-        let all = to.join(COMBINATIONS);
-        let synced =
-            if known.is_empty() { Ok(()) } else { disk::sync_folder(&all).and_then(|()| disk::sync_folder(to)) };
-        synced.map_err(|error| OutputError::new(&all, error))
-    }
-
     /// How many combinations are solved at once by `threads`.
     pub fn workers(&self, threads: usize) -> usize {
         let small = self.planned.iter().filter(|planned| planned.is_small);
@@ -243,7 +194,7 @@ impl<'a> Study<'a> {
         refusal(case, self.room, self.job()).map_or(Ok(()), |why| Err(StudyError::Refused(why)))
     }
 
-    fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
+    pub(super) fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
         self.combinations.keys.iter().cloned().zip(combination.values.iter().cloned()).collect()
     }
 
@@ -262,7 +213,7 @@ impl<'a> Study<'a> {
         let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
         // One combination that brings the program down leaves the others as they are.
         let ended = catch_unwind(AssertUnwindSafe(|| self.ended(combination, folder, room)));
-        let Ended { status, reason, warnings, results } =
+        let Ended { status, reason, warnings, results, files } =
             ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
         Row {
             combination: combination.number,
@@ -273,6 +224,7 @@ impl<'a> Study<'a> {
             warnings,
             results,
             seconds: started.elapsed().as_secs_f64(),
+            files,
         }
     }
 
@@ -303,17 +255,15 @@ impl<'a> Study<'a> {
 }
 
 /// Where a combination keeps its fields.
-fn folder_of(number: usize) -> String {
+pub(super) fn folder_of(number: usize) -> String {
     format!("{COMBINATIONS}/{number:04}")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Axis, Group, Log};
+    use super::super::{Axis, Group};
     use super::*;
     use crate::case::embedded;
-    use crate::output::journal::Journal;
-    use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer};
 
     #[test]
     fn results_that_take_more_memory_than_there_is_are_refused() {
@@ -386,52 +336,6 @@ mod tests {
             });
             assert_eq!(done, Ok(()));
             assert_eq!(reasons, vec![Some("stopped before its end".to_owned()); 3]);
-        }
-    }
-
-    /// Whatever of the changes has come to the disk.
-    #[test]
-    fn after_a_power_cut_the_fields_of_every_combination_of_the_log_are_whole() {
-        let source = embedded::source("fig2").unwrap();
-        let fixed = ["grid.points=16".to_owned()];
-        let axis = Axis::parse("layers.0.poisson=0.1,0.2,0.3").unwrap();
-        let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
-        let room = Room { memory: 1 << 30, disk: u64::MAX };
-        let study = Study::new(&source, &fixed, &combinations, Task::Solve, room).unwrap().keeping_fields();
-        let place = tempfile::tempdir().unwrap();
-        let journal = Journal::begin(place.path());
-        let claim = RunFolder::claim(place.path(), Plan::new(Writer::Sweep)).unwrap();
-        let staging = claim.staging();
-        let mut log = Log::begin(&staging, &[]).unwrap();
-        let mut told = Vec::new();
-        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        let done = one.install(|| {
-            study.run(&HashSet::new(), &staging, |row| {
-                log.add(&row)?;
-                told.push(journal.lock().unwrap().images.len());
-                Ok::<(), OutputError>(())
-            })
-        });
-        done.unwrap();
-        Journal::end(&journal);
-        let images = std::mem::take(&mut journal.lock().unwrap().images);
-        assert!(told.len() == 3 && images.len() > 200, "{told:?} of {}", images.len());
-        for (index, image) in images.iter().enumerate() {
-            let within = |name: &str| image.get(&Path::new("unfinished-sweep").join(name)).and_then(Option::as_deref);
-            let log = within(SWEEP_LOG).unwrap_or_default();
-            let rows: Vec<Row> = log
-                .split_inclusive(|byte| *byte == b'\n')
-                .filter(|line| line.ends_with(b"\n"))
-                .map(|line| serde_json::from_slice(line).unwrap())
-                .collect();
-            assert!(rows.len() >= told.iter().filter(|images| **images <= index).count());
-            for name in rows.iter().flat_map(|row| {
-                ["contact.npz", "case.toml", "summary.json"]
-                    .map(|name| format!("{}/{name}", folder_of(row.combination)))
-            }) {
-                let whole = std::fs::read(staging.join(&name)).unwrap();
-                assert!(within(&name).is_some_and(|found| found == whole), "{name} in image {index}");
-            }
         }
     }
 }

@@ -2,39 +2,16 @@
 
 use super::combinations::Combinations;
 use super::row::{Row, Status};
-use crate::output::checksum;
 use crate::output::columns::csv;
+use crate::output::{checksum, seal};
 use serde_json::{Value, json};
-use std::collections::btree_map::Entry;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// One row a combination and load step, by ascending combination.
 pub fn table(rows: &[Row]) -> String {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by_key(|row| row.combination);
     csv(|| sorted.iter().flat_map(|row| row.cells()))
-}
-
-/// Rows of several parts, one a combination, by ascending number.
-///
-/// # Errors
-/// What two parts say differently of one combination.
-pub fn join(parts: impl Iterator<Item = Vec<Row>>) -> Result<Vec<Row>, String> {
-    let mut rows: BTreeMap<usize, Row> = BTreeMap::new();
-    for row in parts.flatten() {
-        match rows.entry(row.combination) {
-            Entry::Vacant(place) => drop(place.insert(row)),
-            Entry::Occupied(there)
-                if there.get().fingerprint != row.fingerprint || there.get().settings != row.settings =>
-            {
-                return Err(format!("two parts have different {}: they are not of one sweep", row.named()));
-            }
-            // What was solved twice is the same, unless one of them failed.
-            Entry::Occupied(mut there) if there.get().results.is_empty() => drop(there.insert(row)),
-            Entry::Occupied(_) => {}
-        }
-    }
-    Ok(rows.into_values().collect())
 }
 
 /// What a whole sweep is, of which some rows may be a part.
@@ -50,6 +27,14 @@ pub struct Asked<'a> {
     pub fingerprint: &'a str,
     /// Number of its combinations.
     pub of: usize,
+}
+
+impl Asked<'_> {
+    /// What every line of its log says: equal only for parts of one sweep by one version of percoat.
+    pub fn identity(&self) -> String {
+        let Self { title, case, task, fingerprint, of } = self;
+        seal(&format!("{}\n{task} {of} {fingerprint}\n{title}\n{case}", env!("CARGO_PKG_VERSION")))
+    }
 }
 
 /// A fingerprint of the common case, what all combinations set, and every combination.

@@ -108,6 +108,23 @@ impl Folder {
         files.map(|name| (name.clone(), self.bytes(&name))).collect()
     }
 
+    /// All files in it and below it, with their content; a link with where it leads.
+    pub fn all_files(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        fn add(files: &mut BTreeMap<PathBuf, Vec<u8>>, root: &Path, folder: &Path) {
+            for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+                let name = path.strip_prefix(root).unwrap().to_owned();
+                match fs::read_link(&path) {
+                    Ok(to) => drop(files.insert(name, to.to_string_lossy().into_owned().into_bytes())),
+                    Err(_) if path.is_dir() => add(files, root, &path),
+                    Err(_) => drop(files.insert(name, fs::read(&path).unwrap())),
+                }
+            }
+        }
+        let mut files = BTreeMap::new();
+        add(&mut files, &self.0, &self.0);
+        files
+    }
+
     pub fn text(&self, name: &str) -> String {
         fs::read_to_string(self.0.join(name)).unwrap()
     }

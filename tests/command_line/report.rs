@@ -161,6 +161,8 @@ fn the_page_of_a_sweep_counts_what_is_solved_and_says_why_the_rest_is_not() {
     desk.write("sweep/sweep.svg", "<svg viewBox=\"0 0 400 100\"/>");
     (3..500).for_each(|number| table += &format!("{number},0.1,done,1,0.06,0.25,0.5,\n"));
     desk.write("sweep/sweep.csv", &table);
+    asked["combinations"] = 499.into();
+    desk.write("sweep/sweep.json", asked.to_string());
     let page = report(&desk, "sweep");
     assert!(page.contains("<figure id=\"sweep\" class=\"wide\">"));
     assert!(page.contains("199 further rows and all 8 columns stand in sweep.csv."));

@@ -1,15 +1,9 @@
 //! `solve --resume`: a run that was stopped at any moment and goes on ends as one that was not.
 
+use crate::mortal::{case, run};
 use crate::program::{Desk, Folder};
-use percoat::case::{Case, Source};
-use percoat::output::{self, Clock, OutputError, Recording, RunFolder, solved_plan, write_scalars};
-use percoat::run::{Finished, Outcome, Recorder, RunError, StepRecord};
-use percoat::spectral::Checkpoint;
-use percoat::{Solver, Step, StressField};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::fs;
-use std::path::Path;
 
 /// Loads up and down on a coating with strengths; stresses of every kind; on one grid.
 const STRESSES: &str = r#"
@@ -86,108 +80,6 @@ points = 32
 max_iterations = 9
 "#;
 
-/// The largest grid that there is room for.
-const ROOM: usize = 192;
-
-/// Records a run until it is killed, after so many more calls that leave something on disk.
-struct Mortal<'a> {
-    recording: Recording<'a>,
-    calls: usize,
-}
-
-#[derive(Debug)]
-enum Death {
-    Killed,
-    Output(OutputError),
-}
-
-impl fmt::Display for Death {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Killed => f.write_str("killed"),
-            Self::Output(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for Death {}
-
-impl Mortal<'_> {
-    fn lives(&mut self, done: Result<(), OutputError>) -> Result<(), Death> {
-        done.map_err(Death::Output)?;
-        self.calls = self.calls.checked_sub(1).ok_or(Death::Killed)?;
-        Ok(())
-    }
-}
-
-impl Recorder for Mortal<'_> {
-    type Error = Death;
-
-    fn finished(&mut self) -> Option<Finished> {
-        self.recording.finished()
-    }
-
-    fn clock(&self) -> Option<f64> {
-        self.recording.clock()
-    }
-
-    fn fits(&self, points: [usize; 2]) -> bool {
-        points[0] <= ROOM
-    }
-
-    fn begin(&mut self, solver: &Solver) -> Result<(), Death> {
-        let done = self.recording.begin(solver);
-        self.lives(done)
-    }
-
-    fn solved(&mut self, checkpoint: &Checkpoint) -> Result<(), Death> {
-        let done = self.recording.solved(checkpoint);
-        self.lives(done)
-    }
-
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), Death> {
-        let done = self.recording.step(step, record, field);
-        self.lives(done)
-    }
-
-    fn refined(&mut self, points: [usize; 2], change: f64) {
-        self.recording.refined(points, change);
-    }
-}
-
-fn case(text: &str) -> Case {
-    Case::read(&Source { name: "resumed".to_owned(), text: text.to_owned(), ..Source::default() }, &[]).unwrap()
-}
-
-/// A run into a folder, going on with what stands there, killed after so many calls; `None` if it was. Else whether it went
-/// on, and what it has found.
-fn run(case: &Case, folder: &Path, fields: bool, calls: usize) -> Option<(bool, Outcome)> {
-    let run = case.run();
-    let mut plan = solved_plan(case, run.loads.len(), fields);
-    plan.resumes = true;
-    let claim = RunFolder::claim(folder, plan).unwrap();
-    let fingerprint = output::fingerprint(case, "test");
-    let earlier = if claim.resumes() { output::finished(&claim.staging(), &fingerprint).unwrap() } else { None };
-    let went_on = earlier.is_some();
-    let recording = Recording::new(&claim, &run, case.to_toml(), Clock::start()).resumable(fingerprint, earlier);
-    let recording = if fields { recording } else { recording.without_fields() };
-    let mut mortal = Mortal { recording, calls };
-    let outcome = match run.solve(&mut mortal) {
-        Ok(outcome) => outcome,
-        Err(RunError::Recorder(Death::Killed)) => return None,
-        Err(error) => panic!("{error:?}"),
-    };
-    let left = mortal.calls;
-    let (_, mut clock) = mortal.recording.finish().unwrap();
-    // Killed after fields are gathered.
-    if left == 0 {
-        return None;
-    }
-    write_scalars(&claim.staging(), case, &outcome, &outcome.warnings, clock.timing()).unwrap();
-    claim.publish().unwrap();
-    Some((went_on, outcome))
-}
-
 /// Kills a run after every call, its successor some calls later, and compares what the third leaves.
 fn survives_every_call(text: &str, fields: bool) {
     let (desk, case) = (Desk::new(), case(text));
@@ -260,30 +152,4 @@ fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
     assert!(folder.files() == before && !folder.names().contains("unfinished"));
     let other = resume(&["--set", "substrate.poisson=0.2", "--set", "load.mean_pressure=0.01"]);
     assert!(other.code == 0 && !other.err.contains("is finished"), "{}", other.err);
-}
-
-#[test]
-fn what_was_damaged_is_refused_with_its_path_and_can_be_moved_aside() {
-    let (desk, case) = (Desk::new(), case(STRESSES));
-    let folder = desk.path("killed");
-    assert!(run(&case, &folder, true, 5).is_none());
-    desk.write("case.toml", STRESSES);
-    let fingerprint = output::fingerprint(&case, "test");
-    let state = folder.join("unfinished/checkpoint.npz");
-    let whole = fs::read(&state).unwrap();
-    let spoilt = |at: usize| {
-        let mut bytes = whole.clone();
-        bytes[at] ^= 1;
-        bytes
-    };
-    for bytes in [whole[..whole.len() / 2].to_vec(), spoilt(whole.len() / 2), Vec::new()] {
-        fs::write(&state, bytes).unwrap();
-        let error = output::finished(&folder.join("unfinished"), &fingerprint).unwrap_err().to_string();
-        assert!(error.contains("checkpoint.npz") && error.contains("leave --resume out"), "{error}");
-    }
-    let refused = desk.percoat(&["solve", "case.toml", "-o", "killed", "--resume", "--no-pictures"]);
-    refused.complains(2, &["checkpoint.npz"]);
-    let anew = desk.percoat(&["solve", "case.toml", "-o", "killed", "--no-pictures"]);
-    assert!(anew.code == 0 && anew.err.contains("interrupted-1"), "{}", anew.err);
-    assert!(folder.join("interrupted-1/checkpoint.npz").is_file());
 }

@@ -61,6 +61,10 @@ struct LimitKeys {
 
 impl LimitKeys {
     fn at(&self) -> Option<At> {
+        let sizes = [self.mean_pressure, self.error, self.below, self.up_to, self.utilisation_at];
+        if sizes.into_iter().flatten().any(|size| size < 0.0) {
+            return None;
+        }
         let position = || Some([self.x?, self.y?, self.z?]);
         // An end that is null is infinite.
         let interval = || Some(self.interval?.map(|end| end.unwrap_or(f64::INFINITY)));

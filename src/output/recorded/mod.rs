@@ -1,8 +1,10 @@
 //! What `summary.json` and `limit.json` say, read back as the records they were written from.
 //!
-//! A number that is not finite is null in JSON: it comes back as infinite where the file calls it singular, as no number
-//! elsewhere. What the files do not hold (boundaries, what a reading says of its own errors) stays empty.
+//! A number that is not finite is null in JSON: it comes back as infinite where the file calls it singular, as no number where a
+//! step says that it is none, and is refused elsewhere, as is every code that is not known. What the files do not hold
+//! (boundaries, what a reading says of its own errors) stays empty.
 
+mod due;
 mod limit;
 mod number;
 mod step;

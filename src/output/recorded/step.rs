@@ -1,5 +1,6 @@
 //! Load steps.
 
+use super::due::complete;
 use super::number::{or_none, plain, value};
 use super::stress::{StressKeys, UtilisationKeys, stress, utilisation};
 use super::unreadable::{Unreadable, read};
@@ -15,15 +16,17 @@ use serde_json::Value;
 /// [`Unreadable`] with the first step that is not as this version writes it.
 pub fn steps_of(file: &Value) -> Result<Vec<StepRecord>, Unreadable> {
     let steps: Vec<Value> = read("`steps`", &file["steps"])?;
-    (1..)
-        .zip(&steps)
-        .map(|(number, step): (usize, _)| Ok(record(read::<StepKeys>(&format!("step {number}"), step)?)))
-        .collect()
+    (1..).zip(&steps).map(|(number, step): (usize, _)| of_keys(&format!("step {number}"), step)).collect()
 }
 
 /// A load step as a line of `steps.jsonl` tells it.
 pub(in crate::output) fn step(value: &Value) -> Result<StepRecord, Unreadable> {
-    Ok(record(read::<StepKeys>("a step", value)?))
+    of_keys("a step", value)
+}
+
+/// The step that a value tells of, called `what`.
+fn of_keys(what: &str, value: &Value) -> Result<StepRecord, Unreadable> {
+    record(read(what, value)?).map_err(|reason| Unreadable { what: what.to_owned(), reason })
 }
 
 #[derive(Deserialize)]
@@ -104,15 +107,20 @@ fn certificate<'de, D: Deserializer<'de>>(keys: D) -> Result<Certificate, D::Err
     Ok(Certificate { energy_gap, penetration, load })
 }
 
-fn record(keys: StepKeys) -> StepRecord {
-    // "not a number" is what a record says itself of numbers that are none.
-    let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == keys.stop_reason).unwrap_or(Stop::Stalled);
+fn record(keys: StepKeys) -> Result<StepRecord, String> {
+    // What a record says itself of numbers that are none.
+    let is_none = keys.stop_reason == "not a number";
+    let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == keys.stop_reason);
+    let stop = stop.or(is_none.then_some(Stop::Stalled));
+    let stop = stop.ok_or_else(|| format!("stop_reason {:?} is not known", keys.stop_reason))?;
+    let route = route(&keys.route, keys.trials).ok_or_else(|| format!("route {:?} is not known", keys.route))?;
+    let strength = keys.strength.into_iter().map(utilisation).collect::<Result<_, _>>()?;
     let mut levels: Vec<LevelReading> = keys.levels.into_iter().map(level).collect();
     let singular = levels.iter().any(|level| level.singular);
     let mut max_pressure = value(keys.max_pressure, singular);
     let peaks = std::iter::once(&mut max_pressure).chain(levels.iter_mut().map(|level| &mut level.max_pressure));
     peaks.zip(keys.peaks).for_each(|(peak, own)| *peak = plain(own));
-    StepRecord {
+    let record = StepRecord {
         reading: Reading {
             mean_pressure: plain(keys.mean_pressure),
             penetration: plain(keys.penetration),
@@ -130,7 +138,7 @@ fn record(keys: StepKeys) -> StepRecord {
         },
         report: Report {
             stop,
-            route: route(&keys.route, keys.trials).unwrap_or(Route::Direct),
+            route,
             iterations: keys.iterations,
             outer: keys.friction.as_ref().map_or(0, |sliding| sliding.outer_iterations),
             residual: plain(keys.residual),
@@ -142,9 +150,13 @@ fn record(keys: StepKeys) -> StepRecord {
         rough: keys.rough.map(|rough| RoughReading { histograms: keys.histograms, ..rough }),
         tapered: keys.tapered,
         stress: keys.stress.map(stress),
-        strength: keys.strength.into_iter().filter_map(utilisation).collect(),
+        strength,
         seconds: keys.seconds,
+    };
+    if !is_none {
+        complete(&record)?;
     }
+    Ok(record)
 }
 
 /// A route by its name.

@@ -126,10 +126,12 @@ fn rival(keys: &RivalKeys) -> Rival {
     Rival { value, error, position: [x, y, z], material }
 }
 
-/// `None` for a criterion of a later version.
-pub(super) fn utilisation(keys: UtilisationKeys) -> Option<Utilisation> {
-    Some(Utilisation {
-        criterion: criterion(&keys.criterion, keys.material, keys.interface)?,
+/// Refused for a criterion that is not known.
+pub(super) fn utilisation(keys: UtilisationKeys) -> Result<Utilisation, String> {
+    let UtilisationKeys { criterion: name, material, interface, .. } = &keys;
+    let criterion = criterion(name, *material, *interface).ok_or_else(|| format!("criterion {name:?} is not known"))?;
+    Ok(Utilisation {
+        criterion,
         value: value(keys.utilisation, keys.singular),
         error: keys.error,
         position: [keys.x, keys.y, keys.z],

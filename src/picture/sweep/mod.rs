@@ -110,6 +110,7 @@ mod tests {
             warnings: Vec::new(),
             results,
             seconds: 0.0,
+            files: Default::default(),
         }
     }
 

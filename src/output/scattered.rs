@@ -1,0 +1,94 @@
+//! An archive taken apart again into the entries of its steps.
+//!
+//! A run that is killed after its fields were gathered, and before they were published, has left the archive alone. The next
+//! one goes on with the last step, and so with the entries of the steps before, which are what their checksums are of.
+
+use super::npy::{header, shape};
+use super::steps::partial;
+use super::{disk, make_folder, write_file};
+use std::collections::BTreeMap;
+use std::io::{self, BufReader, Read};
+use std::path::Path;
+use zip::ZipArchive;
+
+/// An entry by its step, and its part where it comes in several.
+type Place = (usize, Option<usize>);
+
+/// Puts the entries of these names (`<archive>.partial/<array>.NNNN.npy`) where they waited before the archive was made of
+/// them; those of other archives are left out. The archive stays.
+///
+/// # Errors
+/// When it cannot be read, or has no such entries.
+pub(super) fn scatter<'a>(folder: &Path, archive: &str, names: impl Iterator<Item = &'a str>) -> io::Result<()> {
+    let mut arrays: BTreeMap<&str, BTreeMap<Place, &str>> = BTreeMap::new();
+    for name in names {
+        let entry = name.strip_prefix(archive).and_then(|rest| rest.strip_prefix(".partial/"));
+        if let Some((array, place)) = entry.and_then(placed) {
+            arrays.entry(array).or_default().insert(place, name);
+        }
+    }
+    let mut zip = ZipArchive::new(BufReader::new(disk::open(&folder.join(format!("{archive}.npz")))?))?;
+    make_folder(&partial(folder, archive)).map_err(io::Error::other)?;
+    for (array, entries) in arrays {
+        let mut values = zip.by_name(&format!("{array}.npy"))?;
+        let whole = shape(&mut values)?;
+        let in_parts = entries.keys().any(|(_, part)| part.is_some());
+        let Some(shape) = whole.get(if in_parts { 2 } else { 1 }..) else {
+            return Err(io::Error::new(io::ErrorKind::InvalidData, format!("`{array}` is not an array of steps")));
+        };
+        for name in entries.values() {
+            let length = shape.iter().try_fold(size_of::<f64>() as u64, |bytes, &n| bytes.checked_mul(n as u64));
+            let mut own = (&mut values).take(length.unwrap_or(u64::MAX));
+            let copied = write_file(&folder.join(name), |writer| {
+                header::<f64>(&mut *writer, shape)?;
+                io::copy(&mut own, writer).map(|_| ())
+            });
+            copied.map_err(io::Error::other)?;
+        }
+    }
+    Ok(())
+}
+
+/// Array and place of an entry by the name of its file.
+fn placed(file: &str) -> Option<(&str, Place)> {
+    let mut parts = file.strip_suffix(".npy")?.split('.');
+    let (array, step) = (parts.next()?, parts.next()?.parse().ok()?);
+    let part = parts.next().map(|part| part.parse().ok());
+    let whole = parts.next().is_none();
+    match part {
+        Some(None) => None,
+        part => whole.then_some((array, (step, part.flatten()))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Files;
+    use super::super::steps::StepArrays;
+    use super::*;
+
+    #[test]
+    fn an_archive_gives_the_entries_of_its_steps_again_byte_for_byte() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut arrays = StepArrays::new(folder.path(), "some").unwrap();
+        let mut files = Files::default();
+        for step in 0..3 {
+            arrays.next_step();
+            let value = |k: usize| f64::from(step) + k as f64 / 7.0;
+            arrays.add("a", &[2, 2], (0..4).map(value)).unwrap();
+            arrays.add("load", &[], [value(9)]).unwrap();
+            for part in 1..=2 {
+                let mut entry = arrays.begin("b", part, &[3]).unwrap();
+                entry.add(&[value(part), value(2 * part), -1.0]).unwrap();
+                arrays.end(entry).unwrap();
+            }
+            files.append(arrays.left());
+        }
+        arrays.finish(|_| Ok(())).unwrap();
+        assert!(files.damaged(folder.path()).is_some());
+        scatter(folder.path(), "some", files.names()).unwrap();
+        assert_eq!(files.damaged(folder.path()), None);
+        let others = ["some.partial/c.0001.npy", "some.partial/a.x.npy", "other.partial/a.0001.npy"];
+        assert!(scatter(folder.path(), "some", others.into_iter()).is_err(), "there is no array c");
+    }
+}

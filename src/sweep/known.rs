@@ -1,0 +1,84 @@
+//! What of an earlier sweep is known, and need not be solved again.
+
+use super::row::Row;
+use super::study::{Study, folder_of};
+use crate::output::{self, COMBINATIONS, OutputError, disk};
+use crate::plain;
+use std::collections::{HashMap, HashSet};
+use std::io;
+use std::path::Path;
+
+/// What of some rows is known of a sweep.
+#[derive(Debug, Default)]
+pub struct Known {
+    /// Combinations that are not solved again.
+    pub rows: Vec<Row>,
+    /// Files of others that are not as they were written, each with what is the matter with it.
+    pub damaged: Vec<String>,
+}
+
+impl Study<'_> {
+    /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again; so is what keeps
+    /// fields and has none under its number in the folder `from`, where the rows stand, or some that are not as they were
+    /// written: these are told.
+    pub fn known(&self, rows: &[Row], from: &Path) -> Known {
+        let by_print: HashMap<&str, &Row> =
+            rows.iter().filter(|row| !row.results.is_empty()).map(|row| (row.fingerprint.as_str(), row)).collect();
+        let mut found = Known::default();
+        for planned in &self.planned {
+            let combination = &self.combinations.all[planned.index];
+            let Some(row) = by_print.get(planned.fingerprint.as_str()) else { continue };
+            if self.keeps_fields {
+                // A row without files is one of a sweep that has kept none.
+                if row.combination != combination.number || row.files.is_empty() {
+                    continue;
+                }
+                let fields = from.join(folder_of(combination.number));
+                if let Some((name, reason)) = row.files.damaged(&fields) {
+                    found.damaged.push(format!("{} {reason}", plain::path(&fields.join(name))));
+                    continue;
+                }
+            }
+            let settings = self.settings(combination);
+            found.rows.push(Row { combination: combination.number, settings, ..Row::clone(row) });
+        }
+        found
+    }
+
+    /// Whether a combination that is none of the `known` ones has its files in the folder `from`: it was killed before its row was
+    /// written, or the row is lost. Solved again it would find them in its way.
+    pub fn has_unlogged(&self, known: &[Row], from: &Path) -> bool {
+        let known: HashSet<usize> = known.iter().map(|row| row.combination).collect();
+        let numbers = self.planned.iter().map(|planned| self.combinations.all[planned.index].number);
+        let unlogged = |number: usize| !known.contains(&number) && output::is_released(&from.join(folder_of(number)));
+        self.keeps_fields && numbers.into_iter().any(unlogged)
+    }
+
+    /// Gives the files of known combinations a second name in the folder `to`, where the result is gathered.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path.
+    pub fn take_over(&self, known: &[Row], from: &Path, to: &Path) -> Result<(), OutputError> {
+        if !self.keeps_fields || from == to {
+            return Ok(());
+        }
+        for row in known {
+            let folder = folder_of(row.combination);
+            let place = to.join(&folder);
+            output::make_folder(&place)?;
+            let planned = self.planned.iter().find(|own| self.combinations.all[own.index].number == row.combination);
+            for name in planned.map_or(&[][..], |planned| &planned.files) {
+                let [old, new] = [from, to].map(|place| place.join(&folder).join(name));
+                if row.files.has(name) && disk::link(&old, &new).is_err() {
+                    output::write_file(&new, |writer| io::copy(&mut disk::open(&old)?, writer).map(|_| ()))?;
+                }
+            }
+            disk::sync_folder(&place).map_err(|error| OutputError::new(&place, error))?;
+        }
+        // The log is going to say that they are there.
+        let all = to.join(COMBINATIONS);
+        let synced =
+            if known.is_empty() { Ok(()) } else { disk::sync_folder(&all).and_then(|()| disk::sync_folder(to)) };
+        synced.map_err(|error| OutputError::new(&all, error))
+    }
+}

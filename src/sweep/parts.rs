@@ -1,0 +1,182 @@
+//! Parts of a sweep, read and joined to the whole.
+
+use super::log::{Damage, Logged, read};
+use super::row::Row;
+use super::table::Asked;
+use crate::output::{SWEEP_LOG, disk};
+use crate::plain;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a part is none, or not of the same sweep as another.
+#[derive(Debug, thiserror::Error)]
+pub enum PartError {
+    /// A file cannot be read.
+    #[error("cannot read {}: {error}", plain::path(path))]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        error: io::Error,
+    },
+    /// A file is not as the sweep has written it.
+    #[error("{}{reason}; {advice}", plain::path(path), advice = advice(path))]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is the matter with it.
+        reason: String,
+    },
+    /// Two places say different things of one combination.
+    #[error(
+        "{first} and {second} have different results of {named}: they are not parts of one sweep; give each part once"
+    )]
+    Unlike {
+        /// A log and its line.
+        first: String,
+        /// Another.
+        second: String,
+        /// The combination.
+        named: String,
+    },
+}
+
+/// What can be done about a part that is damaged.
+fn advice(path: &Path) -> &'static str {
+    let is_begun = path.parent().is_some_and(|place| place.ends_with(UNFINISHED));
+    if is_begun {
+        "give the command of this part again with --resume, which solves again what is damaged"
+    } else {
+        "move it away and give the command of this part again"
+    }
+}
+
+/// Where a sweep that is not finished stands.
+pub const UNFINISHED: &str = "unfinished-sweep";
+
+/// What a part says of the whole sweep: `sweep.json`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Description {
+    /// The version that wrote it.
+    pub percoat: String,
+    /// Title of the case.
+    pub title: String,
+    /// `solve` or `limit`.
+    pub task: String,
+    /// Of the case and of all that it sets.
+    pub fingerprint: String,
+    /// Number of all combinations.
+    pub of: usize,
+    /// Number of those in the part, when it was written.
+    combinations: usize,
+    /// The common case as TOML.
+    pub case: String,
+    timing: Timing,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct Timing {
+    wall: f64,
+}
+
+/// A part of a sweep that stands in a place, finished or not.
+#[derive(Debug)]
+pub struct Part {
+    /// What it says of the whole.
+    pub description: Description,
+    log: PathBuf,
+    lines: Vec<Logged>,
+}
+
+impl Description {
+    /// The whole sweep.
+    pub fn asked(&self) -> Asked<'_> {
+        let Self { title, task, fingerprint, of, case, .. } = self;
+        Asked { title, case, task, fingerprint, of: *of }
+    }
+
+    /// Wall time of the part, seconds.
+    pub fn seconds(&self) -> f64 {
+        self.timing.wall
+    }
+}
+
+impl Part {
+    /// The part in a place, if there is one. Every line of its log must be as it was written and of the sweep that the part
+    /// says it is of; a part that is finished has as many as it says.
+    ///
+    /// # Errors
+    /// [`PartError`] with the file, and its line.
+    pub fn read(place: &Path) -> Result<Option<Self>, PartError> {
+        let (path, log) = (place.join("sweep.json"), place.join(SWEEP_LOG));
+        if matches!(disk::found(&path), Ok(None)) {
+            return Ok(None);
+        }
+        let input = |path: &Path, error| PartError::Input { path: path.to_owned(), error };
+        let damaged = |path: &Path, reason: String| PartError::Damaged { path: path.to_owned(), reason };
+        let bytes = disk::read(&path).map_err(|error| input(&path, error))?;
+        let description: Description = serde_json::from_slice(&bytes)
+            .map_err(|error| damaged(&path, format!(" is no description of a sweep: {error}")))?;
+        // A part that was killed before its first combination has no log.
+        let lines = match disk::found(&log) {
+            Ok(None) => Vec::new(),
+            _ => read(&log).map_err(|error| input(&log, error))?,
+        };
+        let (whole, identity) = (lines.len(), description.asked().identity());
+        let line = |own: Result<Logged, Damage>| {
+            let own = own.map_err(|damage| damaged(&log, format!(", {damage}")))?;
+            let (number, combination) = (own.line, own.row.combination);
+            if own.sweep != identity {
+                let reason = format!(
+                    ", line {number}: combination {combination} is not of the sweep that sweep.json beside it describes"
+                );
+                return Err(damaged(&log, reason));
+            }
+            if combination > description.of {
+                let of = description.of;
+                return Err(damaged(&log, format!(", line {number}: there is no combination {combination} of {of}")));
+            }
+            Ok(own)
+        };
+        let lines = lines.into_iter().map(line).collect::<Result<Vec<_>, _>>()?;
+        if !place.ends_with(UNFINISHED) && whole != description.combinations {
+            let wanted = description.combinations;
+            return Err(damaged(&log, format!(" has {whole} lines, and sweep.json beside it tells of {wanted}")));
+        }
+        Ok(Some(Self { description, log, lines }))
+    }
+}
+
+/// Rows of several parts, one a combination, by ascending number; and how many stood in two of them alike.
+///
+/// # Errors
+/// [`PartError::Unlike`] where two parts say different things of one combination.
+pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
+    let (mut rows, mut twice): (BTreeMap<usize, (String, Row)>, _) = (BTreeMap::new(), 0);
+    for Part { log, lines, .. } in parts {
+        for Logged { line, row, .. } in lines {
+            let at = format!("{}, line {line}", plain::path(&log));
+            match rows.entry(row.combination) {
+                Entry::Vacant(place) => drop(place.insert((at, row))),
+                Entry::Occupied(mut there) => {
+                    let (first, own) = there.get();
+                    let is_same_case = own.fingerprint == row.fingerprint && own.settings == row.settings;
+                    // What was solved twice is the same, unless one of them failed.
+                    let is_alike = own.results.is_empty() || row.results.is_empty() || own.results == row.results;
+                    if !is_same_case || !is_alike {
+                        let (first, named) = (first.clone(), row.named());
+                        return Err(PartError::Unlike { first, second: at, named });
+                    }
+                    twice += usize::from(!own.results.is_empty() && !row.results.is_empty());
+                    if own.results.is_empty() {
+                        there.insert((at, row));
+                    }
+                }
+            }
+        }
+    }
+    Ok((rows.into_values().map(|(_, row)| row).collect(), twice))
+}

@@ -1,0 +1,136 @@
+//! `report` shows no number of a result that is not whole, and tells what is missing.
+
+use crate::damages::{BLOWS, CASE, VALUES, copy, ends, relined, strike};
+use crate::program::{Desk, Folder};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn a_report_is_made_of_whole_results_alone() {
+    let desk = Desk::new();
+    desk.write("case.toml", CASE.replace("[0.01, 0.03, 0.0, 0.02]", "[0.01, 0.02]"));
+    desk.solve("run", &["case.toml"]);
+    let strong = ["--set", "layers.0.yield_strength=0.2", "--set", "substrate.yield_strength=0.05"];
+    let limit = desk.percoat(&[&["limit", "case.toml", "-o", "limit", "--no-pictures"], &strong[..]].concat());
+    assert_eq!(limit.code, 0, "{}", limit.err);
+    let sweep = desk.percoat(&[&["sweep", "case.toml", "-o", "sweep"], &VALUES[..]].concat());
+    assert_eq!(sweep.code, 0, "{}", sweep.err);
+    let report = |base: &str, listed: bool, damage: &dyn Fn(&Path)| {
+        let _ = fs::remove_dir_all(desk.path("damaged"));
+        copy(&desk.path(base), &desk.path("damaged"));
+        if !listed {
+            fs::remove_dir_all(desk.path("damaged/.percoat")).unwrap();
+        }
+        damage(&desk.path("damaged"));
+        let answer = desk.percoat(&["report", "damaged"]);
+        ends("report", &answer);
+        answer
+    };
+    for (base, listed) in ["run", "limit", "sweep"].iter().flat_map(|base| [true, false].map(|listed| (base, listed))) {
+        let answer = report(base, listed, &|_| ());
+        assert!(answer.code == 0 && answer.err.is_empty(), "{base}: {}", answer.err);
+    }
+    let edited = |file: &'static str, pointer: &'static str, value: Value| {
+        move |place: &Path| {
+            let text = fs::read_to_string(place.join(file)).unwrap();
+            let mut whole: Value = serde_json::from_str(&text).unwrap();
+            *whole.pointer_mut(pointer).unwrap_or_else(|| panic!("no {pointer} in {file}")) = value.clone();
+            fs::write(place.join(file), format!("{whole:#}\n")).unwrap();
+        }
+    };
+    let replaced = |file: &'static str, from: &'static str, to: &'static str| {
+        move |place: &Path| {
+            let text = fs::read_to_string(place.join(file)).unwrap();
+            assert!(text.contains(from), "no {from} in {file}");
+            fs::write(place.join(file), text.replacen(from, to, 1)).unwrap();
+        }
+    };
+    // Any change of a result that percoat's list knows.
+    for (base, file) in
+        [("run", "summary.json"), ("limit", "limit.json"), ("sweep", "sweep.json"), ("sweep", "sweep.csv")]
+    {
+        for (what, blow) in BLOWS.iter().filter(|(what, _)| *what != "missing") {
+            let answer = report(base, true, &|place| strike(&place.join(file), *blow));
+            assert!([2, 4].contains(&answer.code), "{file}: {what}: {}", answer.err);
+            assert!(
+                answer.err.contains(file) && !desk.path("damaged/report.html").exists(),
+                "{file}: {what}: {}",
+                answer.err
+            );
+        }
+    }
+    let other = report("run", true, &edited("summary.json", "/steps/0/penetration", 0.125.into()));
+    other.complains(2, &["summary.json is not as it was written", "compute it again"]);
+    // What cannot be, also in a copy without the list.
+    for (base, file, pointer, value, words) in [
+        ("run", "summary.json", "/steps/0/penetration", Value::Null, "step 1: `penetration` is null"),
+        ("run", "summary.json", "/steps/1/mean_pressure", Value::Null, "step 2: `mean_pressure` is null"),
+        ("run", "summary.json", "/steps/0/mean_pressure", (-0.01).into(), "below zero"),
+        ("run", "summary.json", "/steps/0/max_pressure", Value::Null, "`max_pressure` is null"),
+        ("run", "summary.json", "/steps/0/levels/0/load_share", Value::Null, "`load_share of level 1` is null"),
+        ("run", "summary.json", "/steps/0/contact_fraction", "x".into(), "invalid type"),
+        ("run", "summary.json", "/steps/0/certificate", Value::Null, "invalid type"),
+        ("run", "summary.json", "/steps/0/stop_reason", "x".into(), "stop_reason \"x\" is not known"),
+        ("run", "summary.json", "/steps/0/route", "x".into(), "route \"x\" is not known"),
+        ("run", "summary.json", "/steps/0/stress/materials/0/max_mises/value", Value::Null, "`max_mises` is null"),
+        ("run", "summary.json", "/warnings", "none".into(), "`warnings`"),
+        ("run", "summary.json", "/case/load", Value::Null, "`case` is no case"),
+        ("run", "summary.json", "/case", Value::Null, "`case` is missing"),
+        ("run", "summary.json", "/steps", Value::Null, "`steps`"),
+        ("limit", "limit.json", "/limits/0/criterion", "x".into(), "the limit of x"),
+        ("limit", "limit.json", "/limits", Value::Null, "limit loads"),
+        ("limit", "limit.json", "/warnings", 3.into(), "limit loads"),
+        ("sweep", "sweep.json", "/failed", "0".into(), "invalid type"),
+        ("sweep", "sweep.json", "/warnings", Value::Null, "`warnings`"),
+    ] {
+        let answer = report(base, false, &edited(file, pointer, value));
+        assert_eq!(answer.code, 2, "{file}: {pointer}: {}", answer.err);
+        assert!(answer.err.contains(file) && answer.err.contains(words), "{pointer}: {}", answer.err);
+    }
+    let answer = report("sweep", false, &edited("sweep.json", "/combinations", 2.into()));
+    answer.complains(2, &["sweep.csv", "it has 3 combinations", "tells of 2"]);
+    for (base, file, words, from, to) in [
+        ("run", "summary.json", "not JSON", "\"residual\": ", "\"residual\": NaN, \"was\": "),
+        ("sweep", "sweep.csv", "status", ",done,", ",dun,"),
+        ("sweep", "sweep.csv", "not a number", ",done,1,", ",done,1,x"),
+        ("sweep", "sweep.csv", "not a number", ",done,1,0.01,", ",done,1,NaN,"),
+        ("sweep", "sweep.csv", "not a number", ",done,1,0.01,", ",done,1,,"),
+        ("sweep", "sweep.csv", "below zero", ",done,1,", ",done,1,-"),
+    ] {
+        let answer = report(base, false, &replaced(file, from, to));
+        assert_eq!(answer.code, 2, "{file}: {from} → {to}: {}", answer.err);
+        assert!(answer.err.contains(file) && answer.err.contains(words), "{from} → {to}: {}", answer.err);
+    }
+    let answer = report("run", false, &|place| {
+        let path = place.join("summary.json");
+        let mut summary: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+        summary["steps"].as_array_mut().unwrap().remove(0);
+        fs::write(&path, summary.to_string()).unwrap();
+    });
+    answer.complains(2, &["summary.json", "1 steps", "2 loads"]);
+    for (what, change) in [
+        ("a line less", (|lines| drop(lines.drain(1..3))) as fn(&mut Vec<String>)),
+        ("a cell less", |lines| lines[1] = lines[1].replacen(",done", "", 1)),
+        ("an empty number", |lines| lines[1] = lines[1].replacen(",done,1,", ",done,1,,", 1)),
+        ("a line of another combination", |lines| lines[1] = lines[1].replacen("1,", "x,", 1)),
+    ] {
+        let answer = report("sweep", false, &|place| relined(&place.join("sweep.csv"), change));
+        assert!(answer.code == 2 && answer.err.contains("sweep.csv"), "{what}: {}", answer.err);
+    }
+    // What is not shown because it is missing or damaged is told, on the page too.
+    for (file, blow) in ["contact.npz", "stress.npz", "pressure.svg", "curve.csv"]
+        .iter()
+        .flat_map(|file| BLOWS.map(|blow| (file, blow)))
+    {
+        let answer = report("run", true, &|place| strike(&place.join(file), blow.1));
+        assert!(
+            answer.code == 0 && answer.err.contains(&format!("warning: {file} is ")),
+            "{file}: {}: {}",
+            blow.0,
+            answer.err
+        );
+        let page = Folder(desk.path("damaged")).text("report.html");
+        assert!(page.contains(&format!("{file} is ")) && page.contains("it is not shown"), "{file}: {}", blow.0);
+    }
+}
