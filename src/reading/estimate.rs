@@ -68,7 +68,7 @@ impl Step {
             let error = |safety: f64, open: f64, of: fn(&RoughReading) -> f64| {
                 Some(widest(safety, open, of(&rough), coarser.iter().map(|coarse| Some(of(coarse)))))
             };
-            let border = corrected_fraction(self.grid(), self.finest().pressures()).uncertainty;
+            let border = corrected_fraction(self.grid(), self.finest().pressures()).fraction.uncertainty;
             let fraction = error(AREA, border, |rough| rough.corrected_fraction);
             // The mean gap is that to complete contact, less the penetration.
             let depth = reading.penetration.abs() * topography_law(reading.spot_resolution.max(1.0));

@@ -4,7 +4,8 @@
 //! samples ([`Boundary`](super::Boundary)); of a topography it is also counted and **corrected** by the perimeter
 //! ([`RoughReading`](super::RoughReading)). The first converges faster, the second needs few samples: of surfaces whose spots
 //! have a few samples across the first errs by −13 to +25 %, the second by a few per cent. Each states its own error, and
-//! the one with the smaller error is the fraction in contact.
+//! of spots narrower than ten samples the reading with the smaller error is the fraction in contact. Of wider ones it is the first:
+//! it states more than it errs on them, most of all on rings, where the correction by the perimeter errs more.
 
 /// One reading of the fraction of the cell in contact, on one grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -15,21 +16,36 @@ pub(crate) struct Fraction {
     pub uncertainty: f64,
 }
 
+/// Samples across the spots from which on the correction by the perimeter, PART · 4/width of the counted area, leaves more open
+/// than the samples do.
+const WIDE: f64 = 10.0;
+
+/// The samples in contact counted and corrected by the perimeter.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Corrected {
+    /// The fraction.
+    pub fraction: Fraction,
+    /// Mean width of the spots in samples: four times the samples in contact over the pairs of neighbours at their border, π/2
+    /// radii of a disc. 0 without contact, infinite without a border.
+    pub width: f64,
+}
+
 /// The readings of one contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fractions {
     /// From boundaries and lines between the samples.
     pub between: Fraction,
     /// Counted and corrected by the perimeter; `None` for indenters.
-    pub corrected: Option<Fraction>,
+    pub corrected: Option<Corrected>,
 }
 
 impl Fractions {
-    /// Of both, the one whose `error` is smaller, with its error; where they are equal that between the samples. `error`
-    /// has the reading of this contact and how to find the same in another.
+    /// That between the samples, or the corrected one where its `error` is smaller and the spots are narrow; with its error.
+    /// `error` takes the reading of this contact and how to find the same in another.
     pub fn best(&self, error: impl Fn(Fraction, fn(&Self) -> Option<Fraction>) -> f64) -> (Fraction, f64) {
         let between = (self.between, error(self.between, |own| Some(own.between)));
-        match self.corrected.map(|corrected| (corrected, error(corrected, |own| own.corrected))) {
+        let narrow = self.corrected.filter(|own| own.width < WIDE).map(|own| own.fraction);
+        match narrow.map(|own| (own, error(own, |own| own.corrected.map(|own| own.fraction)))) {
             Some(corrected) if corrected.1 < between.1 => corrected,
             _ => between,
         }
@@ -41,12 +57,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_fraction_with_the_smaller_error_is_the_best() {
+    fn the_fraction_with_the_smaller_error_is_the_best_but_of_wide_spots() {
         let of = |value, uncertainty| Fraction { value, uncertainty };
+        let corrected = |value, uncertainty, width| Some(Corrected { fraction: of(value, uncertainty), width });
         let best = |fractions: Fractions| fractions.best(|own, _| own.uncertainty);
         let between = of(0.3, 0.02);
         assert_eq!(best(Fractions { between, corrected: None }), (between, 0.02));
-        assert_eq!(best(Fractions { between, corrected: Some(of(0.28, 0.02)) }).0, between);
-        assert_eq!(best(Fractions { between, corrected: Some(of(0.28, 0.01)) }), (of(0.28, 0.01), 0.01));
+        assert_eq!(best(Fractions { between, corrected: corrected(0.28, 0.02, 3.0) }).0, between);
+        assert_eq!(best(Fractions { between, corrected: corrected(0.28, 0.01, 3.0) }), (of(0.28, 0.01), 0.01));
+        assert_eq!(best(Fractions { between, corrected: corrected(0.28, 0.01, 12.0) }).0, between);
     }
 }

@@ -12,7 +12,7 @@
 //! The factor is that of square samples, a mean over the directions of a border; on others it is taken over as it is.
 //!
 //! Where spots have fewer than some ten samples across, what can be read between the samples errs by more: of both
-//! [`Reading::contact_fraction`](super::Reading::contact_fraction) is the one with the smaller error.
+//! [`Reading::contact_fraction`](super::Reading::contact_fraction) is then the one with the smaller error.
 //!
 //! **Spots** are samples in contact whose cells share an edge or a corner, as the usual tools of the field join them; what is
 //! open joins at edges alone, so that a spot closed at corners keeps its hole. Cells of samples are parallelograms of the reduced
@@ -21,7 +21,7 @@
 //!
 //! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū.
 
-use super::fraction::Fraction;
+use super::fraction::{Corrected, Fraction};
 use super::histogram::Histogram;
 use crate::lattice::Grid;
 use crate::lattice::components::Counts;
@@ -98,7 +98,7 @@ impl RoughReading {
         let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
         Some(Self {
             counted_fraction: counted as f64 / total,
-            corrected_fraction: corrected_fraction(grid, pressure).value,
+            corrected_fraction: corrected_fraction(grid, pressure).fraction.value,
             corrected_fraction_error: None,
             perimeter_density: length / grid.cell().area(),
             spots,
@@ -116,12 +116,13 @@ impl RoughReading {
 }
 
 /// The counted fraction in contact corrected by the perimeter.
-pub(super) fn corrected_fraction(grid: &Grid, pressure: &[f64]) -> Fraction {
+pub(super) fn corrected_fraction(grid: &Grid, pressure: &[f64]) -> Corrected {
     let total = grid.len() as f64;
     let [pairs, _] = borders(grid, pressure);
     let counted = pressure.iter().filter(|p| **p > 0.0).count() as f64;
     let value = (counted - PART * pairs).max(0.0) / total;
-    Fraction { value, uncertainty: BORDER * (counted / total - value) }
+    let fraction = Fraction { value, uncertainty: BORDER * (counted / total - value) };
+    Corrected { fraction, width: if counted > 0.0 { 4.0 * counted / pairs } else { 0.0 } }
 }
 
 /// Number of pairs of neighbours of which one is in contact, and length of the edges between them, along the other vector of
