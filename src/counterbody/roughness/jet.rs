@@ -1,6 +1,9 @@
 //! A surface and its derivatives at any place, by the sum over its waves.
 
 use super::Spectrum;
+use crate::lattice::Grid;
+use crate::numeric::lanes::{LANES, splat, vectorised};
+use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -33,56 +36,147 @@ impl Jet {
     }
 }
 
-/// e^{2πiκs} of one place for all |κ| up to a largest one.
-struct Phases(Vec<Complex<f64>>);
-
-impl Phases {
-    fn new(s: f64, most: i32) -> Self {
-        Self((0..=most).map(|k| Complex::cis(TAU * (f64::from(k) * s).fract())).collect())
-    }
-
-    fn at(&self, k: i32) -> Complex<f64> {
-        let phase = self.0[k.unsigned_abs() as usize];
-        if k < 0 { phase.conj() } else { phase }
-    }
+/// The sum over the waves of a surface. Of a row (k₁, ·) of components the waves stand in runs, one **b**₂ from each to the next:
+/// Σ v, Σ κ₂v and Σ κ₂²v of a run, by e^{2πiκ₂t}, give height and derivatives once they are multiplied by e^{2πiκ₁s}. Eight places
+/// are summed together.
+pub(super) struct WaveRows<'a> {
+    spectrum: &'a Spectrum,
+    rows: Vec<Vec<Run>>,
 }
 
-impl Spectrum {
+/// Waves (κ₁, κ₂), (κ₁, κ₂ + 1), … of components (k₁, k₂), (k₁, k₂ + 1), …
+struct Run {
+    /// k₂.
+    column: usize,
+    len: usize,
+    first: [i32; 2],
+    /// Of each component, and of its conjugate where that is not among the components.
+    part: f64,
+}
+
+/// The part of a component without another alias, and with a conjugate that is not among the components.
+const WHOLE: f64 = 2.0;
+
+impl<'a> WaveRows<'a> {
+    pub fn of(spectrum: &'a Spectrum) -> Self {
+        let [n1, _] = spectrum.grid().points();
+        let rows = (0..n1).into_par_iter().map(|k1| runs(spectrum.grid(), k1)).collect();
+        Self { spectrum, rows }
+    }
+
     /// The surface at places in fractions of **a**₁ and **a**₂.
-    pub(super) fn jets(&self, places: &[[f64; 2]]) -> Vec<Jet> {
-        let (grid, components) = (self.grid(), self.components());
-        let [_, n2] = grid.points();
-        // κᵢ = **q**·**a**ᵢ/2π.
-        let most = grid.cell().vectors().map(|[x, y]| (grid.largest_wavenumber() * x.hypot(y) / TAU) as i32 + 1);
-        let phases: Vec<[Phases; 2]> =
-            places.iter().map(|place| [0, 1].map(|axis| Phases::new(place[axis], most[axis]))).collect();
-        let of_row = |(k1, row): (usize, &[Complex<f64>])| {
-            let mut jets = vec![Jet::default(); places.len()];
-            for (k2, value) in row.iter().enumerate().filter(|(_, value)| value.norm_sqr() > 0.0) {
-                let aliases = grid.aliases([k1, k2]);
-                // Its conjugate is not among the components, but where it is its own or in the same column.
-                let both = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
-                let part = value * (both / aliases.len() as f64);
-                for [m1, m2] in aliases {
-                    let [q1, q2] = [m1, m2].map(|m| TAU * f64::from(m));
-                    for (jet, [first, second]) in jets.iter_mut().zip(&phases) {
-                        let wave = part * first.at(m1) * second.at(m2);
-                        let (h, slope) = (wave.re, -wave.im);
-                        jet.height += h;
-                        jet.slope = [jet.slope[0] + q1 * slope, jet.slope[1] + q2 * slope];
-                        let [ss, st, tt] = jet.curvature;
-                        jet.curvature = [ss - q1 * q1 * h, st - q1 * q2 * h, tt - q2 * q2 * h];
-                    }
-                }
-            }
-            jets
+    pub fn jets(&self, places: &[[f64; 2]]) -> Vec<Jet> {
+        let values = self.spectrum.components();
+        let values = values.as_slice().expect("made row by row");
+        let half = values.len() / self.rows.len();
+        let groups: Vec<Group> = places.chunks(LANES).map(|places| Group::new(places, half)).collect();
+        let of_row = |(row, values): (&Vec<Run>, &[Complex<f64>])| -> Vec<Jet> {
+            groups.iter().flat_map(|group| vectorised!(simd => group.jets(simd, row, values))).collect()
         };
         // Rows are added in their order, whoever has summed them.
-        let values = components.as_slice().expect("made row by row");
-        let rows: Vec<Vec<Jet>> = values.par_chunks(n2 / 2 + 1).enumerate().map(of_row).collect();
+        let rows: Vec<Vec<Jet>> = self.rows.par_iter().zip(values.par_chunks(half)).map(of_row).collect();
         let add = |sum: Vec<Jet>, row: Vec<Jet>| sum.into_iter().zip(row).map(|(a, b)| a.plus(b)).collect();
         rows.into_iter().fold(vec![Jet::default(); places.len()], add)
     }
+}
+
+/// The waves of the components (k₁, ·).
+fn runs(grid: &Grid, k1: usize) -> Vec<Run> {
+    let [_, n2] = grid.points();
+    let [b1, b2] = grid.cell().reciprocal();
+    let resolved = |m1: i32, m2: i32| grid.resolves([0, 1].map(|c| f64::from(m1) * b1[c] + f64::from(m2) * b2[c]));
+    let mut runs: Vec<Run> = Vec::new();
+    let mut k2 = 0;
+    while 2 * k2 <= n2 {
+        let aliases = grid.aliases([k1, k2]);
+        let both = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { WHOLE };
+        let part = both / aliases.len() as f64;
+        let mut len = 1;
+        if part == WHOLE {
+            // The zone is convex: once the waves leave it they do not come back.
+            let [m1, m2] = aliases[0];
+            let mut beyond = n2.div_ceil(2) - k2;
+            while beyond - len > 0 {
+                let middle = len + (beyond - len) / 2;
+                if resolved(m1, m2 + middle as i32) { len = middle + 1 } else { beyond = middle }
+            }
+        }
+        runs.extend(aliases.into_iter().map(|first| Run { column: k2, len, first, part }));
+        k2 += len;
+    }
+    runs
+}
+
+/// Up to eight places.
+struct Group {
+    places: Vec<[f64; 2]>,
+    /// Real and imaginary parts of e^{2πik₂t}.
+    phases: Vec<[[f64; LANES]; 2]>,
+}
+
+impl Group {
+    fn new(places: &[[f64; 2]], half: usize) -> Self {
+        let phases = (0..half).map(|k2| {
+            let mut own = [[0.0; LANES]; 2];
+            for (lane, [_, t]) in places.iter().enumerate() {
+                let phase = phase(k2 as f64, *t);
+                (own[0][lane], own[1][lane]) = (phase.re, phase.im);
+            }
+            own
+        });
+        Self { phases: phases.collect(), places: places.to_vec() }
+    }
+
+    /// What the waves of a row add at each place.
+    #[inline(always)]
+    fn jets<S: Simd>(&self, simd: S, row: &[Run], values: &[Complex<f64>]) -> Vec<Jet> {
+        let mut jets = vec![Jet::default(); self.places.len()];
+        for run in row {
+            let moments = self.moments(simd, run.column, &values[run.column..run.column + run.len]);
+            // κ₂ − k₂.
+            let [m1, d2] = [run.first[0], run.first[1] - run.column as i32].map(f64::from);
+            for (lane, (jet, [s, t])) in jets.iter_mut().zip(&self.places).enumerate() {
+                let [v, kv, kkv] = [0, 1, 2].map(|k| Complex::new(moments[2 * k][lane], moments[2 * k + 1][lane]));
+                let common = run.part * phase(m1, *s) * phase(d2, *t);
+                let wave = common * v;
+                let along = common * (kv + d2 * v);
+                let twice = common * (kkv + 2.0 * d2 * kv + d2 * d2 * v);
+                *jet = jet.plus(Jet {
+                    height: wave.re,
+                    slope: [-TAU * m1 * wave.im, -TAU * along.im],
+                    curvature: [m1 * m1 * wave.re, m1 * along.re, twice.re].map(|x| -TAU * TAU * x),
+                });
+            }
+        }
+        jets
+    }
+
+    /// Σ v, Σ k₂v and Σ k₂²v over components from a column on, real and imaginary parts, by the phases of each place.
+    #[inline(always)]
+    fn moments<S: Simd>(&self, simd: S, column: usize, values: &[Complex<f64>]) -> [[f64; LANES]; 6] {
+        let mut sums = [splat(simd, 0.0); 6];
+        for (k2, (value, [cos, sin])) in (column..).zip(values.iter().zip(&self.phases[column..])) {
+            let (cos, sin) = (f64x8::from_slice(simd, cos), f64x8::from_slice(simd, sin));
+            let (re, im, k) = (splat(simd, value.re), splat(simd, value.im), splat(simd, k2 as f64));
+            let v = [cos * re - sin * im, sin.mul_add(re, cos * im)];
+            let kv = [v[0] * k, v[1] * k];
+            for part in 0..2 {
+                sums[part] += v[part];
+                sums[2 + part] += kv[part];
+                sums[4 + part] = kv[part].mul_add(k, sums[4 + part]);
+            }
+        }
+        sums.map(|sum| {
+            let mut own = [0.0; LANES];
+            sum.store_slice(&mut own);
+            own
+        })
+    }
+}
+
+/// e^{2πiκs}.
+fn phase(k: f64, s: f64) -> Complex<f64> {
+    Complex::cis(TAU * (k * s).fract())
 }
 
 #[cfg(test)]
@@ -101,7 +195,8 @@ mod tests {
         ] {
             let heights = Array2::from_shape_fn(points, |(i, j)| ((5 * i + 3 * j * j + i * j) % 7) as f64);
             let spectrum = Spectrum::of(cell, heights.view()).unwrap();
-            let at = |s: f64, t: f64| spectrum.jets(&[[s, t]])[0];
+            let waves = WaveRows::of(&spectrum);
+            let at = |s: f64, t: f64| waves.jets(&[[s, t]])[0];
             for ((i, j), height) in heights.indexed_iter() {
                 let found = at(i as f64 / points[0] as f64, j as f64 / points[1] as f64);
                 assert!((spectrum.common() + found.height - height).abs() < 1e-13, "{cell}");
