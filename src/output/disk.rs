@@ -10,6 +10,7 @@
 //! Whatever names something as finished, a line of a log or a list, is written after what it names has come to the disk:
 //! content by [`sync`], names by [`sync_folder`]. File systems that refuse to do the latter are trusted.
 
+use crate::plain;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
@@ -247,6 +248,10 @@ pub(crate) fn make_folder(path: &Path) -> io::Result<Vec<PathBuf>> {
         match create_folder(folder) {
             // Another thread or process has made it.
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists && folder.is_dir() => {}
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                let what = format!("{} is no folder", plain::path(folder));
+                return Err(io::Error::new(io::ErrorKind::NotADirectory, what));
+            }
             made => made?,
         }
     }
@@ -325,5 +330,8 @@ mod tests {
         assert!(make_folder(&deep).unwrap().is_empty() && create_folder(&deep).is_err());
         assert_eq!(remove_folder(&folder.path().join("a")).unwrap_err().kind(), io::ErrorKind::DirectoryNotEmpty);
         remove_folder(&deep).unwrap();
+        fs::write(folder.path().join("mine"), "mine").unwrap();
+        let refused = make_folder(&folder.path().join("mine/below")).unwrap_err().to_string();
+        assert!(refused.ends_with("mine is no folder"), "{refused}");
     }
 }

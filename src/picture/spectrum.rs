@@ -40,7 +40,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
     let chart = Chart {
         title: String::new(),
         x: Axis::log(in_lengths("wavenumber q", units, |unit| format!("1/{unit}"))),
-        y: Axis::log(in_lengths("power spectral density C, h_rms² = ∫\u{a0}C\u{a0}d²q", units, |unit| {
+        y: Axis::log(in_lengths("spectral density C, ∫\u{a0}C\u{a0}d²q\u{a0}=\u{a0}⟨h²⟩", units, |unit| {
             format!("{unit}⁴")
         }))
         .from_to(0.3 * least, 3.0 * most),
@@ -50,7 +50,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
     let [n1, n2] = topography.points();
     let caption = format!(
         "{}{}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean \
-         square of the heights: C is 1/4π² of the convention with ∫\u{a0}C\u{a0}d²q/4π² (SurfaceTopography's).",
+         square ⟨h²⟩ of the heights; SurfaceTopography's C is 4π² times this one.",
         if title.is_empty() { String::new() } else { format!("{title}. ") },
         units.length().told(statistics.rms_height, |x| format!("Rms height {}", short(x))),
         short(own.rms_slope())
