@@ -91,6 +91,13 @@ fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
         let path = plain::path(&path);
         return Err(Failure::refused(format!("{path} {reason}; {first}give the command of this part again")));
     }
+    if let Some(own) = disk::found(&unfinished).ok().flatten().filter(|own| !own.is_dir()) {
+        return Err(Failure::refused(format!(
+            "{} is {}, where percoat keeps a folder of its own: move it away",
+            plain::path(&unfinished),
+            disk::kind(&own)
+        )));
+    }
     let found: Vec<Part> = [Part::read(folder)?, Part::read(&unfinished)?].into_iter().flatten().collect();
     match &found[..] {
         [] => Err(Failure::refused(format!(

@@ -63,9 +63,10 @@ pub fn run(
     let mut claim = RunFolder::claim(&folder, Plan { resumes: goes_on, ..plan })?;
     terminal::tell_aside(claim.set_aside(), common.quiet);
     let fingerprint = output::fingerprint(&case, if options.no_fields { "scalars" } else { "fields" });
+    let was_begun = claim.resumes();
     let earlier = earlier(&mut claim, &fingerprint, &run, options.resume, common.quiet)?;
     if options.resume
-        && earlier.is_none()
+        && !was_begun
         && let Some((ending, summary)) = finished(&case, &folder, run.loads.len(), !options.no_fields)
     {
         claim.leave()?;

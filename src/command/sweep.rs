@@ -112,10 +112,12 @@ pub fn run(
         let earlier: Vec<Row> = earlier.into_iter().flatten().map(|own| own.row).collect();
         let known = study.known(&earlier, &from);
         let damaged = damaged.into_iter().filter_map(Result::err);
-        let damaged = damaged.map(|damage| format!("{}, {damage}", plain::path(&log))).chain(known.damaged).collect();
+        let has_all_files = known.damaged.is_empty();
+        let damaged =
+            damaged.map(|damage| format!("{}, {damage}", plain::path(&log))).chain(known.damaged).collect::<Vec<_>>();
         rows = known.rows;
         let solved = earlier.iter().filter(|row| !row.results.is_empty()).count();
-        if rows.is_empty() && solved > 0 && Vec::is_empty(&damaged) {
+        if rows.is_empty() && solved > 0 && has_all_files {
             return Err(Failure::refused(format!(
                 "none of the {solved} combinations that are done in {} is of this sweep: the case, a --set, --limit, \
                  --keep-fields, a surface or the version of percoat is another one; give the same command again, or leave \

@@ -179,7 +179,7 @@ pub(super) fn read(path: &Path) -> io::Result<(Place, Vec<f64>, Option<Last>)> {
     let mut saved = Saved::new(BufReader::new(disk::open(path)?))?;
     let place: Place = saved.place()?;
     saved.has_only(2, place.solved.as_ref())?;
-    let changes = saved.array("changes")?;
+    let changes = saved.array("changes", true)?;
     let last = place.solved.as_ref().map(|solved| saved.last(solved)).transpose()?;
     Ok((place, changes, last))
 }
@@ -234,43 +234,44 @@ impl<R: Read + Seek> Saved<R> {
         Ok(serde_json::from_str(&text)?)
     }
 
-    /// The numbers of an array, all of them finite.
-    fn array(&mut self, name: &str) -> io::Result<Vec<f64>> {
+    /// The numbers of an array, which are `finite` where a load was solved: only an iteration that ended otherwise leaves others.
+    fn array(&mut self, name: &str, finite: bool) -> io::Result<Vec<f64>> {
         let (bytes, entry) = self.entry(&format!("{name}.npy"))?;
         let values = vector(entry, bytes).map_err(|error| unlike(format!("its entry `{name}.npy`: {error}")))?;
-        match values.iter().position(|value| !value.is_finite()) {
+        match values.iter().position(|value| finite && !value.is_finite()) {
             Some(at) => Err(unlike(format!("value {} of its entry `{name}.npy` is not a number", at + 1))),
             None => Ok(values),
         }
     }
 
-    fn numbers<const N: usize>(&mut self, name: &str) -> io::Result<[f64; N]> {
-        self.array(name)?.try_into().map_err(|_| unlike(format!("its entry `{name}.npy` has another length")))
+    fn numbers<const N: usize>(&mut self, name: &str, finite: bool) -> io::Result<[f64; N]> {
+        self.array(name, finite)?.try_into().map_err(|_| unlike(format!("its entry `{name}.npy` has another length")))
     }
 
     fn last(&mut self, solved: &Solved) -> io::Result<Last> {
-        let [convolutions, residual, seconds] = self.numbers("numbers")?;
         let unknown = || unlike(format!("`{}` by `{}` is no end of an iteration", solved.stop, solved.route));
         let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == solved.stop).ok_or_else(unknown)?;
+        let finite = stop.solved();
+        let [convolutions, residual, seconds] = self.numbers("numbers", finite)?;
         let route = recorded::route(&solved.route, solved.trials).ok_or_else(unknown)?;
         let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
         if convolutions < 0.0 || seconds < 0.0 {
             return Err(unlike("a count or a time in it is negative".to_owned()));
         }
-        let grids = (0..solved.grids).map(|index| self.unknowns(index)).collect::<io::Result<_>>()?;
+        let grids = (0..solved.grids).map(|index| self.unknowns(index, finite)).collect::<io::Result<_>>()?;
         let checkpoint = Checkpoint { report, convolutions, coarser: solved.coarser, grids };
         Ok(Last { checkpoint, seconds })
     }
 
-    fn unknowns(&mut self, index: usize) -> io::Result<Unknowns> {
-        let [penetration, energy_gap, deepest, load] = self.numbers(&format!("proof_{index}"))?;
-        let pressure = self.array(&format!("pressure_{index}"))?;
+    fn unknowns(&mut self, index: usize, finite: bool) -> io::Result<Unknowns> {
+        let [penetration, energy_gap, deepest, load] = self.numbers(&format!("proof_{index}"), finite)?;
+        let pressure = self.array(&format!("pressure_{index}"), finite)?;
         if let Some(at) = pressure.iter().position(|pressure| *pressure < 0.0) {
             return Err(unlike(format!("value {} of its entry `pressure_{index}.npy` is negative", at + 1)));
         }
         Ok(Unknowns {
             pressure: Arc::new(pressure),
-            gap: Arc::new(self.array(&format!("gap_{index}"))?),
+            gap: Arc::new(self.array(&format!("gap_{index}"), finite)?),
             penetration,
             certificate: Certificate { energy_gap, penetration: deepest, load },
         })

@@ -98,7 +98,7 @@ pub(crate) fn open_to_change(path: &Path) -> io::Result<File> {
 #[derive(Debug)]
 pub(crate) struct Appended {
     file: File,
-    #[cfg_attr(not(test), allow(dead_code, reason = "the journal of the tests wants it"))]
+    #[cfg_attr(not(test), allow(dead_code, reason = "the journal of the tests reads it"))]
     path: PathBuf,
 }
 
@@ -127,7 +127,7 @@ impl Appended {
 ///
 /// # Errors
 /// Those of the system.
-#[cfg_attr(not(test), allow(unused_variables, reason = "the journal of the tests wants the path"))]
+#[cfg_attr(not(test), allow(unused_variables, reason = "the journal of the tests reads the path"))]
 pub(crate) fn sync(file: &File, path: &Path) -> io::Result<()> {
     #[cfg(test)]
     note(Change::Synced(path));

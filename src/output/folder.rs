@@ -237,9 +237,10 @@ fn make_own(folder: &Path) -> Result<(), OutputError> {
     made.map_err(|error| OutputError::new(&own, error))
 }
 
-/// Whether a folder is one that was [released](release): a result stands there, and nobody has it.
+/// Whether a folder is one that was [released](release), be it not to the end: a result stands there, and no list of it.
 pub fn is_released(folder: &Path) -> bool {
-    matches!(disk::found(&folder.join(OWN)), Ok(None)) && names(folder).is_ok_and(|names| !names.is_empty())
+    let is_result = |name: &String| *name != OWN && folder.join(name) != staging(folder, Writer::Solve);
+    !disk::is_file(&own(folder, "written.json")) && names(folder).is_ok_and(|names| names.iter().any(is_result))
 }
 
 /// Gives up what percoat keeps for itself in a folder whose files become part of another result: those that were solved there.

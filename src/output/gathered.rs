@@ -29,9 +29,15 @@ pub(super) fn is_partial(name: &str) -> bool {
     ["contact.partial", "stress.partial"].contains(&name)
 }
 
-/// Whether steps or combinations are gathered in a folder of that name.
-fn is_gathered(name: &str) -> bool {
-    name == COARSER || name == COMBINATIONS || name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
+/// Whether steps or combinations are gathered in a folder of that name in `folder`: those of one combination by its number, below
+/// that of all.
+fn is_gathered(folder: &Path, name: &str) -> bool {
+    name == COARSER || name == COMBINATIONS || is_number(name) && folder.ends_with(COMBINATIONS)
+}
+
+/// Whether a name is that of a combination.
+pub(super) fn is_number(name: &str) -> bool {
+    name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 /// Whether a run leaves a file of that name before it publishes.
@@ -83,7 +89,7 @@ pub(super) fn place_of(name: &str) -> Option<Place> {
 
 /// Whether percoat has a folder of that name there.
 pub(super) fn is_known(name: &str) -> bool {
-    is_partial(name) || is_gathered(name)
+    is_partial(name) || name == COARSER || name == COMBINATIONS || is_number(name)
 }
 
 /// Marks a folder as one in which percoat gathers a result of the `planned` names.
@@ -91,8 +97,10 @@ pub(super) fn mark(folder: &Path, planned: &[String]) -> Result<(), OutputError>
     let path = folder.join(MARK);
     let names = serde_json::to_string(planned).expect("names are texts");
     let version = env!("CARGO_PKG_VERSION");
-    let written = disk::create(&path)
-        .and_then(|mut file| writeln!(file, "A run of percoat {version} that is not finished.\n{names}"));
+    let written = disk::create(&path).and_then(|mut file| {
+        writeln!(file, "A run of percoat {version} that is not finished.\n{names}")?;
+        disk::sync(&file, &path)
+    });
     written.map_err(|error| OutputError::new(&path, error))
 }
 
@@ -172,7 +180,7 @@ pub(super) fn remove_own(folder: &Path, also: &dyn Fn(&str) -> bool) -> Result<b
         let (path, name, kind) = (entry.path(), entry.file_name(), entry.file_type());
         let kind = kind.map_err(failed(&path))?;
         gone &= match name.to_str() {
-            Some(name) if kind.is_dir() && is_gathered(name) => remove_own(&path, also)?,
+            Some(name) if kind.is_dir() && is_gathered(folder, name) => remove_own(&path, also)?,
             Some(name) if kind.is_dir() && is_partial(name) => remove_waiting(&path)?,
             // It goes last, so that a folder that is cleared halfway stays percoat's.
             Some(MARK) if kind.is_file() => true,

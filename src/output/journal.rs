@@ -46,7 +46,7 @@ pub(crate) struct Journal {
     /// What has been noted, in words.
     pub(super) told: Vec<String>,
     /// Whether it takes everything for not synced.
-    pub(super) deaf: bool,
+    pub(super) ignores_syncs: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -101,7 +101,7 @@ impl Journal {
             images: Vec::new(),
             known: BTreeSet::new(),
             told: Vec::new(),
-            deaf: false,
+            ignores_syncs: false,
         }));
         JOURNALS.lock().unwrap().push(Arc::clone(&journal));
         journal
@@ -133,7 +133,7 @@ impl Journal {
             Change::SyncedFolder(path) => format!("sync-folder {}", short(path)),
         });
         match change {
-            Change::Synced(_) | Change::SyncedFolder(_) if self.deaf => {}
+            Change::Synced(_) | Change::SyncedFolder(_) if self.ignores_syncs => {}
             Change::Created(path) => self.create(path, Thing::File { durable: None, added: Vec::new() }),
             Change::CreatedFolder(path) => self.create(path, Thing::Folder),
             Change::Moved(from, to) => {

@@ -1,7 +1,7 @@
 //! What stands where in an output folder, and whose it is.
 
-use super::OutputError;
 use super::manifest::{Manifest, Standing, Writer};
+use super::{OutputError, disk};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -94,6 +94,11 @@ pub(super) fn retired(folder: &Path, writer: Writer) -> PathBuf {
 pub fn is_beside(result: &str, folder: &Path, name: &str) -> io::Result<bool> {
     let list = Manifest::read(&own(folder, "written.json"));
     Ok(!list.has(result) || list.standing(folder, name)? == Standing::Written)
+}
+
+/// Whether a folder is one in which a run gathers its result, or did so when it was killed, wherever it has been moved since.
+pub fn is_gathering(folder: &Path) -> bool {
+    disk::is_file(&folder.join(MARK))
 }
 
 /// Why a name is not percoat's, if it is somebody else's.

@@ -84,7 +84,7 @@ pub use finished::{CannotGoOn, finished};
 pub use folder::{Plan, RunFolder, is_released, release};
 pub use histograms::histograms;
 pub use kernel::{Traction, kernel};
-pub use layout::{COMBINATIONS, FolderError, SWEEP_LOG, is_beside};
+pub use layout::{COMBINATIONS, FolderError, SWEEP_LOG, is_beside, is_gathering};
 pub use limit::{limit_json, limits_json};
 pub use manifest::{Scope, Writer};
 pub use npy::{npy_bytes, npy_shared};

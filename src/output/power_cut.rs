@@ -35,14 +35,14 @@ fn result(folder: &Path) -> BTreeMap<String, String> {
 }
 
 /// What a power cut may leave of a folder in which a result of `old` names is replaced by one of `new` names.
-fn replaced(writer: Writer, old: &[&str], new: &[&str], deaf: bool) -> Vec<Image> {
+fn replaced(writer: Writer, old: &[&str], new: &[&str], ignores_syncs: bool) -> Vec<Image> {
     let place = tempfile::tempdir().unwrap();
     let journal = Journal::begin(place.path());
     publish(place.path(), writer, old, "old");
     {
         let mut journal = journal.lock().unwrap();
         journal.settle();
-        journal.deaf = deaf;
+        journal.ignores_syncs = ignores_syncs;
     }
     publish(place.path(), writer, new, "new");
     Journal::end(&journal);

@@ -340,7 +340,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
         let foreign = |staging: &Path| {
-            for name in ["mine/x.txt", "contact.partial/notes.txt", "notes.txt"] {
+            for name in ["mine/x.txt", "2024/case.toml", "contact.partial/notes.txt", "notes.txt"] {
                 let path = staging.join(name);
                 fs::create_dir_all(path.parent().unwrap()).unwrap();
                 fs::write(path, "mine").unwrap();
@@ -360,7 +360,7 @@ mod tests {
         assert!(next.set_aside().unwrap().ends_with("interrupted-2"));
         assert!(own.iter().all(|name| !folder.join("interrupted-2").join(name).exists()), "percoat's own is removed");
         for place in ["interrupted-1", "interrupted-2"] {
-            for name in ["mine/x.txt", "contact.partial/notes.txt", "notes.txt"] {
+            for name in ["mine/x.txt", "2024/case.toml", "contact.partial/notes.txt", "notes.txt"] {
                 assert_eq!(fs::read_to_string(folder.join(place).join(name)).unwrap(), "mine", "{place}/{name}");
             }
         }

@@ -2,7 +2,7 @@
 //! pipe. It is refused, before anything is written.
 
 use super::disk::{self, found, kind};
-use super::gathered::{Place, is_known, place_of};
+use super::gathered::{Place, is_known, is_number, place_of};
 use super::layout::{FolderError, OWN, names, own, retired, staging};
 use super::manifest::{Manifest, Writer};
 use super::{OutputError, lock};
@@ -38,7 +38,8 @@ pub(super) fn refuse_in(folder: &Path) -> Result<(), FolderError> {
         let path = folder.join(&name);
         let Some(place) = place_of(&name) else { continue };
         expect(&path, place)?;
-        if place == Place::Folder && is_known(&name) {
+        // The folder of a combination is a run's own, which looks into it when it begins there.
+        if place == Place::Folder && is_known(&name) && !is_number(&name) {
             refuse_in(&path)?;
         }
     }

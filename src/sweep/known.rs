@@ -20,7 +20,7 @@ pub struct Known {
 impl Study<'_> {
     /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again; so is what keeps
     /// fields and has none under its number in the folder `from`, where the rows stand, or some that are not as they were
-    /// written: these are told.
+    /// written: these are in [`Known::damaged`].
     pub fn known(&self, rows: &[Row], from: &Path) -> Known {
         let by_print: HashMap<&str, &Row> =
             rows.iter().filter(|row| !row.results.is_empty()).map(|row| (row.fingerprint.as_str(), row)).collect();

@@ -3,7 +3,7 @@
 use super::log::{Damage, Logged, read};
 use super::row::Row;
 use super::table::Asked;
-use crate::output::{SWEEP_LOG, disk};
+use crate::output::{SWEEP_LOG, disk, is_gathering};
 use crate::plain;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -32,7 +32,8 @@ pub enum PartError {
     },
     /// Two places say different things of one combination.
     #[error(
-        "{first} and {second} have different results of {named}: they are not parts of one sweep; give each part once"
+        "{first} and {second} have different results of {named}: they are not parts of one sweep, or were solved by \
+         processors of different kinds, which differ in the last digits; give one of both"
     )]
     Unlike {
         /// A log and its line.
@@ -142,7 +143,7 @@ impl Part {
             Ok(own)
         };
         let lines = lines.into_iter().map(line).collect::<Result<Vec<_>, _>>()?;
-        if !place.ends_with(UNFINISHED) && whole != description.combinations {
+        if !is_gathering(place) && whole != description.combinations {
             let wanted = description.combinations;
             return Err(damaged(&log, format!(" has {whole} lines, and sweep.json beside it tells of {wanted}")));
         }

@@ -87,6 +87,21 @@ fn a_combination_that_is_damaged_is_solved_again_and_the_others_are_not() {
     // A line that is gone, or was not written before a kill, leaves its combination undone, whatever stands in its folder.
     let answer = resumed(&|place| relined(&place.join("sweep.jsonl"), |lines| drop(lines.remove(1))));
     assert!(answer.err.contains("2 of 3 combinations are done"), "{}", answer.err);
+    // Killed while it gave up what percoat keeps for itself in the combination's folder.
+    for left in [&[][..], &["lock"]] {
+        let answer = resumed(&|place| {
+            relined(&place.join("sweep.jsonl"), |lines| drop(lines.remove(1)));
+            let own = place.join("combinations/0002/.percoat");
+            fs::create_dir(&own).unwrap();
+            left.iter().for_each(|name| fs::write(own.join(name), "process 1\n").unwrap());
+        });
+        assert!(answer.err.contains("2 of 3 combinations are done"), "{}", answer.err);
+    }
+    // Of another sweep no damaged line makes this one.
+    let _ = fs::remove_dir_all(desk.path("killed"));
+    copy(&desk.path("base"), &desk.path("killed"));
+    relined(&desk.path("killed/unfinished-sweep/sweep.jsonl"), |lines| lines[1] = lines[1].replacen("0.0", "0.1", 1));
+    sweep("killed", &["--resume", "--set", "substrate.young=2"]).complains(2, &["none of the 2 combinations"]);
     // Their order is that of their ends.
     let answer = resumed(&|place| relined(&place.join("sweep.jsonl"), |lines| lines.swap(0, 2)));
     assert!(answer.err.contains("3 of 3 combinations are done"), "{}", answer.err);

@@ -82,6 +82,7 @@ fn a_small_stack_is_enough() {
 #[test]
 fn few_addresses_are_an_error_of_one_line() {
     let desk = Desk::new();
+    let mut failed = 0;
     for most in [40_000, 60_000, 90_000, 130_000, 180_000, 230_000, 300_000] {
         for arguments in [
             &["check", "fig2"][..],
@@ -92,8 +93,20 @@ fn few_addresses_are_an_error_of_one_line() {
         ] {
             let answer = under(&desk, &format!("ulimit -v {most}"), arguments).unwrap();
             assert_ended_well(&answer, &format!("{most} kB of addresses: {arguments:?}"));
+            failed += usize::from(answer.code != 0);
         }
     }
+    assert!(failed >= 10, "no limit was felt: {failed}");
+}
+
+/// A scheduler's limit of processor time ends a run as it is asked to end: what is saved is said.
+#[test]
+fn the_end_of_the_time_allowed_is_answered_with_what_is_saved() {
+    let desk = Desk::new();
+    // The whole search takes many times as long.
+    let answer = under(&desk, "ulimit -St 1", &["limit", "--set=grid.points=192", "--no-pictures"]).unwrap();
+    assert_eq!(answer.code, 130, "{}", answer.err);
+    assert!(answer.err.contains("interrupted: nothing is saved"), "{}", answer.err);
 }
 
 /// A file that may not grow is a full disk: what is finished stays, and the same command ends once it may.

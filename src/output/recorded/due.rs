@@ -14,7 +14,10 @@ pub(super) fn complete(record: &StepRecord) -> Result<(), String> {
     finite("penetration", reading.penetration)?;
     at_least_zero("contact_fraction", reading.contact_fraction)?;
     peak("max_pressure", reading.max_pressure, reading.singular())?;
-    finite("residual", record.report.residual)?;
+    // An iteration that could not begin has none.
+    if record.report.stop.solved() {
+        finite("residual", record.report.residual)?;
+    }
     for (name, value) in [("energy_gap", energy_gap), ("penetration", penetration), ("load", load)] {
         finite(&format!("certificate.{name}"), value)?;
     }
