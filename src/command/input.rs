@@ -26,7 +26,7 @@ pub fn read_source(case: Option<&Path>) -> Result<(Source, String), Failure> {
     Ok((find(path)?, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
 }
 
-/// Where the result of a case of that name goes: the folder that is asked for, or `out/<case name>`.
+/// The output folder of a case: that of `-o`, or `out/<case name>`.
 pub fn output_folder(common: &Common, name: &str) -> Result<PathBuf, Failure> {
     common.output.clone().map_or_else(|| default_folder(name), Ok)
 }

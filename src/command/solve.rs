@@ -112,8 +112,8 @@ pub fn run(
     Ok(ending)
 }
 
-/// What an earlier run into the folder has finished, if this one is to go on from there. What is of another run is an error
-/// where that is `demanded`; what is damaged is moved aside, and solved again.
+/// The steps of an earlier run into the folder from which this one goes on. With `demanded` (`--resume`) steps of another run are
+/// an error, and damaged ones are moved aside and solved again.
 fn earlier(
     claim: &mut RunFolder,
     fingerprint: &str,
@@ -156,7 +156,7 @@ fn done(earlier: &Finished) -> usize {
     earlier.steps.len() + usize::from(earlier.last.is_some())
 }
 
-/// How the result that stands in a folder ended, if it is of this case and whole, and its summary. What is missing of it is told.
+/// Ending and summary of the finished result in a folder, if it is of this case and whole; a warning names files that are missing.
 fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(Ending, String)> {
     let is_own =
         |name: &str| disk::is_file(&folder.join(name)) && is_beside("summary.json", folder, name).unwrap_or(false);

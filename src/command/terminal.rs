@@ -10,7 +10,7 @@ use std::path::Path;
 use clap::{ColorChoice, ValueEnum};
 use std::sync::OnceLock;
 
-/// A line on standard error, in which nothing is hidden ([`plain`]). Where nobody reads it any more, the command goes on.
+/// Prints a line on standard error, hidden characters as their escapes ([`plain`]). Where it cannot be written, the command goes on.
 macro_rules! tell {
     ($($message:tt)*) => {
         $crate::command::terminal::print_line(&$crate::plain::lines(&format!($($message)*)))
@@ -23,8 +23,8 @@ pub fn print_line(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// Standard output. In what is formatted for it nothing is hidden ([`plain`]). Whoever reads it may stop reading; the command
-/// then goes on to its end and its exit code.
+/// Standard output, with hidden characters as their escapes ([`plain`]). Where a closed pipe takes no more, the command goes on to
+/// its end and its exit code.
 pub struct Out(StdoutLock<'static>);
 
 /// Standard output, for one writer.

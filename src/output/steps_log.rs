@@ -156,8 +156,8 @@ pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
     }
 }
 
-/// The whole lines of a log: whatever a kill or a full disk left of one more is none. What is no text is shown as such: no line
-/// with it is one that percoat wrote.
+/// The whole lines of a log: whatever a kill or a full disk left of one more is none. Bytes that are not
+/// UTF-8 become U+FFFD, so that the seal of their line no longer fits.
 ///
 /// # Errors
 /// When it cannot be read.

@@ -163,7 +163,7 @@ impl<'a> Study<'a> {
         usize::try_from(self.room.memory / memory).unwrap_or(usize::MAX).min(threads).max(1)
     }
 
-    /// Solves every combination whose number is not among the `known` ones; `done` hears of each as it is done. Fields that are kept
+    /// Solves every combination whose number is not among the `known` ones; `done` receives the row of each when it ends. Fields that are kept
     /// are gathered in `folder`.
     ///
     /// # Errors
