@@ -5,7 +5,7 @@
 //! the same sum by whichever thread it is taken. (Products are added in one rounding where the processor can: another one may
 //! differ in the last digit.)
 
-use fearless_simd::{f32x8, f64x8, prelude::*};
+use fearless_simd::{f32x8, f32x16, f64x8, prelude::*};
 use rustfft::FftNum;
 
 /// Numbers of a group.
@@ -21,8 +21,26 @@ pub(crate) use vectorised;
 
 /// A real number, of single or double precision.
 pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
+    /// How many of them take 64 bytes, a line of the cache.
+    const WIDTH: usize;
+
     /// Eight of them.
     type Lanes<S: Simd>: SimdFloat<S, Element = Self>;
+
+    /// As many as a register of the processor holds; these divide the `WIDTH`.
+    type Register<S: Simd>: SimdFloat<S, Element = Self>;
+
+    /// `WIDTH` of them.
+    type Wide<S: Simd>: SimdFloat<S, Element = Self>;
+
+    /// `WIDTH` times `WIDTH` of them.
+    type Block<S: Simd>: AsRef<[Self::Wide<S>]> + AsMut<[Self::Wide<S>]>;
+
+    /// A block of zeros.
+    fn block<S: Simd>(simd: S) -> Self::Block<S>;
+
+    /// The vectors of a block turned into those of their first, second, … numbers.
+    fn transposed<S: Simd>(block: Self::Block<S>) -> Self::Block<S>;
 
     /// Rounded to this precision.
     fn rounded(value: f64) -> Self;
@@ -42,7 +60,21 @@ pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
 }
 
 impl Real for f64 {
+    const WIDTH: usize = 8;
     type Lanes<S: Simd> = f64x8<S>;
+    type Register<S: Simd> = S::f64s;
+    type Wide<S: Simd> = f64x8<S>;
+    type Block<S: Simd> = [f64x8<S>; 8];
+
+    #[inline(always)]
+    fn block<S: Simd>(simd: S) -> Self::Block<S> {
+        [f64x8::simd_from(simd, 0.0); 8]
+    }
+
+    #[inline(always)]
+    fn transposed<S: Simd>(block: Self::Block<S>) -> Self::Block<S> {
+        transposed(block)
+    }
 
     #[inline(always)]
     fn rounded(value: f64) -> Self {
@@ -74,7 +106,21 @@ impl Real for f64 {
 }
 
 impl Real for f32 {
+    const WIDTH: usize = 16;
     type Lanes<S: Simd> = f32x8<S>;
+    type Register<S: Simd> = S::f32s;
+    type Wide<S: Simd> = f32x16<S>;
+    type Block<S: Simd> = [f32x16<S>; 16];
+
+    #[inline(always)]
+    fn block<S: Simd>(simd: S) -> Self::Block<S> {
+        [f32x16::simd_from(simd, 0.0); 16]
+    }
+
+    #[inline(always)]
+    fn transposed<S: Simd>(block: Self::Block<S>) -> Self::Block<S> {
+        transposed(block)
+    }
 
     #[inline(always)]
     fn rounded(value: f64) -> Self {
@@ -106,6 +152,18 @@ impl Real for f32 {
             None => row[at..].iter_mut().zip(group.as_slice()).for_each(|(to, from)| *to = *from),
         }
     }
+}
+
+/// N vectors of N numbers: the bits of a number's place, vector and lane, go round, one of them a time.
+#[inline(always)]
+fn transposed<S: Simd, V: SimdFloat<S>, const N: usize>(mut vectors: [V; N]) -> [V; N] {
+    for _ in 0..N.trailing_zeros() {
+        let before = vectors;
+        for pair in 0..N / 2 {
+            (vectors[2 * pair], vectors[2 * pair + 1]) = before[pair].interleave(before[pair + N / 2]);
+        }
+    }
+    vectors
 }
 
 /// A group of a row in the row's own precision; what lies beyond its end is `beyond`.

@@ -2,6 +2,7 @@
 //! maxima and tops, lines around an axis and series along them, fields as arrays, swept and transformed eight samples at a time, and
 //! numbers as a person reads them.
 
+pub mod aligned;
 pub mod array;
 pub mod chebyshev;
 pub mod closed_line;

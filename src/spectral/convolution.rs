@@ -1,23 +1,25 @@
 //! Periodic convolution u = F⁻¹[K · F p] on the grid, in one fused pass.
 //!
-//! 1. Rows forward, eight at a time, real to complex: N₁ rows of N₂/2 + 1 components.
-//! 2. Eight columns at a time: forward, times K or over K, inverse. Nothing is transposed as a whole.
+//! 1. Rows forward, a group at a time, real to complex: N₁ rows of N₂/2 + 1 components.
+//! 2. A tile of columns at a time: forward, times K or over K, inverse. Nothing is transposed as a whole.
 //! 3. Rows back, complex to real.
 //!
-//! Between rows and columns the components stand in tiles: [part of the rows][eight columns][row][8 real, 8 imaginary
-//! parts], so that rows fill, and columns gather, runs of memory that nobody else touches. Work is split into fixed parts:
-//! neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
+//! Rows of a group and columns of a tile are as many as take 64 bytes: eight in double, sixteen in single precision. Between
+//! rows and columns the components stand in tiles, [tile][row][real parts, imaginary parts], where columns are transformed
+//! in place; each part of the rows has its run of lines in every tile, which nobody else touches. Work is split into fixed
+//! parts: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
 //! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Convolution::convolve`],
 //! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.
 //! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Convolution::multiplier`] puts it into K.
 
 use super::multiplier::{Action, Multiplier, Turns};
-use crate::numeric::fourier::{Columns, LINE, Rows};
+use crate::numeric::fourier::{Columns, Rows, line};
 use crate::numeric::lanes::{LANES, Real};
 use crate::numeric::rows::{Parts, next};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::fmt;
+use std::ops::Range;
 
 /// Plans for the transforms of N₁ × N₂ real samples of one precision.
 #[derive(Clone)]
@@ -57,14 +59,24 @@ impl<T: Real> Convolution<T> {
         self.points()[1] / 2 + 1
     }
 
-    /// Groups of eight columns.
+    /// Tiles of columns.
     fn tiles(&self) -> usize {
-        self.half().div_ceil(LANES)
+        self.half().div_ceil(T::WIDTH)
+    }
+
+    /// Numbers of a tile.
+    fn tile(&self) -> usize {
+        self.points()[0] * line::<T>()
     }
 
     /// Numbers between two passes.
     fn size(&self) -> usize {
-        self.tiles() * self.points()[0] * LINE
+        self.tiles() * self.tile()
+    }
+
+    /// Groups of eight columns that a multiplier has factors for: whole tiles in either precision.
+    fn eights(&self) -> usize {
+        self.half().next_multiple_of(f32::WIDTH) / LANES
     }
 
     /// Numbers of double precision that a convolution has for its [room](Self::convolve).
@@ -81,7 +93,7 @@ impl<T: Real> Convolution<T> {
         let [n1, n2] = self.points();
         let normalisation = 1.0 / (n1 as f64 * n2 as f64);
         let table = self.table(1.0, mirrored, |component| normalisation * value(component));
-        Multiplier::new(table, normalisation)
+        Multiplier::new(table, n1, normalisation)
     }
 
     /// The odd multiplier with the values `value([k₁, k₂])`, 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
@@ -92,14 +104,14 @@ impl<T: Real> Convolution<T> {
         Turns::new(self.table(0.0, false, value))
     }
 
-    /// Values in the order of the column pass, eight columns at a time, padded.
+    /// Values in the order of the column pass, eight columns at a time, padded to whole tiles.
     fn table(&self, padding: f64, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Vec<f64> {
         let n1 = self.points()[0];
-        let mut table = vec![padding; self.tiles() * n1 * LANES];
-        table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(tile, table)| {
+        let mut table = vec![padding; self.eights() * n1 * LANES];
+        table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(eight, table)| {
             let mut lines = vec![[padding; LANES]; n1];
             for k1 in 0..if mirrored { n1 / 2 + 1 } else { n1 } {
-                for (k2, entry) in (tile * LANES..self.half()).zip(&mut lines[k1]) {
+                for (k2, entry) in (eight * LANES..self.half()).zip(&mut lines[k1]) {
                     *entry = value([k1, k2]);
                 }
                 if mirrored {
@@ -129,7 +141,7 @@ impl<T: Real> Convolution<T> {
     where
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
-        assert_eq!(multiplier.len(), self.tiles() * self.points()[0] * LANES, "multiplier of a convolution");
+        assert_eq!(multiplier.len(), self.eights() * self.points()[0] * LANES, "multiplier of a convolution");
         let spectrum = &mut bytemuck::cast_slice_mut(room)[..self.size()];
         self.rows_forward(sources.into_par_iter(), spectrum);
         self.column_pass(action, multiplier, spectrum);
@@ -140,46 +152,32 @@ impl<T: Real> Convolution<T> {
     where
         S: IndexedParallelIterator<Item: FnMut(&mut [T])>,
     {
-        let tiles = self.tiles();
-        let parts = spectrum.par_chunks_mut(self.parts.rows() * tiles * LINE);
+        let mut parts: Vec<Vec<&mut [T]>> = (0..self.parts.count()).map(|_| Vec::with_capacity(self.tiles())).collect();
+        for tile in spectrum.chunks_exact_mut(self.tile()) {
+            let runs = tile.chunks_mut(self.parts.rows() * line::<T>());
+            runs.zip(&mut parts).for_each(|(run, part)| part.push(run));
+        }
         assert_eq!(sources.len(), parts.len(), "sources of a convolution");
-        parts.zip(sources).for_each(|(spectrum, mut source)| {
-            let (run, mut buffers) = (spectrum.len() / tiles, self.rows.buffers());
-            for first in (0..run).step_by(LANES * LINE) {
-                let group = (run - first).min(LANES * LINE);
-                let lines = spectrum.chunks_exact_mut(run).map(|tile| &mut tile[first..first + group]);
-                self.rows.forward(group / LINE, &mut source, &mut buffers, lines);
+        parts.into_par_iter().zip(sources).for_each(|(mut runs, mut source)| {
+            let mut buffers = self.rows.buffers();
+            for lines in self.groups(runs[0].len()) {
+                let tiles = runs.iter_mut().map(|run| &mut run[lines.clone()]);
+                self.rows.forward(lines.len() / line::<T>(), &mut source, &mut buffers, tiles);
             }
         });
     }
 
+    /// The lines of the groups of rows in a run of so many numbers.
+    fn groups(&self, run: usize) -> impl Iterator<Item = Range<usize>> + use<T> {
+        let group = T::WIDTH * line::<T>();
+        (0..run).step_by(group).map(move |first| first..run.min(first + group))
+    }
+
     fn column_pass(&self, action: Action<'_>, multiplier: &Multiplier, spectrum: &mut [T]) {
-        let (n1, tiles) = (self.points()[0], self.tiles());
-        let mut gathered: Vec<Vec<&mut [T]>> = (0..tiles).map(|_| Vec::with_capacity(self.parts.count())).collect();
-        for part in spectrum.chunks_mut(self.parts.rows() * tiles * LINE) {
-            let run = part.len() / tiles;
-            part.chunks_exact_mut(run).zip(&mut gathered).for_each(|(run, tile)| tile.push(run));
-        }
-        let buffers = || {
-            let scratch = vec![Complex::new(T::zero(), T::zero()); self.columns.scratch(n1)];
-            (vec![T::zero(); n1 * LINE], scratch)
-        };
-        gathered.into_par_iter().enumerate().for_each_init(buffers, |(lines, scratch), (tile, runs)| {
-            let mut rest = &mut lines[..];
-            for run in &runs {
-                let (to, after) = rest.split_at_mut(run.len());
-                to.copy_from_slice(run);
-                rest = after;
-            }
-            self.columns.forward(lines, scratch);
-            action.multiply(multiplier, tile, lines);
-            self.columns.inverse(lines, scratch);
-            let mut rest = &lines[..];
-            for run in runs {
-                let (from, after) = rest.split_at(run.len());
-                run.copy_from_slice(from);
-                rest = after;
-            }
+        let scratch = || vec![Complex::new(T::zero(), T::zero()); self.columns.scratch(self.points()[0])];
+        spectrum.par_chunks_exact_mut(self.tile()).enumerate().for_each_init(scratch, |scratch, (tile, lines)| {
+            let multiply = |first: usize, lines: &mut [T]| action.multiply(multiplier, tile, first, lines);
+            self.columns.there_and_back(lines, scratch, &multiply);
         });
     }
 }
@@ -195,15 +193,15 @@ impl<T: Real> Convolved<'_, T> {
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
         let (Self { convolution, spectrum }, sinks) = (self, sinks.into_par_iter());
-        let tiles = convolution.tiles();
-        let parts = spectrum.par_chunks(convolution.parts.rows() * tiles * LINE);
-        assert_eq!(sinks.len(), parts.len(), "sinks of a convolution");
-        parts.zip(sinks).for_each(|(spectrum, mut sink)| {
-            let (run, mut buffers) = (spectrum.len() / tiles, convolution.rows.buffers());
-            for first in (0..run).step_by(LANES * LINE) {
-                let group = (run - first).min(LANES * LINE);
-                let lines = spectrum.chunks_exact(run).map(|tile| &tile[first..first + group]);
-                convolution.rows.back(group / LINE, lines, &mut buffers, &mut sink);
+        let (parts, [n1, _]) = (convolution.parts, convolution.points());
+        assert_eq!(sinks.len(), parts.count(), "sinks of a convolution");
+        sinks.enumerate().for_each(|(part, mut sink)| {
+            let (first, last) = (part * parts.rows(), n1.min((part + 1) * parts.rows()));
+            let run = first * line::<T>()..last * line::<T>();
+            let mut buffers = convolution.rows.buffers();
+            for lines in convolution.groups(run.len()) {
+                let tiles = spectrum.chunks_exact(convolution.tile()).map(|tile| &tile[run.clone()][lines.clone()]);
+                convolution.rows.back(lines.len() / line::<T>(), tiles, &mut buffers, &mut sink);
             }
         });
     }

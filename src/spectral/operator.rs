@@ -15,19 +15,20 @@ use super::multiplier::{Action, Multiplier, Turns};
 use crate::body::{Compliances, TransferFunction};
 use crate::friction::Friction;
 use crate::lattice::Grid;
+use crate::numeric::aligned::Aligned;
 use crate::numeric::rows::Parts;
 use rayon::prelude::*;
 
 /// Memory that convolutions work in, for any number of grids in turn.
 #[derive(Debug, Default)]
 pub struct Workspace {
-    room: Vec<f64>,
+    room: Aligned<f64>,
 }
 
 impl Workspace {
     fn of(&mut self, size: usize) -> &mut [f64] {
         if self.room.len() < size {
-            self.room = vec![0.0; size];
+            self.room = Aligned::new(size);
         }
         &mut self.room[..size]
     }

@@ -1,17 +1,17 @@
-//! Short transforms of eight series of complex numbers at a time: X_k = Σ_j x_j e^{−2πi jk/R}, j, k < R.
+//! Short transforms of several series of complex numbers at a time: X_k = Σ_j x_j e^{−2πi jk/R}, j, k < R.
 
 use crate::numeric::lanes::Real;
 use fearless_simd::prelude::*;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// Largest radix there is a butterfly for.
 pub const LARGEST: usize = 13;
 
-/// Eight complex numbers.
+/// Complex numbers, as many as a register holds of their parts.
 #[derive(Debug, Clone, Copy)]
 pub struct Complex<S: Simd, T: Real> {
-    re: T::Lanes<S>,
-    im: T::Lanes<S>,
+    re: T::Register<S>,
+    im: T::Register<S>,
 }
 
 /// e^{−2πi k/n} as its real and imaginary part.
@@ -21,24 +21,26 @@ pub fn root<T: Real>(k: usize, n: usize) -> [T; 2] {
 }
 
 impl<S: Simd, T: Real> Complex<S, T> {
-    /// The eight numbers of a line, real parts first; with `swapped` parts a transform is its own inverse times R.
+    /// The numbers of a line from its number `at` on, real parts first; with `swapped` parts a transform is its own inverse
+    /// times R.
     #[inline(always)]
-    pub fn load(simd: S, line: &[T], swapped: bool) -> Self {
-        let (first, second) =
-            (T::Lanes::<S>::from_slice(simd, &line[..8]), T::Lanes::<S>::from_slice(simd, &line[8..16]));
+    pub fn load(simd: S, line: &[T], at: usize, swapped: bool) -> Self {
+        let part = |from: usize| T::Register::<S>::from_slice(simd, &line[from..from + T::Register::<S>::LEN]);
+        let (first, second) = (part(at), part(T::WIDTH + at));
         if swapped { Self { re: second, im: first } } else { Self { re: first, im: second } }
     }
 
     #[inline(always)]
-    pub fn store(self, line: &mut [T], swapped: bool) {
+    pub fn store(self, line: &mut [T], at: usize, swapped: bool) {
         let (first, second) = if swapped { (self.im, self.re) } else { (self.re, self.im) };
-        first.store_slice(&mut line[..8]);
-        second.store_slice(&mut line[8..16]);
+        let len = T::Register::<S>::LEN;
+        first.store_slice(&mut line[at..at + len]);
+        second.store_slice(&mut line[T::WIDTH + at..T::WIDTH + at + len]);
     }
 
     #[inline(always)]
     pub fn zero(simd: S) -> Self {
-        let zero = T::Lanes::<S>::simd_from(simd, T::zero());
+        let zero = T::Register::<S>::simd_from(simd, T::zero());
         Self { re: zero, im: zero }
     }
 
@@ -46,7 +48,7 @@ impl<S: Simd, T: Real> Complex<S, T> {
     #[inline(always)]
     pub fn times(self, [re, im]: [T; 2]) -> Self {
         let simd = self.re.token();
-        let (re, im) = (T::Lanes::<S>::simd_from(simd, re), T::Lanes::<S>::simd_from(simd, im));
+        let (re, im) = (T::Register::<S>::simd_from(simd, re), T::Register::<S>::simd_from(simd, im));
         Self { re: self.re.mul_sub(re, self.im * im), im: self.re.mul_add(im, self.im * re) }
     }
 
@@ -63,7 +65,7 @@ impl<S: Simd, T: Real> Complex<S, T> {
     /// self + factor · other.
     #[inline(always)]
     fn plus_times(self, factor: T, other: Self) -> Self {
-        let factor = T::Lanes::<S>::simd_from(self.re.token(), factor);
+        let factor = T::Register::<S>::simd_from(self.re.token(), factor);
         Self { re: other.re.mul_add(factor, self.re), im: other.im.mul_add(factor, self.im) }
     }
 
@@ -72,6 +74,13 @@ impl<S: Simd, T: Real> Complex<S, T> {
     fn turned(self) -> Self {
         Self { re: self.im, im: -self.re }
     }
+
+    /// self · e^{−iπ/4}.
+    #[inline(always)]
+    fn turned_half(self) -> Self {
+        let part = T::Register::<S>::simd_from(self.re.token(), T::rounded(FRAC_1_SQRT_2));
+        Self { re: (self.re + self.im) * part, im: (self.im - self.re) * part }
+    }
 }
 
 /// X from x, in place; `roots` are those of R, for radices without a form of their own.
@@ -79,13 +88,28 @@ impl<S: Simd, T: Real> Complex<S, T> {
 pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], roots: &[[T; 2]]) {
     match R {
         2 => (x[0], x[1]) = (x[0].plus(x[1]), x[0].minus(x[1])),
-        4 => {
-            let (even, odd) = (x[0].plus(x[2]), x[1].plus(x[3]));
-            let (level, turned) = (x[0].minus(x[2]), x[1].minus(x[3]).turned());
-            (x[0], x[1], x[2], x[3]) = (even.plus(odd), level.plus(turned), even.minus(odd), level.minus(turned));
+        4 => (x[0], x[1], x[2], x[3]) = four([x[0], x[1], x[2], x[3]]),
+        8 => {
+            let (mut sums, mut differences) = ([x[0]; 4], [x[0]; 4]);
+            for j in 0..4 {
+                (sums[j], differences[j]) = (x[j].plus(x[j + 4]), x[j].minus(x[j + 4]));
+            }
+            let [first, second, third, fourth] = differences;
+            let even = four(sums);
+            let odd = four([first, second.turned_half(), third.turned(), fourth.turned_half().turned()]);
+            (x[0], x[2], x[4], x[6]) = even;
+            (x[1], x[3], x[5], x[7]) = odd;
         }
         _ => odd(x, roots),
     }
+}
+
+/// Those of R = 4.
+#[inline(always)]
+fn four<S: Simd, T: Real>(x: [Complex<S, T>; 4]) -> (Complex<S, T>, Complex<S, T>, Complex<S, T>, Complex<S, T>) {
+    let (even, odd) = (x[0].plus(x[2]), x[1].plus(x[3]));
+    let (level, turned) = (x[0].minus(x[2]), x[1].minus(x[3]).turned());
+    (even.plus(odd), level.plus(turned), even.minus(odd), level.minus(turned))
 }
 
 /// An odd R: x_j and x_{R−j} enter by their sum and difference.

@@ -1,4 +1,4 @@
-//! Transforms of eight columns at a time, forth, times a factor, and back.
+//! Transforms of a tile of columns at a time, forth, times a factor, and back.
 //!
 //! Forth by decimation in frequency: a column of N = R M numbers becomes R columns of M, x_{j+qM} → Σ_q x_{j+qM}
 //! e^{−2πi qk/R} e^{−2πi jk/N}, and so on; the components end in the order of their digits reversed, where they are
@@ -6,13 +6,18 @@
 //! number of points with a prime factor beyond the largest butterfly is left to the library, column by column.
 
 use super::butterflies::{Complex, LARGEST, root, transform};
-use crate::numeric::lanes::{LANES, Real, vectorised};
+use crate::numeric::lanes::{Real, vectorised};
 use fearless_simd::prelude::*;
 use rustfft::{Fft, FftPlanner, num_complex};
 use std::sync::Arc;
 
-/// Numbers of a line: the real, then the imaginary parts of one row in eight columns.
-pub const LINE: usize = 2 * LANES;
+/// Numbers of a line of a tile in double precision: the real, then the imaginary parts of one row in eight columns.
+pub const LINE: usize = line::<f64>();
+
+/// The same in any precision: two lines of the cache.
+pub const fn line<T: Real>() -> usize {
+    2 * T::WIDTH
+}
 
 /// Plan for columns of so many numbers.
 #[derive(Clone)]
@@ -78,28 +83,52 @@ impl<T: Real> Columns<T> {
         }
     }
 
-    /// Eight columns forth, in place.
+    /// A tile of columns forth, in place.
     pub fn forward(&self, lines: &mut [T], scratch: &mut [num_complex::Complex<T>]) {
         match self {
-            Self::Butterflies(stages) => vectorised!(simd => forward(simd, stages, lines)),
+            Self::Butterflies(stages) => {
+                vectorised!(simd => through::<_, T, true, false>(simd, stages, 0, lines, &|_, _| ()));
+            }
             Self::Library { forward, .. } => by_column(&**forward, lines, scratch),
         }
     }
 
-    /// Eight columns back, in place, times the number of their points.
+    /// A tile of columns back, in place, times the number of their points.
     pub fn inverse(&self, lines: &mut [T], scratch: &mut [num_complex::Complex<T>]) {
         match self {
-            Self::Butterflies(stages) => vectorised!(simd => inverse(simd, stages, lines)),
+            Self::Butterflies(stages) => {
+                vectorised!(simd => through::<_, T, false, true>(simd, stages, 0, lines, &|_, _| ()));
+            }
             Self::Library { inverse, .. } => by_column(&**inverse, lines, scratch),
+        }
+    }
+
+    /// A tile of columns forth, `between`, and back. What is done between is given some lines at a time, and the number of the
+    /// first one.
+    pub fn there_and_back(
+        &self,
+        lines: &mut [T],
+        scratch: &mut [num_complex::Complex<T>],
+        between: &impl Fn(usize, &mut [T]),
+    ) {
+        match self {
+            Self::Butterflies(stages) => {
+                vectorised!(simd => through::<_, T, true, true>(simd, stages, 0, lines, between));
+            }
+            Self::Library { forward, inverse } => {
+                by_column(&**forward, lines, scratch);
+                between(0, lines);
+                by_column(&**inverse, lines, scratch);
+            }
         }
     }
 }
 
-/// Radices whose product is `len`, fours first; none when a prime factor has no butterfly.
+/// Radices whose product is `len`, eights first; none when a prime factor has no butterfly.
 fn radices(len: usize) -> Option<Vec<usize>> {
     assert!(len > 0, "a transform has points");
     let (mut rest, mut radices) = (len, Vec::new());
-    for radix in [4, 2, 3, 5, 7, 11, LARGEST] {
+    for radix in [8, 4, 2, 3, 5, 7, 11, LARGEST] {
         while rest.is_multiple_of(radix) {
             rest /= radix;
             radices.push(radix);
@@ -108,31 +137,67 @@ fn radices(len: usize) -> Option<Vec<usize>> {
     (rest == 1).then_some(radices)
 }
 
-/// After the first stage each part is finished before the next is begun: it fits the cache better than the whole.
+/// Bytes that the nearest cache of a processor holds, with room for something else.
+const NEAR: usize = 32 * 1024;
+
+/// Columns forth, `between`, and back. What is too large for the nearest cache is split once, each part finished before the
+/// next is begun.
 #[inline(always)]
-fn forward<S: Simd, T: Real>(simd: S, stages: &[Stage<T>], lines: &mut [T]) {
-    let Some((first, rest)) = stages.split_first() else { return };
-    split::<S, T, false>(simd, first, lines);
-    for part in lines.chunks_exact_mut(first.part * LINE) {
-        for stage in rest {
-            for whole in part.chunks_exact_mut(stage.radix * stage.part * LINE) {
-                split::<S, T, false>(simd, stage, whole);
+fn through<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
+    simd: S,
+    stages: &[Stage<T>],
+    first: usize,
+    lines: &mut [T],
+    between: &impl Fn(usize, &mut [T]),
+) {
+    match stages.split_first() {
+        Some((stage, rest)) if size_of_val(lines) > NEAR => {
+            if FORTH {
+                split::<S, T, false>(simd, stage, lines);
+            }
+            for (number, part) in lines.chunks_exact_mut(stage.part * line::<T>()).enumerate() {
+                deeper::<S, T, FORTH, BACK>(simd, rest, first + number * stage.part, part, between);
+            }
+            if BACK {
+                split::<S, T, true>(simd, stage, lines);
+            }
+        }
+        _ => {
+            if FORTH {
+                for stage in stages {
+                    parts::<S, T, false>(simd, stage, lines);
+                }
+            }
+            between(first, lines);
+            if BACK {
+                for stage in stages.iter().rev() {
+                    parts::<S, T, true>(simd, stage, lines);
+                }
             }
         }
     }
 }
 
+/// The same for a part; a function of its own, since it may call itself.
+fn deeper<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
+    simd: S,
+    stages: &[Stage<T>],
+    first: usize,
+    lines: &mut [T],
+    between: &impl Fn(usize, &mut [T]),
+) {
+    simd.vectorize(
+        #[inline(always)]
+        || through::<S, T, FORTH, BACK>(simd, stages, first, lines, between),
+    );
+}
+
+/// The splitting of every column, or (`BACK`) what undoes it.
 #[inline(always)]
-fn inverse<S: Simd, T: Real>(simd: S, stages: &[Stage<T>], lines: &mut [T]) {
-    let Some((first, rest)) = stages.split_first() else { return };
-    for part in lines.chunks_exact_mut(first.part * LINE) {
-        for stage in rest.iter().rev() {
-            for whole in part.chunks_exact_mut(stage.radix * stage.part * LINE) {
-                split::<S, T, true>(simd, stage, whole);
-            }
-        }
+fn parts<S: Simd, T: Real, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
+    for whole in lines.chunks_exact_mut(stage.radix * stage.part * line::<T>()) {
+        split::<S, T, BACK>(simd, stage, whole);
     }
-    split::<S, T, true>(simd, first, lines);
 }
 
 /// One splitting of columns, or (`BACK`) what undoes it.
@@ -144,43 +209,62 @@ fn split<S: Simd, T: Real, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &
         4 => step::<S, T, 4, BACK>(simd, stage, lines),
         5 => step::<S, T, 5, BACK>(simd, stage, lines),
         7 => step::<S, T, 7, BACK>(simd, stage, lines),
+        8 => step::<S, T, 8, BACK>(simd, stage, lines),
         11 => step::<S, T, 11, BACK>(simd, stage, lines),
         _ => step::<S, T, LARGEST, BACK>(simd, stage, lines),
     }
 }
 
 /// Forth: butterfly, then twiddles. Back: twiddles, then butterfly, with real and imaginary parts exchanged, which turns
-/// e^{−2πi…} into its conjugate.
+/// e^{−2πi…} into its conjugate. Twiddles of columns of one number are 1.
 #[inline(always)]
 fn step<S: Simd, T: Real, const R: usize, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
-    let size = stage.part * LINE;
-    let mut x = [Complex::zero(simd); R];
+    let mut parts = lines.chunks_exact_mut(stage.part * line::<T>());
+    let mut parts: [&mut [T]; R] = std::array::from_fn(|_| parts.next().expect("as many parts as the radix"));
+    if stage.part == 1 {
+        butterflies::<S, T, R, BACK, false>(simd, &stage.roots, &[], &mut parts, 0);
+        return;
+    }
     for (j, twiddles) in stage.twiddles.chunks_exact(R - 1).enumerate() {
-        let at = j * LINE;
+        butterflies::<S, T, R, BACK, true>(simd, &stage.roots, twiddles, &mut parts, j * line::<T>());
+    }
+}
+
+/// The butterflies of the lines that start at the number `at` of each part.
+#[inline(always)]
+fn butterflies<S: Simd, T: Real, const R: usize, const BACK: bool, const TURNED: bool>(
+    simd: S,
+    roots: &[[T; 2]],
+    twiddles: &[[T; 2]],
+    parts: &mut [&mut [T]; R],
+    at: usize,
+) {
+    let mut x = [Complex::zero(simd); R];
+    for lane in (0..T::WIDTH).step_by(T::Register::<S>::LEN) {
         for q in 0..R {
-            x[q] = Complex::load(simd, &lines[at + q * size..][..LINE], BACK);
-            if BACK && q > 0 {
+            x[q] = Complex::load(simd, &parts[q][at..at + line::<T>()], lane, BACK);
+            if BACK && TURNED && q > 0 {
                 x[q] = x[q].times(twiddles[q - 1]);
             }
         }
-        transform::<S, T, R>(&mut x, &stage.roots);
+        transform::<S, T, R>(&mut x, roots);
         for q in 0..R {
-            let result = if BACK || q == 0 { x[q] } else { x[q].times(twiddles[q - 1]) };
-            result.store(&mut lines[at + q * size..][..LINE], BACK);
+            let result = if BACK || !TURNED || q == 0 { x[q] } else { x[q].times(twiddles[q - 1]) };
+            result.store(&mut parts[q][at..at + line::<T>()], lane, BACK);
         }
     }
 }
 
-/// The library's transform of each of the eight columns.
+/// The library's transform of each column of a tile.
 fn by_column<T: Real>(fft: &dyn Fft<T>, lines: &mut [T], scratch: &mut [num_complex::Complex<T>]) {
-    let (column, scratch) = scratch.split_at_mut(lines.len() / LINE);
-    for lane in 0..LANES {
-        for (value, line) in column.iter_mut().zip(lines.chunks_exact(LINE)) {
-            *value = num_complex::Complex::new(line[lane], line[LANES + lane]);
+    let (column, scratch) = scratch.split_at_mut(lines.len() / line::<T>());
+    for lane in 0..T::WIDTH {
+        for (value, line) in column.iter_mut().zip(lines.chunks_exact(line::<T>())) {
+            *value = num_complex::Complex::new(line[lane], line[T::WIDTH + lane]);
         }
         fft.process_with_scratch(column, scratch);
-        for (value, line) in column.iter().zip(lines.chunks_exact_mut(LINE)) {
-            (line[lane], line[LANES + lane]) = (value.re, value.im);
+        for (value, line) in column.iter().zip(lines.chunks_exact_mut(line::<T>())) {
+            (line[lane], line[T::WIDTH + lane]) = (value.re, value.im);
         }
     }
 }

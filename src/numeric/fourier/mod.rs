@@ -1,12 +1,13 @@
-//! Discrete Fourier transforms, eight series of numbers at a time.
+//! Discrete Fourier transforms, several series of numbers at a time: as many as take 64 bytes, eight in double and sixteen in
+//! single precision.
 //!
-//! - `butterflies`: short ones, of eight series in the lanes of vectors;
+//! - `butterflies`: short ones, of series in the lanes of vectors;
 //! - `columns`: of complex columns, forth and back, without reordering between;
 //! - `rows`: of real rows, by the same steps;
 //! - `nonuniform`: sums of waves of any frequency at equally spaced points;
 //! - `field`: whole fields of any size by the library, done once.
 //!
-//! A field is transformed by groups of eight rows, then by tiles of eight columns, which are lines of eight real and eight
+//! A field is transformed by groups of so many rows, then by tiles of so many columns, which are lines of their real and
 //! imaginary parts, one line a row.
 
 mod butterflies;
@@ -15,7 +16,7 @@ pub mod field;
 mod nonuniform;
 mod rows;
 
-pub use columns::{Columns, LINE};
+pub use columns::{Columns, LINE, line};
 pub use nonuniform::Nonuniform;
 pub use rows::{Buffers, Rows};
 
