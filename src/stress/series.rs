@@ -34,7 +34,7 @@ pub(super) struct Series {
 }
 
 /// Waves from which on a sum is worth more than one thread.
-const MANY: usize = 4096;
+pub(super) const MANY: usize = 4096;
 
 impl Series {
     /// Of `pressure`, one value per sample of `grid`.
