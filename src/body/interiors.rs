@@ -336,23 +336,31 @@ mod tests {
                     }
                     for (found, q) in found.iter().zip(WAVENUMBERS) {
                         let exact = Interior::under(traction, &transfer, q).at(depth);
-                        let scale = [exact.szz, exact.sqz, exact.sqq, exact.stt].iter().fold(1e-6f64, |a, s| a.max(s.abs()));
+                        let scale =
+                            [exact.szz, exact.sqz, exact.sqq, exact.stt].iter().fold(1e-6f64, |a, s| a.max(s.abs()));
                         for (found, exact) in [
                             (found.szz, exact.szz),
                             (found.sqz, exact.sqz),
                             (found.sqq, exact.sqq),
                             (found.stt, exact.stt),
                         ] {
-                            assert!((found - exact).abs() < 1e-11 * scale, "{half_space}, q {q}, {depth:?}: {found}, {exact}");
+                            assert!(
+                                (found - exact).abs() < 1e-11 * scale,
+                                "{half_space}, q {q}, {depth:?}: {found}, {exact}"
+                            );
                         }
                         let size = exact.uz.abs().max(exact.uq.abs()).max(1e-6);
-                        assert!((found.uz - exact.uz).abs() < 1e-11 * size && (found.uq - exact.uq).abs() < 1e-11 * size);
+                        assert!(
+                            (found.uz - exact.uz).abs() < 1e-11 * size && (found.uq - exact.uq).abs() < 1e-11 * size
+                        );
                     }
                 }
                 for (found, q) in interiors.antiplane(&WAVENUMBERS, depth).iter().zip(WAVENUMBERS) {
                     let exact = transfer.antiplane(q, depth);
                     let scale = exact.stz.abs().max(exact.sqt.abs()).max(1e-6);
-                    assert!((found.stz - exact.stz).abs() < 1e-11 * scale && (found.sqt - exact.sqt).abs() < 1e-11 * scale);
+                    assert!(
+                        (found.stz - exact.stz).abs() < 1e-11 * scale && (found.sqt - exact.sqt).abs() < 1e-11 * scale
+                    );
                     assert!((found.ut - exact.ut).abs() < 1e-11 * exact.ut.abs().max(1e-6));
                 }
             }

@@ -9,7 +9,7 @@
 
 use super::field::{REACH, StressField};
 use super::peak::Peak;
-use super::quantity::{OVERALL, Quantity};
+use super::quantity::{Found, OVERALL, Quantity};
 use super::surface::Skin;
 use super::tensor::State;
 use super::transform::Transform;
@@ -255,14 +255,14 @@ impl StressField {
         band: &Band<Sharp>,
         quantities: &[Quantity],
     ) -> (Vec<[f64; 2]>, f64) {
+        let found = Found::new(quantities);
         let rows = self.series.on_plane(transform, room, &skin.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let mut states: Vec<State> = (0..row[0].len()).map(|j| skin.toward_open([0.0; 4], at(j), 1.0)).collect();
             for &(j, (sharp, part)) in &band[i] {
                 states[j] = skin.toward_open(sharp, at(j), part);
             }
-            let best: Vec<(usize, f64)> = quantities.iter().map(|quantity| quantity.largest(&states)).collect();
-            (best, largest(row[3].iter().copied()))
+            (found.add(states.len(), |j| states[j]), largest(row[3].iter().copied()))
         });
         let place = |quantity: usize| {
             let (i, _) = first_largest(rows.iter().map(|(best, _)| best[quantity].1)).unwrap_or_default();

@@ -8,7 +8,7 @@
 
 use super::field::StressField;
 use super::search::SEARCH_REACH;
-use super::series::{MANY, Phases, turned};
+use super::series::{MANY, Phases};
 use super::tensor::State;
 use crate::body::{Depth, InPlane};
 use crate::lattice::waves::Row;
@@ -86,9 +86,9 @@ impl StressField {
         };
         let rows = waves.rows_within(wavenumbers.len());
         let [s, t] = self.grid().cell().fractions(place);
-        let along = Phases::along(&rows, [s]);
+        let (along, across) = (Phases::along(&rows, [s]), Phases::across(&rows, [t]));
         let of_row = |row: &Row| {
-            let [[re], [im]] = turned(row.across, [t]);
+            let &[[re], [im]] = across.of(row);
             if self.slides() {
                 vectorised!(simd => waving.row::<_, true>(simd, row, along.from(row), [re, im]))
             } else {
@@ -111,13 +111,7 @@ impl StressField {
 impl Waving<'_> {
     /// The terms of a row's waves: `along` are the phases of their fractions of a₁, `across` that of a₂.
     #[inline(always)]
-    fn row<S: Simd, const SLIDES: bool>(
-        &self,
-        simd: S,
-        row: &Row,
-        along: &[[[f64; 1]; 2]],
-        across: [f64; 2],
-    ) -> Terms {
+    fn row<S: Simd, const SLIDES: bool>(&self, simd: S, row: &Row, along: &[[[f64; 1]; 2]], across: [f64; 2]) -> Terms {
         let step = self.field.series.waves.step();
         let shells = &self.field.series.waves.shells()[row.start..row.start + row.len];
         let coefficients = &self.field.series.coefficients[row.start..row.start + row.len];
@@ -180,7 +174,8 @@ impl Waving<'_> {
                         _ => (s * minus * wavenumber * wavenumber, v * minus * wavenumber * wavenumber),
                     };
                     let shear = two * nxy * sqt;
-                    let across = [shear * minus, shear, splat(simd, 0.0), (nxx - nyy) * sqt, ny * minus * stz, nx * stz];
+                    let across =
+                        [shear * minus, shear, splat(simd, 0.0), (nxx - nyy) * sqt, ny * minus * stz, nx * stz];
                     for k in 0..STRESSES {
                         odd[k] = by_along * own[k] + by_across * across[k];
                     }
@@ -188,8 +183,7 @@ impl Waving<'_> {
                 for k in 0..STRESSES {
                     // c(E − iT) where a pressure's stress is even, c(T − iE) where it is odd.
                     let (e, t) = if k < 4 { (even[k], odd[k]) } else { (odd[k], even[k]) };
-                    let (re, im) =
-                        if SLIDES || k >= 4 { (p * e + q * t, q * e - p * t) } else { (p * e, q * e) };
+                    let (re, im) = if SLIDES || k >= 4 { (p * e + q * t, q * e - p * t) } else { (p * e, q * e) };
                     match order {
                         0 => {
                             sums[0][k] += re;

@@ -14,7 +14,7 @@ use super::crest::Crest;
 use super::field::{REACH, StressField};
 use super::maxima::{Found, Maxima, NEAR};
 use super::peak::Peak;
-use super::quantity::{OVERALL, Quantity};
+use super::quantity::{self, OVERALL, Quantity};
 use super::slice::Stresses;
 use super::surface::Flat;
 use super::tensor::State;
@@ -157,7 +157,8 @@ impl StressField {
         let candidate = |index: usize| planes[index].candidate(quantity);
         let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
         let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
-        let mut all: Vec<Contender> = shallow.into_iter().map(|best| self.contender(best, self.state_at(best))).collect();
+        let mut all: Vec<Contender> =
+            shallow.into_iter().map(|best| self.contender(best, self.state_at(best))).collect();
         let deep: Vec<usize> = (0..depths.len()).filter(|&i| depths[i] >= near).collect();
         let [Some(&first), Some(&last)] = [deep.first(), deep.last()] else { return Some(all) };
         let value = |index: usize| candidate(index).value;
@@ -280,20 +281,16 @@ impl StressField {
 
     /// Index and value of the largest of each quantity in each row of a plane.
     fn largest_of_rows(&self, depth: Depth, transform: &Transform, quantities: &[Quantity]) -> Vec<Vec<(usize, f64)>> {
-        let slice = self.slice(depth, PLANE_REACH);
-        let largest = |states: Vec<State>| quantities.iter().map(|quantity| quantity.largest(&states)).collect();
+        let (slice, found) = (self.slice(depth, PLANE_REACH), quantity::Found::new(quantities));
         if depth == Depth::SURFACE {
             let traction = self.traction();
             let columns = self.series.on_plane(transform, Vec::new(), &Flat::new(&Arc::new(slice), |_| 1.0));
             return columns.map(|_, row| {
-                let state = |j: usize| State::on_surface(row.map(|component| component[j]), traction);
-                largest((0..row[0].len()).map(state).collect())
+                found.add(row[0].len(), |j| State::on_surface(row.map(|component| component[j]), traction))
             });
         }
         let columns = self.series.on_plane(transform, Vec::new(), &Stresses(&slice));
-        columns.map(|_, row| {
-            largest((0..row[0].len()).map(|j| State::from_stresses(row.map(|component| component[j]))).collect())
-        })
+        columns.map(|_, row| found.add(row[0].len(), |j| State::from_stresses(row.map(|component| component[j]))))
     }
 
     /// The best place on a face and the state there: between the samples of the plane by the exact sum, or, where that converges

@@ -23,9 +23,8 @@ impl Tables {
     /// The interiors of a half-space under the waves of a grid; they are made where there are none yet.
     pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<Interiors> {
         let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_own = |own: &&Table| {
-            Arc::ptr_eq(&own.grid, grid) && own.slides == slides && own.half_space == *half_space
-        };
+        let is_own =
+            |own: &&Table| Arc::ptr_eq(&own.grid, grid) && own.slides == slides && own.half_space == *half_space;
         if let Some(own) = tables.iter().find(is_own) {
             return Arc::clone(&own.interiors);
         }

@@ -49,7 +49,8 @@ impl<'a, R: Recorder> Search<'a, R> {
         // A flat surface is in complete contact under any load, and more of it changes what fails all the same.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let complete = complete.unwrap_or(f64::INFINITY);
-        let mut search = Self { run, solver, tables: Arc::default(), complete, steps: Vec::new(), last: None, recorder };
+        let mut search =
+            Self { run, solver, tables: Arc::default(), complete, steps: Vec::new(), last: None, recorder };
         let half_space = run.problem.half_space();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(half_space).into_iter().partition(|criterion| criterion.at_rest(half_space) >= 1.0);
