@@ -116,9 +116,11 @@ impl Interiors {
         Self { transfer, materials }
     }
 
-    /// Bytes of the table of a half-space with so many layers for this number of wavenumbers, at most.
-    pub fn bytes(layers: usize, wavenumbers: usize, slides: bool) -> usize {
-        if layers == 0 { 0 } else { (bytes(layers + 1, slides) * wavenumbers).min(MOST) }
+    /// Bytes of the table of a half-space at most, where `count` tells how many wavenumbers there are up to one.
+    #[cfg(any(feature = "cli", test))]
+    pub fn bytes(half_space: &super::HalfSpace, slides: bool, count: impl Fn(f64) -> usize) -> usize {
+        let layers = half_space.layers();
+        layers.first().map_or(0, |top| (bytes(layers.len() + 1, slides) * count(HIDDEN / top.thickness())).min(MOST))
     }
 
     /// Amplitudes at a depth under a pressure or a shear traction along the wavevector, of the first of the `wavenumbers` that
@@ -375,8 +377,11 @@ mod tests {
         let depth = Depth { z: 0.2, material: 1 };
         let found = interiors.amplitudes(InPlane::Normal, &WAVENUMBERS, depth);
         assert!(found.iter().zip(WAVENUMBERS).all(|(own, q)| *own == bare.amplitudes(InPlane::Normal, q, depth)));
-        assert_eq!((Interiors::bytes(0, 1000, true), Interiors::bytes(2, usize::MAX >> 8, true)), (0, MOST));
-        let layered = TransferFunction::new(&bodies().next().unwrap());
+        let body = bodies().next().unwrap();
+        let uncoated = HalfSpace::new(vec![], body.substrate());
+        assert_eq!((Interiors::bytes(&uncoated, true, |_| 9), Interiors::bytes(&body, true, |_| 1 << 40)), (0, MOST));
+        assert_eq!(Interiors::bytes(&body, false, |q| q as usize), 150 * 96);
+        let layered = TransferFunction::new(&body);
         let many: Vec<f64> = (1..=MOST / 96 + 10).map(|k| 1e-4 * k as f64).collect();
         let interiors = Interiors::new(layered.clone(), &many, false);
         assert_eq!(interiors.materials[0].normal.len(), MOST / 96);

@@ -23,8 +23,8 @@ const TOPS: usize = 3;
 const MOVES: usize = 12;
 /// Smaller distances over the ones before.
 const SMALLER: f64 = 0.3;
-/// What an expansion has to promise, relatively, for it to be followed.
-const PROMISE: f64 = 1e-12;
+/// What an expansion has to promise, relatively, for it to be followed: what is left is less.
+const PROMISE: f64 = 1e-10;
 /// The points around the middle of a plane: first those along x and y, then the corners.
 const AROUND: [[f64; 2]; 8] =
     [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];

@@ -115,8 +115,9 @@ impl Waving<'_> {
         let step = self.field.series.waves.step();
         let shells = &self.field.series.waves.shells()[row.start..row.start + row.len];
         let coefficients = &self.field.series.coefficients[row.start..row.start + row.len];
-        let [ex, ey] = self.field.traction().map(|t| splat(simd, t));
-        let [turn_re, turn_im] = across.map(|t| splat(simd, t));
+        let [ex, ey] = self.field.traction();
+        let (ex, ey) = (splat(simd, ex), splat(simd, ey));
+        let (turn_re, turn_im) = (splat(simd, across[0]), splat(simd, across[1]));
         let nu = splat(simd, self.poisson);
         let mut sums = [[splat(simd, 0.0); STRESSES]; TERMS];
         for first in (0..row.len).step_by(LANES) {
@@ -128,17 +129,16 @@ impl Waving<'_> {
                 let (shell, c, [[re], [im]]) = (shells[number] as usize, coefficients[number], along[number]);
                 let [x, y] = row.at(number, step);
                 let all = [c.re, c.im, re, im, x, y, self.lengths[shell]];
-                (0..7).for_each(|k| own[k][lane] = all[k]);
-                (0..4).for_each(|k| f[k][lane] = self.normal[shell][k]);
+                put(&mut own, lane, &all);
+                put(&mut f, lane, &self.normal[shell]);
                 if SLIDES {
                     let (along, across) = &self.tangential[shell];
-                    (0..4).for_each(|k| g[k][lane] = along[k]);
-                    (0..2).for_each(|k| v[k][lane] = across[k]);
+                    put(&mut g, lane, along);
+                    put(&mut v, lane, across);
                 }
             }
-            let [c_re, c_im, re, im, x, y, length] = own.map(|all| f64x8::from_slice(simd, &all));
-            let (f, g) = (f.map(|all| f64x8::from_slice(simd, &all)), g.map(|all| f64x8::from_slice(simd, &all)));
-            let [v, s] = v.map(|all| f64x8::from_slice(simd, &all));
+            let [c_re, c_im, re, im, x, y, length] = loaded(simd, &own);
+            let (f, g, [v, s]) = (loaded(simd, &f), loaded(simd, &g), loaded(simd, &v));
             let (re, im) = (re * turn_re - im * turn_im, re * turn_im + im * turn_re);
             let (p, q) = (c_re * re - c_im * im, c_re * im + c_im * re);
             let (nx, ny) = (x * length, y * length);
@@ -146,28 +146,16 @@ impl Waving<'_> {
             let wavenumber = x * nx + y * ny;
             let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
             let (two, minus) = (splat(simd, 2.0), splat(simd, -1.0));
-            // Of waves with σ_zz, σ_qz, σ_qq, σ_tt: xx, yy, zz, xy, xz, yz.
-            let turned = |[zz, qz, qq, tt]: [f64x8<S>; 4]| {
-                [nxx * qq + nyy * tt, nyy * qq + nxx * tt, zz, nxy * (qq - tt), nx * qz, ny * qz]
-            };
-            // The derivative of F of the order `from` on, times a power of the wavenumber.
-            let stresses = |f: &[f64x8<S>; 4], from: usize| match from {
-                0 => [f[0] * minus, f[1], f[2], nu * (f[2] - f[0])],
-                1 => [f[1] * minus, f[2], f[3], nu * (f[3] - f[1])].map(|own| own * wavenumber),
-                _ => {
-                    let square = wavenumber * wavenumber;
-                    [f[2] * minus, f[3], two * f[2] - f[0], nu * (f[2] - f[0])].map(|own| own * square)
-                }
-            };
+            let turn = Turn { n: [nx, ny], nn: [nxx, nxy, nyy], nu, wavenumber };
             let xx = [x * x, x * y, y * y];
             // By derivatives in depth.
             for order in 0..3 {
-                let even = turned(stresses(&f, order));
+                let even = turn.turned(turn.stresses(&f, order));
                 let mut odd = [splat(simd, 0.0); STRESSES];
                 if SLIDES {
                     // Under a shear traction σ_zz, σ_qq and σ_tt have the other sign.
-                    let [zz, qz, qq, tt] = stresses(&g, order);
-                    let own = turned([zz * minus, qz, qq * minus, tt * minus]);
+                    let [zz, qz, qq, tt] = turn.stresses(&g, order);
+                    let own = turn.turned([zz * minus, qz, qq * minus, tt * minus]);
                     let (stz, sqt) = match order {
                         0 => (s * minus, v * minus),
                         1 => (v * wavenumber, s * wavenumber),
@@ -189,7 +177,9 @@ impl Waving<'_> {
                             sums[0][k] += re;
                             sums[1][k] -= x * im;
                             sums[2][k] -= y * im;
-                            (0..3).for_each(|term| sums[3 + term][k] -= xx[term] * re);
+                            for term in 0..3 {
+                                sums[3 + term][k] -= xx[term] * re;
+                            }
                         }
                         1 => {
                             sums[6][k] += re;
@@ -201,12 +191,64 @@ impl Waving<'_> {
                 }
             }
         }
-        let mut terms = sums.map(|term| term.map(|lanes| total(lanes)));
-        // ½ of the squares.
-        for term in [3, 5, 9] {
-            terms[term].iter_mut().for_each(|own| *own *= 0.5);
+        let mut terms = [[0.0; STRESSES]; TERMS];
+        for term in 0..TERMS {
+            for k in 0..STRESSES {
+                // ½ of the squares.
+                let part = if matches!(term, 3 | 5 | 9) { 0.5 } else { 1.0 };
+                terms[term][k] = part * total(sums[term][k]);
+            }
         }
         terms
+    }
+}
+
+/// Numbers of eight waves as vectors.
+#[inline(always)]
+fn loaded<S: Simd, const N: usize>(simd: S, all: &[[f64; LANES]; N]) -> [f64x8<S>; N] {
+    let mut vectors = [splat(simd, 0.0); N];
+    for k in 0..N {
+        vectors[k] = f64x8::from_slice(simd, &all[k]);
+    }
+    vectors
+}
+
+/// Puts numbers of one wave beside those of others.
+#[inline(always)]
+fn put<const N: usize>(all: &mut [[f64; LANES]; N], lane: usize, own: &[f64; N]) {
+    for k in 0..N {
+        all[k][lane] = own[k];
+    }
+}
+
+/// Eight waves: **n**, n n, ν and q.
+struct Turn<S: Simd> {
+    n: [f64x8<S>; 2],
+    nn: [f64x8<S>; 3],
+    nu: f64x8<S>,
+    wavenumber: f64x8<S>,
+}
+
+impl<S: Simd> Turn<S> {
+    /// xx, yy, zz, xy, xz, yz of σ_zz, σ_qz, σ_qq, σ_tt.
+    #[inline(always)]
+    fn turned(&self, [zz, qz, qq, tt]: [f64x8<S>; 4]) -> [f64x8<S>; STRESSES] {
+        let ([nx, ny], [nxx, nxy, nyy]) = (self.n, self.nn);
+        [nxx * qq + nyy * tt, nyy * qq + nxx * tt, zz, nxy * (qq - tt), nx * qz, ny * qz]
+    }
+
+    /// σ_zz, σ_qz, σ_qq, σ_tt of F, or their derivatives in depth.
+    #[inline(always)]
+    fn stresses(&self, &[f0, f1, f2, f3]: &[f64x8<S>; 4], order: usize) -> [f64x8<S>; 4] {
+        let (nu, q) = (self.nu, self.wavenumber);
+        match order {
+            0 => [-f0, f1, f2, nu * (f2 - f0)],
+            1 => [-f1 * q, f2 * q, f3 * q, nu * (f3 - f1) * q],
+            _ => {
+                let square = q * q;
+                [-f2 * square, f3 * square, (f2 + f2 - f0) * square, nu * (f2 - f0) * square]
+            }
+        }
     }
 }
 
