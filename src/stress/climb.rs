@@ -76,7 +76,7 @@ impl StressField {
             let within = Box { step, depths: [(low - z).max(-rise), (high - z).min(rise)] };
             let (moved, promised) = highest(&here, within, value, quantity);
             // What is not a number promises nothing.
-            if !(promised > value + PROMISE * value.abs()) {
+            if promised.is_nan() || value.is_nan() || promised <= value + PROMISE * value.abs() {
                 break;
             }
             let depth = Depth { z: (z + moved[2]).clamp(low, high), material };
