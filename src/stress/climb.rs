@@ -24,7 +24,7 @@ const MOVES: usize = 12;
 /// Smaller distances over the ones before.
 const SMALLER: f64 = 0.3;
 /// What an expansion has to promise, relatively, for it to be followed: what is left is less.
-const PROMISE: f64 = 1e-10;
+const PROMISE: f64 = 1e-11;
 /// The points around the middle of a plane: first those along x and y, then the corners.
 const AROUND: [[f64; 2]; 8] =
     [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
@@ -124,10 +124,9 @@ fn highest(expansion: &Expansion, within: Box, value: f64, quantity: Quantity) -
         let all = values.iter().zip(&levels).flat_map(|((_, values), (_, places))| values.iter().zip(places));
         let Some((&higher, &place)) = all.reduce(|a, b| if b.0 > a.0 { b } else { a }) else { break };
         if higher > value {
+            // At its border too: where the quantity is the same along one direction, what the expansion errs there would hide
+            // where it is highest along the others.
             (best, value) = (place, higher);
-            if within.ends_at(place) {
-                break;
-            }
             continue;
         }
         let is_centred = values.len() == 3 && (z - above - (below - z)).abs() < 1e-9 * rise;
@@ -179,6 +178,26 @@ fn top(levels: &[(f64, Values)], is_centred: bool) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::{HalfSpace, Material, MeanStress};
+    use crate::lattice::{Cell, Grid};
+    use ndarray::Array2;
+    use std::f64::consts::{E, TAU};
+    use std::sync::Arc;
+
+    /// Under a wave of the pressure τ₁ is p̂ qz e^{−qz} at every x: a ridge, on which an expansion errs along x.
+    #[test]
+    fn a_ridge_is_climbed_to_its_height() {
+        let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
+        let grid = Arc::new(Grid::new(Cell::square(1.0).unwrap(), [16, 16]).unwrap());
+        let wave = Array2::from_shape_fn([16, 16], |(i, _)| (TAU * i as f64 / 16.0).cos());
+        let field = StressField::under(&grid, wave.view(), &half_space, None, MeanStress::Confined).unwrap();
+        for (z, place) in [(0.13, [0.0; 2]), (0.2, [0.13, 0.4])] {
+            let start = Candidate { value: f64::NAN, depth: Depth { z, material: 1 }, place, step: 0.04 };
+            let (found, state) = field.climbed(&start, 0.03, [0.0, f64::MAX], Quantity::Tau1);
+            assert!((found.value * E - 1.0).abs() < 1e-10 && state.tau1() == found.value, "{found:?}");
+            assert!((TAU * found.depth.z - 1.0).abs() < 1e-5, "{found:?}");
+        }
+    }
 
     #[test]
     fn the_top_of_a_leaning_paraboloid_is_found_at_once() {
