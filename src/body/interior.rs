@@ -26,6 +26,17 @@ pub enum InPlane {
     Along,
 }
 
+impl InPlane {
+    /// −1 under a shear traction: a quarter wave further cos(qξ) is −sin(qξ), and sin(qξ) is cos(qξ).
+    #[inline(always)]
+    pub(super) fn turn(self) -> f64 {
+        match self {
+            Self::Normal => 1.0,
+            Self::Along => -1.0,
+        }
+    }
+}
+
 /// Amplitudes at one depth for a surface traction cos(qξ).
 ///
 /// Under a pressure σ_zz, σ_qq, σ_tt and u_z are of cos(qξ), σ_qz and u_q of sin(qξ); under a shear traction along the
@@ -135,6 +146,19 @@ impl Interior {
         Self { wavenumber, traction, bodies }
     }
 
+    /// q times the thickness of a material, from 0; infinite in the substrate.
+    pub(super) fn thickness(&self, material: usize) -> f64 {
+        self.bodies[material].thickness
+    }
+
+    /// F and its first three derivatives at `x` = q · (depth below the upper face) in a material, from 0.
+    pub(super) fn derivatives(&self, material: usize, x: f64) -> [f64; 4] {
+        let body = &self.bodies[material];
+        let [u, w, t, p] = body.state(x);
+        let PlaneStrain { poisson, e, r, .. } = body.material;
+        [p, t, -e * u - r * p, (2.0 * w + (2.0 - poisson) * t) / (1.0 - poisson)]
+    }
+
     /// Amplitudes at a depth below the surface. Depths outside their material are brought back to its faces.
     ///
     /// # Panics
@@ -144,11 +168,7 @@ impl Interior {
         let below = (depth.z - body.top).max(0.0);
         let [u, w, t, p] = body.state((self.wavenumber * below).min(body.thickness).min(EXTINCT));
         let PlaneStrain { shear, poisson, e, r, .. } = body.material;
-        // A quarter wave further cos(qξ) is −sin(qξ), and sin(qξ) is cos(qξ).
-        let turn = match self.traction {
-            InPlane::Normal => 1.0,
-            InPlane::Along => -1.0,
-        };
+        let turn = self.traction.turn();
         let sqq = -e * u - r * p;
         let per_displacement = 1.0 / (shear * self.wavenumber);
         Amplitudes {

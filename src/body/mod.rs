@@ -17,6 +17,8 @@
 //! - `interior`: everything above a depth imposes "no shear at the surface" (under a shear traction: no pressure), one
 //!   linear functional carried from the surface down. Plane and functional meet in one vector: the amplitudes at that depth.
 //!
+//! Many wavenumbers at many depths are read off a table of few numbers each (`interiors`).
+//!
 //! Across the wavevector the body is sheared alone (`across`). What the surface answers to all three tractions is one
 //! Hermitian 3 × 3 matrix, the [`SurfaceResponse`].
 
@@ -25,6 +27,7 @@ mod compliances;
 mod depth;
 mod half_space;
 mod interior;
+mod interiors;
 mod material;
 mod mean;
 mod minors;
@@ -37,6 +40,7 @@ pub(crate) use compliances::Compliances;
 pub use depth::Depth;
 pub use half_space::{HalfSpace, Interface, Layer};
 pub use interior::{Amplitudes, InPlane, Interior};
+pub(crate) use interiors::{Interiors, REACH};
 pub use material::{Material, MaterialError};
 pub use mean::MeanStress;
 pub use response::SurfaceResponse;

@@ -15,6 +15,8 @@ use crate::reading::Criterion;
 use crate::run::Sampling;
 use crate::run::places::SECTION;
 use crate::spectral::Memory;
+use crate::stress::StressField;
+use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
 /// What the program takes before it solves anything: its code as it is mapped, for the most part.
@@ -29,6 +31,8 @@ const PLANE: u64 = 18;
 /// of the pressure and of the traction each.
 const AGAIN: u64 = 72;
 const SHELLS: u64 = 50;
+/// Waves of one wavenumber on the cells of a square or a hexagon, conjugates left out, at least on the average.
+const SYMMETRIC: f64 = 4.5;
 /// Per sample: a stress field that is asked at single points only.
 const FIELD: u64 = 18;
 /// Fields that the localized method keeps of each spot.
@@ -189,16 +193,25 @@ fn of_stress(stress: &StressSection, half_space: &HalfSpace, samples: u64) -> (u
     (memory, 8 * COMPONENTS * stored, 8 * VTK_NUMBERS * volume)
 }
 
-/// What the coefficients of a stress field take where few waves have the same wavenumber: on cells without the symmetry of
-/// a square or a hexagon.
+/// What stays of the amplitudes inside the body, from load to load, and what the coefficients of a stress field take where few
+/// waves have the same wavenumber: on cells without the symmetry of a square or a hexagon.
 fn of_shells(case: &Case, samples: u64) -> u64 {
+    let (slides, area) = (case.problem().friction().is_some(), case.problem().cell().area());
+    let kept = |together: f64| {
+        // On the grid, and on the coarser one that tells the errors; a wave and its conjugate are one.
+        let of_grid = |samples: u64| {
+            let count = |most: f64| (0.5 * samples as f64).min(area * most * most / (8.0 * PI)) / together;
+            StressField::kept(case.half_space(), slides, |most| count(most) as usize) as u64
+        };
+        of_grid(samples) + of_grid(samples / 4)
+    };
     let [a1, a2] = case.problem().cell().vectors();
     let [own, other, product] = [(a1, a1), (a2, a2), (a1, a2)].map(|(u, v)| u[0] * v[0] + u[1] * v[1]);
     let is = |x: f64, y: f64| (x - y).abs() <= 1e-9 * own;
     if is(own, other) && (is(product, 0.0) || is(2.0 * product.abs(), own)) {
-        return 0;
+        return kept(SYMMETRIC);
     }
-    SHELLS * samples * if case.problem().friction().is_some() { 2 } else { 1 }
+    SHELLS * samples * if slides { 2 } else { 1 } + kept(1.0)
 }
 
 fn of_pictures(case: &Case) -> u64 {

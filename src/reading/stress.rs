@@ -30,7 +30,7 @@ impl StressReading {
     /// The same, unless `goes_on`, called many times a second during the search, says no.
     pub fn of_while(step: &Step, reading: &Reading, field: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
         let radii = contact_radii(step, reading);
-        let coarser = step.coarser().first().map(|contact| StressField::new(contact, field.mean_stress()));
+        let coarser = step.coarser().first().map(|contact| field.of_other(contact));
         let maxima = field.maxima_while(radii, goes_on)?;
         let maxima = match &coarser {
             Some(coarser) => maxima.with_errors_while(coarser, goes_on)?,

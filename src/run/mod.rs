@@ -46,7 +46,7 @@ use crate::load::Load;
 use crate::problem::Problem;
 use crate::reading::{Criterion, StressReading};
 use crate::spectral::{OtherGrids, Settings, Solver, Step};
-use crate::stress::StressField;
+use crate::stress::{StressField, Tables};
 use std::cell::Cell;
 use std::convert::Infallible;
 use std::error::Error;
@@ -186,21 +186,22 @@ impl Run {
         let Some(loads) = self.loads.get(records.len()..).filter(|loads| !loads.is_empty()) else {
             return Err(OtherGrids.into());
         };
-        let mut last = None;
+        let (mut last, tables) = (None, Arc::default());
         for &load in loads {
             // Its memory goes before the next one takes as much.
             drop(last.take());
-            let (record, step) = self.solve_load(&mut solver, load, saved.take(), recorder)?;
+            let (record, step) = self.solve_load(&mut solver, &tables, load, saved.take(), recorder)?;
             records.push(record);
             last = Some(step);
         }
         Ok((records, last))
     }
 
-    /// One load, if it is not `saved`, with its stresses where they are wanted.
+    /// One load, if it is not `saved`, with its stresses where they are wanted, which share the `tables` of all loads.
     fn solve_load<R: Recorder>(
         &self,
         solver: &mut Solver,
+        tables: &Arc<Tables>,
         load: Load,
         saved: Option<Last>,
         recorder: &mut R,
@@ -224,7 +225,7 @@ impl Run {
         let mut record = StepRecord::new(&step, step.reading());
         let field = self.mean_stress().map(|mean| {
             recorder.stresses();
-            StressField::new(step.finest(), mean)
+            StressField::with_tables(step.finest(), mean, Arc::clone(tables))
         });
         if let Some(field) = field.as_ref().filter(|_| record.reading.max_pressure > 0.0) {
             let ended = Cell::new(None);

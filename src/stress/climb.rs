@@ -1,26 +1,56 @@
 //! From a place inside a material to the local maximum above it.
 //!
-//! 3 × 3 points around at three depths: while one of them is higher, it is the next middle. Otherwise the next one is the top
-//! of the paraboloid through them, and the steps become smaller. Steps in depth end at the faces of the material.
+//! The stresses are [expanded](super::expansion) at a place, and the highest value of the expansion within a box around it says
+//! where to expand them next: at its border the box is moved, otherwise it becomes smaller. The search ends where the expansion
+//! promises no more; what stands is the sum at its middle, not what an expansion tells. Steps in depth end at the faces of the
+//! material.
+//!
+//! Within the box 3 × 3 points at three depths are compared: while one of them is higher, it is the next middle. Otherwise the
+//! next one is the top of the paraboloid through them, and their distances become smaller.
 
+use super::expansion::Expansion;
 use super::field::StressField;
 use super::quantity::Quantity;
-use super::search::{Candidate, SEARCH_REACH};
+use super::search::Candidate;
 use super::slice::{Slice, Stresses};
 use super::tensor::State;
 use crate::body::Depth;
 
-/// How often the steps become smaller, and how many steps there are at most.
-const TOPS: usize = 4;
-const MOVES: usize = 32;
-/// Smaller steps over the ones before.
+/// How often the stresses are expanded at most.
+const EXPANSIONS: usize = 24;
+/// How often the distances become smaller in a box, and how many steps there are at most.
+const TOPS: usize = 3;
+const MOVES: usize = 12;
+/// Smaller distances over the ones before.
 const SMALLER: f64 = 0.3;
+/// What an expansion has to promise, relatively, for it to be followed: what is left is less.
+const PROMISE: f64 = 1e-11;
 /// The points around the middle of a plane: first those along x and y, then the corners.
 const AROUND: [[f64; 2]; 8] =
     [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
 
-/// Values in the middle of a plane and at [`AROUND`] of it; above and below the last corner is left out.
+/// Values in the middle of a plane and at [`AROUND`] of it.
 type Values = [f64; 9];
+
+/// Offsets from the middle of an expansion: sideways no more than `step`, in depth within `depths`, lengths.
+#[derive(Debug, Clone, Copy)]
+struct Box {
+    step: f64,
+    depths: [f64; 2],
+}
+
+impl Box {
+    fn clamped(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let [x, y] = [x, y].map(|d| d.clamp(-self.step, self.step));
+        [x, y, z.clamp(self.depths[0], self.depths[1])]
+    }
+
+    /// Whether an offset is on its border, sideways or in depth.
+    fn ends_at(&self, [x, y, z]: [f64; 3]) -> bool {
+        let near = |d: f64, end: f64| end != 0.0 && (d - end).abs() <= 1e-9 * end.abs();
+        near(x.abs(), self.step) || near(y.abs(), self.step) || self.depths.iter().any(|&end| near(z, end))
+    }
+}
 
 impl StressField {
     /// Stresses at places (x, y) of a slice.
@@ -28,55 +58,92 @@ impl StressField {
         self.at(places, &Stresses(slice)).into_iter().map(State::from_stresses).collect()
     }
 
-    /// The local maximum from a candidate on, at depths within [low, high], with `rise` the first step in depth; 0 for
-    /// none.
-    pub(super) fn climbed(&self, from: &Candidate, rise: f64, [low, high]: [f64; 2], quantity: Quantity) -> Candidate {
+    /// The local maximum from a candidate on and the state there, at depths within [low, high], with `rise` the first step in
+    /// depth; 0 for none.
+    pub(super) fn climbed(
+        &self,
+        from: &Candidate,
+        rise: f64,
+        [low, high]: [f64; 2],
+        quantity: Quantity,
+    ) -> (Candidate, State) {
         let material = from.depth.material;
-        let value = |z: f64, places: &[[f64; 2]]| -> Vec<f64> {
-            let slice = self.slice(Depth { z, material }, SEARCH_REACH);
-            self.searched(&slice, places).iter().map(|state| quantity.of(state)).collect()
-        };
-        let mut best = Candidate { depth: Depth { z: from.depth.z.clamp(low, high), material }, ..*from };
-        best.value = value(best.depth.z, &[best.place])[0];
-        let (mut rise, mut tops) = (rise, 0);
-        for _ in 0..MOVES {
-            let ([x, y], z, step) = (best.place, best.depth.z, best.step);
-            let place = |[u, v]: [f64; 2]| [x + u * step, y + v * step];
-            let [above, below] = [(z - rise).max(low), (z + rise).min(high)];
-            let around = AROUND.map(place);
-            let mut levels: Vec<(f64, Values)> = Vec::new();
-            let own = value(z, &around);
-            levels.push((z, std::array::from_fn(|k| if k == 0 { best.value } else { own[k - 1] })));
-            for depth in [above, below].into_iter().filter(|depth| *depth != z) {
-                // Eight together cost as one.
-                let places: [[f64; 2]; 8] = std::array::from_fn(|k| if k == 0 { [x, y] } else { around[k - 1] });
-                let own = value(depth, &places);
-                levels.push((depth, std::array::from_fn(|k| own.get(k).copied().unwrap_or(f64::NEG_INFINITY))));
-            }
-            let all = levels.iter().flat_map(|(z, values)| (0..9).map(move |k| (*z, k, values[k])));
-            let Some((depth, k, highest)) = all.reduce(|a, b| if b.2 > a.2 { b } else { a }) else { return best };
-            if highest > best.value {
-                best.value = highest;
-                best.depth.z = depth;
-                best.place = if k == 0 { [x, y] } else { around[k - 1] };
-                continue;
-            }
-            let is_centred = levels.len() == 3 && (z - above - (below - z)).abs() < 1e-9 * z;
-            let [dx, dy, dz] = top(&levels, is_centred);
-            let (moved, depth) = (place([dx, dy]), (z + dz * rise).clamp(low, high));
-            let there = value(depth, &[moved])[0];
-            if there > best.value {
-                (best.value, best.place, best.depth.z) = (there, moved, depth);
-            }
-            best.step *= SMALLER;
-            rise *= SMALLER;
-            tops += 1;
-            if tops == TOPS {
+        let mut here = self.expanded(Depth { z: from.depth.z.clamp(low, high), material }, from.place);
+        let mut value = quantity.of(&here.state());
+        let (mut step, mut rise) = (from.step, rise);
+        for _ in 0..EXPANSIONS {
+            let (z, [x, y]) = (here.depth.z, here.place);
+            let within = Box { step, depths: [(low - z).max(-rise), (high - z).min(rise)] };
+            let (moved, promised) = highest(&here, within, value, quantity);
+            // What is not a number promises nothing.
+            if promised.is_nan() || value.is_nan() || promised <= value + PROMISE * value.abs() {
                 break;
             }
+            let depth = Depth { z: (z + moved[2]).clamp(low, high), material };
+            let there = self.expanded(depth, [x + moved[0], y + moved[1]]);
+            let risen = quantity.of(&there.state());
+            let is_higher = risen > value;
+            if is_higher {
+                (here, value) = (there, risen);
+            }
+            if !(is_higher && within.ends_at(moved)) {
+                step *= SMALLER;
+                rise *= SMALLER;
+            }
         }
-        best
+        (Candidate { value, depth: here.depth, place: here.place, step }, here.state())
     }
+}
+
+/// The highest place of an expansion within a box, as an offset from its middle, and the quantity there; `value` is that in the
+/// middle.
+fn highest(expansion: &Expansion, within: Box, value: f64, quantity: Quantity) -> ([f64; 3], f64) {
+    let at = |offset: [f64; 3]| quantity.of(&expansion.at(offset));
+    let (mut best, mut value) = ([0.0; 3], value);
+    let (mut step, mut rise) = (within.step, within.depths[1].max(-within.depths[0]));
+    let mut tops = 0;
+    for _ in 0..MOVES {
+        let [x, y, z] = best;
+        let around = |depth: f64| {
+            std::array::from_fn::<[f64; 3], 9, _>(|k| {
+                let [u, v] = if k == 0 { [0.0; 2] } else { AROUND[k - 1] };
+                within.clamped([x + u * step, y + v * step, depth])
+            })
+        };
+        let [above, below] = [z - rise, z + rise].map(|depth| depth.clamp(within.depths[0], within.depths[1]));
+        let depths = [above, below].into_iter().filter(|depth| *depth != z);
+        let levels: Vec<(f64, [[f64; 3]; 9])> = [z].into_iter().chain(depths).map(|z| (z, around(z))).collect();
+        let is_middle = |level: usize, k: usize| level == 0 && k == 0;
+        let values: Vec<(f64, Values)> = levels
+            .iter()
+            .enumerate()
+            .map(|(level, (z, places))| {
+                (*z, std::array::from_fn(|k| if is_middle(level, k) { value } else { at(places[k]) }))
+            })
+            .collect();
+        let all = values.iter().zip(&levels).flat_map(|((_, values), (_, places))| values.iter().zip(places));
+        let Some((&higher, &place)) = all.reduce(|a, b| if b.0 > a.0 { b } else { a }) else { break };
+        if higher > value {
+            // At its border too: where the quantity is the same along one direction, what the expansion errs there would hide
+            // where it is highest along the others.
+            (best, value) = (place, higher);
+            continue;
+        }
+        let is_centred = values.len() == 3 && (z - above - (below - z)).abs() < 1e-9 * rise;
+        let [dx, dy, dz] = top(&values, is_centred);
+        let moved = within.clamped([x + dx * step, y + dy * step, z + dz * rise]);
+        let there = at(moved);
+        if there > value {
+            (best, value) = (moved, there);
+        }
+        step *= SMALLER;
+        rise *= SMALLER;
+        tops += 1;
+        if tops == TOPS {
+            break;
+        }
+    }
+    (best, value)
 }
 
 /// Where the paraboloid is highest, in steps from the middle, no farther than one; its axes alone where it is no hill.
@@ -111,6 +178,26 @@ fn top(levels: &[(f64, Values)], is_centred: bool) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::{HalfSpace, Material, MeanStress};
+    use crate::lattice::{Cell, Grid};
+    use ndarray::Array2;
+    use std::f64::consts::{E, TAU};
+    use std::sync::Arc;
+
+    /// Under a wave of the pressure τ₁ is p̂ qz e^{−qz} at every x: a ridge, on which an expansion errs along x.
+    #[test]
+    fn a_ridge_is_climbed_to_its_height() {
+        let half_space = HalfSpace::new(vec![], Material::from_shear(1.0, 0.3).unwrap());
+        let grid = Arc::new(Grid::new(Cell::square(1.0).unwrap(), [16, 16]).unwrap());
+        let wave = Array2::from_shape_fn([16, 16], |(i, _)| (TAU * i as f64 / 16.0).cos());
+        let field = StressField::under(&grid, wave.view(), &half_space, None, MeanStress::Confined).unwrap();
+        for (z, place) in [(0.13, [0.0; 2]), (0.2, [0.13, 0.4])] {
+            let start = Candidate { value: f64::NAN, depth: Depth { z, material: 1 }, place, step: 0.04 };
+            let (found, state) = field.climbed(&start, 0.03, [0.0, f64::MAX], Quantity::Tau1);
+            assert!((found.value * E - 1.0).abs() < 1e-10 && state.tau1() == found.value, "{found:?}");
+            assert!((TAU * found.depth.z - 1.0).abs() < 1e-5, "{found:?}");
+        }
+    }
 
     #[test]
     fn the_top_of_a_leaning_paraboloid_is_found_at_once() {

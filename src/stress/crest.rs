@@ -9,7 +9,7 @@
 
 use super::field::{REACH, StressField};
 use super::peak::Peak;
-use super::quantity::{OVERALL, Quantity};
+use super::quantity::{Found, OVERALL, Quantity};
 use super::surface::Skin;
 use super::tensor::State;
 use super::transform::Transform;
@@ -91,7 +91,7 @@ struct Between {
     columns: [(usize, f64); 4],
 }
 
-/// The largest of some places on the surface.
+/// What stands at a place on the surface.
 #[derive(Debug, Clone, Copy)]
 struct Highest {
     kind: Kind,
@@ -126,10 +126,32 @@ impl StressField {
             return Vec::new();
         }
         let surface = self.read_surface(quantities);
-        let of = |(&quantity, &place): (&Quantity, &[f64; 2])| {
-            self.crest_of(&surface, quantity, place).map(|crest| (quantity, crest))
+        // What is decided between for each quantity, by its number among all places: most are the same.
+        let mut places: Vec<(Kind, [f64; 2])> = Vec::new();
+        let finalists: Vec<Vec<usize>> = quantities
+            .iter()
+            .zip(&surface.samples)
+            .map(|(&quantity, &sample)| {
+                let number = |place: (Kind, [f64; 2])| {
+                    places.iter().position(|own| *own == place).unwrap_or_else(|| {
+                        places.push(place);
+                        places.len() - 1
+                    })
+                };
+                surface.finalists(quantity, sample).into_iter().map(number).collect()
+            })
+            .collect();
+        let read = |skin: &Skin| self.read_places(skin, &places);
+        let (own, others) = (read(&surface.skin), surface.others.each_ref().map(read));
+        let of = |(&quantity, numbers): (&Quantity, &Vec<usize>)| {
+            let highest = |all: &[Highest]| {
+                let own = numbers.iter().map(|&number| all[number]);
+                own.max_by(|a, b| quantity.of(&a.state).total_cmp(&quantity.of(&b.state)))
+            };
+            let others = others.iter().filter_map(|other| highest(other));
+            highest(&own).map(|highest| (quantity, self.crest_of(&surface, quantity, highest, others)))
         };
-        quantities.iter().zip(&surface.samples).filter_map(of).collect()
+        quantities.iter().zip(&finalists).filter_map(of).collect()
     }
 
     /// The largest tension on the surface; `None` where there is no edge: contact is complete, or nowhere.
@@ -147,19 +169,21 @@ impl StressField {
         Surface { others: OTHER.map(|scale| Skin::new(self, &slice, scale)), skin, edges, samples, pressed }
     }
 
-    fn crest_of(&self, surface: &Surface, quantity: Quantity, sample: [f64; 2]) -> Option<Crest> {
-        let Surface { skin, others, edges, pressed, .. } = surface;
+    /// The crest that stands at the highest place, with what `others`, the highest ones with other widths, tell of its error.
+    fn crest_of(
+        &self,
+        surface: &Surface,
+        quantity: Quantity,
+        highest: Highest,
+        others: impl Iterator<Item = Highest>,
+    ) -> Crest {
+        let Surface { skin, edges, pressed, .. } = surface;
         let value_of = |edge: &Edge| quantity.of(&edge.state);
-        let mut ordered: Vec<&Edge> = edges.iter().collect();
-        ordered.sort_by(|a, b| value_of(b).total_cmp(&value_of(a)));
-        let mut finalists = vec![(Kind::Open, sample)];
-        finalists.extend(ordered.iter().take(FINALISTS).map(|edge| (Kind::Edge, edge.place)));
-        let Highest { kind, place, state, smoothed } = self.highest(skin, quantity, &finalists)?;
+        let Highest { kind, place, state, smoothed } = highest;
         let value = quantity.of(&state);
         // How far the stress at an edge that few samples see may reach above the largest one; at least so far at it all.
         let usual = if quantity == Quantity::Tension { TENSION * pressed } else { 0.0 };
-        let spread = others.iter().filter_map(|other| self.highest(other, quantity, &finalists));
-        let spread: f64 = spread.map(|other| (quantity.of(&other.state) - value).abs()).sum();
+        let spread: f64 = others.map(|other| (quantity.of(&other.state) - value).abs()).sum();
         let unlike = if kind == Kind::Edge { smoothed.abs() * skin.unlike } else { 0.0 };
         let [tx, ty] = self.traction();
         let cusp = 2.0 * tx.hypot(ty) * pressed;
@@ -173,7 +197,7 @@ impl StressField {
         let direction = state.s1_direction();
         let peak =
             Peak { value, position: [place[0], place[1], 0.0], material: 1, direction, error: None, rival: None };
-        Some(Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) })
+        Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) }
     }
 
     /// Edges beside the samples where contact ends, their stress not known yet; and row by row the samples near edges,
@@ -255,14 +279,14 @@ impl StressField {
         band: &Band<Sharp>,
         quantities: &[Quantity],
     ) -> (Vec<[f64; 2]>, f64) {
+        let found = Found::new(quantities);
         let rows = self.series.on_plane(transform, room, &skin.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let mut states: Vec<State> = (0..row[0].len()).map(|j| skin.toward_open([0.0; 4], at(j), 1.0)).collect();
             for &(j, (sharp, part)) in &band[i] {
                 states[j] = skin.toward_open(sharp, at(j), part);
             }
-            let best: Vec<(usize, f64)> = quantities.iter().map(|quantity| quantity.largest(&states)).collect();
-            (best, largest(row[3].iter().copied()))
+            (found.add(states.len(), |j| states[j]), largest(row[3].iter().copied()))
         });
         let place = |quantity: usize| {
             let (i, _) = first_largest(rows.iter().map(|(best, _)| best[quantity].1)).unwrap_or_default();
@@ -272,29 +296,43 @@ impl StressField {
         ((0..quantities.len()).map(place).collect(), largest(rows.iter().map(|&(_, pressed)| pressed)))
     }
 
-    /// The largest of a quantity at places of which some stand at edges, by the exact sums.
-    fn highest(&self, skin: &Skin, quantity: Quantity, places: &[(Kind, [f64; 2])]) -> Option<Highest> {
-        let (open, edges): (Vec<_>, Vec<_>) = places.iter().partition(|(kind, _)| *kind == Kind::Open);
-        let [open, mut edges] = [open, edges].map(|some| some.iter().map(|(_, place)| *place).collect::<Vec<_>>());
+    /// What stands at places of which some are at edges, by the exact sums.
+    fn read_places(&self, skin: &Skin, places: &[(Kind, [f64; 2])]) -> Vec<Highest> {
+        let of = |kind: Kind| places.iter().filter(move |(own, _)| *own == kind).map(|(_, place)| *place);
+        let (open, mut edges): (Vec<_>, Vec<_>) = (of(Kind::Open).collect(), of(Kind::Edge).collect());
         for _ in 0..2 {
             let near = self.at(&edges, &skin.near);
             edges.iter_mut().zip(near).for_each(|(place, near)| *place = skin.moved(*place, near).0);
         }
         let read = |places: &[[f64; 2]]| self.at(places, &skin.near).into_iter().zip(self.at(places, &skin.edge));
-        let on_edges = edges.iter().zip(read(&edges)).map(|(&place, (near, edge))| Highest {
+        let mut on_edges = edges.iter().zip(read(&edges)).map(|(&place, (near, edge))| Highest {
             kind: Kind::Edge,
             place,
             state: skin.state_on_edge(near, edge),
             smoothed: edge[3],
         });
         let series = self.at(&open, &skin.open);
-        let in_open = open.iter().zip(read(&open)).zip(series).map(|((&place, (near, edge)), series)| Highest {
+        let mut in_open = open.iter().zip(read(&open)).zip(series).map(|((&place, (near, edge)), series)| Highest {
             kind: Kind::Open,
             place,
             state: skin.state(near, edge, series),
             smoothed: edge[3],
         });
-        in_open.chain(on_edges).max_by(|a, b| quantity.of(&a.state).total_cmp(&quantity.of(&b.state)))
+        let next = |(kind, _): &(Kind, _)| match kind {
+            Kind::Open => in_open.next(),
+            Kind::Edge => on_edges.next(),
+        };
+        places.iter().filter_map(next).collect()
+    }
+}
+
+impl Surface {
+    /// The highest sample and the highest edges.
+    fn finalists(&self, quantity: Quantity, sample: [f64; 2]) -> Vec<(Kind, [f64; 2])> {
+        let mut ordered: Vec<(f64, &Edge)> = self.edges.iter().map(|edge| (quantity.of(&edge.state), edge)).collect();
+        ordered.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let edges = ordered.iter().take(FINALISTS).map(|(_, edge)| (Kind::Edge, edge.place));
+        [(Kind::Open, sample)].into_iter().chain(edges).collect()
     }
 }
 

@@ -8,6 +8,8 @@
 //! lies below the surface. √u/P(u) is then what the pressure itself is of the smoothed one. A cusp A√d on the other side of
 //! the edge is smoothed alike, by the smoothing of the fourth order P − P″/2.
 
+use std::sync::OnceLock;
+
 /// Distances covered, in widths.
 const SPAN: [f64; 2] = [-4.0, 12.0];
 /// Intervals of the table.
@@ -22,7 +24,13 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    pub fn new() -> Self {
+    /// The tables, made when they are first asked for.
+    pub fn shared() -> &'static Self {
+        static SHARED: OnceLock<Edge> = OnceLock::new();
+        SHARED.get_or_init(Self::new)
+    }
+
+    fn new() -> Self {
         let place = |k: usize| SPAN[0] + (SPAN[1] - SPAN[0]) * k as f64 / INTERVALS as f64;
         let responses: Vec<[f64; 3]> = (0..=INTERVALS).map(|k| response(place(k))).collect();
         Self {

@@ -3,8 +3,9 @@
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::slice::Slice;
+use super::tables::Tables;
 use super::tensor::State;
-use crate::body::{Depth, HalfSpace, Interface, MeanStress, TransferFunction};
+use crate::body::{Depth, HalfSpace, Interface, Interiors, Layer, MeanStress};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
 use crate::numeric::number::number;
@@ -13,8 +14,7 @@ use ndarray::ArrayView2;
 use std::fmt;
 use std::sync::Arc;
 
-/// Largest qz of a wave that still counts: its stresses are below (2 + qz)e^{−qz} of the traction, 10⁻¹⁶.
-pub(super) const REACH: f64 = 41.0;
+pub(super) use crate::body::REACH;
 
 /// The stress field of one load step.
 #[derive(Debug)]
@@ -22,7 +22,8 @@ pub struct StressField {
     pub(super) series: Series,
     grid: Arc<Grid>,
     half_space: HalfSpace,
-    transfer: TransferFunction,
+    interiors: Arc<Interiors>,
+    tables: Arc<Tables>,
     /// State under the mean pressure at the upper face of each material, and the slope of its displacement there.
     mean: Vec<(State, [f64; 3])>,
     mean_stress: MeanStress,
@@ -36,8 +37,18 @@ pub struct StressField {
 impl StressField {
     /// Under a solved contact.
     pub fn new(contact: &Contact, mean: MeanStress) -> Self {
+        Self::with_tables(contact, mean, Arc::default())
+    }
+
+    /// The same with the tables of other fields of a run, to which those of the contact's grid are added.
+    pub(crate) fn with_tables(contact: &Contact, mean: MeanStress, tables: Arc<Tables>) -> Self {
         let problem = contact.problem();
-        Self::of_samples(contact.grid(), contact.pressures(), problem.half_space(), problem.friction(), mean)
+        Self::of_samples(contact.grid(), contact.pressures(), problem.half_space(), problem.friction(), mean, tables)
+    }
+
+    /// The field under another contact of the same run, or of this step on another grid.
+    pub(crate) fn of_other(&self, contact: &Contact) -> Self {
+        Self::with_tables(contact, self.mean_stress, Arc::clone(&self.tables))
     }
 
     /// Under any `pressure` on a `half_space`, and the traction that `friction` adds to it; axes along a₁ and a₂.
@@ -53,7 +64,7 @@ impl StressField {
     ) -> Result<Self, NotOnGrid> {
         grid.check(pressure.dim().into())?;
         let samples: Vec<f64> = pressure.iter().copied().collect();
-        Ok(Self::of_samples(grid, &samples, half_space, friction, mean))
+        Ok(Self::of_samples(grid, &samples, half_space, friction, mean, Arc::default()))
     }
 
     fn of_samples(
@@ -62,13 +73,15 @@ impl StressField {
         half_space: &HalfSpace,
         friction: Option<&Friction>,
         mean: MeanStress,
+        tables: Arc<Tables>,
     ) -> Self {
         let series = Series::new(grid, pressure);
         let traction = friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]);
         Self {
             grid: Arc::clone(grid),
             half_space: half_space.clone(),
-            transfer: TransferFunction::new(half_space),
+            interiors: tables.interiors(grid, half_space, traction.is_some()),
+            tables,
             mean: mean_states(half_space, mean, series.mean, traction.unwrap_or_default()),
             mean_stress: mean,
             regions: Regions::new(grid, pressure),
@@ -76,6 +89,13 @@ impl StressField {
             edge_exponent: friction.map_or(0.0, |friction| friction.edge_exponent(half_space.surface_material())),
             series,
         }
+    }
+
+    /// Bytes that fields of a run keep for all its loads: amplitudes inside a half-space, where `count` tells how many
+    /// wavenumbers the grid has up to one.
+    #[cfg(feature = "cli")]
+    pub(crate) fn kept(half_space: &HalfSpace, slides: bool, count: impl Fn(f64) -> usize) -> usize {
+        Interiors::bytes(half_space, slides, count)
     }
 
     /// What it lies in.
@@ -98,6 +118,16 @@ impl StressField {
         self.traction.unwrap_or_default()
     }
 
+    /// Whether there is a traction.
+    pub(super) fn slides(&self) -> bool {
+        self.traction.is_some()
+    }
+
+    /// What the waves of its grid cause in its half-space.
+    pub(super) fn interiors(&self) -> &Interiors {
+        &self.interiors
+    }
+
     /// η of the pressure's edges, see [`Friction::edge_exponent`].
     pub(super) fn edge_exponent(&self) -> f64 {
         self.edge_exponent
@@ -106,6 +136,11 @@ impl StressField {
     /// Contact spots and what is open between them.
     pub(super) fn regions(&self) -> &Regions {
         &self.regions
+    }
+
+    /// Poisson's ratio ν of a material, from 1.
+    pub(super) fn poisson(&self, material: usize) -> f64 {
+        self.half_space.layers().get(material - 1).map_or(self.half_space.substrate(), Layer::material).poisson()
     }
 
     /// Number of materials, layers + 1.
@@ -118,11 +153,15 @@ impl StressField {
         &self.grid
     }
 
+    /// Wavenumbers of the shells with qz up to `reach` at a depth.
+    pub(super) fn reached(&self, depth: Depth, reach: f64) -> &[f64] {
+        let waves = &self.series.waves;
+        &waves.wavenumbers()[..waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE))]
+    }
+
     /// What the waves with qz up to `reach` cause at a depth.
     pub(super) fn slice(&self, depth: Depth, reach: f64) -> Slice {
-        let waves = &self.series.waves;
-        let count = waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE));
-        Slice::new(&self.transfer, depth, &waves.wavenumbers()[..count], self.traction, self.mean(depth))
+        Slice::new(&self.interiors, depth, self.reached(depth, reach), self.traction, self.mean(depth))
     }
 
     /// The state that the mean pressure causes at a depth.

@@ -3,6 +3,7 @@
 use super::tensor::State;
 use crate::body::InterfaceStrength;
 use crate::numeric::search::first_largest;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How much rounding there may be in a bound, relatively.
 const ROUNDING: f64 = 1e-9;
@@ -55,18 +56,6 @@ impl Quantity {
         match self {
             Self::Tau1 => state.tau1(),
             Self::Tension => state.s1(),
-            _ => self.bound(state),
-        }
-    }
-
-    /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); of the others the value itself.
-    fn bound(self, state: &State) -> f64 {
-        match self {
-            Self::Tau1 => state.invariants().1.sqrt(),
-            Self::Tension => {
-                let (mean, j2) = state.invariants();
-                mean + 2.0 * (j2 / 3.0).sqrt()
-            }
             Self::Mises => state.mises(),
             Self::Opening => state.zz,
             Self::Shear => state.interface_shear(),
@@ -74,17 +63,77 @@ impl Quantity {
         }
     }
 
-    /// Index and value of the largest at some states, of which there is one at least.
-    pub fn largest(self, states: &[State]) -> (usize, f64) {
-        let bounds: Vec<f64> = states.iter().map(|state| self.bound(state)).collect();
-        let promising = first_largest(bounds.iter().copied()).map_or(0, |(index, _)| index);
-        let enough = self.of(&states[promising]);
-        // What cannot be larger need not be known; what is not a number is larger.
-        let worth = |&j: &usize| bounds[j].is_nan() || bounds[j] >= enough - ROUNDING * enough.abs();
-        let numbers: Vec<usize> = (0..states.len()).filter(worth).collect();
-        let largest = first_largest(numbers.iter().map(|&j| self.of(&states[j])));
-        largest.map_or((promising, enough), |(k, value)| (numbers[k], value))
+    /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); of the others the value itself, but for
+    /// rounding. `mean` is σ_kk/3, `root` √J₂.
+    fn bound(self, state: &State, mean: f64, root: f64) -> f64 {
+        match self {
+            Self::Tau1 => root,
+            Self::Tension => mean + 2.0 / 3f64.sqrt() * root,
+            Self::Mises => 3f64.sqrt() * root,
+            _ => self.of(state),
+        }
     }
+}
+
+/// The largest value that has been found of each quantity, by whichever thread. What is surely below need not be known: it is
+/// not the largest of all, and so the threads' order does not reach the result.
+#[derive(Debug)]
+pub(super) struct Found<'a> {
+    quantities: &'a [Quantity],
+    largest: Vec<AtomicU64>,
+}
+
+impl<'a> Found<'a> {
+    /// Nothing yet.
+    pub fn new(quantities: &'a [Quantity]) -> Self {
+        Self { quantities, largest: quantities.iter().map(|_| AtomicU64::new(0)).collect() }
+    }
+
+    /// Index and value of the largest of each quantity at `count` states, of which there is one at least; a lower value where
+    /// another one that was found is larger than all of them.
+    pub fn add(&self, count: usize, state: impl Fn(usize) -> State) -> Vec<(usize, f64)> {
+        let mut bounds = vec![0.0; self.quantities.len() * count];
+        for j in 0..count {
+            let state = state(j);
+            let (mean, j2) = state.invariants();
+            let root = j2.sqrt();
+            for (k, quantity) in self.quantities.iter().enumerate() {
+                bounds[k * count + j] = quantity.bound(&state, mean, root);
+            }
+        }
+        let own = self.quantities.iter().zip(&self.largest).zip(bounds.chunks_exact(count));
+        own.map(|((quantity, found), bounds)| {
+            let (promising, bound) = first_largest(bounds.iter().copied()).unwrap_or((0, f64::NEG_INFINITY));
+            let known = from_ordered(found.load(Ordering::Relaxed));
+            if bound < known - ROUNDING * known.abs() {
+                return (promising, f64::NEG_INFINITY);
+            }
+            let enough = quantity.of(&state(promising)).max(known);
+            // What cannot be larger need not be known; what is not a number is larger.
+            let worth = |&j: &usize| bounds[j].is_nan() || bounds[j] >= enough - ROUNDING * enough.abs();
+            let numbers: Vec<usize> = (0..count).filter(worth).collect();
+            let largest = first_largest(numbers.iter().map(|&j| quantity.of(&state(j))));
+            let Some((k, value)) = largest else { return (promising, f64::NEG_INFINITY) };
+            if !value.is_nan() {
+                found.fetch_max(ordered(value), Ordering::Relaxed);
+            }
+            (numbers[k], value)
+        })
+        .collect()
+    }
+}
+
+/// A whole number that grows with a number; 0 is below all.
+fn ordered(value: f64) -> u64 {
+    let bits = value.to_bits();
+    if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
+}
+
+fn from_ordered(number: u64) -> f64 {
+    if number == 0 {
+        return f64::NEG_INFINITY;
+    }
+    f64::from_bits(if number >> 63 == 1 { number & !(1 << 63) } else { !number })
 }
 
 #[cfg(test)]
@@ -98,12 +147,30 @@ mod tests {
         };
         let states: Vec<State> = (0..200).map(state).chain((0..200).map(state)).collect();
         let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
-        for quantity in OVERALL.into_iter().chain(Quantity::of_interface(strength)) {
+        let quantities: Vec<Quantity> = OVERALL.into_iter().chain(Quantity::of_interface(strength)).collect();
+        // All at once, and part by part: the largest of all is among what the parts give.
+        let found = Found::new(&quantities);
+        let parts: Vec<_> = states.chunks(50).map(|part| found.add(part.len(), |j| part[j])).collect();
+        let whole = Found::new(&quantities).add(states.len(), |j| states[j]);
+        for (k, quantity) in quantities.iter().enumerate() {
             let values: Vec<f64> = states.iter().map(|state| quantity.of(state)).collect();
-            assert!(
-                states.iter().zip(&values).all(|(state, value)| *value <= quantity.bound(state) + 1e-14 * value.abs())
-            );
-            assert_eq!(Some(quantity.largest(&states)), first_largest(values.into_iter()));
+            for (state, value) in states.iter().zip(&values) {
+                let (mean, j2) = state.invariants();
+                assert!(*value <= quantity.bound(state, mean, j2.sqrt()) + 1e-12 * value.abs());
+            }
+            let largest = first_largest(values.into_iter());
+            assert_eq!(Some(whole[k]), largest);
+            let (part, value) = first_largest(parts.iter().map(|part| part[k].1)).unwrap();
+            assert_eq!(Some((50 * part + parts[part][k].0, value)), largest);
         }
+    }
+
+    #[test]
+    fn numbers_keep_their_order_as_whole_ones() {
+        let numbers = [f64::NEG_INFINITY, -3.0, -1e-300, -0.0, 0.0, 1e-300, 2.5, f64::INFINITY];
+        let whole = numbers.map(ordered);
+        assert!(0 < whole[0] && whole.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(numbers.iter().zip(whole).all(|(own, number)| from_ordered(number).to_bits() == own.to_bits()));
+        assert_eq!(from_ordered(0), f64::NEG_INFINITY);
     }
 }

@@ -14,7 +14,7 @@ use super::crest::Crest;
 use super::field::{REACH, StressField};
 use super::maxima::{Found, Maxima, NEAR};
 use super::peak::Peak;
-use super::quantity::{OVERALL, Quantity};
+use super::quantity::{self, OVERALL, Quantity};
 use super::slice::Stresses;
 use super::surface::Flat;
 use super::tensor::State;
@@ -133,8 +133,11 @@ impl StressField {
         let best = self.candidates(depth, radius, quantities);
         let of = |(quantity, candidate): &(Quantity, Candidate)| {
             let contender = match found(crests, *quantity) {
-                Some(&(_, crest)) => Contender { crest: Some(crest), ..self.contender(candidate, Some(crest.peak)) },
-                None => self.contender(&self.on_face(candidate, *quantity), None),
+                Some(&(_, crest)) => self.crowned(candidate.depth, crest),
+                None => {
+                    let (best, state) = self.on_face(candidate, *quantity);
+                    self.contender(&best, state)
+                }
             };
             (*quantity, contender)
         };
@@ -154,7 +157,8 @@ impl StressField {
         let candidate = |index: usize| planes[index].candidate(quantity);
         let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
         let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
-        let mut all: Vec<Contender> = shallow.into_iter().map(|best| self.contender(best, None)).collect();
+        let mut all: Vec<Contender> =
+            shallow.into_iter().map(|best| self.contender(best, self.state_at(best))).collect();
         let deep: Vec<usize> = (0..depths.len()).filter(|&i| depths[i] >= near).collect();
         let [Some(&first), Some(&last)] = [deep.first(), deep.last()] else { return Some(all) };
         let value = |index: usize| candidate(index).value;
@@ -178,7 +182,7 @@ impl StressField {
                 return None;
             }
             let rise = 0.5 * beside(start).map(|j| (depths[j] - depths[start]).abs()).fold(0.0, f64::max);
-            let climbed = self.climbed(candidate(start), rise, [top, bottom], quantity);
+            let (climbed, state) = self.climbed(candidate(start), rise, [top, bottom], quantity);
             let z = climbed.depth.z;
             let is_on_face = [depths[0], bottom].iter().any(|face| (z - face).abs() <= 1e-9 * z);
             let same = |other: &Contender| {
@@ -189,9 +193,9 @@ impl StressField {
             let of_face = of_face.filter(|(_, own)| (own.peak.position[2] - z).abs() <= 1e-9 * z);
             let is_known = is_on_face && of_face.map(|(_, own)| own.peak.value).any(|value| value >= climbed.value);
             if !is_known && !all.iter().any(same) {
-                all.push(self.contender(&climbed, None));
+                all.push(self.contender(&climbed, state));
             } else if let Some(lower) = all.iter_mut().find(|other| same(other) && other.peak.value < climbed.value) {
-                *lower = self.contender(&climbed, None);
+                *lower = self.contender(&climbed, state);
             }
         }
         Some(all)
@@ -215,7 +219,7 @@ impl StressField {
             return states.iter().map(|state| quantity.of(state)).fold(f64::NEG_INFINITY, f64::max);
         }
         let start = Candidate { value: f64::NEG_INFINITY, depth, place: [x, y], step: 0.5 * step };
-        self.climbed(&start, 0.0, [z, z], quantity).value
+        self.climbed(&start, 0.0, [z, z], quantity).0.value
     }
 
     /// The 4 × 4 samples around a place.
@@ -277,34 +281,57 @@ impl StressField {
 
     /// Index and value of the largest of each quantity in each row of a plane.
     fn largest_of_rows(&self, depth: Depth, transform: &Transform, quantities: &[Quantity]) -> Vec<Vec<(usize, f64)>> {
-        let slice = self.slice(depth, PLANE_REACH);
-        let largest = |states: Vec<State>| quantities.iter().map(|quantity| quantity.largest(&states)).collect();
+        let (slice, found) = (self.slice(depth, PLANE_REACH), quantity::Found::new(quantities));
         if depth == Depth::SURFACE {
             let traction = self.traction();
             let columns = self.series.on_plane(transform, Vec::new(), &Flat::new(&Arc::new(slice), |_| 1.0));
             return columns.map(|_, row| {
-                let state = |j: usize| State::on_surface(row.map(|component| component[j]), traction);
-                largest((0..row[0].len()).map(state).collect())
+                found.add(row[0].len(), |j| State::on_surface(row.map(|component| component[j]), traction))
             });
         }
         let columns = self.series.on_plane(transform, Vec::new(), &Stresses(&slice));
-        columns.map(|_, row| {
-            largest((0..row[0].len()).map(|j| State::from_stresses(row.map(|component| component[j]))).collect())
-        })
+        columns.map(|_, row| found.add(row[0].len(), |j| State::from_stresses(row.map(|component| component[j]))))
     }
 
-    /// The best place on a face: between the samples of the plane by the exact sum, or, where that converges slowly, the
-    /// sample itself.
-    fn on_face(&self, candidate: &Candidate, quantity: Quantity) -> Candidate {
+    /// The best place on a face and the state there: between the samples of the plane by the exact sum, or, where that converges
+    /// slowly, the sample itself.
+    fn on_face(&self, candidate: &Candidate, quantity: Quantity) -> (Candidate, State) {
         let z = candidate.depth.z;
-        if z < NEAR * self.grid().spacing() { *candidate } else { self.climbed(candidate, 0.0, [z, z], quantity) }
+        if z < NEAR * self.grid().spacing() {
+            (*candidate, self.state_at(candidate))
+        } else {
+            self.climbed(candidate, 0.0, [z, z], quantity)
+        }
     }
 
-    /// A candidate as it is, or the `peak` in its stead, with the direction of σ₁ and the size of the stress there.
-    fn contender(&self, candidate: &Candidate, peak: Option<Peak>) -> Contender {
+    /// The state at a candidate.
+    fn state_at(&self, candidate: &Candidate) -> State {
+        self.searched(&self.slice(candidate.depth, SEARCH_REACH), &[candidate.place])[0]
+    }
+
+    /// What contends at a candidate, where there is this state.
+    fn contender(&self, candidate: &Candidate, state: State) -> Contender {
         let Candidate { value, depth, place: [x, y], .. } = *candidate;
-        let place = peak.map_or([x, y], |Peak { position: [x, y, _], .. }| [x, y]);
-        let state = self.searched(&self.slice(depth, SEARCH_REACH), &[place])[0];
+        let peak = Peak {
+            value,
+            position: [x, y, depth.z],
+            material: depth.material,
+            direction: state.s1_direction(),
+            error: None,
+            rival: None,
+        };
+        Contender { peak, crest: None, state, size: self.size_of_waves(depth, &state) }
+    }
+
+    /// The crest of the surface as what contends there.
+    fn crowned(&self, depth: Depth, crest: Crest) -> Contender {
+        let Peak { position: [x, y, _], .. } = crest.peak;
+        let state = self.searched(&self.slice(depth, SEARCH_REACH), &[[x, y]])[0];
+        Contender { peak: crest.peak, crest: Some(crest), state, size: self.size_of_waves(depth, &state) }
+    }
+
+    /// The size of what the waves cause in a state at a depth: without the mean and residual stresses.
+    fn size_of_waves(&self, depth: Depth, state: &State) -> f64 {
         let mean = self.mean(depth);
         let own = State {
             xx: state.xx - mean.xx,
@@ -312,16 +339,8 @@ impl StressField {
             zz: state.zz - mean.zz,
             xz: state.xz - mean.xz,
             yz: state.yz - mean.yz,
-            ..state
+            ..*state
         };
-        let peak = peak.unwrap_or(Peak {
-            value,
-            position: [x, y, depth.z],
-            material: depth.material,
-            direction: state.s1_direction(),
-            error: None,
-            rival: None,
-        });
-        Contender { peak, crest: None, state, size: own.size() }
+        own.size()
     }
 }

@@ -7,7 +7,8 @@
 use super::transform::{Column, Columns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{Row, Waves};
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, vectorised};
+use fearless_simd::prelude::*;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::ops::Range;
@@ -34,7 +35,7 @@ pub(super) struct Series {
 }
 
 /// Waves from which on a sum is worth more than one thread.
-const MANY: usize = 4096;
+pub(super) const MANY: usize = 4096;
 
 impl Series {
     /// Of `pressure`, one value per sample of `grid`.
@@ -125,21 +126,8 @@ impl Series {
         response: &R,
     ) -> [[f64; K]; P] {
         let along = Phases::along(rows, places.map(|[s, _]| s));
-        let of_row = |row: &Row| {
-            let [across_re, across_im] = turned(row.across, places.map(|[_, t]| t));
-            let mut sums = [[0.0; P]; K];
-            for ((q, shell, c), [along_re, along_im]) in self.of(row).zip(along.from(row)) {
-                let waves = response.times(q, shell, c);
-                for p in 0..P {
-                    let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];
-                    let im = along_re[p] * across_im[p] + along_im[p] * across_re[p];
-                    for k in 0..K {
-                        sums[k][p] += waves[k].re * re - waves[k].im * im;
-                    }
-                }
-            }
-            sums
-        };
+        let across = Phases::across(rows, places.map(|[_, t]| t));
+        let of_row = |row: &Row| vectorised!(simd => self.row::<_, K, P, R>(simd, row, along.from(row), across.of(row), response));
         let waves: usize = rows.iter().map(|row| row.len).sum();
         // Rows are added in their order, whoever has summed them.
         let sums: Vec<[[f64; P]; K]> =
@@ -149,18 +137,78 @@ impl Series {
     }
 }
 
-/// e^{2πiκ₁s} of some s, for all κ₁ of some rows.
+impl Series {
+    /// What the waves of a row give at some places, by their phases.
+    #[inline(always)]
+    fn row<S: Simd, const K: usize, const P: usize, R: Response<K>>(
+        &self,
+        simd: S,
+        row: &Row,
+        along: &[[[f64; P]; 2]],
+        [across_re, across_im]: &[[f64; P]; 2],
+        response: &R,
+    ) -> [[f64; P]; K] {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut sums = [[0.0; P]; K];
+                for ((q, shell, c), [along_re, along_im]) in self.of(row).zip(along) {
+                    let waves = response.times(q, shell, c);
+                    for p in 0..P {
+                        let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];
+                        let im = along_re[p] * across_im[p] + along_im[p] * across_re[p];
+                        for k in 0..K {
+                            sums[k][p] += waves[k].re * re - waves[k].im * im;
+                        }
+                    }
+                }
+                sums
+            },
+        )
+    }
+}
+
+/// e^{2πiκs} of some s, for a range of κ.
 #[derive(Debug)]
 pub(super) struct Phases<const P: usize> {
     first: i32,
     turns: Vec<[[f64; P]; 2]>,
 }
 
+/// Phases so far apart are computed; those between are products of two.
+const APART: i32 = 16;
+
 impl<const P: usize> Phases<P> {
+    fn new([first, end]: [i32; 2], places: [f64; P]) -> Self {
+        let short: Vec<[[f64; P]; 2]> = (0..APART.min(end - first)).map(|k| turned(k, places)).collect();
+        let mut turns = Vec::with_capacity((end - first) as usize);
+        for start in (first..end).step_by(APART as usize) {
+            let [long_re, long_im] = turned(start, places);
+            turns.extend(short.iter().take((end - start) as usize).map(|[re, im]| {
+                let real = |p: usize| long_re[p] * re[p] - long_im[p] * im[p];
+                let imaginary = |p: usize| long_re[p] * im[p] + long_im[p] * re[p];
+                [std::array::from_fn(real), std::array::from_fn(imaginary)]
+            }));
+        }
+        Self { first, turns }
+    }
+
+    /// For all κ₁ of some rows, of fractions of a₁.
     pub fn along(rows: &[Row], places: [f64; P]) -> Self {
         let first = rows.iter().map(|row| row.first).min().unwrap_or(0);
         let end = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(first);
-        Self { first, turns: (first..end).map(|k| turned(k, places)).collect() }
+        Self::new([first, end], places)
+    }
+
+    /// For the κ₂ of some rows, of fractions of a₂.
+    pub fn across(rows: &[Row], places: [f64; P]) -> Self {
+        let first = rows.first().map_or(0, |row| row.across);
+        Self::new([first, rows.last().map_or(first, |row| row.across + 1)], places)
+    }
+
+    /// That of the κ₂ of a row.
+    pub fn of(&self, row: &Row) -> &[[f64; P]; 2] {
+        &self.turns[(row.across - self.first) as usize]
     }
 
     /// From the first wave of a row on.
@@ -170,7 +218,7 @@ impl<const P: usize> Phases<P> {
 }
 
 /// cos 2πks and sin 2πks of some s.
-pub(super) fn turned<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
+fn turned<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
     let turns = places.map(|s| {
         // Whole turns are none.
         let part = (f64::from(k) * (s - s.round())).fract();

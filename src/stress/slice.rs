@@ -2,16 +2,12 @@
 
 use super::series::Response;
 use super::tensor::State;
-use crate::body::{Amplitudes, Antiplane, Depth, InPlane, TransferFunction};
-use rayon::prelude::*;
+use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interiors};
 use rustfft::num_complex::Complex64;
 
 /// Of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z those that a pressure makes change their sign with the wavevector, and a shear
 /// traction does not.
 const ODD: [bool; 9] = [false, false, false, false, true, true, true, true, false];
-
-/// Shells from which on amplitudes are worth more than one thread.
-const MANY: usize = 512;
 
 /// Amplitudes at a depth of the shells whose waves reach it, and the state of the mean pressure.
 #[derive(Debug)]
@@ -29,7 +25,8 @@ pub(super) struct Tangential {
     /// μ **e**: the traction on the body over the pressure.
     traction: [f64; 2],
     /// Along and across the wavevector.
-    amplitudes: Vec<(Amplitudes, Antiplane)>,
+    along: Vec<Amplitudes>,
+    across: Vec<Antiplane>,
 }
 
 /// Stresses only: xx, yy, zz, xy, xz, yz.
@@ -43,36 +40,31 @@ pub(super) struct Displacements<'a>(pub &'a Slice);
 impl Slice {
     /// At a depth, of shells of these `wavenumbers`, under a pressure and the `traction` that goes with a unit of it.
     pub fn new(
-        transfer: &TransferFunction,
+        interiors: &Interiors,
         depth: Depth,
         wavenumbers: &[f64],
         traction: Option<[f64; 2]>,
         mean: State,
     ) -> Self {
-        let all = wavenumbers.par_iter().with_min_len(MANY);
         let tangential = traction.map(|traction| Tangential {
             traction,
-            amplitudes: all
-                .clone()
-                .map(|&q| (transfer.amplitudes(InPlane::Along, q, depth), transfer.antiplane(q, depth)))
-                .collect(),
+            along: interiors.amplitudes(InPlane::Along, wavenumbers, depth),
+            across: interiors.antiplane(wavenumbers, depth),
         });
         Self {
-            normal: all.map(|&q| transfer.amplitudes(InPlane::Normal, q, depth)).collect(),
+            normal: interiors.amplitudes(InPlane::Normal, wavenumbers, depth),
             tangential,
             lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
             mean,
         }
     }
-}
 
-impl Slice {
     /// How far the amplitudes of a shell at the surface are from a half-space's with this ν, over the pressure.
     pub fn unlike(&self, shell: usize, poisson: f64) -> f64 {
         let Some(at) = self.normal.get(shell) else { return 0.0 };
         let normal = (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs());
-        let Some(Tangential { traction: [x, y], amplitudes }) = &self.tangential else { return normal };
-        let (along, across) = amplitudes[shell];
+        let Some(Tangential { traction: [x, y], along, across }) = &self.tangential else { return normal };
+        let (along, across) = (along[shell], across[shell]);
         let tangential = (along.sqq + 2.0).abs().max((along.stt + 2.0 * poisson).abs()).max((across.sqt + 1.0).abs());
         normal + x.hypot(*y) * tangential
     }
@@ -107,11 +99,10 @@ fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
 impl Tangential {
     /// Factors of a wave along **n**, those that are odd under a pressure without −i, the others with.
     #[inline(always)]
-    pub fn factors(&self, [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
+    fn factors(&self, [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
         let [ex, ey] = self.traction;
-        let (along, across) = &self.amplitudes[shell];
         let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
-        let (along, across) = (in_plane([nx, ny], along), antiplane([nx, ny], across));
+        let (along, across) = (in_plane([nx, ny], &self.along[shell]), antiplane([nx, ny], &self.across[shell]));
         std::array::from_fn(|k| by_along * along[k] + by_across * across[k])
     }
 }
@@ -138,7 +129,6 @@ impl Response<9> for Slice {
         self.mean.components()
     }
 }
-
 impl Response<6> for Stresses<'_> {
     fn shells(&self) -> usize {
         self.0.shells()

@@ -48,7 +48,7 @@ pub(super) struct Skin {
     pub open: Flat,
     /// Width of the Gaussian near edges, a length.
     width: f64,
-    seen: Edge,
+    seen: &'static Edge,
     /// ν of the surface material.
     poisson: f64,
     /// μ **e**.
@@ -134,7 +134,7 @@ impl Skin {
             edge: Flat::new(surface, |q| fourth(q * width)),
             open: Flat::new(surface, |q| fourth(q * open)),
             width,
-            seen: Edge::new(),
+            seen: Edge::shared(),
             poisson,
             traction: field.traction(),
             unlike,

@@ -4,7 +4,7 @@
 //! of any κ, summed at equally spaced s ([`Nonuniform`]). Along a lattice direction, **d** ∝ m₁**a**₁ + m₂**a**₂, κ is a
 //! multiple m₁κ₁ + m₂κ₂ of one wavenumber: they are first collapsed onto a few N multiples, −κ being the conjugate of κ.
 
-use super::series::{Phases, Response, Series, turned};
+use super::series::{Phases, Response, Series};
 use crate::lattice::waves::Row;
 use crate::numeric::fourier::Nonuniform;
 use rustfft::num_complex::Complex64;
@@ -41,7 +41,7 @@ impl<'a> Trace<'a> {
         let rows = self.series.waves.rows_within(response.shells());
         let middle = first + (points / 2) as f64 * step;
         let origin = [0, 1].map(|axis| self.origin[axis] + middle * self.unit[axis]);
-        let along = Phases::along(&rows, [origin[0]]);
+        let (along, across) = (Phases::along(&rows, [origin[0]]), Phases::across(&rows, [origin[1]]));
         let mut waves = Nonuniform::new(points);
         match self.lattice {
             Some(([m1, m2], unit)) => {
@@ -50,7 +50,7 @@ impl<'a> Trace<'a> {
                 let most = ends.map(i32::abs).max().unwrap_or(0) as usize;
                 let mut sums = vec![[Complex64::default(); K]; most + 1];
                 for row in &rows {
-                    for (k, term) in self.terms(row, &along, origin[1], response).enumerate() {
+                    for (k, term) in self.terms(row, &along, &across, response).enumerate() {
                         let multiple = multiple(row, k);
                         let side = f64::from(multiple.signum() | 1);
                         for (sum, term) in sums[multiple.unsigned_abs() as usize].iter_mut().zip(term) {
@@ -65,7 +65,7 @@ impl<'a> Trace<'a> {
                 let [s, t] = self.unit.map(|fraction| step * fraction);
                 for row in &rows {
                     let turns = |k: usize| f64::from(row.first + k as i32) * s + f64::from(row.across) * t;
-                    let terms = self.terms(row, &along, origin[1], response);
+                    let terms = self.terms(row, &along, &across, response);
                     waves.add(terms.enumerate().map(|(k, term)| (turns(k), term)));
                 }
             }
@@ -74,15 +74,15 @@ impl<'a> Trace<'a> {
         waves.real_parts().into_iter().map(|sums| std::array::from_fn(|k| mean[k] + sums[k])).collect()
     }
 
-    /// What the waves of a row give at a place: `along` are the phases of its fraction of a₁, t is that of a₂.
+    /// What the waves of a row give at a place, by the phases of its fractions of a₁ and a₂.
     fn terms<'b, const K: usize, R: Response<K>>(
         &'b self,
         row: &'b Row,
         along: &'b Phases<1>,
-        t: f64,
+        across: &Phases<1>,
         response: &'b R,
     ) -> impl Iterator<Item = [Complex64; K]> + 'b {
-        let [[re], [im]] = turned(row.across, [t]);
+        let &[[re], [im]] = across.of(row);
         let across = Complex64::new(re, im);
         self.series
             .of(row)

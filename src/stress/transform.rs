@@ -112,6 +112,7 @@ impl Transform {
         // Fresh memory is zero, and costs nothing before it is written.
         let is_fresh = room.is_empty();
         let mut values = if is_fresh { vec![0.0; size] } else { room };
+        values.reserve_exact(size.saturating_sub(values.len()));
         values.resize(size, 0.0);
         values.par_chunks_exact_mut(K * self.tile()).enumerate().for_each_init(
             || self.scratch(),

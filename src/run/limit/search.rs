@@ -6,6 +6,7 @@ use crate::load::Load;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
 use crate::spectral::{Solver, Step};
+use crate::stress::Tables;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -30,6 +31,8 @@ const TOUCHING: f64 = 1e-3;
 pub(super) struct Search<'a, R: Recorder> {
     run: &'a Run,
     solver: Solver,
+    /// What the stresses of all loads share.
+    tables: Arc<Tables>,
     complete: f64,
     /// By ascending mean pressure.
     steps: Vec<StepRecord>,
@@ -46,7 +49,8 @@ impl<'a, R: Recorder> Search<'a, R> {
         // A flat surface is in complete contact under any load, and more of it changes what fails all the same.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let complete = complete.unwrap_or(f64::INFINITY);
-        let mut search = Self { run, solver, complete, steps: Vec::new(), last: None, recorder };
+        let mut search =
+            Self { run, solver, tables: Arc::default(), complete, steps: Vec::new(), last: None, recorder };
         let half_space = run.problem.half_space();
         let (at_rest, sought): (Vec<Criterion>, Vec<Criterion>) =
             Criterion::all(half_space).into_iter().partition(|criterion| criterion.at_rest(half_space) >= 1.0);
@@ -90,7 +94,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         // Its memory goes before the next one takes as much.
         self.last = None;
         let load = Load::MeanPressure(mean_pressure);
-        let (record, step) = self.run.solve_load(&mut self.solver, load, None, self.recorder)?;
+        let (record, step) = self.run.solve_load(&mut self.solver, &self.tables, load, None, self.recorder)?;
         self.last = Some(step);
         // What is read off a step has the load to rounding.
         let before = |other: &StepRecord| other.reading.mean_pressure < mean_pressure * (1.0 - SAME);
