@@ -64,6 +64,8 @@ mod solve;
 mod stress;
 #[path = "command_line/sweep.rs"]
 mod sweep;
+#[path = "common/temporary.rs"]
+mod temporary;
 #[path = "command_line/topography.rs"]
 mod topography;
 #[path = "command_line/units.rs"]

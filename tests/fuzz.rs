@@ -10,6 +10,8 @@
 #![cfg(feature = "cli")]
 
 mod common;
+#[path = "common/temporary.rs"]
+mod temporary;
 
 use common::Random;
 use percoat::body::{Interior, TransferFunction};
@@ -337,7 +339,7 @@ fn setting(name: &str, default: u64) -> u64 {
 fn whatever_is_written_is_a_case_or_refused_at_once() {
     let count = setting("PERCOAT_FUZZ", 10_000);
     let mut random = Random(setting("PERCOAT_FUZZ_SEED", 20_261_121));
-    let folder = tempfile::tempdir().unwrap();
+    let folder = temporary::folder();
     const SURFACE: &str = "[lattice]\nkind = \"square\"\nperiod = 1\n[surface]\nheights = \"surface.npy\"\n\
                            [substrate]\nyoung = 1\npoisson = 0.3\n[load]\nmean_pressure = 1e-3\n";
     let (mut cases, mut surfaces) = (0, 0);
@@ -378,7 +380,7 @@ fn run(arguments: &[String], folder: &Path) -> Result<ExitStatus, String> {
 fn whatever_is_asked_of_the_program_ends_with_a_code_and_spares_other_files() {
     let count = setting("PERCOAT_FUZZ_RUNS", 40);
     let mut random = Random(setting("PERCOAT_FUZZ_SEED", 20_261_122));
-    let folder = tempfile::tempdir().unwrap();
+    let folder = temporary::folder();
     let mut codes = [0; 5];
     while codes.iter().sum::<u64>() < count {
         let (text, mut overrides) = mutated(&mut random);

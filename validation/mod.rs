@@ -64,7 +64,7 @@ mod westergaard;
 
 pub use check::{Check, Evidence, Tolerance};
 pub use outcome::{Data, Outcome, Study, StudyError};
-pub use report::{Report, differences};
+pub use report::{Report, contradictions, differences};
 
 /// Every study, in the order in which they are run and reported.
 pub const STUDIES: [Study; 28] = [

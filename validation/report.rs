@@ -143,29 +143,37 @@ fn rows(study: &Study, result: &Result<Outcome, StudyError>) -> Vec<Vec<String>>
 /// What differs between two Markdown reports in evidence or verdict: rows that changed, are missing or are new. With `studies`
 /// only theirs are compared.
 pub fn differences(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec<String> {
-    let wanted = |study: &str| studies.is_none_or(|studies| studies.contains(&study));
-    let [expected, found] = [expected, found].map(verdicts);
-    let mut differences = Vec::new();
-    for ((study, quantity), verdict) in expected.iter().filter(|((study, _), _)| wanted(study)) {
-        match found.get(&(study.clone(), quantity.clone())) {
-            None => differences.push(format!("{study}: {quantity}: missing, expected {verdict}")),
-            Some(now) if now != verdict => {
-                differences.push(format!("{study}: {quantity}: {now}, expected {verdict}"));
-            }
-            Some(_) => (),
+    let known = verdicts(found);
+    let missing = verdicts(expected).into_iter().filter(|(row, _)| is_of(studies, row) && !known.contains_key(row));
+    let missing =
+        missing.map(|((study, quantity), verdict)| format!("{study}: {quantity}: missing, expected {verdict}"));
+    missing.chain(contradictions(expected, found, studies)).collect()
+}
+
+/// The same of a report that need not have all rows: those that changed or are new.
+pub fn contradictions(expected: &str, found: &str, studies: Option<&[&str]>) -> Vec<String> {
+    let known = verdicts(expected);
+    let contradiction = |(row, now): (Row, String)| {
+        let (study, quantity) = &row;
+        match known.get(&row) {
+            None => Some(format!("{study}: {quantity}: {now}, but not expected at all")),
+            Some(verdict) if *verdict != now => Some(format!("{study}: {quantity}: {now}, expected {verdict}")),
+            Some(_) => None,
         }
-    }
-    for ((study, quantity), verdict) in found.iter().filter(|((study, _), _)| wanted(study)) {
-        if !expected.contains_key(&(study.clone(), quantity.clone())) {
-            differences.push(format!("{study}: {quantity}: {verdict}, but not expected at all"));
-        }
-    }
-    differences
+    };
+    verdicts(found).into_iter().filter(|(row, _)| is_of(studies, row)).filter_map(contradiction).collect()
+}
+
+/// A study and one of its quantities.
+type Row = (String, String);
+
+fn is_of(studies: Option<&[&str]>, (study, _): &Row) -> bool {
+    studies.is_none_or(|studies| studies.contains(&study.as_str()))
 }
 
 /// Verdict, with its evidence unless that is independent, by study and quantity, from the sections of a Markdown report.
 /// Rows of the same name count one by one.
-fn verdicts(markdown: &str) -> BTreeMap<(String, String), String> {
+fn verdicts(markdown: &str) -> BTreeMap<Row, String> {
     let mut verdicts = BTreeMap::new();
     let mut study = None;
     for line in markdown.lines() {
@@ -192,8 +200,10 @@ fn verdicts(markdown: &str) -> BTreeMap<(String, String), String> {
 mod tests {
     use super::*;
 
-    static ONE: Study = Study { name: "one", title: "One thing", files: &[], run: || Ok(Outcome::default()) };
-    static TWO: Study = Study { name: "two", title: "Another", files: &[], run: || Ok(Outcome::default()) };
+    static ONE: Study =
+        Study { name: "one", title: "One thing", files: &[], run: || Ok(Outcome::default()), quick: None };
+    static TWO: Study =
+        Study { name: "two", title: "Another", files: &[], run: || Ok(Outcome::default()), quick: None };
 
     fn report(values: &[f64]) -> Report {
         let checks = values.iter().map(|&x| Check::relative(format!("quantity {x:.0}"), x, x.round(), 1e-2)).collect();
@@ -236,6 +246,11 @@ mod tests {
         assert_eq!(differences(&a, &twice, None).len(), 1);
         assert_eq!(differences(&a, "", None).len(), 3);
         assert_eq!(differences("", &a, None).len(), 3);
+        // Of a quick form rows may be missing.
+        assert_eq!(contradictions(&a, &fewer, None), Vec::<String>::new());
+        assert_eq!(contradictions(&fewer, &a, None), ["one: quantity 2: holds, but not expected at all"]);
+        let failed = report(&[1.2]).markdown();
+        assert_eq!(contradictions(&a, &failed, None), ["one: quantity 1: fails, expected holds"]);
     }
 
     #[test]

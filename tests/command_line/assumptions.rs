@@ -2,7 +2,7 @@
 
 use crate::program::{Desk, Folder};
 
-const SMALL: [&str; 2] = ["--set=grid.points=48", "--no-pictures"];
+const SMALL: [&str; 2] = ["--set=grid.points=24", "--no-pictures"];
 const CONFINED: &str = "stress.mean = \"confined\"";
 const HALF_SPACE: &str = "stress.mean = \"half-space\"";
 

@@ -84,8 +84,8 @@ fn assert_well_formed(file: &str, what: &str) {
 fn a_title_reaches_no_terminal_picture_volume_or_page_as_it_is() {
     let desk = Desk::new();
     let tags = ["</text></svg><script>]]>&#27;&quot;", "-->\u{202e}<!--"];
-    let all = hostile().collect::<String>();
-    let titles = hostile().chain(tags).map(str::to_owned).chain([all]);
+    // One by one they are tried where a title is a line (`a_summary_on_standard_output_means_what_it_meant`).
+    let titles = tags.map(str::to_owned).into_iter().chain([SEQUENCES.concat(), UNSEEN.concat()]);
     for (number, title) in titles.enumerate() {
         let title = format!("a {title} b");
         desk.write("mine.toml", case(&desk, &title));

@@ -1,6 +1,7 @@
 //! A run that is stopped, however rudely, leaves what it has finished and what stood there before.
 
 use crate::archive::{Archive, read_npy};
+use crate::damages::copy;
 use crate::program::{Desk, Folder, number, timeless};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -250,8 +251,9 @@ fn killed_in_every_phase_the_old_result_or_the_finished_steps_stand_readable() {
             .iter()
             .all(|(name, content)| fs::read(folder.0.join(name)).is_ok_and(|found| timeless(name, found) == *content))
     };
+    let folder = Folder(desk.path("run"));
     for phase in PHASES {
-        let folder = desk.solve("run", &FIRST);
+        copy(&desk.path("first"), &folder.0);
         let mut child = start(&folder.0, &SECOND);
         wait_for_phase(phase, &folder.0, &mut child);
         kill(child);

@@ -170,7 +170,8 @@ fn what_has_no_strength_is_refused_and_nothing_written() {
 fn a_limit_that_is_not_converged_is_written_and_marked() {
     let desk = Desk::new();
     fs::write(desk.path("bond.toml"), BOND).unwrap();
-    let arguments = ["limit", "bond.toml", "-o", "out", "--no-pictures", "--set", "solver.max_iterations=1"];
+    let arguments =
+        ["limit", "bond.toml", "-o", "out", "--no-pictures", "--set=solver.max_iterations=1", "--set=grid.points=24"];
     let answer = desk.percoat(&arguments);
     assert_eq!(answer.code, 3, "{}", answer.err);
     assert!(answer.err.contains("not converged") && desk.path("out/limit.json").is_file(), "{}", answer.err);

@@ -119,7 +119,7 @@ fn small_files_are_an_error_and_what_is_finished_stays() {
             &["solve", "fig2", "--set=grid.points=32", "--set=load.mean_pressure=[0.02,0.06]", "--no-pictures"][..],
             &["solve", "fig2", "--set=grid.points=32"],
             &["sweep", "fig2", "--set=grid.points=32,36", "--no-pictures"],
-            &["limit", "--set=grid.points=32", "--no-pictures"],
+            &["limit", "--set=grid.points=16", "--no-pictures"],
             &["check", "rough", "--set=grid.points=128", "-o", "checked"],
         ] {
             let arguments =

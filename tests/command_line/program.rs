@@ -1,6 +1,7 @@
 //! The program in a temporary folder of its own.
 
 use crate::archive::Archive;
+use crate::temporary;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -25,7 +26,7 @@ pub struct Folder(pub PathBuf);
 
 impl Desk {
     pub fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
+        Self(temporary::folder())
     }
 
     pub fn path(&self, name: &str) -> PathBuf {

@@ -17,6 +17,7 @@ pub const STUDY: Study = Study {
     title: "Disc on a coating through the localized path",
     files: &["disc.data.csv", "figure.png", "squares.data.csv"],
     run,
+    quick: None,
 };
 
 const REFERENCE: &str = include_str!("reference.csv");

@@ -17,6 +17,7 @@ pub const STUDY: Study = Study {
     title: "Hertz as the limit of wide lattices and of thick and thin coatings",
     files: &["coating.data.csv", "figure.png", "lattice.data.csv"],
     run,
+    quick: None,
 };
 
 const CASE: &str = include_str!("case.toml");

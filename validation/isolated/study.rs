@@ -18,6 +18,7 @@ pub const STUDY: Study = Study {
     title: "One indenter alone on a coating, a layer and a half-space",
     files: &["coated.data.csv", "figure.png"],
     run,
+    quick: None,
 };
 
 const CASE: &str = include_str!("case.toml");

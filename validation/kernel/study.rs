@@ -15,6 +15,7 @@ pub const STUDY: Study = Study {
     title: "Layered half-space against multiprecision solutions of 700 stacks under pressure, 414 under shear",
     files: &["compliance.data.csv", "figure.png", "interior.data.csv", "tangential.data.csv"],
     run,
+    quick: None,
 };
 
 /// One stack of a table.

@@ -24,6 +24,7 @@ pub const STUDY: Study = Study {
     title: "What the images of a load do at its place",
     files: &["figure.png", "sums.data.csv"],
     run,
+    quick: None,
 };
 
 const REFERENCE: &str = include_str!("reference.csv");

@@ -24,7 +24,8 @@ pub const STUDY: Study = Study {
     name: "limit",
     title: "Limit loads under a sliding sphere: yield, cracking, residual stress, delamination",
     files: &["bare.data.csv", "coated.data.csv", "figure.png"],
-    run,
+    run: || run(&WHOLE),
+    quick: Some(|| run(&QUICK)),
 };
 
 const YIELD: &str = include_str!("yield.csv");
@@ -45,6 +46,18 @@ const SHEAR: f64 = 5.0;
 const START: f64 = 0.8;
 /// Bearing of the sliding: along no lattice line.
 const BEARING: f64 = 0.3;
+
+/// What is looked for.
+struct Points {
+    /// Friction on the bare half-space; `None` for every one of the table.
+    bare: Option<&'static [f64]>,
+    /// Friction on the layer, residual stress over the strength, and depths of the interface over a.
+    coated: &'static [(f64, &'static [f64], &'static [f64])],
+}
+
+const WHOLE: Points = Points { bare: None, coated: &[(0.0, &RESIDUAL, &INTERFACES), (0.5, &RESIDUAL, &INTERFACES)] };
+/// Every place at which a half-space yields, and every criterion of a layer.
+const QUICK: Points = Points { bare: Some(&[0.2, 0.5, 1.0]), coated: &[(0.0, &[0.3], &[]), (0.5, &[-0.3], &[0.8])] };
 
 /// What slides on what, at the load at which it shall fail.
 struct Slider {
@@ -146,8 +159,8 @@ struct Found {
 
 const EDGE: [f64; 3] = [-1.0, 0.0, 0.0];
 
-fn run() -> Result<Outcome, StudyError> {
-    let (bare, coated, at_rest) = (bare()?, coated()?, at_rest()?);
+fn run(points: &Points) -> Result<Outcome, StudyError> {
+    let (bare, coated, at_rest) = (bare(points)?, coated(points)?, at_rest()?);
     let mut outcome = Outcome::default();
     let switches = Data::parse("switch", &numbers_only(SWITCH))?;
     let switches: Vec<[f64; 2]> =
@@ -243,7 +256,7 @@ fn numbers_only(text: &str) -> String {
 }
 
 /// Limits of a bare half-space with a yield and a tensile strength, without friction to much.
-fn bare() -> Result<Data, StudyError> {
+fn bare(points: &Points) -> Result<Data, StudyError> {
     let columns = [
         "mu",
         "yield",
@@ -265,7 +278,9 @@ fn bare() -> Result<Data, StudyError> {
     let mut data = Data::new("bare", &columns);
     let own = |table: Data| table.rows.into_iter().filter(|row| row[0] == POISSON);
     let tensions = own(Data::parse("tension", TENSION)?);
-    for (worst, tension) in own(Data::parse("yield", YIELD)?).zip(tensions) {
+    let wanted = |mu: f64| points.bare.is_none_or(|frictions| frictions.contains(&mu));
+    let rows = own(Data::parse("yield", YIELD)?).zip(tensions).filter(|(worst, _)| wanted(worst[1]));
+    for (worst, tension) in rows {
         let slider = Slider::new(worst[1])?;
         let [yielding, tensile] = [worst[2], tension[2]].map(|stress| stress * slider.contact(RADIUS).axis);
         let place @ [x, y, z] = [worst[3], worst[4], worst[5]];
@@ -300,16 +315,16 @@ fn layered(
 }
 
 /// Limits of a layer of the substrate's own material, whose closed forms are those of the half-space.
-fn coated() -> Result<Data, StudyError> {
+fn coated(points: &Points) -> Result<Data, StudyError> {
     // Criteria: 0 yield, 1 cracking, 2 delamination.
     let mut data = Data::new("coated", &["mu", "residual", "criterion", "p0", "p0_exact", "stated", "interface"]);
-    for mu in [0.0, 0.5] {
+    for &(mu, residual, interfaces) in points.coated {
         let slider = Slider::new(mu)?;
         let unit = slider.contact(RADIUS).axis;
         let row = |part: f64, criterion: f64, found: &Found, deep: f64| {
             vec![mu, part, criterion, found.axis / unit, found.exact / unit, found.stated, deep]
         };
-        for part in RESIDUAL {
+        for &part in residual {
             if mu == 0.0 {
                 let strength = slider.worst(RADIUS, mises) * unit / (1.0 - part);
                 let exact = slider.failing(|radius, axis| {
@@ -332,7 +347,7 @@ fn coated() -> Result<Data, StudyError> {
             let found = slider.limit(&half_space, Criterion::Cracking { material: 1 }, &exact)?;
             data.rows.push(row(part, 1.0, &found, 0.0));
         }
-        for deep in INTERFACES {
+        for &deep in interfaces {
             // √(⟨σ_zz⟩² + (τ/5)²) over p₀: the strength under tension that it needs.
             let carried = |radius: f64| {
                 let deep = deep * RADIUS / radius;

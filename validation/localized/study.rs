@@ -42,7 +42,8 @@ pub const STUDY: Study = Study {
         "two-layers-shells.data.csv",
         "two-layers.data.csv",
     ],
-    run,
+    run: || run(&coatings()?, &thin::coatings()),
+    quick: Some(|| run(&coatings()?[3..], &thin::coatings()[..3])),
 };
 
 const RADIUS: f64 = 0.8;
@@ -55,14 +56,14 @@ const POINTS: usize = 192;
 
 const SETUP: Setup = Setup { indenters: 7, elements: 32, rule: CircleRadius::LatticeSum, mutual_effect: true };
 
-fn run() -> Result<Outcome, StudyError> {
+fn run(coatings: &[Coated], thin: &[thin::Coating]) -> Result<Outcome, StudyError> {
     let mut outcome = Outcome::default();
     let first = one_level(&mut outcome)?;
     let mut second = Vec::new();
-    for (colour, (names, half_space, mean_pressure)) in (1..).zip(coatings()?) {
-        second.extend(coated(names, &half_space, mean_pressure, colour, &mut outcome)?);
+    for (colour, (names, half_space, mean_pressure)) in (1..).zip(coatings) {
+        second.extend(coated(*names, half_space, *mean_pressure, colour, &mut outcome)?);
     }
-    thin_coatings(&mut outcome)?;
+    thin_coatings(thin, &mut outcome)?;
     let chart = |title: &str, y, curves| Chart {
         title: title.to_owned(),
         x: Axis::log("indenters inside the circle"),

@@ -26,7 +26,7 @@ const ELEMENT: f64 = 3e-3;
 const HEAPED: f64 = 1e-2;
 
 /// A coating on E₂ = 1, ν₂ = 0.3 under paraboloids of radius 1 on a hexagonal lattice of unit period.
-struct Coating {
+pub struct Coating {
     young: f64,
     poisson: f64,
     thickness: f64,
@@ -36,7 +36,8 @@ struct Coating {
     bound: f64,
 }
 
-fn coatings() -> Vec<Coating> {
+/// Every coating.
+pub fn coatings() -> Vec<Coating> {
     let of = |young, poisson, thickness, interface, mean_pressure, bound| Coating {
         young,
         poisson,
@@ -61,8 +62,8 @@ fn coatings() -> Vec<Coating> {
     ]
 }
 
-/// Checks and data of all coatings.
-pub fn thin_coatings(outcome: &mut Outcome) -> Result<(), StudyError> {
+/// Checks and data of each coating.
+pub fn thin_coatings(coatings: &[Coating], outcome: &mut Outcome) -> Result<(), StudyError> {
     let columns = [
         "young",
         "poisson",
@@ -75,8 +76,8 @@ pub fn thin_coatings(outcome: &mut Outcome) -> Result<(), StudyError> {
         "penetration",
     ];
     let mut data = Data::new("thin", &columns);
-    for coating in coatings() {
-        let Coating { young, poisson, thickness, interface, mean_pressure, bound } = coating;
+    for coating in coatings {
+        let &Coating { young, poisson, thickness, interface, mean_pressure, bound } = coating;
         let layer = Layer::new(Material::from_young(young, poisson)?, thickness, interface)?;
         let half_space = HalfSpace::new(vec![layer], Material::from_young(1.0, 0.3)?);
         let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0)?;

@@ -18,6 +18,7 @@ pub const STUDY: Study = Study {
     title: "Homogeneous half-spaces against Tamaas",
     files: &["figure.png", "peer.data.csv"],
     run,
+    quick: None,
 };
 
 const REFERENCE: &str = include_str!("reference.csv");

@@ -16,6 +16,7 @@ pub const STUDY: Study = Study {
     title: "Paraboloids among their images, one and three levels, bare and coated",
     files: &["coated.data.csv", "figure.png", "one-level.data.csv"],
     run,
+    quick: None,
 };
 
 const CASE: &str = include_str!("case.toml");

@@ -18,6 +18,7 @@ pub const STUDY: Study = Study {
     title: "Annular contacts under a blunt indenter on a sliding plate",
     files: &["figure.png", "rings.data.csv"],
     run,
+    quick: None,
 };
 
 const REFERENCE: &str = include_str!("reference.csv");

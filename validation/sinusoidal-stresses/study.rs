@@ -18,6 +18,7 @@ pub const STUDY: Study = Study {
     title: "Stresses and displacements under sinusoidal pressures",
     files: &["errors.data.csv", "figure.png"],
     run,
+    quick: None,
 };
 
 const POINTS: usize = 24;

@@ -24,6 +24,7 @@ pub const STUDY: Study = Study {
         "turned.data.csv",
     ],
     run,
+    quick: None,
 };
 
 fn run() -> Result<Outcome, StudyError> {

@@ -23,13 +23,14 @@ pub const STUDY: Study = Study {
     name: "sliding-sphere",
     title: "Stresses under a sliding sphere, inside, on the surface and at the trailing edge",
     files: &["edge.data.csv", "figure.png", "inside.data.csv", "surface.data.csv"],
-    run,
+    run: || run(&POISSON),
+    quick: Some(|| run(&[DRAWN])),
 };
 
 const CASE: &str = include_str!("case.toml");
 const REFERENCE: &str = include_str!("reference.csv");
 const POISSON: [f64; 3] = [0.0, 0.3, 0.5];
-/// That of the drawn stresses.
+/// That of the drawn stresses, and of the quick form.
 const DRAWN: f64 = 0.3;
 /// Contact radius over period, and samples along the radius, where stresses are compared.
 const RADIUS: f64 = 0.05;
@@ -96,7 +97,7 @@ fn rotated([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     [c * x - s * y, s * x + c * y]
 }
 
-fn run() -> Result<Outcome, StudyError> {
+fn run(ratios: &[f64]) -> Result<Outcome, StudyError> {
     let with_exact = |first: &[&str], names: &[&str]| -> Vec<String> {
         let both = names.iter().flat_map(|name| [(*name).to_owned(), format!("{name}_exact")]);
         first.iter().map(|&name| name.to_owned()).chain(both).collect()
@@ -107,7 +108,7 @@ fn run() -> Result<Outcome, StudyError> {
     surface.columns = with_exact(&["nu", "x", "y"], &["xx", "yy", "xy"]);
     let mut turn = Vec::new();
     let reference = Data::parse("reference", &numbers_only(REFERENCE))?;
-    for nu in POISSON {
+    for &nu in ratios {
         let solved = Solved::new(nu, RADIUS, SAMPLES)?;
         let field = solved.field(solved.step.finest(), FRICTION, BEARING)?;
         read_inside(&mut inside, &solved, &field, nu, &reference);
@@ -116,7 +117,7 @@ fn run() -> Result<Outcome, StudyError> {
             turn = turned_by_a_sixth(&solved, &field)?;
         }
     }
-    let edge = edges()?;
+    let edge = edges(ratios)?;
     let mut outcome = Outcome::default();
     let pairs = |data: &Data, name: &str, keep: &dyn Fn(&[f64]) -> bool| -> Vec<(f64, f64)> {
         let Some(k) = data.columns.iter().position(|column| column == name) else { return Vec::new() };
@@ -219,10 +220,10 @@ fn turned_by_a_sixth(solved: &Solved, field: &StressField) -> Result<Vec<(f64, f
 }
 
 /// The trailing edge: every friction, direction and resolution; and what a sixth of a turn changes.
-fn edges() -> Result<Data, StudyError> {
+fn edges(ratios: &[f64]) -> Result<Data, StudyError> {
     let columns = ["nu", "samples", "mu", "degrees", "tension", "tension_exact", "stated", "off_edge", "turn"];
     let mut data = Data::new("edge", &columns);
-    for nu in POISSON {
+    for &nu in ratios {
         for samples in RESOLUTIONS {
             let solved = Solved::new(nu, EDGE_RADIUS, samples)?;
             for mu in FRICTIONS {

@@ -19,6 +19,7 @@ pub const STUDY: Study = Study {
     title: "A sliding wave, coupled: contact, pressure and trailing edge",
     files: &["figure.png", "grids.data.csv", "loads.data.csv"],
     run,
+    quick: None,
 };
 
 const AMPLITUDE: f64 = 0.01;

@@ -15,6 +15,7 @@ pub const STUDY: Study = Study {
     title: "Square and hexagonal wavy surfaces from first touch to complete contact",
     files: &["egg_box.data.csv", "figure.png", "holes.data.csv", "peaks.data.csv"],
     run,
+    quick: None,
 };
 
 const REFERENCE: &str = include_str!("reference.csv");

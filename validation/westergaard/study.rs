@@ -15,6 +15,7 @@ pub const STUDY: Study = Study {
     title: "A sinusoidal wave from light load to complete contact",
     files: &["figure.png", "loads.data.csv"],
     run,
+    quick: None,
 };
 
 const WAVE: Wave = Wave { amplitude: 0.02, wavelength: 1.0, modulus: 1.0 };

@@ -17,6 +17,7 @@ pub const STUDY: Study = Study {
     title: "Fig. 2: pressure and contact spot of the third level, hard coating",
     files: &["figure.png", "methods.csv", "outline.csv", "pressure.csv"],
     run,
+    quick: None,
 };
 
 const LOAD: f64 = 0.06;

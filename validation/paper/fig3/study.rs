@@ -31,6 +31,7 @@ pub const STUDY: Study = Study {
         "pressure-b.csv",
     ],
     run,
+    quick: None,
 };
 
 pub const LOAD: f64 = 0.008;

@@ -12,6 +12,7 @@ pub const STUDY: Study = Study {
     title: "Fig. 4: additional displacement against nominal pressure",
     files: &["chi-2.csv", "chi-5.csv", "figure.png", "hard.png", "methods.csv", "printed.csv"],
     run,
+    quick: None,
 };
 
 const POINTS: usize = 192;

@@ -19,6 +19,7 @@ pub const STUDY: Study = Study {
     title: "Fig. 5: contact radius and stresses against load",
     files: &["curves.csv", "figure.png", "methods.csv", "shear.csv"],
     run,
+    quick: None,
 };
 
 const POINTS: usize = 192;

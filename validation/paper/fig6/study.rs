@@ -14,6 +14,7 @@ pub const STUDY: Study = Study {
     title: "Fig. 6: stresses under an indenter of the first level",
     files: &["figure.png", "section-a.csv", "section-b.csv"],
     run,
+    quick: None,
 };
 
 /// Steps a tenth of the printed ones.

@@ -12,6 +12,7 @@ pub const STUDY: Study = Study {
     title: "Fig. 7: stresses at the surface and on both sides of the interface",
     files: &["figure.png", "lines-a.csv", "lines-b.csv"],
     run,
+    quick: None,
 };
 
 /// Overrides of (b).

@@ -15,6 +15,7 @@ pub const STUDY: Study = Study {
     title: "Table 1: largest pressures, and how strong the mutual effect is",
     files: &["figure.png", "table1.csv"],
     run,
+    quick: None,
 };
 
 /// As printed, ν₁ = 0.45 and 0.2: with mutual effect, isolated; levels 1 to 3.

@@ -1,6 +1,6 @@
 //! Stresses inside coating and substrate: closed forms, balances, and the sum over wavevectors they stand for.
 
-mod common;
+use crate::common;
 
 use common::{PAPER, Random, one_level, paraboloid, solve_sharply};
 use ndarray::{Array2, Axis};

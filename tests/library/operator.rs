@@ -1,6 +1,6 @@
 //! The displacement operator against the sum over wavevectors that it stands for.
 
-mod common;
+use crate::common;
 
 use common::Random;
 use percoat::body::TransferFunction;

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-mod common;
+use crate::common;
 
 use common::Random;
 use ndarray::Array2;

@@ -1,6 +1,6 @@
 //! Stopping on what is certified, plates, and penetrations that no sample sees.
 
-mod common;
+use crate::common;
 
 use common::{PAPER, Random, bare, one_level, paraboloid};
 use ndarray::Array2;

@@ -1,7 +1,7 @@
 //! What must not change the answer: where the origin is, how the cell is chosen, units, and how a layer is counted; and that
 //! the cases tested are those of the paper.
 
-mod common;
+use crate::common;
 
 use common::{PAPER, one_level, paraboloid, relative_difference, solve, solve_sharply};
 use ndarray::{Array2, Axis};

@@ -5,11 +5,11 @@
 //! hexagonal system with a/l = 0.1 is Hertzian there to 10⁻⁴ p₀ once the first effects of the neighbours are taken
 //! into account: Σ 1/|w|³ over the lattice raises the curvature of the gap and presses sideways at a depth.
 //!
-//! `cargo test --test surface_stress -- --include-ignored --nocapture` prints the whole table.
+//! `cargo test --test library surface_stress -- --include-ignored --nocapture` prints the whole table.
 
 #![cfg(feature = "validate")]
 
-mod common;
+use crate::common;
 
 use common::{Hills, Random, coated, one_level, paraboloid, solve};
 use percoat::stress::Peak;

@@ -1,6 +1,6 @@
 //! The elastic energy ½∫ p w of a cell, against closed forms and the work ∫ P dδ of the load path.
 
-mod common;
+use crate::common;
 
 use common::{PAPER, bare, one_level, paraboloid};
 use ndarray::Array2;

@@ -1,6 +1,6 @@
 //! Sliding contact: against a closed form, against the sum it stands for, and against itself turned around.
 
-mod common;
+use crate::common;
 
 use common::{Hills, PAPER, Random, bare, coated, one_level, paraboloid, relative_difference, solve, solve_sharply};
 use ndarray::{Array2, Axis};

@@ -1,8 +1,8 @@
 //! The largest stresses against closed forms and dense searches, and what their errors cover.
 //!
-//! `cargo test --test largest_stresses -- --include-ignored --nocapture` prints what fifty stacks give.
+//! `cargo test --test library largest_stresses -- --include-ignored --nocapture` prints what fifty stacks give.
 
-mod common;
+use crate::common;
 
 use common::{Random, one_level, paraboloid, solve};
 #[cfg(feature = "validate")]

@@ -1,7 +1,7 @@
 //! How much work a solution takes, which is the same on any machine: iterations, and convolutions on all grids as
 //! equivalents of the finest one, a convolution in single precision counted half.
 
-#[path = "../benches/shared/mod.rs"]
+#[path = "../../benches/shared/mod.rs"]
 mod shared;
 
 use percoat::{Load, Problem, Route, Step};

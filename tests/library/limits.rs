@@ -1,6 +1,6 @@
 //! Limit loads: what is found is where a criterion becomes one, from any load on, in any unit.
 
-mod common;
+use crate::common;
 
 use common::one_level;
 use percoat::body::{InterfaceStrength, Strength};

@@ -1,7 +1,7 @@
 //! Stresses under sliding contact and residual stresses, from first principles: tractions, equilibrium, Hooke's law and what
 //! interfaces connect.
 
-mod common;
+use crate::common;
 
 use common::{Hills, Random, solve};
 use ndarray::Array2;

@@ -1,6 +1,6 @@
 //! Loads of first touch: their errors hold.
 
-mod common;
+use crate::common;
 
 use common::Random;
 use percoat::reading::first_touches;
@@ -68,7 +68,7 @@ fn judge(seed: u64, count: usize) {
 
 #[test]
 fn stated_errors_of_a_few_loads_of_first_touch_hold() {
-    judge(3208, 20);
+    judge(3208, 8);
 }
 
 #[test]

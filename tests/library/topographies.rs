@@ -1,6 +1,6 @@
 //! Whether the discretisation errors that are stated of a topography hold: a study has those of indenters.
 
-mod common;
+use crate::common;
 
 use common::{Hills, Random, coated};
 use percoat::{Interface, Load, Problem, Settings, Solver};

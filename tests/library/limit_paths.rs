@@ -1,6 +1,6 @@
 //! Limits of random cases against fine paths of solved loads, from four starting loads each.
 
-mod common;
+use crate::common;
 
 use common::{Random, paraboloid};
 use percoat::body::{InterfaceStrength, Strength};

@@ -1,6 +1,6 @@
 //! The solver: complementarity, certificate, stop reasons, iteration counts, and robustness against the baseline.
 
-mod common;
+use crate::common;
 
 use common::{PAPER, Random, bare, coated, one_level, paraboloid, relative_difference, solve, solve_with};
 use ndarray::Array2;

@@ -1,6 +1,6 @@
 //! The engine of a run: what a recorder hears, and how a refinement ends.
 
-mod common;
+use crate::common;
 
 use common::{PAPER, one_level, paraboloid};
 use percoat::run::{End, Outcome, Recorder, Run, RunError, Sampling, StepRecord, StressRequest, change};

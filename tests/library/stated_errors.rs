@@ -1,7 +1,7 @@
 //! Whether the discretisation errors that are stated of contacts and stresses hold, sliding above all: random cases against
 //! their solutions with four times the points.
 
-mod common;
+use crate::common;
 
 use common::Random;
 use percoat::stress::Peak;

@@ -1,0 +1,47 @@
+//! What the library refuses, solves and reads, through its public interface; one program, so that it is linked once and all
+//! tests share the cores.
+
+mod common;
+
+#[path = "library/cases_refused.rs"]
+mod cases_refused;
+#[path = "library/energy.rs"]
+mod energy;
+#[path = "library/first_touch.rs"]
+mod first_touch;
+#[path = "library/invariance.rs"]
+mod invariance;
+#[path = "library/largest_stresses.rs"]
+mod largest_stresses;
+#[path = "library/limit_paths.rs"]
+mod limit_paths;
+#[path = "library/limits.rs"]
+mod limits;
+#[path = "library/operator.rs"]
+mod operator;
+#[path = "library/rings.rs"]
+mod rings;
+#[path = "library/roughness.rs"]
+mod roughness;
+#[path = "library/run.rs"]
+mod run;
+#[path = "library/sliding.rs"]
+mod sliding;
+#[path = "library/sliding_stress.rs"]
+mod sliding_stress;
+#[path = "library/solver.rs"]
+mod solver;
+#[path = "library/stated_errors.rs"]
+mod stated_errors;
+#[path = "library/stopping.rs"]
+mod stopping;
+#[path = "library/stress.rs"]
+mod stress;
+#[path = "library/surface_stress.rs"]
+mod surface_stress;
+#[path = "library/topographies.rs"]
+mod topographies;
+#[path = "library/volume.rs"]
+mod volume;
+#[path = "library/work.rs"]
+mod work;
