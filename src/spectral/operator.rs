@@ -134,7 +134,9 @@ impl Operator {
     /// precision that lasts until the next one in double precision.
     pub(super) fn shared<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
         let [n1, n2] = self.parts().points();
-        let (room, rest) = workspace.of(self.double.room()).split_at_mut(self.single.room());
+        // Of few columns a tile in single precision has as many bytes as those in double precision.
+        let size = self.double.room().max(self.single.room() + (n1 * n2).div_ceil(2));
+        let (room, rest) = workspace.of(size).split_at_mut(self.single.room());
         (room, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
     }
 

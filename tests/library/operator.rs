@@ -67,7 +67,9 @@ fn on_large_grids_too_waves_are_multiplied_by_their_compliance() {
             operator.displacement(&mut field, &mut Workspace::default());
             let compliance = transfer.compliance(grid.wavenumber([k1, k2]));
             let error = (0..n * n).map(|i| (field[i] / compliance - wave(i)).abs()).fold(0.0, f64::max);
-            assert!(error < 1e-12, "{cell}, {k1}, {k2}: {error:e}");
+            // What rounding in the transforms makes of a short wave are long ones too, which are displaced far more.
+            let leak = f64::EPSILON * transfer.compliance(grid.least_wavenumber()) / compliance;
+            assert!(error < 1e-12 + leak, "{cell}, {k1}, {k2}: {error:e}");
         }
     }
 }

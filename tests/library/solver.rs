@@ -221,13 +221,16 @@ fn a_load_search_says_so_and_keeps_within_the_iterations_it_is_given() {
     // A stiffer plate is solved too, by whichever way.
     let (stiffer, _) = pushed(1e4, 0.99999, 10_000);
     assert_eq!(stiffer.report.stop, Stop::Converged, "{}", stiffer.report);
-    let at = |part: f64, max_iterations: usize| pushed(1e3, part, max_iterations);
-    let (free, penetration) = at(0.999999, 10_000);
-    let Route::LoadSearch { trials } = free.report.route else { panic!("{}", free.report) };
-    assert!(free.report.stop == Stop::Converged && trials > 0, "{}", free.report);
+    // Where the iteration stalls is a matter of rounding: the first of some cases in which it does.
+    let stalls = |&(contrast, part): &(f64, f64)| pushed(contrast, part, 10_000).0.report.route.trials() > 0;
+    let cases = [1e3, 2e3, 5e3].map(|contrast| [0.999999, 0.9999995, 0.9999999].map(|part| (contrast, part)));
+    let (contrast, part) = cases.into_iter().flatten().find(stalls).expect("it stalls in some case");
+    let at = |max_iterations: usize| pushed(contrast, part, max_iterations);
+    let (free, penetration) = at(10_000);
+    assert!(free.report.stop == Stop::Converged, "{}", free.report);
     assert!((free.penetration() / penetration - 1.0).abs() < 1e-7, "{}", free.penetration());
     let most = free.report.iterations;
-    let cut: Vec<Step> = (1..40).map(|part| at(0.999999, part * most / 40).0).collect();
+    let cut: Vec<Step> = (1..40).map(|part| at(part * most / 40).0).collect();
     for (part, step) in (1..40).zip(&cut) {
         assert!(step.report.iterations <= part * most / 40, "{part}: {}", step.report);
     }
