@@ -88,7 +88,7 @@ impl<S: Simd, T: Real> Complex<S, T> {
 pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], roots: &[[T; 2]]) {
     match R {
         2 => (x[0], x[1]) = (x[0].plus(x[1]), x[0].minus(x[1])),
-        4 => (x[0], x[1], x[2], x[3]) = four([x[0], x[1], x[2], x[3]]),
+        4 => [x[0], x[1], x[2], x[3]] = four([x[0], x[1], x[2], x[3]]),
         8 => {
             let (mut sums, mut differences) = ([x[0]; 4], [x[0]; 4]);
             for j in 0..4 {
@@ -97,8 +97,8 @@ pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], r
             let [first, second, third, fourth] = differences;
             let even = four(sums);
             let odd = four([first, second.turned_half(), third.turned(), fourth.turned_half().turned()]);
-            (x[0], x[2], x[4], x[6]) = even;
-            (x[1], x[3], x[5], x[7]) = odd;
+            [x[0], x[2], x[4], x[6]] = even;
+            [x[1], x[3], x[5], x[7]] = odd;
         }
         _ => odd(x, roots),
     }
@@ -106,10 +106,10 @@ pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], r
 
 /// Those of R = 4.
 #[inline(always)]
-fn four<S: Simd, T: Real>(x: [Complex<S, T>; 4]) -> (Complex<S, T>, Complex<S, T>, Complex<S, T>, Complex<S, T>) {
+fn four<S: Simd, T: Real>(x: [Complex<S, T>; 4]) -> [Complex<S, T>; 4] {
     let (even, odd) = (x[0].plus(x[2]), x[1].plus(x[3]));
     let (level, turned) = (x[0].minus(x[2]), x[1].minus(x[3]).turned());
-    (even.plus(odd), level.plus(turned), even.minus(odd), level.minus(turned))
+    [even.plus(odd), level.plus(turned), even.minus(odd), level.minus(turned)]
 }
 
 /// An odd R: x_j and x_{R−j} enter by their sum and difference.
