@@ -17,7 +17,8 @@
 //! In the substrate c = d = 0. Nothing cancels: each number errs by the rounding of F beside it. Across the wavevector two
 //! numbers are enough, v = αe^{−x} + βe^{−x′}, s = −v′. All are read off the [`Interior`], which is exact and slow.
 //!
-//! Kept are the longest waves, up to a number of bytes; what is not kept is computed as it is asked for.
+//! The table holds the longest waves, as many as fit into 16 MiB; the amplitudes of shorter ones are computed by [`Interior`] at
+//! every call.
 
 use super::interior::{HIDDEN, Interior};
 use super::minors::EXTINCT;
@@ -145,7 +146,7 @@ impl Interiors {
     ///
     /// # Panics
     /// When there is no such material.
-    pub fn functions(&self, traction: InPlane, wavenumbers: &[f64], depth: Depth) -> Vec<[f64; 4]> {
+    pub fn functions(&self, traction: InPlane, wavenumbers: &[f64], depth: Depth) -> Vec<Derivatives> {
         let inside = &self.materials[depth.material - 1];
         let kept = inside.kept(traction);
         let below = (depth.z - inside.top).clamp(0.0, inside.thickness);

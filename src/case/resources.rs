@@ -5,7 +5,7 @@
 //! below a quarter in all that were measured.
 
 use super::{Case, Room, StressSection};
-use crate::body::HalfSpace;
+use crate::body::{HalfSpace, Interiors};
 use crate::counterbody::Topography;
 use crate::friction::Friction;
 use crate::localized::Setup;
@@ -15,7 +15,6 @@ use crate::reading::Criterion;
 use crate::run::Sampling;
 use crate::run::places::SECTION;
 use crate::spectral::Memory;
-use crate::stress::StressField;
 use std::f64::consts::PI;
 
 const MEBIBYTE: u64 = 1 << 20;
@@ -201,7 +200,7 @@ fn of_shells(case: &Case, samples: u64) -> u64 {
         // On the grid, and on the coarser one that tells the errors; a wave and its conjugate are one.
         let of_grid = |samples: u64| {
             let count = |most: f64| (0.5 * samples as f64).min(area * most * most / (8.0 * PI)) / together;
-            StressField::kept(case.half_space(), slides, |most| count(most) as usize) as u64
+            Interiors::bytes(case.half_space(), slides, |most| count(most) as usize) as u64
         };
         of_grid(samples) + of_grid(samples / 4)
     };

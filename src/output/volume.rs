@@ -2,7 +2,7 @@
 //!
 //! A structured grid in VTK's XML format (`.vts`) with its numbers appended as raw bytes: some forty lines of ours,
 //! since the library at hand, vtkio 0.6, needs parsers that newer compilers reject and four times the file in memory.
-//! VTK itself reads what is written (`tests/volume.rs`). VTK's z axis points upwards out of the body, so that depth is
+//! VTK itself reads what is written (`tests/library/volume.rs`). VTK's z axis points upwards out of the body, so that depth is
 //! drawn downwards. Everything in the file follows the drawn axes: coordinates are −z, displacements −u_z, and σ_xz, σ_yz
 //! have the opposite sign of [`State`]'s, whose z points into the body.
 

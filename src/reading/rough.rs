@@ -207,7 +207,7 @@ mod tests {
     use crate::lattice::{Cell, Joined};
 
     /// Discs whose centres lie anywhere between samples. How well the correction does on contacts is shown in
-    /// `tests/roughness.rs`.
+    /// `tests/library/roughness.rs`.
     #[test]
     fn the_border_of_a_disc_has_eight_radii_of_edges() {
         let n = 64;

@@ -6,7 +6,7 @@
 //!
 //! Rows of a group and columns of a tile are as many as take 64 bytes: eight in double, sixteen in single precision. Between
 //! rows and columns the components stand in tiles, [tile][row][real parts, imaginary parts], where columns are transformed
-//! in place; each part of the rows has its run of lines in every tile, which nobody else touches. Work is split into fixed
+//! in place. A part of the rows has a run of lines in every tile; only the thread that transforms these rows writes there. Work is split into fixed
 //! parts: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
 //! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Convolution::convolve`],
 //! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.

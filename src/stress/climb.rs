@@ -34,12 +34,12 @@ type Values = [f64; 9];
 
 /// Offsets from the middle of an expansion: sideways no more than `step`, in depth within `depths`, lengths.
 #[derive(Debug, Clone, Copy)]
-struct Box {
+struct Bounds {
     step: f64,
     depths: [f64; 2],
 }
 
-impl Box {
+impl Bounds {
     fn clamped(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [x, y] = [x, y].map(|d| d.clamp(-self.step, self.step));
         [x, y, z.clamp(self.depths[0], self.depths[1])]
@@ -73,7 +73,7 @@ impl StressField {
         let (mut step, mut rise) = (from.step, rise);
         for _ in 0..EXPANSIONS {
             let (z, [x, y]) = (here.depth.z, here.place);
-            let within = Box { step, depths: [(low - z).max(-rise), (high - z).min(rise)] };
+            let within = Bounds { step, depths: [(low - z).max(-rise), (high - z).min(rise)] };
             let (moved, promised) = highest(&here, within, value, quantity);
             // What is not a number promises nothing.
             if promised.is_nan() || value.is_nan() || promised <= value + PROMISE * value.abs() {
@@ -97,7 +97,7 @@ impl StressField {
 
 /// The highest place of an expansion within a box, as an offset from its middle, and the quantity there; `value` is that in the
 /// middle.
-fn highest(expansion: &Expansion, within: Box, value: f64, quantity: Quantity) -> ([f64; 3], f64) {
+fn highest(expansion: &Expansion, within: Bounds, value: f64, quantity: Quantity) -> ([f64; 3], f64) {
     let at = |offset: [f64; 3]| quantity.of(&expansion.at(offset));
     let (mut best, mut value) = ([0.0; 3], value);
     let (mut step, mut rise) = (within.step, within.depths[1].max(-within.depths[0]));

@@ -9,7 +9,7 @@
 
 use super::field::{REACH, StressField};
 use super::peak::Peak;
-use super::quantity::{Found, OVERALL, Quantity};
+use super::quantity::{LargestSoFar, OVERALL, Quantity};
 use super::surface::Skin;
 use super::tensor::State;
 use super::transform::Transform;
@@ -126,7 +126,7 @@ impl StressField {
             return Vec::new();
         }
         let surface = self.read_surface(quantities);
-        // What is decided between for each quantity, by its number among all places: most are the same.
+        // The places where a quantity may be largest, as indices into `places`: most quantities share theirs.
         let mut places: Vec<(Kind, [f64; 2])> = Vec::new();
         let finalists: Vec<Vec<usize>> = quantities
             .iter()
@@ -279,7 +279,7 @@ impl StressField {
         band: &Band<Sharp>,
         quantities: &[Quantity],
     ) -> (Vec<[f64; 2]>, f64) {
-        let found = Found::new(quantities);
+        let found = LargestSoFar::new(quantities);
         let rows = self.series.on_plane(transform, room, &skin.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
             let mut states: Vec<State> = (0..row[0].len()).map(|j| skin.toward_open([0.0; 4], at(j), 1.0)).collect();

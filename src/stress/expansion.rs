@@ -3,8 +3,8 @@
 //! σ(**x** + **d**) ≈ σ + **d**·∇σ + ½ **d**·∇∇σ·**d**.
 //!
 //! All derivatives are sums over the waves themselves: of c e^{i**q**·**x**} those along the surface are i q_α times it, those
-//! in depth follow from F of [`crate::body::Interior`], dF/dz = qF′ and F⁗ = 2F″ − F. A quantity of the stresses need not be
-//! smooth: what is expanded is.
+//! in depth follow from F of [`crate::body::Interior`], dF/dz = qF′ and F⁗ = 2F″ − F. The stress
+//! components are smooth; a quantity made of them (a principal stress) need not be, so that they are expanded and it is not.
 
 use super::field::StressField;
 use super::search::SEARCH_REACH;

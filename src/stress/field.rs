@@ -91,13 +91,6 @@ impl StressField {
         }
     }
 
-    /// Bytes that fields of a run keep for all its loads: amplitudes inside a half-space, where `count` tells how many
-    /// wavenumbers the grid has up to one.
-    #[cfg(feature = "cli")]
-    pub(crate) fn kept(half_space: &HalfSpace, slides: bool, count: impl Fn(f64) -> usize) -> usize {
-        Interiors::bytes(half_space, slides, count)
-    }
-
     /// What it lies in.
     pub fn half_space(&self) -> &HalfSpace {
         &self.half_space

@@ -128,7 +128,7 @@ impl Maxima {
     /// stress: 0.015 n⁻² for τ₁, von Mises and shears, 0.01 n⁻² for what opens an interface, 0.1 n⁻² for a tension, within two
     /// samples of the surface 0.2 n⁻¹. The size of the stress is √(Σσᵢⱼ²) of what the waves of the pressure cause at the place:
     /// mean and residual stresses do not depend on the grid. For a stress on the surface the error is what its [`Crest`] says of
-    /// itself. That they hold is shown in `tests/stated_errors.rs`.
+    /// itself. That they hold is shown in `tests/library/stated_errors.rs`.
     ///
     /// The error of a maximum is the largest value plus error of all that contend for it, less the value: no less than the
     /// value's own.

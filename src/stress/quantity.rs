@@ -78,12 +78,12 @@ impl Quantity {
 /// The largest value that has been found of each quantity, by whichever thread. What is surely below need not be known: it is
 /// not the largest of all, and so the threads' order does not reach the result.
 #[derive(Debug)]
-pub(super) struct Found<'a> {
+pub(super) struct LargestSoFar<'a> {
     quantities: &'a [Quantity],
     largest: Vec<AtomicU64>,
 }
 
-impl<'a> Found<'a> {
+impl<'a> LargestSoFar<'a> {
     /// Nothing yet.
     pub fn new(quantities: &'a [Quantity]) -> Self {
         Self { quantities, largest: quantities.iter().map(|_| AtomicU64::new(0)).collect() }
@@ -149,9 +149,9 @@ mod tests {
         let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
         let quantities: Vec<Quantity> = OVERALL.into_iter().chain(Quantity::of_interface(strength)).collect();
         // All at once, and part by part: the largest of all is among what the parts give.
-        let found = Found::new(&quantities);
+        let found = LargestSoFar::new(&quantities);
         let parts: Vec<_> = states.chunks(50).map(|part| found.add(part.len(), |j| part[j])).collect();
-        let whole = Found::new(&quantities).add(states.len(), |j| states[j]);
+        let whole = LargestSoFar::new(&quantities).add(states.len(), |j| states[j]);
         for (k, quantity) in quantities.iter().enumerate() {
             let values: Vec<f64> = states.iter().map(|state| quantity.of(state)).collect();
             for (state, value) in states.iter().zip(&values) {

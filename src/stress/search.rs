@@ -14,7 +14,7 @@ use super::crest::Crest;
 use super::field::{REACH, StressField};
 use super::maxima::{Found, Maxima, NEAR};
 use super::peak::Peak;
-use super::quantity::{self, OVERALL, Quantity};
+use super::quantity::{LargestSoFar, OVERALL, Quantity};
 use super::slice::Stresses;
 use super::surface::Flat;
 use super::tensor::State;
@@ -281,7 +281,7 @@ impl StressField {
 
     /// Index and value of the largest of each quantity in each row of a plane.
     fn largest_of_rows(&self, depth: Depth, transform: &Transform, quantities: &[Quantity]) -> Vec<Vec<(usize, f64)>> {
-        let (slice, found) = (self.slice(depth, PLANE_REACH), quantity::Found::new(quantities));
+        let (slice, found) = (self.slice(depth, PLANE_REACH), LargestSoFar::new(quantities));
         if depth == Depth::SURFACE {
             let traction = self.traction();
             let columns = self.series.on_plane(transform, Vec::new(), &Flat::new(&Arc::new(slice), |_| 1.0));

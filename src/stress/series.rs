@@ -8,7 +8,6 @@ use super::transform::{Column, Columns, Transform};
 use crate::lattice::Grid;
 use crate::lattice::waves::{Row, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
-use fearless_simd::prelude::*;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::ops::Range;
@@ -127,7 +126,7 @@ impl Series {
     ) -> [[f64; K]; P] {
         let along = Phases::along(rows, places.map(|[s, _]| s));
         let across = Phases::across(rows, places.map(|[_, t]| t));
-        let of_row = |row: &Row| vectorised!(simd => self.row::<_, K, P, R>(simd, row, along.from(row), across.of(row), response));
+        let of_row = |row: &Row| vectorised!(_simd => self.row(row, along.from(row), across.of(row), response));
         let waves: usize = rows.iter().map(|row| row.len).sum();
         // Rows are added in their order, whoever has summed them.
         let sums: Vec<[[f64; P]; K]> =
@@ -135,36 +134,28 @@ impl Series {
         let mean = response.mean();
         std::array::from_fn(|p| std::array::from_fn(|k| mean[k] + sums.iter().map(|sum| sum[k][p]).sum::<f64>()))
     }
-}
 
-impl Series {
     /// What the waves of a row give at some places, by their phases.
     #[inline(always)]
-    fn row<S: Simd, const K: usize, const P: usize, R: Response<K>>(
+    fn row<const K: usize, const P: usize, R: Response<K>>(
         &self,
-        simd: S,
         row: &Row,
         along: &[[[f64; P]; 2]],
         [across_re, across_im]: &[[f64; P]; 2],
         response: &R,
     ) -> [[f64; P]; K] {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let mut sums = [[0.0; P]; K];
-                for ((q, shell, c), [along_re, along_im]) in self.of(row).zip(along) {
-                    let waves = response.times(q, shell, c);
-                    for p in 0..P {
-                        let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];
-                        let im = along_re[p] * across_im[p] + along_im[p] * across_re[p];
-                        for k in 0..K {
-                            sums[k][p] += waves[k].re * re - waves[k].im * im;
-                        }
-                    }
+        let mut sums = [[0.0; P]; K];
+        for ((q, shell, c), [along_re, along_im]) in self.of(row).zip(along) {
+            let waves = response.times(q, shell, c);
+            for p in 0..P {
+                let re = along_re[p] * across_re[p] - along_im[p] * across_im[p];
+                let im = along_re[p] * across_im[p] + along_im[p] * across_re[p];
+                for k in 0..K {
+                    sums[k][p] += waves[k].re * re - waves[k].im * im;
                 }
-                sums
-            },
-        )
+            }
+        }
+        sums
     }
 }
 

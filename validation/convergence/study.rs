@@ -28,7 +28,7 @@ pub const STUDY: Study = Study {
     name: "convergence",
     title: "Orders of convergence with the number of points",
     files: &["errors.data.csv", "figure.png"],
-    run: || run(&SIZES, &SHIFTS),
+    run,
     quick: None,
 };
 
@@ -51,13 +51,13 @@ const QUANTITIES: [(&str, f64, f64, f64); 5] = [
     ("surface tension", 1.2, 0.3, 1e-2),
 ];
 
-fn run(sizes: &[usize], shifts: &[[f64; 2]]) -> Result<Outcome, StudyError> {
+fn run() -> Result<Outcome, StudyError> {
     let mut columns = vec!["points"];
     columns.extend(QUANTITIES.map(|(name, ..)| name));
     let mut data = Data::new("errors", &columns);
-    for &points in sizes {
+    for points in SIZES {
         let mut row = vec![0.0f64; QUANTITIES.len()];
-        for &shift in shifts {
+        for shift in SHIFTS {
             for (worst, error) in row.iter_mut().zip(errors(points, shift)?) {
                 *worst = largest([*worst, error]);
             }

@@ -47,7 +47,7 @@ const START: f64 = 0.8;
 /// Bearing of the sliding: along no lattice line.
 const BEARING: f64 = 0.3;
 
-/// What is looked for.
+/// The friction coefficients, residual stresses and interfaces for which limit loads are sought.
 struct Points {
     /// Friction on the bare half-space; `None` for every one of the table.
     bare: Option<&'static [f64]>,
