@@ -15,15 +15,18 @@
 //!   face: where the layer bends with a large F₃, what it adds to F falls as x³.
 //!
 //! In the substrate c = d = 0. Nothing cancels: each number errs by the rounding of F beside it. Across the wavevector two
-//! numbers are enough, v = αe^{−x} + βe^{−x′}, s = −v′. All are read off the [`Interior`], which is exact and slow.
+//! numbers are enough, v = αe^{−x} + βe^{−x′}, s = −v′. All are read off the [`Interior`], which is exact and slow. On the surface
+//! and at frictionless faces the traction is known, and stands without rounding: F = 1, F′ = 0 under a pressure, F = 0, F′ = −1
+//! under a shear traction; F′ = 0.
 //!
 //! The table holds the longest waves, as many as fit into 16 MiB; the amplitudes of shorter ones are computed by [`Interior`] at
 //! every call.
 
+use super::hyperbolic::hyperbolic;
 use super::interior::{HIDDEN, Interior};
 use super::minors::EXTINCT;
-use super::transfer::TransferFunction;
-use super::{Amplitudes, Antiplane, Depth, InPlane};
+use super::transfer::{Stratum, TransferFunction};
+use super::{Amplitudes, Antiplane, Depth, InPlane, Interface};
 use rayon::prelude::*;
 
 /// Largest qz of a wave that still counts at the depth z: its stresses are below (2 + qz)e^{−qz} of the traction, 10⁻¹⁶.
@@ -47,6 +50,8 @@ struct Inside {
     /// Depth of the upper face and thickness, lengths; the substrate's is infinite.
     top: f64,
     thickness: f64,
+    /// The upper and the lower face.
+    faces: [Face; 2],
     shear: f64,
     poisson: f64,
     /// a, b, c, d of F under a pressure, and under a shear traction along the wavevector.
@@ -58,6 +63,17 @@ struct Inside {
 
 /// F and its derivatives.
 type Derivatives = [f64; 4];
+
+/// What a face of a material bears.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Face {
+    /// The traction itself.
+    Surface,
+    /// No shear.
+    Frictionless,
+    /// What the other side passes on.
+    Joined,
+}
 
 impl Interiors {
     /// Of the ascending `wavenumbers` q > 0 (1/length), under a pressure and, where the counterbody `slides`, under shear
@@ -100,12 +116,20 @@ impl Interiors {
         };
         let normal = of(InPlane::Normal);
         let along = if slides { of(InPlane::Along) } else { vec![Vec::new(); tops.len()] };
+        let face = |above: &Stratum| match above.interface {
+            Interface::Frictionless => Face::Frictionless,
+            _ => Face::Joined,
+        };
         let inside = |(material, (normal, along)): (usize, (Vec<_>, Vec<_>))| {
             let stratum = transfer.strata.get(material);
             let own = stratum.map_or(&transfer.substrate, |layer| &layer.material);
             Inside {
                 top: tops[material],
                 thickness: stratum.map_or(f64::INFINITY, |layer| layer.thickness),
+                faces: [
+                    if material == 0 { Face::Surface } else { face(&transfer.strata[material - 1]) },
+                    stratum.map_or(Face::Joined, face),
+                ],
                 shear: own.shear,
                 poisson: own.poisson,
                 normal,
@@ -136,7 +160,7 @@ impl Interiors {
         let of = |number: usize| {
             let q = wavenumbers[number];
             let Some(kept) = kept.get(number) else { return self.transfer.amplitudes(traction, q, depth) };
-            Amplitudes::of(traction, derivatives(kept, q * below, q * inside.thickness), inside.elasticity(), q)
+            Amplitudes::of(traction, inside.functions(traction, kept, below, q), inside.elasticity(), q)
         };
         (0..wavenumbers.len()).into_par_iter().with_min_len(FEW).map(of).collect()
     }
@@ -153,7 +177,7 @@ impl Interiors {
         let of = |number: usize| {
             let q = wavenumbers[number];
             match kept.get(number) {
-                Some(kept) => derivatives(kept, q * below, q * inside.thickness),
+                Some(kept) => inside.functions(traction, kept, below, q),
                 None => self.transfer.amplitudes(traction, q, depth).derivatives(traction, inside.elasticity(), q),
             }
         };
@@ -171,7 +195,12 @@ impl Interiors {
             let q = wavenumbers[number];
             let Some(&[down, up]) = inside.across.get(number) else { return self.transfer.antiplane(q, depth) };
             let [down, up] = [down * decay(q * below), up * decay(q * (inside.thickness - below))];
-            Antiplane { stz: up - down, sqt: -(up + down), ut: (up + down) / (inside.shear * q) }
+            let stz = match inside.face_at(below) {
+                Face::Surface => -1.0,
+                Face::Frictionless => 0.0,
+                Face::Joined => up - down,
+            };
+            Antiplane { stz, sqt: -(up + down), ut: (up + down) / (inside.shear * q) }
         };
         (0..wavenumbers.len()).into_par_iter().with_min_len(FEW).map(of).collect()
     }
@@ -182,6 +211,28 @@ impl Inside {
         match traction {
             InPlane::Normal => &self.normal,
             InPlane::Along => &self.along,
+        }
+    }
+
+    /// The face at a distance below the upper one; inside the material what is above passes the traction on.
+    #[inline(always)]
+    fn face_at(&self, below: f64) -> Face {
+        match below {
+            0.0 => self.faces[0],
+            _ if below == self.thickness => self.faces[1],
+            _ => Face::Joined,
+        }
+    }
+
+    /// F and its derivatives at a distance below the upper face, for the wavenumber of which this is `kept`.
+    #[inline(always)]
+    fn functions(&self, traction: InPlane, kept: &[f64; 4], below: f64, wavenumber: f64) -> Derivatives {
+        let [f0, f1, f2, f3] = derivatives(kept, wavenumber * below, wavenumber * self.thickness);
+        match (self.face_at(below), traction) {
+            (Face::Surface, InPlane::Normal) => [1.0, 0.0, f2, f3],
+            (Face::Surface, InPlane::Along) => [0.0, -1.0, f2, f3],
+            (Face::Frictionless, _) => [f0, 0.0, f2, f3],
+            (Face::Joined, _) => [f0, f1, f2, f3],
         }
     }
 
@@ -245,36 +296,6 @@ fn derivatives(&[a, b, c, d]: &[f64; 4], x: f64, thickness: f64) -> Derivatives 
     all
 }
 
-/// cosh x, sinh x, ½x sinh x and ½(x cosh x − sinh x), 0 ≤ x < 1, by their series: the last one is Σ j x^{2j+1}/(2j+1)!.
-#[inline(always)]
-fn hyperbolic(x: f64) -> [f64; 4] {
-    let square = x * x;
-    let (mut cosh, mut sinh, mut bend) = (0.0, 0.0, 0.0);
-    for j in (0..TERMS).rev() {
-        cosh = cosh * square + EVEN[j];
-        sinh = sinh * square + ODD[j];
-        bend = bend * square + j as f64 * ODD[j];
-    }
-    [cosh, x * sinh, 0.5 * square * sinh, x * bend]
-}
-
-/// Terms of a series in x² < 1: the next one is below 10⁻¹⁷.
-const TERMS: usize = 10;
-/// 1/(2j)! and 1/(2j+1)!.
-const EVEN: [f64; TERMS] = reciprocals(0);
-const ODD: [f64; TERMS] = reciprocals(1);
-
-const fn reciprocals(first: usize) -> [f64; TERMS] {
-    let mut all = [1.0; TERMS];
-    let mut j = 1;
-    while j < TERMS {
-        let n = (2 * j + first) as f64;
-        all[j] = all[j - 1] / (n * (n - 1.0));
-        j += 1;
-    }
-    all
-}
-
 impl Amplitudes {
     /// By F and its derivatives, G and ν.
     #[inline(always)]
@@ -303,7 +324,7 @@ impl Amplitudes {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{HalfSpace, Interface, Layer, Material};
+    use crate::body::{HalfSpace, Layer, Material};
 
     /// Bodies whose layers are stiff and soft, thin and thick, and carry shear or none.
     fn bodies() -> impl Iterator<Item = HalfSpace> {
@@ -339,6 +360,11 @@ mod tests {
                     }
                     for (found, q) in found.iter().zip(WAVENUMBERS) {
                         let exact = Interior::under(traction, &transfer, q).at(depth);
+                        // What faces do not bear is exactly nothing.
+                        assert!(z > 0.0 || traction == InPlane::Along || (found.sqz, found.szz) == (0.0, -1.0));
+                        assert!(z > 0.0 || traction == InPlane::Normal || (found.sqz, found.szz.abs()) == (-1.0, 0.0));
+                        let slides = z == 0.3 && half_space.layers()[0].interface() == Interface::Frictionless;
+                        assert!(!slides || found.sqz == 0.0);
                         let scale =
                             [exact.szz, exact.sqz, exact.sqq, exact.stt].iter().fold(1e-6f64, |a, s| a.max(s.abs()));
                         for (found, exact) in [

@@ -26,6 +26,7 @@ mod across;
 mod compliances;
 mod depth;
 mod half_space;
+mod hyperbolic;
 mod interior;
 mod interiors;
 mod material;
