@@ -93,12 +93,9 @@ impl Surface {
         self.owners().get(sample).map_or(0, |&owner| self.sites[owner as usize].level)
     }
 
-    /// All sites whose surfaces face a sample; none for a topography.
-    pub(crate) fn facing(&self, sample: usize) -> &[u32] {
-        match self.ties.binary_search_by_key(&sample, |(tied, _)| *tied) {
-            Ok(tie) => &self.ties[tie].1,
-            Err(_) => self.owners().get(sample).map_or(&[], std::slice::from_ref),
-        }
+    /// Samples that face several sites at once, each with all of them.
+    pub(crate) fn ties(&self) -> &[(usize, Vec<u32>)] {
+        &self.ties
     }
 
     /// The sites of the indenters; none for a topography.
@@ -153,18 +150,6 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
         let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
         site.profile((x * x + y * y).sqrt())
     };
-    let face = |index: usize| {
-        let (mut nearest, mut owner, mut tied) = (f64::INFINITY, 0, false);
-        for (number, site) in (0..).zip(&sites) {
-            let distance = distance(index, site);
-            if distance < nearest * (1.0 - TIE) {
-                (nearest, owner, tied) = (distance, number, false);
-            } else {
-                tied |= distance <= nearest * (1.0 + TIE);
-            }
-        }
-        (nearest, owner, tied)
-    };
     let all_facing = |index: usize, nearest: f64| {
         let facing = (0..).zip(&sites).filter(|(_, site)| distance(index, site) <= nearest * (1.0 + TIE));
         (index, facing.map(|(number, _)| number).collect())
@@ -173,13 +158,23 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
     let (mut gap, mut owner) = (vec![0.0; grid.len()], vec![0; grid.len()]);
     let rows = (gap.par_chunks_mut(points[1]), owner.par_chunks_mut(points[1])).into_par_iter().enumerate();
     let ties = rows.flat_map_iter(|(row, (gap, owner))| {
-        let samples = (row * points[1]..).zip(gap.iter_mut().zip(owner));
-        let faced = samples.filter_map(|(index, (gap, owner))| {
-            let tied;
-            (*gap, *owner, tied) = face(index);
-            tied.then(|| all_facing(index, *gap))
-        });
-        faced.collect::<Vec<_>>()
+        let (mut squares, mut tied) = (vec![0.0; points[1]], vec![false; points[1]]);
+        gap.fill(f64::INFINITY);
+        for (number, site) in (0..).zip(&sites) {
+            let here = row as f64 / points[0] as f64;
+            reduced.nearest_squares([here - site.place[0], -site.place[1]], points[1], &mut squares);
+            let samples = gap.iter_mut().zip(owner.iter_mut()).zip(&mut tied).zip(&squares);
+            for (((nearest, owner), tied), square) in samples {
+                let distance = site.profile(square.sqrt());
+                if distance < *nearest * (1.0 - TIE) {
+                    (*nearest, *owner, *tied) = (distance, number, false);
+                } else {
+                    *tied |= distance <= *nearest * (1.0 + TIE);
+                }
+            }
+        }
+        let tied = tied.into_iter().enumerate().filter(|(_, tied)| *tied);
+        tied.map(|(column, _)| all_facing(row * points[1] + column, gap[column])).collect::<Vec<_>>()
     });
     let ties = ties.collect();
     Surface { initial_gap: field(points, gap), owner: Some(field(points, owner)), ties, sites, grid }
@@ -225,7 +220,7 @@ mod tests {
         // sites.
         assert_eq!(surface.ties.len(), 28);
         assert_eq!(surface.ties.iter().filter(|(_, sites)| sites.len() == 4).count(), 4);
-        assert_eq!((surface.facing(0).len(), surface.facing(2 * 8 + 2).len()), (1, 4));
+        assert!(surface.ties.iter().any(|(sample, sites)| *sample == 2 * 8 + 2 && sites.len() == 4));
     }
 
     #[test]

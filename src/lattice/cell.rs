@@ -1,7 +1,9 @@
 //! The unit cell, and the reduced basis of its lattice.
 
 use super::LatticeError;
+use crate::numeric::lanes::vectorised;
 use crate::numeric::number::number;
+use fearless_simd::Simd;
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -168,6 +170,28 @@ impl Reduced {
             }
         }
         nearest
+    }
+
+    /// The squared lengths of the [nearest](Self::nearest) vectors equivalent to s a₁ + (t + k/`count`) a₂, k = 0, 1, …
+    pub(crate) fn nearest_squares(&self, place: [f64; 2], count: usize, squares: &mut [f64]) {
+        vectorised!(simd => self.nearest_squares_by(simd, place, count, squares));
+    }
+
+    #[inline(always)]
+    fn nearest_squares_by<S: Simd>(&self, _: S, [s, t]: [f64; 2], count: usize, squares: &mut [f64]) {
+        let Cell { a1, a2 } = self.cell;
+        let ([u0, v0], [du, dv]) = (self.fractions([s, t]), self.fractions([0.0, 1.0]));
+        for (k, square) in squares.iter_mut().enumerate() {
+            let part = k as f64 / count as f64;
+            let [u, v] = [u0 + part * du, v0 + part * dv];
+            let [u, v] = [u - u.floor(), v - v.floor()];
+            let mut least = f64::INFINITY;
+            for [a, b] in [[u, v], [u - 1.0, v], [u, v - 1.0], [u - 1.0, v - 1.0]] {
+                let [x, y] = [a * a1[0] + b * a2[0], a * a1[1] + b * a2[1]];
+                least = least.min(x * x + y * y);
+            }
+            *square = least;
+        }
     }
 
     /// All lattice vectors of at most the length `reach`, and some a little longer.

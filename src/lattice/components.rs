@@ -1,87 +1,188 @@
 //! Connected sets of samples of a periodic grid: contact spots, and what is open between or inside them.
+//!
+//! Of every row the runs of samples that follow each other are found, then runs that touch are joined. A set keeps how many
+//! cells each of its runs stands away from its first one: two ways to a run that disagree lead to an image of the set.
 
-use crate::lattice::{Grid, Joined};
+use super::runs::Run;
+use super::{Grid, Joined};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// Samples that hang together.
 #[derive(Debug, Clone)]
 pub struct Component {
-    /// Rows and columns of the samples, followed through the set over the borders of the cell.
-    pub samples: Vec<[i32; 2]>,
+    /// Runs of the samples, followed through the set over the borders of the cell; each within one cell.
+    pub runs: Vec<Run>,
     /// Whether it meets an image of itself.
     pub wraps: bool,
 }
 
-/// The sample of the cell that a row and a column beyond its borders repeat.
-fn index([n1, n2]: [usize; 2], [i, j]: [i32; 2]) -> usize {
-    // Most stand in the cell: a division costs more than all else that is done with a sample.
-    let within = |k: i32, n: usize| match usize::try_from(k) {
-        Ok(k) if k < n => k,
-        _ => k.rem_euclid(n as i32) as usize,
-    };
-    within(i, n1) * n2 + within(j, n2)
-}
-
-fn place(grid: &Grid, [i, j]: [i32; 2]) -> [f64; 2] {
-    let [n1, n2] = grid.points();
-    grid.cell().point([f64::from(i) / n1 as f64, f64::from(j) / n2 as f64])
-}
-
 impl Component {
-    /// Indices of the samples.
-    pub fn indices(&self, grid: &Grid) -> impl Iterator<Item = usize> {
+    /// Number of samples.
+    pub fn size(&self) -> usize {
+        self.runs.iter().map(Run::len).sum()
+    }
+
+    /// Flat indices of the samples, run by run.
+    pub fn indices(&self, grid: &Grid) -> impl Iterator<Item = Range<usize>> {
         let points = grid.points();
-        self.samples.iter().map(move |sample| index(points, *sample))
+        self.runs.iter().map(move |run| {
+            let first = run.index(points);
+            first..first + run.len()
+        })
     }
 
     /// Mean of the places, lengths.
     pub fn centre(&self, grid: &Grid) -> [f64; 2] {
-        let count = self.samples.len() as f64;
-        let sum =
-            self.samples.iter().map(|sample| place(grid, *sample)).fold([0.0; 2], |[a, b], [x, y]| [a + x, b + y]);
-        sum.map(|x| x / count)
+        let mut sum = [0.0; 2];
+        for run in &self.runs {
+            let [first, last] = run.ends(grid);
+            sum = [0, 1].map(|k| sum[k] + 0.5 * run.len() as f64 * (first[k] + last[k]));
+        }
+        sum.map(|x| x / self.size() as f64)
     }
 
-    /// Distance of the farthest sample from a place.
+    /// Distance of the farthest sample from a place: of a run it is one of its ends.
     pub fn farthest(&self, grid: &Grid, [x, y]: [f64; 2]) -> f64 {
-        let distance = |sample: &[i32; 2]| {
-            let [own_x, own_y] = place(grid, *sample);
-            (own_x - x).hypot(own_y - y)
-        };
-        self.samples.iter().map(distance).fold(0.0, f64::max)
+        let ends = self.runs.iter().flat_map(|run| run.ends(grid));
+        ends.map(|[own_x, own_y]| (own_x - x).hypot(own_y - y)).fold(0.0, f64::max)
     }
 }
 
-/// The connected sets of the samples that are `members`.
-pub fn components(grid: &Grid, joined: Joined, members: impl Fn(usize) -> bool) -> Vec<Component> {
-    const UNSEEN: [i32; 2] = [i32::MIN; 2];
-    let points = grid.points();
-    let ways: Vec<[i32; 2]> = grid.ways(joined).into_iter().flat_map(|way| [way, way.map(|k| -k)]).collect();
-    let mut seen = vec![UNSEEN; grid.len()];
-    let mut found = Vec::new();
-    for start in 0..grid.len() {
-        if seen[start] != UNSEEN || !members(start) {
-            continue;
+/// The connected sets of the samples that are `members`, by their first samples.
+pub fn components(grid: &Grid, joined: Joined, members: impl Fn(usize) -> bool + Sync) -> Vec<Component> {
+    let [n1, n2] = grid.points();
+    let mut ways = grid.ways(joined);
+    // Where the next sample of a row is not joined to it, each is a run of its own.
+    let along = ways.iter().position(|&way| way == [0, 1] || way == [0, -1]);
+    if let Some(along) = along {
+        ways.swap_remove(along);
+    }
+    let rows: Vec<Vec<[i32; 2]>> =
+        (0..n1).into_par_iter().map(|row| runs_of_row(n2, along.is_some(), |j| members(row * n2 + j))).collect();
+    let starts: Vec<usize> = std::iter::once(0)
+        .chain(rows.iter().scan(0, |sum, row| {
+            *sum += row.len();
+            Some(*sum)
+        }))
+        .collect();
+    let mut sets = Sets::new(starts[n1]);
+    for (i, row) in rows.iter().enumerate() {
+        if let ([first, ..], [.., last]) = (&row[..], &row[..])
+            && along.is_some()
+            && first[0] == 0
+            && last[1] as usize == n2
+        {
+            sets.join(starts[i] + row.len() - 1, starts[i], [0, 1]);
         }
-        let here = [start / points[1], start % points[1]].map(|k| k as i32);
-        seen[start] = here;
-        // Those found, of which the last ones have not been looked around.
-        let (mut samples, mut looked, mut wraps) = (vec![here], 0, false);
-        while looked < samples.len() {
-            let [i, j] = samples[looked];
-            looked += 1;
-            for there in ways.iter().map(|[rows, columns]| [i + rows, j + columns]) {
-                let next = index(points, there);
-                if seen[next] == UNSEEN && members(next) {
-                    seen[next] = there;
-                    samples.push(there);
-                } else if seen[next] != UNSEEN {
-                    wraps |= seen[next] != there;
+        for &[down, right] in &ways {
+            let below = i as i32 + down;
+            let (cell, there) = (below.div_euclid(n1 as i32), below.rem_euclid(n1 as i32) as usize);
+            for (own, &[first, end]) in (starts[i]..).zip(row) {
+                let (first, last) = (first + right, end - 1 + right);
+                for across in first.div_euclid(n2 as i32)..=last.div_euclid(n2 as i32) {
+                    let offset = across * n2 as i32;
+                    let touching = rows[there].partition_point(|run| run[1] + offset <= first)..;
+                    for (k, run) in touching.clone().zip(&rows[there][touching]) {
+                        if run[0] + offset > last {
+                            break;
+                        }
+                        sets.join(own, starts[there] + k, [cell, across]);
+                    }
                 }
             }
         }
-        found.push(Component { samples, wraps });
     }
-    found
+    collected(&rows, &mut sets, [n1, n2])
+}
+
+/// Runs [first, end) of members among the `count` samples of a row.
+fn runs_of_row(count: usize, joined: bool, member: impl Fn(usize) -> bool) -> Vec<[i32; 2]> {
+    let mut runs: Vec<[i32; 2]> = Vec::new();
+    let mut before = false;
+    for j in 0..count {
+        let is_member = member(j);
+        match runs.last_mut() {
+            Some(run) if is_member && before && joined => run[1] += 1,
+            _ if is_member => runs.push([j as i32, j as i32 + 1]),
+            _ => {}
+        }
+        before = is_member;
+    }
+    runs
+}
+
+fn collected(rows: &[Vec<[i32; 2]>], sets: &mut Sets, [n1, n2]: [usize; 2]) -> Vec<Component> {
+    const NONE: u32 = u32::MAX;
+    let mut component_of = vec![NONE; sets.parents.len()];
+    let mut components: Vec<Component> = Vec::new();
+    let runs = rows.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |run| (i as i32, *run)));
+    for (number, (row, [first, end])) in runs.enumerate() {
+        // A root stands before all others of its set.
+        let (root, [down, right]) = sets.root(number);
+        if component_of[root] == NONE {
+            component_of[root] = components.len() as u32;
+            components.push(Component { runs: Vec::new(), wraps: sets.wraps[root] });
+        }
+        let (rows, columns) = (down * n1 as i32, right * n2 as i32);
+        let run = Run { row: row + rows, first: first + columns, end: end + columns };
+        components[component_of[root] as usize].runs.push(run);
+    }
+    components
+}
+
+/// Disjoint sets of runs, each with the cells it stands away from the first of its set.
+struct Sets {
+    parents: Vec<u32>,
+    /// Cells from the parent along either vector.
+    shifts: Vec<[i32; 2]>,
+    /// Of a root: whether the set meets an image of itself.
+    wraps: Vec<bool>,
+}
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Self { parents: (0..count as u32).collect(), shifts: vec![[0; 2]; count], wraps: vec![false; count] }
+    }
+
+    /// The first run of the set, and the cells that `run` stands away from it.
+    fn root(&mut self, run: usize) -> (usize, [i32; 2]) {
+        let (mut root, mut shift) = (run, [0; 2]);
+        while self.parents[root] as usize != root {
+            shift = sum(shift, self.shifts[root]);
+            root = self.parents[root] as usize;
+        }
+        // All on the way lead there at once.
+        let (mut at, mut rest) = (run, shift);
+        while self.parents[at] as usize != root && at != root {
+            let (next, own) = (self.parents[at] as usize, self.shifts[at]);
+            (self.parents[at], self.shifts[at]) = (root as u32, rest);
+            (at, rest) = (next, difference(rest, own));
+        }
+        (root, shift)
+    }
+
+    /// Joins a run to the image of `other` so many `cells` away from the cell of the first one.
+    fn join(&mut self, run: usize, other: usize, cells: [i32; 2]) {
+        let ((a, own), (b, others)) = (self.root(run), self.root(other));
+        // The root b stands so many cells away from the root a.
+        let apart = difference(sum(own, cells), others);
+        if a == b {
+            self.wraps[a] |= apart != [0; 2];
+            return;
+        }
+        let (first, second, apart) = if a < b { (a, b, apart) } else { (b, a, difference([0; 2], apart)) };
+        (self.parents[second], self.shifts[second]) = (first as u32, apart);
+        self.wraps[first] |= self.wraps[second];
+    }
+}
+
+fn sum(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn difference(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
+    [a[0] - b[0], a[1] - b[1]]
 }
 
 /// What is counted of the contact spots of a pressure.
@@ -96,7 +197,10 @@ pub struct Counts {
 impl Counts {
     /// Of spots of a pressure.
     pub fn of(spots: &[Component], grid: &Grid, pressure: &[f64]) -> Self {
-        let size = |spot: &Component| (spot.samples.len(), spot.indices(grid).map(|index| pressure[index]).sum());
+        let size = |spot: &Component| {
+            let load = spot.indices(grid).map(|run| pressure[run].iter().sum::<f64>()).sum();
+            (spot.size(), load)
+        };
         let mut sizes: Vec<(usize, f64)> = spots.iter().map(size).collect();
         sizes.sort_by_key(|(size, _)| *size);
         Self { sizes, wraps: spots.iter().any(|spot| spot.wraps) }
@@ -112,47 +216,25 @@ impl Counts {
     }
 }
 
-/// Samples closer than `reach` to `centre`, each once, with their places relative to it; those half a cell away, which
-/// stand on both sides, are left out.
-pub fn around(grid: &Grid, centre: [f64; 2], reach: f64) -> impl Iterator<Item = (usize, [f64; 2])> {
-    let n = grid.points().map(|n| n as f64);
-    let middle = grid.cell().fractions(centre);
-    // The height of the cell over a side bounds the fractions of a place at that distance.
-    let steps = grid.steps();
-    let range = [0, 1].map(|k| {
-        let [x, y] = steps[1 - k];
-        // Half a row more, by which the middle is rounded; no sample twice.
-        let rows = (reach * x.hypot(y) / grid.sample_area() + 0.5).ceil();
-        let rows = rows.min((0.5 * (n[k] - 1.0)).floor()) as i32;
-        let first = (middle[k] * n[k]).round() as i32;
-        first - rows..=first + rows
-    });
-    let [rows, columns] = range;
-    rows.flat_map(move |i| columns.clone().map(move |j| [i, j])).filter_map(move |sample| {
-        let [x, y] = place(grid, sample);
-        let offset = [x - centre[0], y - centre[1]];
-        (offset[0].hypot(offset[1]) < reach).then(|| (index(grid.points(), sample), offset))
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lattice::Cell;
-    use std::f64::consts::PI;
+
+    fn index([i, j]: [usize; 2]) -> usize {
+        i * 8 + j
+    }
 
     #[test]
     fn a_spot_across_the_border_is_one_and_a_stripe_wraps() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
         let corner = |index: usize| [0, 7].contains(&(index / 8)) && [0, 7].contains(&(index % 8));
         let found = components(&grid, Joined::AtEdges, corner);
-        assert!(found.len() == 1 && found[0].samples.len() == 4 && !found[0].wraps);
+        assert!(found.len() == 1 && found[0].size() == 4 && !found[0].wraps);
         let centre = found[0].centre(&grid);
         let [x, y] = centre.map(|x| (x + 0.5).rem_euclid(1.0) - 0.5);
         assert!((x + 0.0625).abs() < 1e-12 && (y + 0.0625).abs() < 1e-12, "{x} {y}");
         assert!((found[0].farthest(&grid, centre) - 0.0625 * 2f64.sqrt()).abs() < 1e-12);
-        let near: Vec<_> = around(&grid, centre, 0.1).collect();
-        assert!(near.len() == 4 && near.iter().all(|&(index, _)| corner(index)));
         assert!(components(&grid, Joined::AtEdges, |index| index / 8 == 3)[0].wraps);
     }
 
@@ -160,9 +242,9 @@ mod tests {
     /// vectors that describe the cell do not matter.
     #[test]
     fn samples_at_corners_are_joined_where_cells_have_neighbours_there() {
-        let joined = |a2: [f64; 2], set: &[[i32; 2]]| {
+        let joined = |a2: [f64; 2], set: &[[usize; 2]]| {
             let grid = Grid::new(Cell::new([1.0, 0.0], a2).unwrap(), [8, 8]).unwrap();
-            let members: Vec<usize> = set.iter().map(|sample| index([8, 8], *sample)).collect();
+            let members: Vec<usize> = set.iter().map(|sample| index(*sample)).collect();
             [Joined::AtEdges, Joined::AtCorners]
                 .map(|joined| components(&grid, joined, |index| members.contains(&index)).len())
         };
@@ -183,10 +265,10 @@ mod tests {
     #[test]
     fn a_ring_closed_at_corners_keeps_its_hole() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
-        let ring = [[3, 4], [5, 4], [4, 3], [4, 5]].map(|sample| index([8, 8], sample));
+        let ring = [[3, 4], [5, 4], [4, 3], [4, 5]].map(index);
         let spots = components(&grid, Joined::AtCorners, |index| ring.contains(&index));
         let open = components(&grid, Joined::AtEdges, |index| !ring.contains(&index));
-        let sizes = |found: &[Component]| found.iter().map(|set| (set.samples.len(), set.wraps)).collect::<Vec<_>>();
+        let sizes = |found: &[Component]| found.iter().map(|set| (set.size(), set.wraps)).collect::<Vec<_>>();
         assert_eq!((sizes(&spots), sizes(&open)), (vec![(4, false)], vec![(59, true), (1, false)]));
     }
 
@@ -208,24 +290,66 @@ mod tests {
         assert_eq!(counts(&pressure).half_load(), Some(0));
     }
 
+    /// Against a flood fill, on cells whose nearest samples do not follow each other in a row too.
     #[test]
-    fn what_is_near_is_counted_once_in_a_skewed_cell_too() {
-        let grid = Grid::new(Cell::new([1.0, 0.0], [0.7, 0.6]).unwrap(), [30, 21]).unwrap();
-        for reach in [0.02, 0.11, 0.29, 5.0] {
-            let near: Vec<_> = around(&grid, [0.3, -0.2], reach).collect();
-            let mut indices: Vec<usize> = near.iter().map(|(index, _)| *index).collect();
-            indices.sort_unstable();
-            indices.dedup();
-            assert_eq!(indices.len(), near.len());
-            // A disc that fits into the cell has as many samples as its area, up to its rim.
-            if reach < 0.3 {
-                let expected = PI * reach * reach / grid.sample_area();
-                assert!(
-                    (near.len() as f64 - expected).abs() < 3.0 * expected.sqrt() + 2.0,
-                    "{} {expected}",
-                    near.len()
-                );
+    fn sets_are_those_of_a_flood_fill() {
+        let mut state = 1u64;
+        let mut chance = |part: f64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) as f64) < part * 2f64.powi(31)
+        };
+        for (a2, points) in
+            [([0.0, 1.0], [9, 12]), ([0.5, 0.75f64.sqrt()], [10, 10]), ([1.3, 0.4], [12, 7]), ([3.2, 1.0], [8, 9])]
+        {
+            let grid = Grid::new(Cell::new([1.0, 0.0], a2).unwrap(), points).unwrap();
+            for part in [0.2, 0.4, 0.55, 0.7, 1.0] {
+                for joined in [Joined::AtEdges, Joined::AtCorners] {
+                    let set: Vec<bool> = (0..grid.len()).map(|_| chance(part)).collect();
+                    let found = components(&grid, joined, |index| set[index]);
+                    let mut described: Vec<(Vec<usize>, bool)> = Vec::new();
+                    for component in &found {
+                        let mut indices: Vec<usize> = component.indices(&grid).flatten().collect();
+                        indices.sort_unstable();
+                        described.push((indices, component.wraps));
+                    }
+                    assert_eq!(described, flooded(&grid, joined, &set), "{a2:?} {part} {joined:?}");
+                }
             }
         }
+    }
+
+    /// Connected sets by following every sample to its neighbours.
+    fn flooded(grid: &Grid, joined: Joined, set: &[bool]) -> Vec<(Vec<usize>, bool)> {
+        let points = grid.points().map(|n| n as i32);
+        let ways: Vec<[i32; 2]> = grid.ways(joined).into_iter().flat_map(|way| [way, way.map(|k| -k)]).collect();
+        let index = |[i, j]: [i32; 2]| (i.rem_euclid(points[0]) * points[1] + j.rem_euclid(points[1])) as usize;
+        let mut seen: Vec<Option<[i32; 2]>> = vec![None; set.len()];
+        let mut found = Vec::new();
+        for start in 0..set.len() {
+            if seen[start].is_some() || !set[start] {
+                continue;
+            }
+            let here = [start as i32 / points[1], start as i32 % points[1]];
+            seen[start] = Some(here);
+            let (mut samples, mut looked, mut wraps) = (vec![here], 0, false);
+            while looked < samples.len() {
+                let [i, j] = samples[looked];
+                looked += 1;
+                for there in ways.iter().map(|[rows, columns]| [i + rows, j + columns]) {
+                    match seen[index(there)] {
+                        None if set[index(there)] => {
+                            seen[index(there)] = Some(there);
+                            samples.push(there);
+                        }
+                        Some(other) => wraps |= other != there,
+                        None => {}
+                    }
+                }
+            }
+            let mut indices: Vec<usize> = samples.into_iter().map(index).collect();
+            indices.sort_unstable();
+            found.push((indices, wraps));
+        }
+        found
     }
 }

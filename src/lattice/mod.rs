@@ -6,6 +6,7 @@ mod error;
 mod grid;
 mod interpolation;
 mod nearest;
+pub(crate) mod runs;
 mod sites;
 pub(crate) mod waves;
 mod zone;

@@ -31,6 +31,12 @@ impl Direction {
 
     /// Of the closed lines of samples along it, all equally long, the first sample of each: flat indices.
     pub fn lines(&self, points: [usize; 2]) -> Vec<usize> {
+        // Along a row or a column they begin where that does.
+        match self.step.map(i32::abs) {
+            [0, 1] => return (0..points[0]).map(|row| row * points[1]).collect(),
+            [1, 0] => return (0..points[1]).collect(),
+            _ => {}
+        }
         let mut seen = vec![false; points[0] * points[1]];
         let mut starts = Vec::new();
         for start in 0..seen.len() {
@@ -43,10 +49,15 @@ impl Direction {
     }
 
     /// The line through a sample, from there on.
-    pub fn line(&self, points: [usize; 2], start: usize) -> impl Iterator<Item = usize> {
-        let to = *self;
-        let rest = (1..).map(move |count| to.sample(points, start, count)).take_while(move |&index| index != start);
-        iter::once(start).chain(rest)
+    pub fn line(&self, [n1, n2]: [usize; 2], start: usize) -> impl Iterator<Item = usize> + use<> {
+        let [down, right] =
+            [(self.step[0], n1), (self.step[1], n2)].map(|(step, n)| step.rem_euclid(n as i32) as usize);
+        let next = move |&[row, column]: &[usize; 2]| {
+            let (row, column) = (row + down, column + right);
+            let next = [if row < n1 { row } else { row - n1 }, if column < n2 { column } else { column - n2 }];
+            (next != [start / n2, start % n2]).then_some(next)
+        };
+        iter::successors(Some([start / n2, start % n2]), next).map(move |[row, column]| row * n2 + column)
     }
 }
 

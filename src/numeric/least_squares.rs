@@ -22,8 +22,7 @@ pub(super) fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<V
     // Cholesky: matrix = L Lᵀ, in place.
     for i in 0..unknowns {
         for j in 0..=i {
-            let known: f64 = (0..j).map(|k| matrix[i][k] * matrix[j][k]).sum();
-            let rest = matrix[i][j] - known;
+            let rest = matrix[i][j] - product(&matrix[i][..j], &matrix[j][..j]);
             if i > j {
                 matrix[i][j] = rest / matrix[j][j];
             } else if rest > 1e-13 * matrix[i][i] {
@@ -34,14 +33,23 @@ pub(super) fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<V
         }
     }
     for i in 0..unknowns {
-        let known: f64 = (0..i).map(|k| matrix[i][k] * right[k]).sum();
-        right[i] = (right[i] - known) / matrix[i][i];
+        right[i] = (right[i] - product(&matrix[i][..i], &right[..i])) / matrix[i][i];
     }
     for i in (0..unknowns).rev() {
         let known: f64 = (i + 1..unknowns).map(|k| matrix[k][i] * right[k]).sum();
         right[i] = (right[i] - known) / matrix[i][i];
     }
     Some(right)
+}
+
+/// Σ aᵢbᵢ, by eight sums that do not wait for one another.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 8];
+    let ((groups, rest), (others, others_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    for (a, b) in groups.iter().zip(others) {
+        (0..8).for_each(|k| sums[k] += a[k] * b[k]);
+    }
+    sums.iter().sum::<f64>() + rest.iter().zip(others_rest).map(|(a, b)| a * b).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -1,10 +1,9 @@
 //! Linear least squares whose unknowns are Fourier series in an angle.
 //!
 //! Σᵢ [Σₜ aₜᵢ sₜ(θᵢ) − yᵢ]² is least over the series sₜ of given highest harmonics. As products of waves are waves, the
-//! normal equations need no more than the sums Σᵢ aₜᵢ aᵤᵢ cos kθᵢ and Σᵢ aₜᵢ aᵤᵢ sin kθᵢ: a sample costs as much as its
-//! waves, not as their square.
+//! normal equations need no more than the sums Σᵢ aₜᵢ aᵤᵢ cos kθᵢ and Σᵢ aₜᵢ aᵤᵢ sin kθᵢ: samples at one angle are added before
+//! they meet its waves.
 
-use super::closed_line::waves_into;
 use super::least_squares::solved;
 
 /// The sums of a fit.
@@ -16,8 +15,6 @@ pub struct SeriesFit {
     products: Vec<Vec<f64>>,
     /// Of each term: sums of aₜ y with its waves.
     values: Vec<Vec<f64>>,
-    /// Waves of the sample at hand.
-    waves: Vec<f64>,
 }
 
 impl SeriesFit {
@@ -25,35 +22,18 @@ impl SeriesFit {
     pub fn new(harmonics: Vec<usize>) -> Self {
         let sums = |highest: usize| vec![0.0; 1 + 2 * highest];
         let pairs = harmonics.iter().enumerate().flat_map(|(t, a)| harmonics[..=t].iter().map(move |b| a + b));
-        let most = 2 * harmonics.iter().max().copied().unwrap_or(0);
         Self {
             products: pairs.map(sums).collect(),
             values: harmonics.iter().map(|&highest| sums(highest)).collect(),
-            waves: sums(most),
             harmonics,
         }
     }
 
-    /// Takes in a sample at an angle: the factors of its terms, and its value.
-    pub fn add(&mut self, theta: f64, factors: &[f64], value: f64) {
-        waves_into(theta, &mut self.waves);
-        let add = |sums: &mut Vec<f64>, factor: f64| {
-            if factor != 0.0 {
-                sums.iter_mut().zip(&self.waves).for_each(|(sum, wave)| *sum += factor * wave);
-            }
-        };
-        let mut products = self.products.iter_mut();
-        for (t, a) in factors.iter().enumerate() {
-            factors[..=t].iter().zip(&mut products).for_each(|(b, sums)| add(sums, a * b));
-        }
-        self.values.iter_mut().zip(factors).for_each(|(sums, factor)| add(sums, factor * value));
-    }
-
-    /// Takes in the samples of another one with the same terms.
-    pub fn merge(&mut self, other: &Self) {
+    /// Takes in samples at one angle, whose waves are these: Σ aₜaᵤ for u ≤ t, one t after the other, and Σ aₜy.
+    pub fn add(&mut self, waves: &[f64], products: &[f64], values: &[f64]) {
         let own = self.products.iter_mut().chain(&mut self.values);
-        for (own, other) in own.zip(other.products.iter().chain(&other.values)) {
-            own.iter_mut().zip(other).for_each(|(sum, more)| *sum += more);
+        for (sums, factor) in own.zip(products.iter().chain(values)).filter(|(_, factor)| **factor != 0.0) {
+            sums.iter_mut().zip(waves).for_each(|(sum, wave)| *sum += factor * wave);
         }
     }
 
@@ -101,13 +81,12 @@ mod tests {
             (theta, factors, (theta * 2.3).sin() + 0.1 * theta.cos())
         };
         let harmonics = [3, 2, 0];
-        let mut halves = [(); 2].map(|()| SeriesFit::new(harmonics.to_vec()));
+        let mut fit = SeriesFit::new(harmonics.to_vec());
         for i in 0..400 {
             let (theta, factors, value) = samples(i);
-            halves[i / 200].add(theta, &factors, value);
+            let products: Vec<f64> = (0..3).flat_map(|t| (0..=t).map(move |u| factors[t] * factors[u])).collect();
+            fit.add(&waves(theta, 6), &products, &factors.map(|factor| factor * value));
         }
-        let [mut fit, second] = halves;
-        fit.merge(&second);
         let found = fit.solve().unwrap();
         let rows = (0..400).map(samples).map(|(theta, factors, value)| {
             let row = factors.iter().zip(harmonics).flat_map(|(&a, h)| waves(theta, h).into_iter().map(move |w| a * w));
@@ -121,7 +100,7 @@ mod tests {
     #[test]
     fn too_few_samples_determine_nothing() {
         let mut fit = SeriesFit::new(vec![2]);
-        (0..4).for_each(|i| fit.add(f64::from(i), &[1.0], 1.0));
+        (0..4).for_each(|i| fit.add(&waves(f64::from(i), 4), &[1.0], &[1.0]));
         assert_eq!(fit.solve(), None);
     }
 }

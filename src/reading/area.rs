@@ -7,7 +7,7 @@
 //! of few samples the end is halfway.
 
 use crate::lattice::Grid;
-use crate::numeric::least_squares;
+use crate::lattice::components::Component;
 use rayon::prelude::*;
 
 /// Fewest samples of an interval for a parabola, and most samples it uses beyond the square root of their number.
@@ -15,7 +15,7 @@ const FEWEST: usize = 6;
 const MOST: usize = 3;
 
 /// Fraction of the cell in contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Area {
     /// The fraction.
     pub fraction: f64,
@@ -25,60 +25,117 @@ pub struct Area {
 
 /// Fraction of the cell in contact, from pressure and gap (one value per sample each), without the intervals whose
 /// samples are `known`.
-pub fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(usize) -> bool + Sync) -> Area {
-    let sample = |index: usize| (pressure[index], gap[index], known(index));
+fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(usize) -> bool + Sync) -> Area {
+    let points = grid.points();
+    let parabolas = Parabolas::new(points[0].max(points[1]));
     let mut mean = [0.0; 2];
     for direction in grid.directions() {
-        let lines = direction.lines(grid.points());
-        let read = |&start: &usize| {
-            let line: Vec<usize> = direction.line(grid.points(), start).collect();
-            line_fraction(line.len(), |k| sample(line[k]))
+        let lines = direction.lines(points);
+        let read = |line: &mut Vec<f64>, &start: &usize| {
+            line.clear();
+            line.extend(direction.line(points, start).map(|index| pressure[index]));
+            let at = |k: usize| direction.sample(points, start, k as i64);
+            Line { pressure: line, gap: |k| gap[at(k)], known: |k| known(at(k)), parabolas: &parabolas }.fraction()
         };
         // Lines are added in their order, whoever has read them.
-        let all: Vec<[f64; 2]> = lines.par_iter().map(read).collect();
+        let all: Vec<[f64; 2]> = lines.par_iter().map_init(Vec::new, read).collect();
         let sum = all.iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
         mean = [0, 1].map(|k| mean[k] + 0.5 * direction.weight * (sum[k] / lines.len() as f64));
     }
     Area { fraction: mean[0], error: mean[1] }
 }
 
-/// Fraction in contact of a closed line of `n` samples, of each pressure, gap and whether it is known, and its estimated
-/// error.
-fn line_fraction(n: usize, sample: impl Fn(usize) -> (f64, f64, bool)) -> [f64; 2] {
-    let touches = |i: usize| sample(i % n).0 > 0.0;
-    let known = |i: usize| sample(i).2;
-    let height = |i: usize| match sample(i) {
-        (p, ..) if p > 0.0 => p * p,
-        (_, gap, _) => -gap.max(0.0).powf(2.0 / 3.0),
-    };
-    let Some(start) = (0..n).find(|&i| !touches(i) && touches(i + 1)) else {
-        // No end: all or nothing.
-        return [f64::from(u8::from(touches(0) && !known(0))), 0.0];
-    };
-    // Intervals in turn, from the first sample in contact: contact, open, contact, …
-    let mut ends = vec![start + 1];
-    for i in start + 1..start + n {
-        if touches(i) != touches(i + 1) {
-            ends.push(i + 1);
+/// Fraction of the cell that some of the `all` contact spots take; the others are known.
+pub fn of_components<'a>(
+    grid: &Grid,
+    pressure: &[f64],
+    gap: &[f64],
+    unknown: impl Iterator<Item = &'a Component>,
+    all: usize,
+) -> Area {
+    let unknown: Vec<&Component> = unknown.collect();
+    if unknown.is_empty() {
+        return Area::default();
+    }
+    if unknown.len() == all {
+        return contact_fraction(grid, pressure, gap, |_| false);
+    }
+    let mut known = vec![true; grid.len()];
+    unknown.iter().for_each(|component| component.indices(grid).for_each(|run| known[run].fill(false)));
+    contact_fraction(grid, pressure, gap, |index| known[index])
+}
+
+/// A closed line of samples.
+struct Line<'a, G, K> {
+    pressure: &'a [f64],
+    /// Gap of a sample, and whether its interval is known.
+    gap: G,
+    known: K,
+    parabolas: &'a Parabolas,
+}
+
+impl<G: Fn(usize) -> f64, K: Fn(usize) -> bool> Line<'_, G, K> {
+    /// Fraction in contact and its estimated error.
+    fn fraction(&self) -> [f64; 2] {
+        let n = self.pressure.len();
+        let touches = |i: usize| self.pressure[i] > 0.0;
+        // Where contact begins and ends by turns, from the first sample in contact beside an open one on.
+        let mut ends: Vec<usize> = (1..n).filter(|&i| touches(i - 1) != touches(i)).collect();
+        if touches(n - 1) != touches(0) {
+            ends.insert(0, 0);
+        }
+        if ends.is_empty() {
+            // All or nothing.
+            return [f64::from(u8::from(touches(0) && !(self.known)(0))), 0.0];
+        }
+        if !touches(ends[0]) {
+            let first = ends.remove(0);
+            ends.push(first + n);
+        }
+        ends.push(ends[0] + n);
+        let height = |i: usize| match self.pressure[i % n] {
+            p if p > 0.0 => p * p,
+            _ => (self.gap)(i % n).max(0.0).cbrt().powi(2),
+        };
+        let mut total = [0.0; 2];
+        for (index, interval) in ends.windows(2).enumerate().step_by(2) {
+            let [first, last] = [interval[0], interval[1]];
+            if (self.known)(first % n) {
+                continue;
+            }
+            total[0] += (last - first) as f64 - 1.0;
+            // How far contact reaches beyond its outermost samples.
+            let (before, after) = (open_length(&ends, index, n), open_length(&ends, index + 1, n));
+            let count = last - first;
+            for [length, error] in [
+                self.overhang(|k| height(first + k), count, |k| height(first + n - 1 - k), before),
+                self.overhang(|k| height(last - 1 - k), count, |k| height(last + k), after),
+            ] {
+                total[0] += length;
+                total[1] += error;
+            }
+        }
+        total.map(|samples| samples / n as f64)
+    }
+
+    /// How far contact reaches beyond its outermost sample, in samples, between 0 and 1, and how uncertain that is:
+    /// `inside(k)` and `outside(k)` are the heights k samples from the end on either side. Where one side alone can be read,
+    /// a quarter of a sample is uncertain, where none can, half.
+    fn overhang(
+        &self,
+        inside: impl Fn(usize) -> f64,
+        count: usize,
+        outside: impl Fn(usize) -> f64,
+        open: usize,
+    ) -> [f64; 2] {
+        let from_inside = self.parabolas.beyond(inside, count);
+        let from_outside = self.parabolas.beyond(outside, open).map(|x| 1.0 - x);
+        match (from_inside, from_outside) {
+            (Some(a), Some(b)) => [0.5 * (a + b), 0.5 * (a - b).abs()],
+            (Some(x), None) | (None, Some(x)) => [x, 0.25],
+            (None, None) => [0.5; 2],
         }
     }
-    ends.push(start + 1 + n);
-    let mut total = [0.0; 2];
-    for (index, interval) in ends.windows(2).enumerate().step_by(2).filter(|(_, interval)| !known(interval[0] % n)) {
-        let [first, last] = [interval[0], interval[1]];
-        total[0] += (last - first) as f64 - 1.0;
-        // How far contact reaches beyond its outermost samples.
-        let (before, after) = (open_length(&ends, index, n), open_length(&ends, index + 1, n));
-        let count = last - first;
-        for [length, error] in [
-            overhang(|k| height((first + k) % n), count, |k| -height((first + n - 1 - k) % n), before),
-            overhang(|k| height((last - 1 - k) % n), count, |k| -height((last + k) % n), after),
-        ] {
-            total[0] += length;
-            total[1] += error;
-        }
-    }
-    total.map(|samples| samples / n as f64)
 }
 
 /// Length of the open interval that ends or begins at the border of this index.
@@ -88,34 +145,47 @@ fn open_length(ends: &[usize], index: usize, n: usize) -> usize {
     if index % 2 == 1 { ends[index + 1] - end } else { (end + n - ends[(index + borders - 1) % borders]) % n }
 }
 
-/// How far contact reaches beyond its outermost sample, in samples, between 0 and 1, and how uncertain that is:
-/// `inside(k)` and `outside(k)` are the heights k samples from the end on either side. Where one side alone can be read,
-/// a quarter of a sample is uncertain, where none can, half.
-fn overhang(inside: impl Fn(usize) -> f64, count: usize, outside: impl Fn(usize) -> f64, open: usize) -> [f64; 2] {
-    let from_inside = beyond(inside, count);
-    let from_outside = beyond(outside, open).map(|x| 1.0 - x);
-    match (from_inside, from_outside) {
-        (Some(a), Some(b)) => [0.5 * (a + b), 0.5 * (a - b).abs()],
-        (Some(x), None) | (None, Some(x)) => [x, 0.25],
-        (None, None) => [0.5; 2],
+/// Parabolas of least squares through heights at x = 1/m, 2/m, … 1: each coefficient is a weighted sum of them.
+struct Parabolas {
+    /// By the number m of heights, from the first with three on: the weights of each height.
+    weights: Vec<Vec<[f64; 3]>>,
+}
+
+impl Parabolas {
+    /// For intervals of lines of so many samples.
+    fn new(longest: usize) -> Self {
+        let most = MOST + (longest as f64).sqrt() as usize;
+        Self { weights: (3..=most).map(weights).collect() }
+    }
+
+    /// How far beyond the outermost of `count` samples their heights vanish, if there are enough of them.
+    fn beyond(&self, height: impl Fn(usize) -> f64, count: usize) -> Option<f64> {
+        if count < FEWEST {
+            return None;
+        }
+        let used = (count / 2 - 1).min(MOST + (count as f64).sqrt() as usize).clamp(3, 2 + self.weights.len());
+        let mut c = [0.0; 3];
+        for (k, weights) in (1..).zip(&self.weights[used - 3]) {
+            let own = height(k);
+            c = [0, 1, 2].map(|power| c[power] + weights[power] * own);
+        }
+        let discriminant = c[1] * c[1] - 4.0 * c[0] * c[2];
+        let root = 2.0 * c[0] / (c[1] + discriminant.max(0.0).sqrt()) * used as f64;
+        (c[1] > 0.0 && discriminant >= 0.0).then(|| root.clamp(0.0, 1.0))
     }
 }
 
-/// How far beyond the outermost of `count` samples their heights vanish, if there are enough of them.
-fn beyond(height: impl Fn(usize) -> f64, count: usize) -> Option<f64> {
-    if count < FEWEST {
-        return None;
-    }
-    let used = (count / 2 - 1).min(MOST + (count as f64).sqrt() as usize).max(3);
-    let scale = height(used);
-    let rows = (1..=used).map(|k| {
-        let x = k as f64 / used as f64;
-        (vec![1.0, x, x * x], height(k) / scale)
-    });
-    let c = least_squares::fit(3, rows)?;
-    let discriminant = c[1] * c[1] - 4.0 * c[0] * c[2];
-    let root = 2.0 * c[0] / (c[1] + discriminant.max(0.0).sqrt()) * used as f64;
-    (c[1] > 0.0 && discriminant >= 0.0).then(|| root.clamp(0.0, 1.0))
+/// Weights of `used` heights, at least three: the rows of (XᵀX)⁻¹Xᵀ with X = (1, x, x²).
+fn weights(used: usize) -> Vec<[f64; 3]> {
+    let x = |k: usize| k as f64 / used as f64;
+    let sum = |power: i32| (1..=used).map(|k| x(k).powi(power)).sum::<f64>();
+    let [s0, s1, s2, s3, s4] = [0, 1, 2, 3, 4].map(sum);
+    // Adjugate of the symmetric matrix of the sums.
+    let (a, b, c) = (s2 * s4 - s3 * s3, s2 * s3 - s1 * s4, s1 * s3 - s2 * s2);
+    let (d, e, f) = (s0 * s4 - s2 * s2, s1 * s2 - s0 * s3, s0 * s2 - s1 * s1);
+    let determinant = s0 * a + s1 * b + s2 * c;
+    let of = |x: f64| [a + b * x + c * x * x, b + d * x + e * x * x, c + e * x + f * x * x].map(|w| w / determinant);
+    (1..=used).map(|k| of(x(k))).collect()
 }
 
 #[cfg(test)]
@@ -161,5 +231,16 @@ mod tests {
         let found = contact_fraction(&grid, &pressure, &[0.0; 64], |_| false);
         assert!((found.fraction - 1.0 / 64.0).abs() < 1e-12 && found.error > 0.0);
         assert_eq!(contact_fraction(&grid, &pressure, &[0.0; 64], |index| index == 27).fraction, 0.0);
+    }
+
+    #[test]
+    fn a_parabola_has_its_root() {
+        let parabolas = Parabolas::new(100);
+        for count in [6, 9, 20, 100] {
+            let height = |k: usize| (k as f64 + 0.37) * (1.0 - 2e-3 * k as f64);
+            let found = parabolas.beyond(height, count).unwrap();
+            assert!((found - 0.37).abs() < 1e-9, "{count}: {found}");
+        }
+        assert_eq!(parabolas.beyond(|_| 1.0, 5), None);
     }
 }

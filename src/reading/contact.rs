@@ -5,7 +5,8 @@ use super::edge::Edge;
 use super::fraction::{Fraction, Fractions};
 use super::spots::{self, SpotReading};
 use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak, rough};
-use crate::body::TransferFunction;
+use crate::lattice::Grid;
+use crate::lattice::components::Component;
 use crate::numeric::number::number;
 use crate::numeric::sums;
 use crate::spectral::Contact;
@@ -61,29 +62,41 @@ impl Reading {
 
     /// What one grid says of a contact, without errors.
     pub fn of(contact: &Contact) -> Self {
+        Self::at_edge(contact, &Edge::of(&[contact]))
+    }
+
+    /// The same with the edge of the body at hand.
+    pub(super) fn at_edge(contact: &Contact, edge: &Edge) -> Self {
         let (grid, surface) = (contact.grid(), contact.surface());
         let (pressure, gap) = (contact.pressures(), contact.gaps());
         let mean_pressure = sums::mean(pressure);
-        let highest = (0..grid.len()).max_by(|&a, &b| pressure[a].total_cmp(&pressure[b]));
+        let modulus = contact.problem().half_space().surface_material().contact_modulus();
+        let scale = Scale { sample_area: grid.sample_area(), spacing: grid.spacing(), pressure, gap, modulus, edge };
+        let components = contact.touching();
+        let counts = contact.spots(Some(&components));
+        let highest = highest(grid, pressure, &components);
         let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
 
-        let most = grid.len() as f64;
-        let [shortest, longest] = Scale::distances((most / PI).sqrt()).map(|distance| distance * grid.spacing());
-        let transfer = TransferFunction::new(contact.problem().half_space());
-        let edge = Edge::new(&transfer, contact.problem().friction(), shortest, longest);
-        let scale = Scale { sample_area: grid.sample_area(), spacing: grid.spacing(), edge: &edge };
-        let spots = spots::spots(contact, &scale);
-        let (topography, located_samples) = if surface.owners().is_empty() {
-            spots::of_topography(contact, &scale)
+        let mut spots = spots::spots(contact, &components);
+        let topography = if surface.owners().is_empty() {
+            spots::of_topography(contact, &components, &scale)
         } else {
-            let located = |&owner: &u32| spots[owner as usize].boundary.is_some();
-            (Vec::new(), surface.owners().iter().map(located).collect())
+            spots::locate(contact, &scale, &mut spots);
+            Vec::new()
         };
 
         let cell = grid.cell().area();
         // Located spots have their own area. The others share what the lines of samples find there, as they were counted.
-        let located = || spots.iter().filter_map(|spot| spot.boundary.as_ref()).chain(&topography);
-        let along_lines = area::contact_fraction(grid, pressure, gap, |index| located_samples[index]);
+        let located = || spots.iter().map(|spot| &spot.boundary).chain(&topography).flatten();
+        let along_lines = if surface.owners().is_empty() {
+            let unknown = components.iter().zip(&topography).filter(|(_, boundary)| boundary.is_none());
+            area::of_components(grid, pressure, gap, unknown.map(|(component, _)| component), components.len())
+        } else {
+            // A component has one owner, or its owners have merged.
+            let owner = |own: &Component| surface.owners()[own.runs[0].index(grid.points())];
+            let unknown = components.iter().filter(|own| spots[owner(own) as usize].boundary.is_none());
+            area::of_components(grid, pressure, gap, unknown, components.len())
+        };
         let located_area: f64 = located().map(Boundary::area).sum();
         let contact_area = located_area + cell * along_lines.fraction;
         let counted: f64 = spots.iter().filter(|spot| spot.boundary.is_none()).map(|spot| spot.counted).sum();
@@ -152,7 +165,6 @@ impl Reading {
                 }
             })
             .collect();
-        let counts = contact.spots(None);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
         let spot_resolution = (typical as f64 / PI).sqrt();
         let between = Fraction {
@@ -180,6 +192,12 @@ impl Reading {
             fractions,
         }
     }
+}
+
+/// The sample with the largest pressure, the first of several; `None` without contact.
+fn highest(grid: &Grid, pressure: &[f64], components: &[Component]) -> Option<usize> {
+    let samples = components.iter().flat_map(|component| component.indices(grid)).flatten();
+    samples.reduce(|a, b| if pressure[b] > pressure[a] || pressure[b] == pressure[a] && b < a { b } else { a })
 }
 
 impl fmt::Display for Reading {

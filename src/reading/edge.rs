@@ -21,8 +21,12 @@
 //! [`Friction::edge_exponent`]. They are tabulated for the normal across the direction of sliding, along and against it; in
 //! between the logarithms are those of the parabola through the three.
 
+use super::boundary::Scale;
 use crate::body::TransferFunction;
 use crate::friction::Friction;
+use crate::numeric::lanes::{LANES, Real, splat, vectorised};
+use crate::spectral::Contact;
+use fearless_simd::Simd;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::{LN_10, PI};
@@ -33,6 +37,11 @@ pub struct Edge {
     shortest: f64,
     /// φ/√x and γ/y^{3/2} at the distances `shortest`·e^{k STEP}.
     ratios: Vec<[f64; 2]>,
+    /// The same two, each with its slope over the logarithm, at equal steps of √x from √`shortest` on.
+    roots: Vec<[[f64; 2]; 2]>,
+    /// The first of these roots, and their step.
+    first: f64,
+    step: f64,
     sliding: Option<Sliding>,
 }
 
@@ -47,6 +56,8 @@ struct Sliding {
 
 /// Step of the table in the logarithm of the distance.
 const STEP: f64 = 0.06;
+/// Steps of the table in the root of the distance.
+const ROOTS: usize = 1024;
 /// Terms of the Euler sum: it errs by 10^{−0.6 TERMS}.
 const TERMS: usize = 13;
 /// Step of the quadrature over ln q, and how far q reaches beyond the inverse distances.
@@ -54,6 +65,15 @@ const RULE: f64 = 0.05;
 const BEYOND: f64 = 100.0;
 
 impl Edge {
+    /// The edge on the body of contacts, at all distances at which their boundaries are looked for.
+    pub fn of(contacts: &[&Contact]) -> Self {
+        let distances = contacts.iter().map(|contact| Scale::distances(contact.grid()));
+        let [shortest, longest] =
+            distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
+        let problem = contacts[0].problem();
+        Self::new(&TransferFunction::new(problem.half_space()), problem.friction(), shortest, longest)
+    }
+
     /// The edge on a half-space, at distances from `shortest` to `longest` (lengths).
     pub fn new(transfer: &TransferFunction, friction: Option<&Friction>, shortest: f64, longest: f64) -> Self {
         let first = (1.0 / (BEYOND * longest)).ln();
@@ -73,16 +93,23 @@ impl Edge {
                 Wave { wavenumber, log: log + 0.5 * (turn * turn).ln_1p(), phase: turn.atan() }
             };
             let waves: Vec<Wave> = (0..=count).map(wave).collect();
-            (0..=distances.ceil() as usize + 1)
-                .into_par_iter()
-                .map(|k| ratios(&waves, &sum, shortest * (k as f64 * STEP).exp(), longest))
-                .collect()
+            let (integrals, entries) = (Integrals::new(&waves, longest), distances.ceil() as usize + 2);
+            if integrals.is_bare() {
+                return vec![[1.0; 2]; entries];
+            }
+            let ratios = |k: usize| integrals.ratios(&sum, shortest * (k as f64 * STEP).exp());
+            (0..entries).into_par_iter().map(ratios).collect()
         };
         let sliding = friction.filter(|friction| friction.couples()).map(|friction| Sliding {
             direction: friction.direction(),
             ratios: [1.0, -1.0].map(|sign| table(sign * friction.coefficient())),
         });
-        Self { shortest, ratios: table(0.0), sliding }
+        let first = shortest.sqrt();
+        let step = (longest.sqrt() - first) / ROOTS as f64;
+        let mut edge = Self { shortest, ratios: table(0.0), roots: Vec::new(), first, step, sliding };
+        let root = |k: usize| (first + k as f64 * step).powi(2);
+        edge.roots = (0..=ROOTS).map(|k| [0, 1].map(|side| edge.logarithmic(&edge.ratios, root(k), side))).collect();
+        edge
     }
 
     /// Component of the outward normal (cos θ, sin θ) of an edge along the direction of sliding; 0 without coupled friction.
@@ -92,27 +119,27 @@ impl Edge {
 
     /// φ and its slope at the distance x inside an edge whose normal has this component [along](Self::along) the sliding.
     pub fn pressure(&self, x: f64, along: f64) -> [f64; 2] {
-        let [ratio, slope] = self.at(x, along, 0);
-        [ratio * x.sqrt(), (0.5 * ratio + slope) / x.sqrt()]
+        let root = x.sqrt();
+        let [ratio, slope] = self.at(x, root, along, 0);
+        [ratio * root, (0.5 * ratio + slope) / root]
     }
 
     /// γ and its slope at the distance y outside the same edge.
     pub fn opening(&self, y: f64, along: f64) -> [f64; 2] {
-        let [ratio, slope] = self.at(y, along, 1);
-        [ratio * y * y.sqrt(), (1.5 * ratio + slope) * y.sqrt()]
+        let root = y.sqrt();
+        let [ratio, slope] = self.at(y, root, along, 1);
+        [ratio * y * root, (1.5 * ratio + slope) * root]
     }
 
-    /// A ratio at a distance, linear in its logarithm, and its slope over the logarithm; 0: of the pressure, 1: of the gap.
-    fn at(&self, distance: f64, along: f64, side: usize) -> [f64; 2] {
-        let place = ((distance / self.shortest).ln() / STEP).clamp(0.0, self.ratios.len() as f64 - 1.001);
-        let (k, rest) = (place as usize, place.fract());
-        let of = |ratios: &[[f64; 2]]| {
-            let (a, b) = (ratios[k][side], ratios[k + 1][side]);
-            [a + rest * (b - a), (b - a) / STEP]
-        };
-        let across = of(&self.ratios);
+    /// A ratio at a distance and its slope over the logarithm; 0: of the pressure, 1: of the gap.
+    fn at(&self, distance: f64, root: f64, along: f64, side: usize) -> [f64; 2] {
+        let place = ((root - self.first) / self.step).clamp(0.0, ROOTS as f64 - 0.001);
+        let k = place as usize;
+        let rest = place - k as f64;
+        let (own, next) = (self.roots[k][side], self.roots[k + 1][side]);
+        let across = [0, 1].map(|c| own[c] + rest * (next[c] - own[c]));
         let Some(Sliding { ratios, .. }) = self.sliding.as_ref().filter(|_| along != 0.0) else { return across };
-        let all = [across, of(&ratios[0]), of(&ratios[1])];
+        let all = [across, self.logarithmic(&ratios[0], distance, side), self.logarithmic(&ratios[1], distance, side)];
         if all.iter().any(|[ratio, _]| *ratio <= 0.0) {
             return across;
         }
@@ -120,6 +147,14 @@ impl Edge {
         let sum = |of: fn([f64; 2]) -> f64| -> f64 { all.into_iter().zip(weights).map(|(own, w)| w * of(own)).sum() };
         let ratio = sum(|[ratio, _]| ratio.ln()).exp();
         [ratio, ratio * sum(|[ratio, slope]| slope / ratio)]
+    }
+
+    /// The same from a table over the logarithm, linear in it.
+    fn logarithmic(&self, ratios: &[[f64; 2]], distance: f64, side: usize) -> [f64; 2] {
+        let place = ((distance / self.shortest).ln() / STEP).clamp(0.0, ratios.len() as f64 - 1.001);
+        let k = place as usize;
+        let (a, b) = (ratios[k][side], ratios[k + 1][side]);
+        [a + (place - k as f64) * (b - a), (b - a) / STEP]
     }
 }
 
@@ -134,39 +169,93 @@ struct Wave {
     phase: f64,
 }
 
-/// φ/√x and γ/x^{3/2} at the distance x; the factor of the phase is 1 for s = 1/`longest`.
-fn ratios(waves: &[Wave], sum: &[(Complex64, f64)], x: f64, longest: f64) -> [f64; 2] {
-    let mut ratios = [0.0; 2];
-    let (low, high) = (waves[0], waves[waves.len() - 1]);
-    let reference = longest.powi(-2);
-    for &(beta, weight) in sum {
-        let s = beta / x;
-        let square = s * s;
-        let (mut integral, mut turned) = (Complex64::default(), Complex64::default());
-        for (k, &Wave { wavenumber: q, log, phase }) in waves.iter().enumerate() {
-            let end = if k == 0 || k + 1 == waves.len() { 0.5 } else { 1.0 };
-            let part = end * RULE * q / (square + q * q);
-            integral += log * part;
-            if phase != 0.0 {
-                turned += phase * q * (part - end * RULE * q / (reference + q * q));
-            }
-        }
-        // Beyond its ends the rule takes T as constant.
-        let below = (low.wavenumber / s).atan() * low.log;
-        let above = ((high.wavenumber / s).atan() - 0.5 * PI) * -high.log;
-        if high.phase != 0.0 || low.phase != 0.0 {
-            let log = |q: f64| 0.5 * ((q * q + square) / (q * q + reference)).ln();
-            let origin = 0.5 * (square / reference).ln();
-            turned += low.phase * (log(low.wavenumber) - origin) - high.phase * log(high.wavenumber);
-        }
-        let factor = ((integral * s + below + above) / PI).exp();
-        let phase = (turned / PI).exp();
-        let root = beta.sqrt();
-        // Γ(3/2) s^{−3/2} = Γ(3/2) x^{3/2} β^{−3/2}; the sum is divided by x, the ratio by √x.
-        ratios[0] += weight * (0.5 * PI.sqrt() / (beta * root) * phase / factor).re;
-        ratios[1] += weight * (0.75 * PI.sqrt() / (beta * beta * root) * phase * factor).re;
+/// The two integrals of the transforms by the trapezoidal rule over ln q.
+struct Integrals {
+    /// q², and the weights of ln |T| and of α q, of each wave.
+    squares: Vec<f64>,
+    logs: Vec<f64>,
+    phases: Vec<f64>,
+    /// The first wave and the last one.
+    ends: [Wave; 2],
+    /// The factor of the phase is 1 for s² = `reference`; Σ of α q² over q² + this.
+    reference: f64,
+    whole: f64,
+}
+
+impl Integrals {
+    fn new(waves: &[Wave], longest: f64) -> Self {
+        let reference = longest.powi(-2);
+        let weight = |k: usize| if k == 0 || k + 1 == waves.len() { 0.5 * RULE } else { RULE };
+        let each =
+            |of: fn(&Wave) -> f64| -> Vec<f64> { waves.iter().enumerate().map(|(k, w)| weight(k) * of(w)).collect() };
+        let squares: Vec<f64> = waves.iter().map(|wave| wave.wavenumber * wave.wavenumber).collect();
+        let phases = each(|wave| wave.phase * wave.wavenumber * wave.wavenumber);
+        let whole = phases.iter().zip(&squares).map(|(phase, square)| phase / (square + reference)).sum();
+        let logs = each(|wave| wave.log * wave.wavenumber);
+        Self { squares, logs, phases, ends: [waves[0], waves[waves.len() - 1]], reference, whole }
     }
-    ratios
+
+    /// Whether T is 1 and nothing slides: φ = √x and γ = y^{3/2}.
+    fn is_bare(&self) -> bool {
+        self.logs.iter().chain(&self.phases).all(|&part| part == 0.0)
+    }
+
+    /// ∫ ln T/(q² + s²) dq and ∫ α q/(q² + s²) dq less that at the reference, over the waves, for the square of s.
+    fn at(&self, square: Complex64) -> [Complex64; 2] {
+        let (a, b) = (square.re, square.im);
+        let mut sums = [[0.0; LANES]; 4];
+        vectorised!(simd => self.summed(simd, [a, b], &mut sums));
+        let [log_re, log_im, phase_re, phase_im] = sums.map(|lanes| lanes.iter().sum::<f64>());
+        [Complex64::new(log_re, -b * log_im), Complex64::new(phase_re - self.whole, -b * phase_im)]
+    }
+
+    /// 1/(q² + a + ib) = (q² + a − ib)/((q² + a)² + b²).
+    #[inline(always)]
+    fn summed<S: Simd>(&self, simd: S, [a, b]: [f64; 2], sums: &mut [[f64; LANES]; 4]) {
+        let mut totals = [splat(simd, 0.0); 4];
+        let [a, square] = [a, b * b].map(|x| splat(simd, x));
+        let mut at = 0;
+        while at < self.squares.len() {
+            let real = f64::group(simd, &self.squares, at, 1.0) + a;
+            let norm = real * real + square;
+            let log = f64::group(simd, &self.logs, at, 0.0) / norm;
+            let phase = f64::group(simd, &self.phases, at, 0.0) / norm;
+            totals[0] = totals[0] + log * real;
+            totals[1] = totals[1] + log;
+            totals[2] = totals[2] + phase * real;
+            totals[3] = totals[3] + phase;
+            at += LANES;
+        }
+        for (sum, total) in sums.iter_mut().zip(totals) {
+            sum.copy_from_slice(total.as_slice());
+        }
+    }
+
+    /// φ/√x and γ/x^{3/2} at the distance x.
+    fn ratios(&self, sum: &[(Complex64, f64)], x: f64) -> [f64; 2] {
+        let mut ratios = [0.0; 2];
+        let [low, high] = self.ends;
+        for &(beta, weight) in sum {
+            let s = beta / x;
+            let square = s * s;
+            let [integral, mut turned] = self.at(square);
+            // Beyond its ends the rule takes T as constant.
+            let below = (low.wavenumber / s).atan() * low.log;
+            let above = ((high.wavenumber / s).atan() - 0.5 * PI) * -high.log;
+            if high.phase != 0.0 || low.phase != 0.0 {
+                let log = |q: f64| 0.5 * ((q * q + square) / (q * q + self.reference)).ln();
+                let origin = 0.5 * (square / self.reference).ln();
+                turned += low.phase * (log(low.wavenumber) - origin) - high.phase * log(high.wavenumber);
+            }
+            let factor = ((integral * s + below + above) / PI).exp();
+            let phase = (turned / PI).exp();
+            let root = beta.sqrt();
+            // Γ(3/2) s^{−3/2} = Γ(3/2) x^{3/2} β^{−3/2}; the sum is divided by x, the ratio by √x.
+            ratios[0] += weight * (0.5 * PI.sqrt() / (beta * root) * phase / factor).re;
+            ratios[1] += weight * (0.75 * PI.sqrt() / (beta * beta * root) * phase * factor).re;
+        }
+        ratios
+    }
 }
 
 /// Points β and weights η of f(x) = Σ η Re f̂(β/x)/x.

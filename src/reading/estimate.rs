@@ -2,11 +2,11 @@
 //!
 //! [`Errors`] has the laws.
 
+use super::edge::Edge;
 use super::fraction::Fraction;
-use super::rough::corrected_fraction;
 use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading};
 use crate::load::Load;
-use crate::spectral::Step;
+use crate::spectral::{Contact, Step};
 
 /// What n samples between a peak pressure and the edge of contact leave open of it, relative to it, for profiles of an exponent.
 fn peak_law(samples: f64, exponent: f64) -> f64 {
@@ -41,8 +41,10 @@ fn centre_law(samples: f64) -> f64 {
 impl Step {
     /// What a tribologist reads off the step, with its estimated discretisation errors.
     pub fn reading(&self) -> Reading {
-        let mut reading = Reading::of(self.finest());
-        let coarser: Vec<Reading> = self.coarser().iter().take(CHANGES.len()).map(Reading::of).collect();
+        let coarser: Vec<&Contact> = self.coarser().iter().take(CHANGES.len()).collect();
+        let edge = Edge::of(&[&[self.finest()], &coarser[..]].concat());
+        let mut reading = Reading::at_edge(self.finest(), &edge);
+        let coarser: Vec<Reading> = coarser.into_iter().map(|contact| Reading::at_edge(contact, &edge)).collect();
         let levels = self.problem().counterbody().levels();
         let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
         let (errors, of_levels) = between(&reading, &coarser, &exponents, self.load);
@@ -68,7 +70,7 @@ impl Step {
             let error = |safety: f64, open: f64, of: fn(&RoughReading) -> f64| {
                 Some(widest(safety, open, of(&rough), coarser.iter().map(|coarse| Some(of(coarse)))))
             };
-            let border = corrected_fraction(self.grid(), self.finest().pressures()).fraction.uncertainty;
+            let border = reading.fractions.corrected.map_or(0.0, |corrected| corrected.fraction.uncertainty);
             let fraction = error(AREA, border, |rough| rough.corrected_fraction);
             // The mean gap is that to complete contact, less the penetration.
             let depth = reading.penetration.abs() * topography_law(reading.spot_resolution.max(1.0));

@@ -14,6 +14,7 @@ mod estimate;
 mod fraction;
 mod governing;
 mod histogram;
+mod holes;
 mod level;
 mod peak;
 mod rough;

@@ -27,6 +27,7 @@ use crate::lattice::Grid;
 use crate::lattice::components::Counts;
 use crate::numeric::sums;
 use crate::spectral::Contact;
+use rayon::prelude::*;
 use std::f64::consts::{LN_2, PI};
 
 /// Part of what the correction by the perimeter takes off that it leaves open: the factor of a border depends on its
@@ -92,13 +93,14 @@ impl RoughReading {
         contact.problem().counterbody().topography()?;
         let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
         let total = grid.len() as f64;
-        let (counted, length) = (pressure.iter().filter(|p| **p > 0.0).count(), borders(grid, pressure)[1]);
+        let counted = pressure.iter().filter(|p| **p > 0.0).count();
+        let [pairs, length] = borders(grid, pressure);
         let (spots, areas) = spots(grid, contact.spots(None));
         let touching = pressure.iter().copied().filter(|p| *p > 0.0);
         let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
         Some(Self {
             counted_fraction: counted as f64 / total,
-            corrected_fraction: corrected_fraction(grid, pressure).fraction.value,
+            corrected_fraction: corrected(counted as f64, pairs, total).fraction.value,
             corrected_fraction_error: None,
             perimeter_density: length / grid.cell().area(),
             spots,
@@ -117,9 +119,12 @@ impl RoughReading {
 
 /// The counted fraction in contact corrected by the perimeter.
 pub(super) fn corrected_fraction(grid: &Grid, pressure: &[f64]) -> Corrected {
-    let total = grid.len() as f64;
     let [pairs, _] = borders(grid, pressure);
-    let counted = pressure.iter().filter(|p| **p > 0.0).count() as f64;
+    corrected(pressure.iter().filter(|p| **p > 0.0).count() as f64, pairs, grid.len() as f64)
+}
+
+/// The same of so many samples `counted` in contact and pairs at their border, of a `total`.
+fn corrected(counted: f64, pairs: f64, total: f64) -> Corrected {
     let value = (counted - PART * pairs).max(0.0) / total;
     let fraction = Fraction { value, uncertainty: BORDER * (counted / total - value) };
     Corrected { fraction, width: if counted > 0.0 { 4.0 * counted / pairs } else { 0.0 } }
@@ -128,11 +133,17 @@ pub(super) fn corrected_fraction(grid: &Grid, pressure: &[f64]) -> Corrected {
 /// Number of pairs of neighbours of which one is in contact, and length of the edges between them, along the other vector of
 /// the basis.
 fn borders(grid: &Grid, pressure: &[f64]) -> [f64; 2] {
-    let touches = |index: usize| pressure[index] > 0.0;
+    let [n1, n2] = grid.points();
+    let row = |i: usize| &pressure[i * n2..(i + 1) * n2];
+    let differ = |a: &[f64], b: &[f64]| a.iter().zip(b).filter(|(a, b)| (**a > 0.0) != (**b > 0.0)).count();
     let mut sum = [0.0; 2];
     for direction in grid.directions() {
-        let ends = |index: &usize| touches(*index) != touches(direction.sample(grid.points(), *index, 1));
-        let pairs = direction.weight * (0..grid.len()).filter(ends).count() as f64;
+        let [down, right] = [0, 1].map(|k| direction.step[k].rem_euclid(grid.points()[k] as i32) as usize);
+        let ends = |i: usize| {
+            let (own, other) = (row(i), row((i + down) % n1));
+            differ(&own[..n2 - right], &other[right..]) + differ(&own[n2 - right..], &other[..right])
+        };
+        let pairs = direction.weight * (0..n1).into_par_iter().map(ends).sum::<usize>() as f64;
         sum = [sum[0] + pairs, sum[1] + pairs * direction.beside];
     }
     sum

@@ -1,14 +1,11 @@
 //! The contact spots of a grid: whose they are, whether they have merged, where they are open, and their boundaries.
 
-use super::boundary::{Boundary, Polar, Scale};
-use crate::lattice::Joined;
-use crate::lattice::components::{Component, around, components};
+use super::boundary::{Boundary, Sample, Scale, Spot};
+use super::holes::Holes;
+use crate::lattice::components::Component;
+use crate::lattice::runs::Run;
 use crate::spectral::Contact;
 use rayon::prelude::*;
-use std::f64::consts::PI;
-
-/// Label of a sample that belongs to no contact, or to no contact's hole.
-const NOBODY: u32 = u32::MAX;
 
 /// Contact spot of one site.
 #[derive(Debug, Clone, Default)]
@@ -23,163 +20,224 @@ pub struct SpotReading {
     /// Whether it encloses open samples.
     pub ring: bool,
     pub boundary: Option<Boundary>,
+    /// Distance of its farthest sample from its axis.
+    farthest: f64,
 }
 
-/// The contacts of all sites; none for a topography.
-pub fn spots(contact: &Contact, scale: &Scale<'_>) -> Vec<SpotReading> {
+/// Samples in contact that follow each other and face one image of one site.
+#[derive(Debug, Clone)]
+struct Part {
+    component: u32,
+    site: u32,
+    /// Where its axis stands, lengths; beyond the borders of the cell where the component is.
+    axis: [f64; 2],
+    /// Number of samples, Σ p, Σ p **x**.
+    count: usize,
+    load: f64,
+    moment: [f64; 2],
+    peak: usize,
+    farthest: f64,
+}
+
+/// Runs that are taken together.
+const TOGETHER: usize = 128;
+
+/// The contacts of all sites, without their boundaries; none for a topography.
+pub fn spots(contact: &Contact, components: &[Component]) -> Vec<SpotReading> {
     let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
-    let (reduced, [n1, n2]) = (grid.cell().reduced(), grid.points());
     let mut spots = vec![SpotReading::default(); surface.sites().len()];
     if surface.owners().is_empty() {
         return spots;
     }
-    let offset = |index: usize| surface.offset(&reduced, surface.owners()[index], index);
-    // The ways to the samples that are joined to one in contact.
-    let ways = grid.ways(Joined::AtCorners);
-    let steps: Vec<[f64; 2]> =
-        ways.iter().map(|[i, j]| reduced.nearest([f64::from(*i) / n1 as f64, f64::from(*j) / n2 as f64])).collect();
-    let tolerance = 1e-6 * grid.spacing();
-    for (index, &p) in pressure.iter().enumerate().filter(|(_, p)| **p > 0.0) {
-        let owner = surface.owners()[index];
-        let owners = surface.facing(index);
-        let part = grid.sample_area() / owners.len() as f64;
-        for &site in owners {
+    let runs: Vec<(u32, Run)> =
+        (0..).zip(components).flat_map(|(own, component)| component.runs.iter().map(move |run| (own, *run))).collect();
+    let parts: Vec<Vec<Part>> = runs.par_chunks(TOGETHER).map(|runs| parts(contact, runs)).collect();
+    let (area, higher) =
+        (grid.sample_area(), |a: usize, b: usize| pressure[a] > pressure[b] || pressure[a] == pressure[b] && a < b);
+    let mut first: Option<&Part> = None;
+    for part in parts.iter().flatten() {
+        let spot = &mut spots[part.site as usize];
+        spot.load += area * part.load;
+        spot.moment = [0, 1].map(|k| spot.moment[k] + area * part.moment[k]);
+        spot.counted += area * part.count as f64;
+        spot.farthest = spot.farthest.max(part.farthest);
+        if spot.peak.is_none_or(|peak| higher(part.peak, peak)) {
+            spot.peak = Some(part.peak);
+        }
+        // Contact that faces another indenter, or another image of this one: the contacts have merged.
+        match first.filter(|first| first.component == part.component) {
+            None => first = Some(part),
+            Some(first) if first.site != part.site || is_apart(first.axis, part.axis, grid.spacing()) => {
+                spots[first.site as usize].merged = true;
+                spots[part.site as usize].merged = true;
+            }
+            Some(_) => {}
+        }
+    }
+    // What several sites face belongs to all of them in equal parts.
+    let reduced = grid.cell().reduced();
+    for (index, facing) in surface.ties().iter().filter(|(index, _)| pressure[*index] > 0.0) {
+        let (own, p, whole) = (surface.owners()[*index], pressure[*index], facing.len() as f64);
+        for &site in facing {
             let spot = &mut spots[site as usize];
+            let part = area * (1.0 / whole - f64::from(u8::from(site == own)));
+            let [x, y] = surface.offset(&reduced, site, *index);
             spot.load += part * p;
-            let [x, y] = surface.offset(&reduced, site, index);
             spot.moment = [spot.moment[0] + part * p * x, spot.moment[1] + part * p * y];
             spot.counted += part;
-            if spot.peak.is_none_or(|peak| p > pressure[peak]) {
-                spot.peak = Some(index);
-            }
-        }
-        // Neighbours in contact that face another indenter, or another image of this one: the contacts have merged.
-        for (&way, step) in ways.iter().zip(&steps) {
-            let neighbour = grid.along(way, index);
-            if pressure[neighbour] <= 0.0 {
-                continue;
-            }
-            let (here, there) = (offset(index), offset(neighbour));
-            let apart = [0, 1].map(|k| (there[k] - here[k] - step[k]).abs());
-            let other = surface.owners()[neighbour];
-            if other != owner || apart[0].max(apart[1]) > tolerance {
-                spots[owner as usize].merged = true;
-                spots[other as usize].merged = true;
+            if spot.peak.is_none_or(|peak| higher(*index, peak)) {
+                spot.peak = Some(*index);
             }
         }
     }
-    locate(contact, scale, &mut spots);
     spots
 }
 
-/// Open samples that one contact encloses: `label` tells contacts apart.
-fn holes(contact: &Contact, label: impl Fn(usize) -> u32) -> Vec<(u32, Component)> {
-    let (grid, pressure) = (contact.grid(), contact.pressures());
-    let ways = grid.ways(Joined::AtEdges);
-    let enclosed = |open: Component| {
-        let around = |index: usize| {
-            let both = ways.iter().flat_map(|way| [*way, way.map(|k| -k)]);
-            both.map(move |way| grid.along(way, index))
-        };
-        let mut beside = open.indices(grid).flat_map(around).filter(|&next| pressure[next] > 0.0);
-        let owner = label(beside.next()?);
-        let alone = beside.all(|index| label(index) == owner);
-        drop(beside);
-        alone.then_some((owner, open))
-    };
-    // What lies outside meets its own images, or several contacts.
-    components(grid, Joined::AtEdges, |index| pressure[index] <= 0.0)
-        .into_iter()
-        .filter(|open| !open.wraps)
-        .filter_map(enclosed)
-        .collect()
+fn is_apart(a: [f64; 2], b: [f64; 2], spacing: f64) -> bool {
+    (0..2).any(|k| (a[k] - b[k]).abs() > 1e-6 * spacing)
+}
+
+/// The parts of runs, each of one component.
+fn parts(contact: &Contact, runs: &[(u32, Run)]) -> Vec<Part> {
+    let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
+    let (points, reduced, along) = (grid.points(), grid.cell().reduced(), grid.steps()[1]);
+    let owners = surface.owners();
+    let mut parts: Vec<Part> = Vec::new();
+    for &(component, run) in runs {
+        let start = run.index(points);
+        let [place, _] = run.ends(grid);
+        let mut from = 0;
+        while from < run.len() {
+            let site = owners[start + from];
+            let mut to = owners[start + from..start + run.len()].iter().take_while(|own| **own == site).count() + from;
+            let offset = |k: usize| surface.offset(&reduced, site, start + k);
+            let axis = |k: usize| {
+                let offset = offset(k);
+                [0, 1].map(|c| place[c] + k as f64 * along[c] - offset[c])
+            };
+            let own = axis(from);
+            // Nearest to one image is a convex set: where both ends are, all between them is.
+            if is_apart(own, axis(to - 1), grid.spacing()) {
+                to = (from + 1..to).find(|&k| is_apart(own, axis(k), grid.spacing())).unwrap_or(to);
+            }
+            let is_last = |last: &&mut Part| {
+                last.component == component && last.site == site && !is_apart(last.axis, own, grid.spacing())
+            };
+            let mut fresh = None;
+            let part = match parts.last_mut().filter(is_last) {
+                Some(part) => part,
+                None => fresh.insert(Part {
+                    component,
+                    site,
+                    axis: own,
+                    count: 0,
+                    load: 0.0,
+                    moment: [0.0; 2],
+                    peak: start + from,
+                    farthest: 0.0,
+                }),
+            };
+            let first = offset(from);
+            let (mut sum, mut lever) = (0.0, 0.0);
+            for (k, &p) in pressure[start + from..start + to].iter().enumerate() {
+                sum += p;
+                lever += k as f64 * p;
+                if p > pressure[part.peak] {
+                    part.peak = start + from + k;
+                }
+            }
+            part.count += to - from;
+            part.load += sum;
+            part.moment = [0, 1].map(|c| part.moment[c] + first[c] * sum + along[c] * lever);
+            let last = [0, 1].map(|c| first[c] + (to - from - 1) as f64 * along[c]);
+            part.farthest = [first, last].iter().map(|[x, y]| x.hypot(*y)).fold(part.farthest, f64::max);
+            parts.extend(fresh);
+            from = to;
+        }
+    }
+    parts
 }
 
 /// Finds the holes and the boundaries of the spots that stand alone.
-fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
-    let (grid, surface) = (contact.grid(), contact.surface());
-    let (pressure, gap) = (contact.pressures(), contact.gaps());
-    let (reduced, [_, n2]) = (grid.cell().reduced(), grid.points());
-    let modulus = contact.problem().half_space().surface_material().contact_modulus();
-    // Whose a sample is: in a hole that of the contact around it.
-    let mut owner = surface.owners().to_vec();
-    let mut hole = vec![false; grid.len()];
-    for (own, open) in holes(contact, |index| surface.owners()[index]) {
-        let spot = &mut spots[own as usize];
-        // Between merged contacts lies what is outside all of them.
-        if !spot.merged {
-            spot.ring = true;
-            for index in open.indices(grid) {
-                (owner[index], hole[index]) = (own, true);
+pub fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
+    let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
+    let owners = surface.owners();
+    // Between merged contacts lies what is outside all of them.
+    let holes = Holes::of(grid, pressure, |index| Some(owners[index]).filter(|own| !spots[*own as usize].merged));
+    spots.par_iter_mut().enumerate().for_each(|(site, spot)| {
+        let site = site as u32;
+        spot.ring = holes.has(site);
+        if spot.merged || spot.peak.is_none() {
+            return;
+        }
+        let what = |index: usize| match (pressure[index] > 0.0, holes.around(index)) {
+            (false, Some(around)) => {
+                if around == site {
+                    Sample::Hole
+                } else {
+                    Sample::Other
+                }
             }
-        }
-    }
-    // Samples that a fit can reach: out to twice the radius of all that is enclosed.
-    let mut enclosed = vec![0.0; spots.len()];
-    for (index, &own) in owner.iter().enumerate() {
-        if pressure[index] > 0.0 || hole[index] {
-            enclosed[own as usize] += grid.sample_area();
-        }
-    }
-    let is_near = |index: usize| {
-        let own = owner[index];
-        let area = enclosed[own as usize];
-        if spots[own as usize].merged || area == 0.0 {
-            return false;
-        }
-        let [x, y] = surface.offset(&reduced, own, index);
-        x * x + y * y < 4.0 * area / PI || pressure[index] > 0.0
-    };
-    let is_near: Vec<bool> = (0..grid.len()).into_par_iter().with_min_len(n2).map(is_near).collect();
-    // Counted first, so that they take no more room than they need.
-    let near = || (0..grid.len()).filter(|&index| is_near[index]);
-    let mut counts = vec![0; spots.len()];
-    near().for_each(|index| counts[owner[index] as usize] += 1);
-    let mut samples: Vec<Vec<usize>> = counts.into_iter().map(Vec::with_capacity).collect();
-    near().for_each(|index| samples[owner[index] as usize].push(index));
-    let polar = |&index: &usize| {
-        let offset = surface.offset(&reduced, owner[index], index);
-        Polar::new(offset, pressure[index], 0.75 * modulus * gap[index], hole[index])
-    };
-    spots.par_iter_mut().zip(&samples).filter(|(_, samples)| !samples.is_empty()).for_each(|(spot, samples)| {
-        let samples: Vec<Polar> = samples.par_iter().map(polar).collect();
-        spot.boundary = Boundary::locate(&samples, scale);
+            (touches, _) if owners[index] == site => {
+                if touches {
+                    Sample::Contact
+                } else {
+                    Sample::Open
+                }
+            }
+            _ => Sample::Other,
+        };
+        let axis = grid.cell().point(surface.sites()[site as usize].place);
+        spot.boundary = Boundary::locate(&Spot::new(grid, axis, spot.farthest, &what), scale, spot.ring);
     });
 }
 
-/// Boundaries of a topography's contacts around their own centres, where these are simple, and the samples of all that
-/// have one.
-pub fn of_topography(contact: &Contact, scale: &Scale<'_>) -> (Vec<Boundary>, Vec<bool>) {
-    let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
-    let modulus = contact.problem().half_space().surface_material().contact_modulus();
-    let contacts = contact.touching();
-    contact.spots(Some(&contacts));
+/// Fewest samples along the radius of a topography's spot, as it is counted, from which on its boundary is fitted: smaller
+/// ones, and those with bays, are as well read along the lines of samples.
+const FEWEST: f64 = 10.0;
+
+/// Label of a sample that belongs to no contact.
+const NOBODY: u32 = u32::MAX;
+
+/// Boundaries of a topography's contacts around their own centres, where these are simple; one for each component.
+pub fn of_topography(contact: &Contact, components: &[Component], scale: &Scale<'_>) -> Vec<Option<Boundary>> {
+    let (grid, pressure) = (contact.grid(), contact.pressures());
+    let large =
+        |component: &Component| !component.wraps && component.size() as f64 >= std::f64::consts::PI * FEWEST * FEWEST;
+    if !components.iter().any(large) {
+        return vec![None; components.len()];
+    }
     let mut label = vec![NOBODY; grid.len()];
-    for (own, contact) in (0..).zip(&contacts) {
-        contact.indices(grid).for_each(|index| label[index] = own);
+    for (own, component) in (0..).zip(components) {
+        component.indices(grid).for_each(|run| label[run].fill(own));
     }
-    let mut hole_of = vec![NOBODY; grid.len()];
-    for (own, open) in holes(contact, |index| label[index]) {
-        open.indices(grid).for_each(|index| hole_of[index] = own);
-    }
-    let boundary = |(own, spot): (usize, &Component)| {
+    let holes = Holes::of(grid, pressure, |index| Some(label[index]));
+    let boundary = |(own, component): (usize, &Component)| {
         let own = own as u32;
-        let centre = spot.centre(grid);
-        // What is nobody's or its own, in contact and in holes.
-        let ours = |whose: u32| whose == own || whose == NOBODY;
-        let samples: Vec<Polar> = around(grid, centre, 2.0 * spot.farthest(grid, centre))
-            .filter(|(index, _)| ours(label[*index]) && ours(hole_of[*index]))
-            .map(|(index, offset)| {
-                Polar::new(offset, pressure[index], 0.75 * modulus * gap[index], hole_of[index] == own)
-            })
-            .collect();
-        Boundary::locate(&samples, scale)
+        if !large(component) {
+            return None;
+        }
+        let what = |index: usize| match (label[index], holes.around(index)) {
+            (NOBODY, None) => Sample::Open,
+            (NOBODY, Some(around)) => {
+                if around == own {
+                    Sample::Hole
+                } else {
+                    Sample::Other
+                }
+            }
+            (label, _) => {
+                if label == own {
+                    Sample::Contact
+                } else {
+                    Sample::Other
+                }
+            }
+        };
+        let centre = component.centre(grid);
+        let spot = Spot::new(grid, centre, component.farthest(grid, centre), &what);
+        let is_simple = spot.stands_alone() && Boundary::outlines(&spot, scale);
+        is_simple.then(|| Boundary::locate(&spot, scale, holes.has(own))).flatten()
     };
-    let found: Vec<Option<Boundary>> =
-        contacts.par_iter().enumerate().map(|each| (!each.1.wraps).then(|| boundary(each)).flatten()).collect();
-    let mut located = vec![false; grid.len()];
-    for (spot, _) in contacts.iter().zip(&found).filter(|(_, boundary)| boundary.is_some()) {
-        spot.indices(grid).for_each(|index| located[index] = true);
-    }
-    (found.into_iter().flatten().collect(), located)
+    components.par_iter().enumerate().map(boundary).collect()
 }

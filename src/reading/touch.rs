@@ -10,10 +10,11 @@
 //! coarser grid errs about four times as much; the change from it is taken for the error all the same, as it oscillates with
 //! the places of the samples. The estimate is half the bracket and 1.5 times the largest of all.
 
-use super::Reading;
 use super::estimate::load_law;
+use super::spots::spots;
 use crate::load::Load;
 use crate::spectral::{Contact, Solver};
+use std::f64::consts::PI;
 
 /// The pressure of first touch is enclosed within this ratio.
 const RATIO: f64 = 1.003;
@@ -135,11 +136,20 @@ impl<'a> Search<'a> {
         let contacts: Vec<&Contact> = std::iter::once(step.finest()).chain(step.coarser()).take(GRIDS).collect();
         self.grids = contacts.len();
         for (brackets, contact) in self.brackets.iter_mut().zip(contacts) {
-            let Reading { levels, penetration, .. } = Reading::of(contact);
-            let resolution = levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);
-            let resolution = resolution.fold(0.0, f64::max);
-            for (bracket, level) in brackets.iter_mut().zip(&levels) {
-                if level.load <= 0.0 {
+            let sites = contact.surface().sites();
+            let spots = spots(contact, &contact.touching());
+            // Of each level the samples in contact under all its indenters.
+            let mut samples = vec![0.0; brackets.len()];
+            let mut indenters = vec![0.0; brackets.len()];
+            for (site, spot) in sites.iter().zip(&spots) {
+                samples[site.level - 1] += spot.counted / contact.grid().sample_area();
+                indenters[site.level - 1] += 1.0;
+            }
+            let radius = |(samples, indenters): (&f64, &f64)| (samples / indenters / PI).sqrt();
+            let resolution = samples.iter().zip(&indenters).map(radius).fold(0.0, f64::max);
+            let penetration = contact.penetration();
+            for (bracket, samples) in brackets.iter_mut().zip(&samples) {
+                if *samples == 0.0 {
                     bracket.least = bracket.least.max(pressure);
                 } else if pressure <= bracket.most {
                     (bracket.most, bracket.enough) = (pressure, Some(Enough { penetration, resolution }));
@@ -156,6 +166,7 @@ mod tests {
     use crate::counterbody::{Indenters, Level, Shape};
     use crate::lattice::Lattice;
     use crate::problem::Problem;
+    use crate::reading::Reading;
     use crate::spectral::Settings;
 
     /// A case like that of Fig. 2, whose loads of first touch `validation/paper/fig2` has.

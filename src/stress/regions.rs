@@ -23,9 +23,9 @@ impl Regions {
         let count = all.len() as u32;
         all.extend(components(grid, Joined::AtEdges, |index| pressure[index] <= 0.0));
         for (number, spot) in (0..).zip(&all) {
-            spot.indices(grid).for_each(|index| of[index] = number);
+            spot.indices(grid).for_each(|run| of[run].fill(number));
         }
-        Self { of, count, sizes: all.iter().map(|spot| spot.samples.len()).collect() }
+        Self { of, count, sizes: all.iter().map(|spot| spot.size()).collect() }
     }
 
     /// Whether contact ends anywhere.

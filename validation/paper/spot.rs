@@ -2,8 +2,7 @@
 //! square elements would make of its asymmetry.
 
 use crate::localized::spot::Spot;
-use crate::reading::boundary::{Boundary, Polar};
-use crate::reading::{LevelReading, Reading};
+use crate::reading::{Boundary, LevelReading, Reading};
 use crate::spectral::Step;
 use crate::validation::StudyError;
 use std::f64::consts::PI;
@@ -16,20 +15,25 @@ pub fn asymmetries(found: &Reading) -> [f64; 3] {
     [0, 1, 2].map(|m| found.levels.get(m).and_then(LevelReading::asymmetry).unwrap_or(f64::NAN))
 }
 
+/// A sample seen from an indenter's axis: its distance, a length, its angle, radians, and its pressure.
+struct Polar {
+    r: f64,
+    theta: f64,
+    p: f64,
+}
+
 /// Samples around the axis of a level's first indenter, out to `reach` times the counted contact radius.
 fn samples(step: &Step, level: usize, reach: f64) -> Vec<Polar> {
     let (grid, surface, contact) = (step.grid(), step.surface(), step.finest());
     let reduced = grid.cell().reduced();
     let Some(site) = surface.site_of(level) else { return Vec::new() };
-    let (pressure, gap, owners) = (contact.pressures(), contact.gaps(), surface.owners());
+    let (pressure, owners) = (contact.pressures(), surface.owners());
     let own = |index: &usize| owners[*index] as usize == site;
     let counted = (0..grid.len()).filter(own).filter(|&index| pressure[index] > 0.0).count() as f64;
     let reach = reach * (counted * grid.sample_area() / PI).sqrt();
-    let modulus = step.problem().half_space().surface_material().contact_modulus();
     let polar = |index: usize| {
         let [x, y] = surface.offset(&reduced, site as u32, index);
-        let opening = 0.75 * modulus * gap[index];
-        Polar { r: x.hypot(y), theta: y.atan2(x), p: pressure[index], opening, hole: false }
+        Polar { r: x.hypot(y), theta: y.atan2(x), p: pressure[index] }
     };
     (0..grid.len()).filter(own).map(polar).filter(|sample| sample.r < reach).collect()
 }

@@ -19,13 +19,15 @@
 //!
 //! A **ring** has a hole, read in the same way with inside and outside exchanged.
 
+mod beside;
 mod fit;
-mod sample;
+mod room;
+mod spot;
 
-pub use sample::{Polar, Scale};
+pub use spot::{Sample, Scale, Spot};
 
 use crate::numeric::closed_line::{self, ANGLES, mean_radius};
-use fit::{COUNTED, Rim, counted, located};
+use fit::{COUNTED, Rim, counted, is_outlined, located};
 use std::f64::consts::{PI, TAU};
 
 /// A closed boundary ρ(θ) around an indenter's axis, and the hole of a ring.
@@ -42,19 +44,24 @@ pub struct Boundary {
 }
 
 impl Boundary {
-    /// Boundary of the contact among `samples` (in contact and around it).
+    /// Boundary of a spot, and of its hole where it `is_ring`.
     ///
     /// `None` when the spot has too few samples for a fit, or no simple boundary around the axis.
-    pub(crate) fn locate(samples: &[Polar], scale: &Scale<'_>) -> Option<Self> {
-        let (radii, error) = located(samples, scale, Rim::Outer)?;
+    pub(crate) fn locate(spot: &Spot<'_>, scale: &Scale<'_>, is_ring: bool) -> Option<Self> {
+        let (radii, error) = located(spot, scale, Rim::Outer)?;
         let mut boundary = Self { radii, hole: Vec::new(), error, hole_error: 0.0 };
-        if samples.iter().any(|sample| sample.hole) {
-            (boundary.hole, boundary.hole_error) = located(samples, scale, Rim::Hole).unwrap_or_else(|| {
-                let (counted, _) = counted(samples, scale.sample_area, Rim::Hole);
+        if is_ring {
+            (boundary.hole, boundary.hole_error) = located(spot, scale, Rim::Hole).unwrap_or_else(|| {
+                let (counted, _) = counted(spot, scale.sample_area, Rim::Hole);
                 (vec![mean_radius(&counted); ANGLES], COUNTED * scale.spacing)
             });
         }
         Some(boundary)
+    }
+
+    /// Whether a few harmonics outline a spot to two spacings, as they do not outline that of a rough surface.
+    pub(crate) fn outlines(spot: &Spot<'_>, scale: &Scale<'_>) -> bool {
+        is_outlined(spot, scale)
     }
 
     /// ρ(θ), linear between the angles; a length.
@@ -99,34 +106,64 @@ mod tests {
     use super::*;
     use crate::body::TransferFunction;
     use crate::body::{HalfSpace, Material};
+    use crate::lattice::{Cell, Grid};
     use crate::reading::edge::Edge;
 
-    /// Samples of a contact with E* = 1 and a boundary `edge`(θ), pressure and gap of Hertz' contact of radius 1
-    /// stretched onto it.
-    fn spot(spacing: f64, edge: impl Fn(f64) -> f64) -> Vec<Polar> {
-        let reach = (2.0 / spacing) as i32;
-        let mut samples = Vec::new();
-        for (i, j) in (-reach..=reach).flat_map(|i| (-reach..=reach).map(move |j| (i, j))) {
-            let (x, y) = ((f64::from(i) + 0.31) * spacing, (f64::from(j) - 0.17) * spacing);
-            let (r, theta) = (x.hypot(y), y.atan2(x));
+    /// Pressure and gap of a contact with E* = 1 in the middle of a cell of side 4.
+    struct Fields {
+        grid: Grid,
+        pressure: Vec<f64>,
+        gap: Vec<f64>,
+        /// Where the hole is.
+        hole: Vec<bool>,
+    }
+
+    /// Off the samples, so that none has a place of its own.
+    fn axis(spacing: f64) -> [f64; 2] {
+        [2.0 + 0.31 * spacing, 2.0 - 0.17 * spacing]
+    }
+
+    /// A boundary `edge`(θ), pressure and gap of Hertz' contact of radius 1 stretched onto it.
+    fn spot(spacing: f64, edge: impl Fn(f64) -> f64) -> Fields {
+        let n = (4.0 / spacing).round() as usize;
+        let grid = Grid::new(Cell::square(4.0).unwrap(), [n, n]).unwrap();
+        let (mut pressure, mut gap) = (Vec::new(), Vec::new());
+        for index in 0..grid.len() {
+            let [r, theta] = polar(&grid, spacing, index);
             let s = r / edge(theta);
-            let (p, gap) = if s < 1.0 {
+            let (p, g) = if s < 1.0 {
                 (2.0 / PI * (1.0 - s * s).sqrt(), 0.0)
             } else {
                 (0.0, 0.5 * s * s - 1.0 + ((2.0 - s * s) * (1.0 / s).asin() + (s * s - 1.0).sqrt()) / PI)
             };
+            pressure.push(p);
             // A² goes as 1/edge, so that the gap goes as √edge⁻¹ d^{3/2}.
-            samples.push(Polar { r, theta, p, opening: 0.75 * edge(theta) * gap, hole: false });
+            gap.push(edge(theta) * g);
         }
-        samples
+        let hole = vec![false; grid.len()];
+        Fields { grid, pressure, gap, hole }
     }
 
-    /// The boundary of samples on a bare half-space.
-    fn located(samples: &[Polar], spacing: f64) -> Option<Boundary> {
+    /// Distance and angle of a sample.
+    fn polar(grid: &Grid, spacing: f64, index: usize) -> [f64; 2] {
+        let ([x, y], [s, t]) = (axis(spacing), grid.fractions(index));
+        [(4.0 * s - x).hypot(4.0 * t - y), (4.0 * t - y).atan2(4.0 * s - x)]
+    }
+
+    /// The boundary on a bare half-space.
+    fn located(fields: &Fields, spacing: f64) -> Option<Boundary> {
         let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
-        let [shortest, longest] = Scale::distances(1.1 / spacing).map(|distance| distance * spacing);
+        let [shortest, longest] = Scale::distances(&fields.grid);
         let edge = Edge::new(&TransferFunction::new(&bare), None, shortest, longest);
-        Boundary::locate(samples, &Scale { sample_area: spacing * spacing, spacing, edge: &edge })
+        let Fields { grid, pressure, gap, hole } = fields;
+        let what = |index: usize| match (pressure[index] > 0.0, hole[index]) {
+            (true, _) => Sample::Contact,
+            (_, true) => Sample::Hole,
+            _ => Sample::Open,
+        };
+        let scale = Scale { sample_area: spacing * spacing, spacing, pressure, gap, modulus: 1.0, edge: &edge };
+        let spot = Spot::new(grid, axis(spacing), 1.1, &what);
+        Boundary::locate(&spot, &scale, hole.contains(&true))
     }
 
     #[test]
@@ -159,11 +196,15 @@ mod tests {
     #[test]
     fn the_hole_of_a_ring_is_read_and_taken_off_the_area() {
         let (spacing, inner) = (0.04, 0.5);
-        let mut samples = spot(spacing, |_| 1.0);
-        for sample in samples.iter_mut().filter(|sample| sample.r < inner) {
-            *sample = Polar { p: 0.0, opening: (inner - sample.r).powf(1.5), hole: true, ..*sample };
+        let mut fields = spot(spacing, |_| 1.0);
+        for index in 0..fields.grid.len() {
+            let [r, _] = polar(&fields.grid, spacing, index);
+            if r < inner {
+                (fields.pressure[index], fields.hole[index]) = (0.0, true);
+                fields.gap[index] = (inner - r).powf(1.5) / 0.75;
+            }
         }
-        let boundary = located(&samples, spacing).unwrap();
+        let boundary = located(&fields, spacing).unwrap();
         assert!((boundary.mean_hole_radius() / inner - 1.0).abs() < 2e-3, "{}", boundary.mean_hole_radius());
         let exact = PI * (1.0 - inner * inner);
         assert!((boundary.area() / exact - 1.0).abs() < 2e-3, "{}", boundary.area() / exact);

@@ -1,0 +1,178 @@
+//! The samples beside a rim, by sectors of the angle.
+//!
+//! They are found once for all rounds of a fit, with a margin over which the rim may move.
+
+use super::fit::Rim;
+use super::spot::{Sample, Scale, Spot};
+use crate::numeric::closed_line::{ANGLES, angle, mean_radius, waves_into};
+use std::f64::consts::TAU;
+
+/// How far a rim may move before its samples are found anew, in spacings.
+const MARGIN: f64 = 2.0;
+/// Most angles of a sector.
+const WIDEST: usize = 5;
+/// Waves of products of series of twelve harmonics.
+const WAVES: usize = 1 + 4 * 12;
+
+/// A sample beside a rim.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Point {
+    /// Distance from the axis, a length.
+    pub r: f64,
+    /// The index of the angle before it, and the part of the way to the next one.
+    pub angle: u32,
+    pub part: f64,
+    /// Its pressure, or 3E*g/4 where it is open.
+    pub value: f64,
+}
+
+/// Samples near the rim `radii` of a spot.
+pub struct Beside<'a> {
+    spot: &'a Spot<'a>,
+    scale: &'a Scale<'a>,
+    rim: Rim,
+    reach: f64,
+    radii: Vec<f64>,
+    /// Angles of a sector: one, or several where a contact has few samples around it.
+    width: usize,
+    /// Waves of the middle of each sector.
+    waves: Vec<[f64; WAVES]>,
+    /// Where the samples of each sector begin: those in contact, then those that are open.
+    starts: Vec<usize>,
+    points: Vec<Point>,
+    /// Whether a sample lies in contact beyond all that is near.
+    astray: bool,
+}
+
+impl<'a> Beside<'a> {
+    /// The samples nearer than `reach` to the rim `radii`.
+    pub fn new(spot: &'a Spot<'a>, scale: &'a Scale<'a>, rim: Rim, reach: f64, radii: &[f64]) -> Self {
+        let around = TAU * scale.resolution(mean_radius(radii));
+        let width = ((ANGLES as f64 / around) as usize).clamp(1, WIDEST);
+        let waves = (0..ANGLES / width).map(|sector| {
+            let mut waves = [0.0; WAVES];
+            waves_into(angle(width * sector) + 0.5 * width as f64 * TAU / ANGLES as f64, &mut waves);
+            waves
+        });
+        let mut beside = Self {
+            spot,
+            scale,
+            rim,
+            reach,
+            radii: radii.to_vec(),
+            width,
+            waves: waves.collect(),
+            starts: Vec::new(),
+            points: Vec::new(),
+            astray: false,
+        };
+        beside.find();
+        beside
+    }
+
+    /// Finds the samples beside `radii` where these have moved too far.
+    pub fn follow(&mut self, radii: &[f64]) {
+        let margin = MARGIN * self.scale.spacing;
+        if radii.iter().zip(&self.radii).any(|(now, then)| (now - then).abs() > margin) {
+            self.radii.copy_from_slice(radii);
+            self.find();
+        }
+    }
+
+    /// The rim.
+    pub fn rim(&self) -> Rim {
+        self.rim
+    }
+
+    /// Grid and edge.
+    pub fn scale(&self) -> &'a Scale<'a> {
+        self.scale
+    }
+
+    /// How many samples there are.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Number of sectors.
+    pub fn sectors(&self) -> usize {
+        self.waves.len()
+    }
+
+    /// Waves of the middle of a sector.
+    pub fn waves(&self, sector: usize) -> &[f64] {
+        &self.waves[sector]
+    }
+
+    /// The index of the angle in the middle of a sector.
+    pub fn middle(&self, sector: usize) -> usize {
+        sector * self.width + self.width / 2
+    }
+
+    /// Samples of a sector: those in contact, or those that are open.
+    pub fn points(&self, sector: usize, open: bool) -> &[Point] {
+        let own = 2 * sector + usize::from(open);
+        &self.points[self.starts[own]..self.starts[own + 1]]
+    }
+
+    /// How far a sample lies outside the rim `radii`, a length: of a hole where contact is.
+    pub fn distance(&self, point: &Point, radii: &[f64]) -> f64 {
+        let k = point.angle as usize;
+        let [radius, next] = [radii[k], radii[if k + 1 == ANGLES { 0 } else { k + 1 }]];
+        self.rim.sign() * (point.r - radius - point.part * (next - radius))
+    }
+
+    /// Whether a sample lies on the wrong side of the rim `radii`, by more than a spacing.
+    pub fn is_astray(&self, radii: &[f64]) -> bool {
+        let wrong = |sector: usize, open: bool| {
+            let sign = if open { -1.0 } else { 1.0 };
+            self.points(sector, open).iter().any(|point| sign * self.distance(point, radii) > self.scale.spacing)
+        };
+        self.astray || (0..self.sectors()).any(|sector| wrong(sector, false) || wrong(sector, true))
+    }
+
+    fn find(&mut self) {
+        let beside = &*self;
+        let Self { spot, scale, rim, ref radii, .. } = *beside;
+        let near = self.reach + MARGIN * scale.spacing;
+        let [least, most] =
+            radii.iter().fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], &radius| [a.min(radius), b.max(radius)]);
+        let distances = match rim {
+            Rim::Outer => [(least - near).max(0.0), (most + near).max(spot.farthest() + scale.spacing)],
+            Rim::Hole => [0.0, most + near],
+        };
+        type Found = (Vec<(u32, Point)>, bool);
+        let found: Vec<Found> = spot.taken(distances, |(points, astray): &mut Found, index, [x, y], sample| {
+            let open = match sample {
+                Sample::Contact => false,
+                Sample::Open if rim == Rim::Outer => true,
+                Sample::Hole if rim == Rim::Hole => true,
+                _ => return,
+            };
+            let r = (x * x + y * y).sqrt();
+            let turned = y.atan2(x) * (ANGLES as f64 / TAU);
+            let place = if turned < 0.0 { turned + ANGLES as f64 } else { turned };
+            // Rounding may have made a full angle of it.
+            let angle = (place as u32).min(ANGLES as u32 - 1);
+            let mut point = Point { r, angle, part: place - f64::from(angle), value: 0.0 };
+            let distance = beside.distance(&point, &beside.radii);
+            if distance.abs() < near {
+                point.value = if open { scale.opening(index) } else { scale.pressure[index] };
+                points.push((2 * (angle / beside.width as u32) + u32::from(open), point));
+            } else {
+                *astray |= !open && distance > 0.0;
+            }
+        });
+        let mut starts = vec![0; 2 * self.sectors() + 1];
+        found.iter().flat_map(|(points, _)| points).for_each(|(side, _)| starts[*side as usize + 1] += 1);
+        (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
+        let mut next = starts.clone();
+        let mut points = vec![Point::default(); starts[2 * self.sectors()]];
+        for (side, point) in found.iter().flat_map(|(points, _)| points) {
+            points[next[*side as usize]] = *point;
+            next[*side as usize] += 1;
+        }
+        self.astray = found.iter().any(|(_, astray)| *astray);
+        (self.starts, self.points) = (starts, points);
+    }
+}

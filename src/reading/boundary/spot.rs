@@ -1,0 +1,142 @@
+//! A contact spot on its grid, seen from an axis.
+
+use crate::lattice::runs::{Run, annulus, samples};
+use crate::lattice::{Grid, Reduced};
+use crate::reading::edge::Edge;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Distance from the edge, in spacings, over which the weight of a sample rises from zero to one.
+pub(super) const RISE: f64 = 2.5;
+/// Distance from the edge, in spacings, from which on samples are looked at.
+pub(super) const NEAREST: f64 = 0.3;
+
+/// Rows that are taken together.
+const ROWS: usize = 64;
+
+/// What a sample is to a spot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sample {
+    /// In contact, of this spot.
+    Contact,
+    /// Open, outside this spot and nearer to it than to others.
+    Open,
+    /// Open, enclosed by this spot.
+    Hole,
+    /// Of another spot, or beside another one.
+    Other,
+}
+
+/// A contact spot and what is around it.
+pub struct Spot<'a> {
+    grid: &'a Grid,
+    reduced: Reduced,
+    /// Half of the shortest lattice vector: nobody nearer to the axis is nearer to one of its images.
+    alone: f64,
+    /// The axis, lengths.
+    centre: [f64; 2],
+    /// Distance of the farthest sample in contact.
+    farthest: f64,
+    what: &'a (dyn Fn(usize) -> Sample + Sync),
+}
+
+impl<'a> Spot<'a> {
+    /// The spot around a `centre` (lengths), whose samples in contact are not farther from it than `farthest`; `what` a sample is
+    /// to it is said by its flat index.
+    pub fn new(grid: &'a Grid, centre: [f64; 2], farthest: f64, what: &'a (dyn Fn(usize) -> Sample + Sync)) -> Self {
+        let reduced = grid.cell().reduced();
+        let [x, y] = reduced.short();
+        Self { grid, reduced, alone: 0.499 * x.hypot(y), centre, farthest, what }
+    }
+
+    /// Whether it has no samples that an image of its axis is nearer to.
+    pub fn stands_alone(&self) -> bool {
+        self.farthest < self.alone
+    }
+
+    /// Distance of the farthest sample in contact from the axis, a length.
+    pub fn farthest(&self) -> f64 {
+        self.farthest
+    }
+
+    /// What a sample `offset` from the axis (lengths) is: of the images of the axis the nearest one counts.
+    fn what(&self, index: usize, offset: [f64; 2]) -> Sample {
+        let [x, y] = offset;
+        if x * x + y * y > self.alone * self.alone {
+            let [own_x, own_y] = self.reduced.nearest(self.grid.cell().fractions(offset));
+            if (own_x - x).abs().max((own_y - y).abs()) > 1e-6 * self.alone {
+                return Sample::Other;
+            }
+        }
+        (self.what)(index)
+    }
+
+    /// What the sample nearest to a place is, `offset` from the axis.
+    pub fn at(&self, offset: [f64; 2]) -> Sample {
+        let [n1, n2] = self.grid.points();
+        let place = [self.centre[0] + offset[0], self.centre[1] + offset[1]];
+        let [s, t] = self.grid.cell().fractions(place);
+        let (row, column) = ((s * n1 as f64).round() as i64, (t * n2 as f64).round() as i64);
+        let index = row.rem_euclid(n1 as i64) as usize * n2 + column.rem_euclid(n2 as i64) as usize;
+        self.what(index, offset)
+    }
+
+    /// Of the samples at distances from the axis of at least `from` and less than `to`: `taken` of each block of rows, in
+    /// their order. It takes the flat index of a sample, its place from the axis and what it is.
+    pub fn taken<T: Send + Default>(
+        &self,
+        distances: [f64; 2],
+        take: impl Fn(&mut T, usize, [f64; 2], Sample) + Sync,
+    ) -> Vec<T> {
+        let runs = annulus(self.grid, self.centre, distances);
+        let of_block = |runs: &[Run]| {
+            let mut taken = T::default();
+            for (index, offset) in samples(self.grid, runs, self.centre) {
+                take(&mut taken, index, offset, self.what(index, offset));
+            }
+            taken
+        };
+        runs.par_chunks(ROWS).map(of_block).collect()
+    }
+}
+
+/// The fields of a contact, its grid and the edge of its body.
+#[derive(Debug, Clone, Copy)]
+pub struct Scale<'a> {
+    /// Area for which a sample stands.
+    pub sample_area: f64,
+    /// Largest distance of neighbours, a length.
+    pub spacing: f64,
+    /// Pressure, sample by sample.
+    pub pressure: &'a [f64],
+    /// Gap, sample by sample, lengths.
+    pub gap: &'a [f64],
+    /// Contact modulus of the surface material.
+    pub modulus: f64,
+    /// The edge on the half-space, at [`Scale::distances`].
+    pub edge: &'a Edge,
+}
+
+impl Scale<'_> {
+    /// The least and the largest distance from an edge that boundaries on a grid look at, lengths.
+    pub fn distances(grid: &Grid) -> [f64; 2] {
+        let most = (grid.len() as f64 / PI).sqrt();
+        [0.5 * NEAREST, RISE + most.max(1.0).sqrt()].map(|distance| distance * grid.spacing())
+    }
+
+    /// Samples along a radius.
+    pub(super) fn resolution(&self, radius: f64) -> f64 {
+        radius / self.sample_area.sqrt()
+    }
+
+    /// Reach of a fit around a boundary of `radius`.
+    pub(super) fn reach(&self, radius: f64) -> f64 {
+        let resolution = self.resolution(radius);
+        (RISE + resolution.sqrt()).min(0.6 * resolution) * self.spacing
+    }
+
+    /// 3E*g/4 at a sample: a pressure times a length.
+    pub(super) fn opening(&self, index: usize) -> f64 {
+        0.75 * self.modulus * self.gap[index].max(0.0)
+    }
+}
