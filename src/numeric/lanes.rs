@@ -192,6 +192,23 @@ fn padded<T: Real>(row: &[T], at: usize, beyond: T) -> [T; LANES] {
     group
 }
 
+/// Whether all numbers are zero.
+#[inline(always)]
+pub fn all_zero<S: Simd, T: Real>(simd: S, numbers: &[T]) -> bool {
+    let (zero, whole) = (T::Wide::<S>::simd_from(simd, T::zero()), numbers.len() / T::WIDTH * T::WIDTH);
+    for wide in numbers[..whole].chunks_exact(T::WIDTH) {
+        if T::Wide::<S>::from_slice(simd, wide).simd_eq(zero).any_false() {
+            return false;
+        }
+    }
+    for number in &numbers[whole..] {
+        if *number != T::zero() {
+            return false;
+        }
+    }
+    true
+}
+
 /// Σ over eight lanes, always in the same order.
 #[inline(always)]
 pub fn total<S: Simd>(lanes: f64x8<S>) -> f64 {
