@@ -11,6 +11,9 @@ use rustfft::FftNum;
 /// Numbers of a group.
 pub const LANES: usize = 8;
 
+/// Numbers that are passed over at once where they are [all zero](all_zero): four lines of the cache in single precision.
+pub const RUN: usize = 64;
+
 /// Runs an expression with the vector instructions of this processor.
 macro_rules! vectorised {
     ($simd:ident => $operation:expr) => {
