@@ -41,8 +41,8 @@ impl Interpolation {
     }
 }
 
-/// Periodic interpolation of a field from one grid of a cell to another, and a function of every value; exact where
-/// samples coincide.
+/// Periodic interpolation of a field from one grid of a cell to another, and a function of every positive value, 0
+/// elsewhere; exact where samples coincide.
 pub(crate) fn resampled(
     field: &[f64],
     from: [usize; 2],
@@ -51,8 +51,10 @@ pub(crate) fn resampled(
     value: impl Fn(f64) -> f64 + Sync,
 ) -> Vec<f64> {
     if from == to {
-        return field.par_iter().with_min_len(BLOCK).map(|&x| value(x)).collect();
+        return field.par_iter().with_min_len(BLOCK).map(|&x| if x > 0.0 { value(x) } else { 0.0 }).collect();
     }
+    let any_positive = |row: &[f64]| row.iter().any(|&x| x > 0.0);
+    let positive: Vec<bool> = field.par_chunks(from[1]).map(any_positive).collect();
     let place = |index: usize, axis: usize| {
         let (before, rest) = (index * from[axis] / to[axis], index * from[axis] % to[axis]);
         (before, (before + 1) % from[axis], rest as f64 / to[axis] as f64)
@@ -61,9 +63,16 @@ pub(crate) fn resampled(
     let mut result = vec![0.0; to[0] * to[1]];
     rows::each(to[1], result.par_chunks_mut(to[1]), |i, row| {
         let (low, high, s) = place(i, 0);
+        if !(positive[low] || positive[high]) {
+            return;
+        }
         let [low, high] = [low, high].map(|row| &field[row * from[1]..][..from[1]]);
         for (to, &(left, right, t)) in row.iter_mut().zip(&columns) {
-            *to = value(interpolation.between([low[left], low[right], high[left], high[right]], s, t));
+            let corners = [low[left], low[right], high[left], high[right]];
+            if corners[0] > 0.0 || corners[1] > 0.0 || corners[2] > 0.0 || corners[3] > 0.0 {
+                let between = interpolation.between(corners, s, t);
+                *to = if between > 0.0 { value(between) } else { 0.0 };
+            }
         }
     });
     result

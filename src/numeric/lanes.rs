@@ -11,6 +11,9 @@ use rustfft::FftNum;
 /// Numbers of a group.
 pub const LANES: usize = 8;
 
+/// Numbers that are passed over at once where they are [all zero](all_zero): four lines of the cache in single precision.
+pub const RUN: usize = 64;
+
 /// Runs an expression with the vector instructions of this processor.
 macro_rules! vectorised {
     ($simd:ident => $operation:expr) => {
@@ -88,7 +91,10 @@ impl Real for f64 {
 
     #[inline(always)]
     fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S> {
-        f64x8::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES])
+        match row.get(at..at + LANES) {
+            Some(whole) => f64x8::from_slice(simd, whole),
+            None => f64x8::from_slice(simd, &padded(row, at, beyond)),
+        }
     }
 
     #[inline(always)]
@@ -134,7 +140,11 @@ impl Real for f32 {
 
     #[inline(always)]
     fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S> {
-        let (low, high) = f32x8::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES]).widen();
+        let (low, high) = match row.get(at..at + LANES) {
+            Some(whole) => f32x8::from_slice(simd, whole),
+            None => f32x8::from_slice(simd, &padded(row, at, beyond)),
+        }
+        .widen();
         low.combine(high)
     }
 
@@ -169,20 +179,37 @@ fn transposed<S: Simd, V: SimdFloat<S>, const N: usize>(mut vectors: [V; N]) -> 
 /// A group of a row in the row's own precision; what lies beyond its end is `beyond`.
 #[inline(always)]
 pub fn own_group<S: Simd, T: Real>(simd: S, row: &[T], at: usize, beyond: T) -> T::Lanes<S> {
-    T::Lanes::<S>::from_slice(simd, &padded(row, at, beyond, &mut [beyond; LANES])[..LANES])
+    match row.get(at..at + LANES) {
+        Some(whole) => T::Lanes::<S>::from_slice(simd, whole),
+        None => T::Lanes::<S>::from_slice(simd, &padded(row, at, beyond)),
+    }
 }
 
-/// Eight numbers from `at` on: of the row, or of `end` where the row ends before.
+/// The last numbers of a row, from `at` on, and what lies beyond. A function of its own, so that loops over whole groups
+/// prepare nothing for it.
+#[cold]
+#[inline(never)]
+fn padded<T: Real>(row: &[T], at: usize, beyond: T) -> [T; LANES] {
+    let mut group = [beyond; LANES];
+    group[..row.len() - at].copy_from_slice(&row[at..]);
+    group
+}
+
+/// Whether all numbers are zero.
 #[inline(always)]
-fn padded<'a, T: Real>(row: &'a [T], at: usize, beyond: T, end: &'a mut [T; LANES]) -> &'a [T] {
-    match row.get(at..at + LANES) {
-        Some(whole) => whole,
-        None => {
-            *end = [beyond; LANES];
-            end[..row.len() - at].copy_from_slice(&row[at..]);
-            &end[..]
+pub fn all_zero<S: Simd, T: Real>(simd: S, numbers: &[T]) -> bool {
+    let (zero, whole) = (T::Wide::<S>::simd_from(simd, T::zero()), numbers.len() / T::WIDTH * T::WIDTH);
+    for wide in numbers[..whole].chunks_exact(T::WIDTH) {
+        if T::Wide::<S>::from_slice(simd, wide).simd_eq(zero).any_false() {
+            return false;
         }
     }
+    for number in &numbers[whole..] {
+        if *number != T::zero() {
+            return false;
+        }
+    }
+    true
 }
 
 /// Σ over eight lanes, always in the same order.

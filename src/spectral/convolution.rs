@@ -8,6 +8,7 @@
 //! rows and columns the components stand in tiles, [tile][row][real parts, imaginary parts], where columns are transformed
 //! in place. A part of the rows has a run of lines in every tile; only the thread that transforms these rows writes there. Work is split into fixed
 //! parts: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
+//! Groups of rows that are zero, and groups that nobody looks at ([`Convolved::some_rows`]), are not transformed.
 //! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Convolution::convolve`],
 //! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.
 //! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Convolution::multiplier`] puts it into K.
@@ -192,6 +193,17 @@ impl<T: Real> Convolved<'_, T> {
     where
         S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
     {
+        self.some_rows(|_| true, sinks);
+    }
+
+    /// The same where only the rows that are `looked_at` matter; others may come as zeros.
+    ///
+    /// # Panics
+    /// When there are not as many sinks as parts.
+    pub fn some_rows<S>(self, looked_at: impl Fn(usize) -> bool + Sync, sinks: S)
+    where
+        S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
+    {
         let (Self { convolution, spectrum }, sinks) = (self, sinks.into_par_iter());
         let (parts, [n1, _]) = (convolution.parts, convolution.points());
         assert_eq!(sinks.len(), parts.count(), "sinks of a convolution");
@@ -200,8 +212,13 @@ impl<T: Real> Convolved<'_, T> {
             let run = first * line::<T>()..last * line::<T>();
             let mut buffers = convolution.rows.buffers();
             for lines in convolution.groups(run.len()) {
+                let (count, before) = (lines.len() / line::<T>(), first + lines.start / line::<T>());
+                if !(before..before + count).any(&looked_at) {
+                    convolution.rows.blank(count, &mut buffers, &mut sink);
+                    continue;
+                }
                 let tiles = spectrum.chunks_exact(convolution.tile()).map(|tile| &tile[run.clone()][lines.clone()]);
-                convolution.rows.back(lines.len() / line::<T>(), tiles, &mut buffers, &mut sink);
+                convolution.rows.back(count, tiles, &mut buffers, &mut sink);
             }
         });
     }
@@ -277,6 +294,35 @@ mod tests {
         let back: f64 = field.iter().enumerate().map(|(k, u)| (u.wide() - at(k / n2, k % n2)).abs()).sum();
         // Means, which a number that is none spoils.
         [there, back].map(|sum| sum / (n1 * n2) as f64)
+    }
+
+    /// Rows of zeros, and rows that nobody looks at, whole groups of them or not.
+    #[test]
+    fn rows_that_are_left_out_change_no_other() {
+        let [n1, n2] = [150, 36];
+        let convolution = Convolution::<f32>::new([n1, n2]);
+        let parts = convolution.parts();
+        let multiplier = convolution.multiplier(false, |[k1, k2]| 1.0 / (1 + k1.min(n1 - k1) + k2) as f64);
+        let looked_at = |row: usize| (20..45).contains(&row) || row == 140;
+        let input: Vec<f32> = noise(n1 * n2).into_iter().map(|x| x as f32).collect();
+        // Where rows are next to nothing each of them is transformed.
+        let padded = |padding: f32| -> Vec<f32> {
+            let rows = input.chunks(n2).enumerate();
+            rows.flat_map(|(row, samples)| samples.iter().map(move |&x| if looked_at(row) { x } else { padding }))
+                .collect()
+        };
+        let mut room = vec![0.0; convolution.room()];
+        let mut convolve = |field: &[f32], looked_at: &(dyn Fn(usize) -> bool + Sync)| {
+            let mut result = vec![0.0; n1 * n2];
+            let convolved = convolution.convolve(Action::Over(1.0), &multiplier, &mut room, rows_of(parts, field));
+            convolved.some_rows(looked_at, rows_to(parts, &mut result));
+            result
+        };
+        let (some, all) = (convolve(&padded(0.0), &looked_at), convolve(&padded(1e-30), &|_| true));
+        for row in (0..n1).filter(|&row| looked_at(row)) {
+            assert_eq!(some[row * n2..][..n2], all[row * n2..][..n2], "row {row}");
+        }
+        assert_eq!(some[80 * n2..][..n2], [0.0; 36], "nobody looks at row 80");
     }
 
     #[test]

@@ -23,22 +23,26 @@ const WIDTH: usize = 16;
 /// Samples that the smoothing reaches each way.
 const REACH: usize = WIDTH - 1;
 
-/// Rows of E (r − mean) for a residual r on I (exactly 0 outside), by parts; `weight` becomes W outside and 0 on I.
+/// Rows of E (r − mean) for a residual r on I (exactly 0 outside), by parts; `weight` becomes W outside and 0 on I, and
+/// `reached` says which rows have any of I or W.
 pub(super) fn extended<'a>(
     parts: Parts,
     residual: &'a [f32],
     mean: f32,
     weight: &'a mut [f32],
+    reached: &'a mut [bool],
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
     let [_, columns] = parts.points();
-    parts.of(residual).zip(parts.of_mut(weight)).enumerate().map(move |(part, (own, weight))| {
+    let fields = parts.of(residual).zip(parts.of_mut(weight)).zip(reached.par_chunks_mut(parts.rows()));
+    fields.enumerate().map(move |(part, ((own, weight), reached))| {
         let mut sums = Triangles::new(parts, part, residual, Inside { mean });
         let [mut near, mut share] = [(); 2].map(|()| Line::new(columns));
-        let mut rows = own.zip(weight);
+        let mut rows = own.zip(weight).zip(reached);
         move |row: &mut [f32]| {
-            let (residual, weight) = next(&mut rows);
+            let ((residual, weight), reached) = next(&mut rows);
             let [sum, count] = sums.next();
-            if count.iter().all(|&count| count == 0.0) {
+            *reached = count.iter().any(|&count| count != 0.0);
+            if !*reached {
                 row.fill(0.0);
                 weight.fill(0.0);
                 return;
@@ -264,7 +268,7 @@ mod tests {
             let other: Vec<f32> = (0..size).map(|k| noise(k + 77)).collect();
             let [mut extension, mut weight, mut image] = [(); 3].map(|()| vec![0.0; size]);
             let parts = Parts::new([n1, n2]);
-            extended(parts, &residual, mean, &mut weight)
+            extended(parts, &residual, mean, &mut weight, &mut vec![false; n1])
                 .zip(extension.par_chunks_mut(parts.rows() * n2))
                 .for_each(|(mut source, rows)| rows.chunks_mut(n2).for_each(&mut source));
             let outside = (0..size).filter(|&k| !inside(k) && extension[k] != 0.0).count();

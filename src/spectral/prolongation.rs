@@ -16,7 +16,7 @@ use rayon::prelude::*;
 /// material at the surface.
 pub(super) fn prolonged(grid: &Grid, pressure: &[f64], gap: &[f64], modulus: f64, points: [usize; 2]) -> Vec<f64> {
     let s = smooth_square(grid, pressure, gap, modulus);
-    resampled(&s, grid.points(), points, Interpolation::on(grid.cell()), |s| s.max(0.0).sqrt())
+    resampled(&s, grid.points(), points, Interpolation::on(grid.cell()), f64::sqrt)
 }
 
 /// s, one value per sample; outside it is right next to contact, and negative elsewhere.

@@ -142,8 +142,11 @@ impl Solver {
         // its pressure for the next.
         let mut left_out = Vec::new();
         // What every grid works on in turn; others may have the memory between load steps.
-        let mut working = Working::default();
         let Self { nests, settings, .. } = self;
+        let mut working = match settings.method {
+            Method::Preconditioned => Working::of_finest(&nests[0].operator),
+            Method::PolonskyKeer => Working::default(),
+        };
         for (index, nest) in nests.iter_mut().enumerate().skip(1).rev() {
             let before = nest.unknowns.clone();
             let (report, work) =
@@ -247,7 +250,6 @@ impl Nest {
         let carried =
             |Unknowns { pressure, gap, .. }: &Unknowns| prolonged(&coarser.grid, pressure, gap, self.modulus, points);
         let after = carried(&coarser.after);
-        let highest = -sums::least(after.len(), |i| -after[i]);
         if coarser.before.pressure.iter().all(|&p| p == 0.0) {
             self.unknowns.pressure = Arc::new(after);
             return;
@@ -255,7 +257,7 @@ impl Nest {
         let before = carried(&coarser.before);
         // A change below the tolerance is none: it would leave traces of pressure around the contact, which no
         // iteration takes away again where none is needed.
-        let least = tolerance * highest;
+        let least = -tolerance * sums::least(after.len(), |i| -after[i]);
         let pressure = Arc::make_mut(&mut self.unknowns.pressure);
         sums::update(pressure, |i, p| {
             let rise = after[i] - before[i];

@@ -10,7 +10,7 @@
 
 use super::columns::{Columns, line};
 use crate::numeric::aligned::Aligned;
-use crate::numeric::lanes::{Real, vectorised};
+use crate::numeric::lanes::{Real, all_zero, vectorised};
 use fearless_simd::prelude::*;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::num_complex::Complex;
@@ -81,7 +81,7 @@ impl<T: Real> Rows<T> {
     }
 
     /// The rows of a group, at most a tile's width of them, filled in one after the other by `source`, to the lines of their
-    /// tiles.
+    /// tiles. Where all samples are zero, so are the components, without a transform.
     pub fn forward<'a>(
         &self,
         count: usize,
@@ -92,6 +92,10 @@ impl<T: Real> Rows<T> {
         let Buffers { samples, pairs, components, scratch } = buffers;
         let rows = samples.chunks_exact_mut(self.stride()).take(count);
         rows.for_each(|row| source(&mut row[..self.len]));
+        if vectorised!(simd => all_zero(simd, &samples[..count * self.stride()])) {
+            tiles.for_each(|lines| lines.fill(T::zero()));
+            return;
+        }
         match &self.way {
             Way::Paired { halves, places, turns } => {
                 vectorised!(simd => paired(simd, samples, pairs));
@@ -144,6 +148,14 @@ impl<T: Real> Rows<T> {
         }
         let rows = samples.chunks_exact_mut(self.stride()).take(count);
         rows.for_each(|row| sink(&mut row[..self.len]));
+    }
+
+    /// Zeros for the rows of a group that nobody looks at.
+    pub fn blank(&self, count: usize, buffers: &mut Buffers<T>, sink: &mut impl FnMut(&mut [T])) {
+        for row in buffers.samples.chunks_exact_mut(self.stride()).take(count) {
+            row.fill(T::zero());
+            sink(&mut row[..self.len]);
+        }
     }
 
     /// A row of the group that has come [back](Self::back) last.

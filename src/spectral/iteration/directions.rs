@@ -1,6 +1,6 @@
 //! From the residual to the direction t and C t: what is done to the fields on their way through the convolutions.
 
-use crate::numeric::lanes::{LANES, Real, splat, total, vectorised};
+use crate::numeric::lanes::{LANES, RUN, Real, all_zero, splat, total, vectorised};
 use crate::numeric::rows::{Parts, Totals, next};
 use crate::spectral::extension;
 use fearless_simd::prelude::*;
@@ -46,7 +46,7 @@ pub(super) fn centred(
     })
 }
 
-/// z, the image and what is gathered of `weight`, on the active set, left in `image`; its sums with r, r′ and t′.
+/// z, the image and what is gathered of `weight`, on the active set, left in `image` there; its sums with r, r′ and t′.
 pub(super) fn overlap(
     parts: Parts,
     [residual, previous, direction]: [&[f32]; 3],
@@ -79,19 +79,26 @@ fn overlaps<S: Simd>(
     let (zero, one) = (splat(simd, 0.0), splat(simd, 1.0));
     let (mut sum, mut with_residual, mut before, mut sum_before) = (zero, zero, zero, zero);
     let (mut before_here, mut common, mut last_direction) = (zero, zero, zero);
-    for at in (0..residual.len()).step_by(LANES) {
-        let (r, last) = (f32::group(simd, residual, at, 0.0), f32::group(simd, previous, at, 0.0));
-        let (outside, left) = (r.simd_eq(zero), last.simd_eq(zero));
-        let z = f32::group(simd, image, at, 0.0) + f32::group(simd, gathered, at, 0.0);
-        let z = outside.select(zero, z);
-        Real::put(z, image, at);
-        sum += z;
-        with_residual = r.mul_add(z, with_residual);
-        before = last.mul_add(z, before);
-        sum_before += left.select(zero, z);
-        before_here += outside.select(zero, last);
-        common += (outside | left).select(zero, one);
-        last_direction += outside.select(zero, f32::group(simd, direction, at, 0.0));
+    for run in (0..residual.len()).step_by(RUN) {
+        let end = residual.len().min(run + RUN);
+        // Nothing is added, and nobody looks at z outside.
+        if all_zero(simd, &residual[run..end]) {
+            continue;
+        }
+        for at in (run..end).step_by(LANES) {
+            let (r, last) = (f32::group(simd, residual, at, 0.0), f32::group(simd, previous, at, 0.0));
+            let (outside, left) = (r.simd_eq(zero), last.simd_eq(zero));
+            let z = f32::group(simd, image, at, 0.0) + f32::group(simd, gathered, at, 0.0);
+            let z = outside.select(zero, z);
+            Real::put(z, image, at);
+            sum += z;
+            with_residual = r.mul_add(z, with_residual);
+            before = last.mul_add(z, before);
+            sum_before += left.select(zero, z);
+            before_here += outside.select(zero, last);
+            common += (outside | left).select(zero, one);
+            last_direction += outside.select(zero, f32::group(simd, direction, at, 0.0));
+        }
     }
     let lanes = [sum, with_residual, before, sum_before, before_here, common, last_direction];
     let mut sums = [0.0; 7];
@@ -131,15 +138,23 @@ fn turn<S: Simd>(
 ) -> Totals<1, 0> {
     let zero = splat(simd, 0.0);
     let mut descent = zero;
-    for at in (0..residual.len()).step_by(LANES) {
-        let r = f32::group(simd, residual, at, 0.0);
-        let z = f32::group(simd, image, at, 0.0) - mean;
-        // What is left of the last step means nothing in a first one.
-        let t = if beta > 0.0 { f32::group(simd, direction, at, 0.0).mul_add(splat(simd, beta), z) } else { z };
-        let t = r.simd_eq(zero).select(zero, t);
-        descent = r.mul_add(t, descent);
-        Real::put(t, direction, at);
-        Real::put(t, row, at);
+    for run in (0..residual.len()).step_by(RUN) {
+        let end = residual.len().min(run + RUN);
+        if all_zero(simd, &residual[run..end]) {
+            direction[run..end].fill(0.0);
+            row[run..end].fill(0.0);
+            continue;
+        }
+        for at in (run..end).step_by(LANES) {
+            let r = f32::group(simd, residual, at, 0.0);
+            let z = f32::group(simd, image, at, 0.0) - mean;
+            // What is left of the last step means nothing in a first one.
+            let t = if beta > 0.0 { f32::group(simd, direction, at, 0.0).mul_add(splat(simd, beta), z) } else { z };
+            let t = r.simd_eq(zero).select(zero, t);
+            descent = r.mul_add(t, descent);
+            Real::put(t, direction, at);
+            Real::put(t, row, at);
+        }
     }
     Totals { sums: [total(descent)], least: [] }
 }

@@ -206,8 +206,10 @@ impl Way {
         let Fields { residual, previous, direction, image, weight, room, .. } = problem.working.of(operator, double);
         let weight = match self.beyond {
             Beyond::Continued => {
-                let rows = extension::extended(parts, residual, mean as f32, weight);
-                operator.pressed_single(room, rows).rows(extension::gathered(parts, image, weight));
+                let mut reached = vec![false; parts.points()[0]];
+                let rows = extension::extended(parts, residual, mean as f32, weight, &mut reached);
+                let convolved = operator.pressed_single(room, rows);
+                convolved.some_rows(|row| reached[row], extension::gathered(parts, image, weight));
                 Some(&*weight)
             }
             Beyond::Zero => {

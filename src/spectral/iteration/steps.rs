@@ -1,6 +1,6 @@
 //! Steps of the pressure along a direction: taken, scaled, taken back, and what they do to load and gap.
 
-use crate::numeric::lanes::{LANES, Real, lowest, splat, total, vectorised};
+use crate::numeric::lanes::{LANES, RUN, Real, all_zero, lowest, splat, total, vectorised};
 use crate::numeric::rows::{Parts, Totals, each, next, sweep};
 use crate::numeric::sums::BLOCK;
 use fearless_simd::{f64x8, prelude::*};
@@ -54,21 +54,28 @@ fn advanced<S: Simd>(
 ) -> Totals<3, 1> {
     let zero = splat(simd, 0.0);
     let (mut load, mut slope, mut work, mut lowest_end) = (zero, zero, zero, zero);
-    for at in (0..p.len()).step_by(LANES) {
-        let pressure = f64::group(simd, p, at, 0.0);
-        // As it will be stored: what is taken back later is what was added (to 6e-8 where p ends at zero).
-        let d = rounded(simd, f32::group(simd, direction, at, 0.0) * factor);
-        let end = d.mul_add(splat(simd, unit), pressure);
-        let short = end.simd_lt(zero);
-        let d = short.select(pressure * (-1.0 / unit), d);
-        let end = end.max(zero);
-        lowest_end = lowest_end.min(short.select(splat(simd, -1.0), zero));
-        let g = f32::group(simd, gap, at, 0.0);
-        load += end;
-        slope = g.mul_add(d, slope);
-        work = end.mul_add(f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g), work);
-        Real::put(end, p, at);
-        Real::put(d, step, at);
+    for run in (0..p.len()).step_by(RUN) {
+        let last = p.len().min(run + RUN);
+        if all_zero(simd, &direction[run..last]) && all_zero(simd, &p[run..last]) {
+            step[run..last].fill(0.0);
+            continue;
+        }
+        for at in (run..last).step_by(LANES) {
+            let pressure = f64::group(simd, p, at, 0.0);
+            // As it will be stored: what is taken back later is what was added (to 6e-8 where p ends at zero).
+            let d = rounded(simd, f32::group(simd, direction, at, 0.0) * factor);
+            let end = d.mul_add(splat(simd, unit), pressure);
+            let short = end.simd_lt(zero);
+            let d = short.select(pressure * (-1.0 / unit), d);
+            let end = end.max(zero);
+            lowest_end = lowest_end.min(short.select(splat(simd, -1.0), zero));
+            let g = f32::group(simd, gap, at, 0.0);
+            load += end;
+            slope = g.mul_add(d, slope);
+            work = end.mul_add(f32::group(simd, image, at, 0.0).mul_add(splat(simd, factor), g), work);
+            Real::put(end, p, at);
+            Real::put(d, step, at);
+        }
     }
     Totals { sums: [total(load), total(slope), total(work)], least: [lowest(lowest_end)] }
 }
@@ -90,13 +97,19 @@ pub(super) fn rescale(p: &mut [f64], scale: f64, unit: f64, step: &mut [f32]) {
 
 #[inline(always)]
 fn rescaled<S: Simd>(simd: S, p: &mut [f64], scale: f64, unit: f64, step: &mut [f32]) {
-    for at in (0..p.len()).step_by(LANES) {
-        let (end, d) = (f64::group(simd, p, at, 0.0), f32::group(simd, step, at, 0.0));
-        let whole = rounded(simd, end.mul_add(splat(simd, (scale - 1.0) / unit), d));
-        let before = end - d * unit;
-        let zero = splat(simd, 0.0);
-        Real::put((before.max(zero) + whole * unit).max(zero), p, at);
-        Real::put(whole, step, at);
+    for run in (0..p.len()).step_by(RUN) {
+        let last = p.len().min(run + RUN);
+        if all_zero(simd, &step[run..last]) && all_zero(simd, &p[run..last]) {
+            continue;
+        }
+        for at in (run..last).step_by(LANES) {
+            let (end, d) = (f64::group(simd, p, at, 0.0), f32::group(simd, step, at, 0.0));
+            let whole = rounded(simd, end.mul_add(splat(simd, (scale - 1.0) / unit), d));
+            let before = end - d * unit;
+            let zero = splat(simd, 0.0);
+            Real::put((before.max(zero) + whole * unit).max(zero), p, at);
+            Real::put(whole, step, at);
+        }
     }
 }
 

@@ -2,7 +2,11 @@
 
 use super::certificate::Certificate;
 use crate::load::Load;
-use crate::numeric::sums;
+use crate::numeric::lanes::{LANES, all_zero, vectorised};
+use crate::numeric::rows::{self, Totals};
+use crate::numeric::sums::{self, BLOCK};
+use fearless_simd::prelude::*;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Unknowns of one grid: pressure in, pressure, gap and what they prove out; all fields one value per sample. A clone shares
@@ -34,10 +38,10 @@ impl Unknowns {
     /// Clips the pressure at zero and, under load control, scales it to the mean; uniform when nothing is left.
     pub(super) fn admit(&mut self, load: Load) {
         let pressure = Arc::make_mut(&mut self.pressure);
-        sums::update(pressure, |_, p| p.max(0.0));
+        let Totals { sums: [sum], least: [] } =
+            rows::sweep(BLOCK, pressure.par_chunks_mut(BLOCK), |_, p| vectorised!(simd => clipped(simd, p)));
         let Load::MeanPressure(mean) = load else { return };
         let total = mean * pressure.len() as f64;
-        let [sum] = sums::of(pressure.len(), |i| [pressure[i]]);
         if sum > 0.0 {
             let scale = total / sum;
             sums::update(pressure, |_, p| scale * p);
@@ -45,4 +49,20 @@ impl Unknowns {
             pressure.fill(mean);
         }
     }
+}
+
+/// p ← max(p, 0); Σ p, sample by sample where there is any.
+#[inline(always)]
+fn clipped<S: Simd>(simd: S, p: &mut [f64]) -> Totals<1, 0> {
+    let mut sum = 0.0;
+    for group in p.chunks_mut(LANES) {
+        if all_zero(simd, group) {
+            continue;
+        }
+        for p in group {
+            *p = p.max(0.0);
+            sum += *p;
+        }
+    }
+    Totals { sums: [sum], least: [] }
 }

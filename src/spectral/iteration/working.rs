@@ -33,6 +33,18 @@ pub(super) struct Fields<'a> {
 }
 
 impl Working {
+    /// For the grid of an `operator` and all coarser ones, taken at once: memory that grows from grid to grid is mapped
+    /// anew each time.
+    pub fn of_finest(operator: &Operator) -> Self {
+        let mut working = Self::default();
+        let samples = operator.shared(&mut working.transforms).1.len();
+        let Self { residual, previous, direction, .. } = &mut working;
+        for field in [residual, previous, direction] {
+            *field = vec![0.0; samples];
+        }
+        working
+    }
+
     /// The fields, with whatever values they have. Some are in the place of what is in double precision and computed
     /// afresh when it is needed again: one in that of a spectrum, two in that of the gap `double`.
     pub(super) fn of<'a>(&'a mut self, operator: &Operator, double: &'a mut [f64]) -> Fields<'a> {
