@@ -1,25 +1,30 @@
 //! percoat as `peers.py` times it: solves, or convolves, whenever a line on standard input says so.
 //!
 //! ```text
-//! peer heights CASE POINTS FILE                              writes heights of benches/shared, prints the mean pressure
-//! peer solve HEIGHTS.npy MEAN_PRESSURE TOLERANCE THREADS     heights on the unit square, E* = 1
-//! peer convolution POINTS THREADS                            the bare half-space, E* = 1
+//! peer heights CASE POINTS FILE                  writes heights of benches/shared, prints the mean pressure
+//! peer solve CASE POINTS TOLERANCE THREADS       the same case: what `percoat solve` does after reading it
+//! peer convolution WHO PRECISION POINTS THREADS  the bare half-space, E* = 1; by percoat or library, double or single
 //! ```
 //!
-//! It answers `ready` with a line, then each line `run` with one of JSON: `setup` (surface, tables, plans) and `seconds`;
-//! of a solution also `iterations`, `convolutions` (as equivalents of the finest grid) and `converged`. `write FILE`
-//! writes the last pressure, or the displacement, as a NumPy file.
+//! It answers `ready` with a line, then each line `run` with one of JSON: `seconds`, of a solution without its `setup` (surface,
+//! tables, plans) and its `readings` (boundaries, areas, spots, all on two coarser grids too for their errors; warnings). Of a
+//! solution also `iterations`, `converged`, `convolutions` (as equivalents of the finest grid in double precision, of which one
+//! in single precision counts half) and `single`, the seconds of one in single precision. `write FILE` writes the last
+//! pressure, or the displacement, as a NumPy file.
 
 mod shared;
 
-use ndarray::Array2;
 use npyz::WriterBuilder;
+use percoat::run::Recorder;
+use percoat::spectral::Checkpoint;
 use percoat::*;
-use shared::{Convolution, ONE_LEVEL, ROUGH, Rough, bare, one_level, solver};
+use rustfft::FftNum;
+use shared::library::Library;
+use shared::{Convolution, ONE_LEVEL, ROUGH, Rough, bare, one_level, rough};
+use std::convert::Infallible;
 use std::error::Error;
 use std::fs::File;
-use std::io::{BufReader, BufWriter, stdin};
-use std::sync::Arc;
+use std::io::{BufWriter, stdin};
 use std::time::Instant;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -28,13 +33,20 @@ fn main() -> Outcome<()> {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| argument != "--bench").collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["heights", case, points, file] => heights(case, points.parse()?, file),
-        ["solve", heights, mean_pressure, tolerance, threads] => {
+        ["solve", case, points, tolerance, threads] => {
             start(threads)?;
-            solve(heights, Load::MeanPressure(mean_pressure.parse()?), tolerance.parse()?)
+            solve(case, points.parse()?, tolerance.parse()?)
         }
-        ["convolution", points, threads] => {
+        ["convolution", who, precision, points, threads] => {
             start(threads)?;
-            convolution(points.parse()?)
+            let n = points.parse()?;
+            match (who, precision) {
+                ("percoat", "double") => convolution(n, Convolution::new(&bare(), n), Convolution::run),
+                ("percoat", "single") => convolution(n, Convolution::new(&bare(), n), Convolution::run_single),
+                ("library", "double") => convolution(n, Library::<f64>::new(n), Library::run),
+                ("library", "single") => convolution(n, Library::<f32>::new(n), Library::run),
+                _ => Err("no such convolution".into()),
+            }
         }
         // `cargo bench` runs every bench.
         [] => {
@@ -49,84 +61,113 @@ fn start(threads: &str) -> Outcome<()> {
     Ok(rayon::ThreadPoolBuilder::new().num_threads(threads.parse()?).build_global()?)
 }
 
+/// A case, and its load.
+fn problem(case: &str, n: usize) -> Outcome<(Problem, Load)> {
+    Ok(match case {
+        "one-level" => (one_level(), ONE_LEVEL),
+        "rough-4-to-64" => (rough(Rough::band(), n), ROUGH),
+        "rough-to-the-grid" => (rough(Rough::down_to_grid(n), n), ROUGH),
+        _ => return Err("no such case".into()),
+    })
+}
+
 fn heights(case: &str, n: usize, file: &str) -> Outcome<()> {
-    let (heights, load) = match case {
-        "one-level" => (-&solver(one_level(), n).surface().initial_gap(), ONE_LEVEL),
-        "rough-4-to-64" => (Rough::band().heights(n), ROUGH),
-        "rough-to-the-grid" => (Rough::down_to_grid(n).heights(n), ROUGH),
-        _ => return Err("no such surface".into()),
-    };
-    let heights: Vec<f64> = heights.iter().copied().collect();
-    write(file, [n, n], &heights)?;
+    let (problem, load) = problem(case, n)?;
+    let surface = Surface::new(problem.counterbody(), [n, n])?;
+    write(file, n, &surface.initial_gap().iter().map(|gap| -gap).collect::<Vec<_>>())?;
     println!("{:e}", load.value());
     Ok(())
 }
 
-fn solve(heights: &str, load: Load, tolerance: f64) -> Outcome<()> {
-    let topography = Topography::new(Cell::square(1.0)?, read(heights)?)?;
-    let points = topography.points();
-    let problem = Arc::new(Problem::new(topography, bare()));
-    let settings = Settings { tolerance, ..Settings::default() };
-    serve(points, || {
-        let began = Instant::now();
-        let mut solver = Solver::new(Arc::clone(&problem), points, settings)?;
-        let setup = began.elapsed().as_secs_f64();
-        let began = Instant::now();
-        let step = solver.solve(load);
-        let seconds = began.elapsed().as_secs_f64();
-        let Report { iterations, stop, .. } = step.report;
+/// When the solver is made, and when the load is solved.
+#[derive(Default)]
+struct Times(Vec<Instant>);
+
+impl Recorder for Times {
+    type Error = Infallible;
+
+    fn begin(&mut self, _solver: &Solver) -> Result<(), Infallible> {
+        self.0.push(Instant::now());
+        Ok(())
+    }
+
+    fn solved(&mut self, _checkpoint: &Checkpoint) -> Result<(), Infallible> {
+        self.0.push(Instant::now());
+        Ok(())
+    }
+}
+
+fn solve(case: &str, n: usize, tolerance: f64) -> Outcome<()> {
+    let (problem, load) = problem(case, n)?;
+    let (convolution, ones) = (Convolution::new(problem.half_space(), n), vec![1.0; n * n]);
+    let mut run = Run::new(problem, vec![load], Sampling::Points([n, n]));
+    run.settings.tolerance = tolerance;
+    let timed_run = |(convolution, field, last): &mut (Convolution, Vec<f32>, Option<Step>)| {
+        *last = None;
+        let (began, mut times) = (Instant::now(), Times::default());
+        let outcome = run.solve(&mut times)?;
+        times.0.push(Instant::now());
+        let [made, solved, ended] = times.0[..] else { return Err("one load on one grid".into()) };
+        let [setup, seconds, readings] = [made - began, solved - made, ended - solved].map(|time| time.as_secs_f64());
+        field.fill(1.0);
+        let single = timed(|| convolution.run_single(field));
+        let step = &outcome.steps[0];
         println!(
-            "{{\"setup\": {setup:e}, \"seconds\": {seconds:e}, \"iterations\": {iterations}, \"convolutions\": {:.2}, \
-             \"converged\": {}}}",
+            "{{\"setup\": {setup:e}, \"seconds\": {seconds:e}, \"readings\": {readings:e}, \"iterations\": {}, \
+             \"convolutions\": {}, \"single\": {single:e}, \"converged\": {}}}",
+            step.report.iterations,
             step.convolutions,
-            stop.solved()
+            step.converged()
         );
-        Ok(step.pressure().iter().copied().collect())
+        *last = outcome.last;
+        Ok(())
+    };
+    serve(n, (convolution, ones, None), timed_run, |(.., last)| {
+        last.as_ref().map_or_else(Vec::new, |step| step.pressure().iter().copied().collect())
     })
 }
 
-fn convolution(n: usize) -> Outcome<()> {
-    let began = Instant::now();
-    let mut convolution = Convolution::new(&bare(), n);
-    let setup = began.elapsed().as_secs_f64();
+fn convolution<C, T: FftNum + Into<f64>>(n: usize, own: C, run: impl Fn(&mut C, &mut [T])) -> Outcome<()> {
     // Any numbers: no bit pattern of them is faster.
-    let pressure: Vec<f64> = (0..n * n).map(|i| ((i * 7919) % 1009) as f64 / 1009.0).collect();
-    let mut displacement = vec![0.0; n * n];
-    serve([n, n], || {
-        let began = Instant::now();
-        convolution.run(&pressure, &mut displacement);
-        println!("{{\"setup\": {setup:e}, \"seconds\": {:e}}}", began.elapsed().as_secs_f64());
-        Ok(displacement.clone())
-    })
+    let pressure: Vec<T> =
+        (0..n * n).map(|i| T::from_f64(((i * 7919) % 1009) as f64 / 1009.0).expect("a number")).collect();
+    let timed_run = |(own, field): &mut (C, Vec<T>)| {
+        field.copy_from_slice(&pressure);
+        println!("{{\"seconds\": {:e}}}", timed(|| run(own, field)));
+        Ok(())
+    };
+    serve(n, (own, pressure.clone()), timed_run, |(_, field)| field.iter().map(|&value| value.into()).collect())
 }
 
-/// Answers the lines of standard input; `run` gives the field to be written, a₂ fastest.
-fn serve(points: [usize; 2], mut run: impl FnMut() -> Outcome<Vec<f64>>) -> Outcome<()> {
+fn timed(run: impl FnOnce()) -> f64 {
+    let began = Instant::now();
+    run();
+    began.elapsed().as_secs_f64()
+}
+
+/// Answers the lines of standard input; `field` gives what is to be written after a run, n × n samples, a₂ fastest.
+fn serve<S>(
+    n: usize,
+    mut state: S,
+    run: impl Fn(&mut S) -> Outcome<()>,
+    field: impl Fn(&S) -> Vec<f64>,
+) -> Outcome<()> {
     println!("ready");
-    let mut field = Vec::new();
     for line in stdin().lines() {
         match line?.split_once(' ') {
             Some(("write", path)) => {
-                write(path, points, &field)?;
+                write(path, n, &field(&state))?;
                 println!("written");
             }
-            _ => field = run()?,
+            _ => run(&mut state)?,
         }
     }
     Ok(())
 }
 
-fn read(path: &str) -> Outcome<Array2<f64>> {
-    let file = npyz::NpyFile::new(BufReader::new(File::open(path)?))?;
-    let shape = file.shape().to_vec();
-    let [n1, n2] = shape[..] else { return Err("heights have two axes".into()) };
-    Ok(Array2::from_shape_vec([n1 as usize, n2 as usize], file.into_vec()?)?)
-}
-
-fn write(path: &str, points: [usize; 2], field: &[f64]) -> Outcome<()> {
-    let shape = points.map(|n| n as u64);
+fn write(path: &str, n: usize, field: &[f64]) -> Outcome<()> {
     let file = BufWriter::new(File::create(path)?);
-    let mut array = npyz::WriteOptions::new().default_dtype().shape(&shape).writer(file).begin_nd()?;
+    let mut array = npyz::WriteOptions::new().default_dtype().shape(&[n as u64; 2]).writer(file).begin_nd()?;
     array.extend(field.iter().copied())?;
     array.finish()?;
     Ok(())

@@ -4,26 +4,42 @@
     python3 benches/peers.py VENV                     # everything; an hour or two on a machine of two cores
     python3 benches/peers.py VENV --quick             # 1024 points, two threads, three rounds
     python3 benches/peers.py VENV --only convolution  # or solve
+    python3 benches/peers.py VENV --avx2              # percoat and MKL without AVX-512
     python3 benches/peers.py VENV --output peers.md   # the tables as Markdown too
 
 VENV is a Python environment; it is made where there is none (CPython 3.10 to 3.12), and what it lacks is installed by pip:
-numpy, scipy, rfgen (for aspher), aspher 0.1.3.post1, tamaas 2.9.0, mkl_fft 2.3.2, pyfftw 0.15.1. ASPHER is compiled from its source twice, with
-its two transforms (pocketfft, FFTW), optimised for this machine; that needs a C++ compiler with OpenMP, CMake, and the
-headers of Eigen 3.4 and of FFTW 3 in both precisions with OpenMP (Debian: g++ cmake libeigen3-dev libfftw3-dev).
+numpy, scipy, rfgen (for aspher), aspher 0.1.3.post1, tamaas 2.9.0, mkl_fft 2.3.2, pyfftw 0.15.1. ASPHER is compiled from
+its source twice, with its two transforms (pocketfft, FFTW), optimised for this machine; that needs a C++ compiler with
+OpenMP, CMake, and the headers of Eigen 3.4 and of FFTW 3 in both precisions with OpenMP (Debian: g++ cmake libeigen3-dev
+libfftw3-dev).
 
 What is timed
-- Solve: the bare half-space (E* = 1) under the unit square, from heights to a pressure, tolerance 1e-8; one paraboloid, and
-  rough surfaces (H = 0.8, unit rms slope, 4 to 64 waves per cell and 4 to what the grid holds), 15 to 20 % in contact.
-  ASPHER sets up inside its solve, so that percoat's setup counts against it; Tamaas has its model and solver made
+- Whole run: what `percoat solve` does between reading the case and having its results. Setup: surface, tables and plans of
+  all grids. Solve. Readings: boundaries, areas, spots, peaks, of the two next coarser grids too for the errors; warnings.
+  Not timed: reading and checking the case or the heights, pictures and files; the cases ask for no stresses.
+  ASPHER sets up inside its solve and gives the pressure alone. The ratio is to be 3 at least; the goal is 5.
+- "processor time" is the ratio of what the system counted: it stands where others use the machine too, but threads that
+  wait for one another by spinning are counted as working.
+- Solve: of the same runs, without the readings. percoat's setup counts beside ASPHER; Tamaas has its model and solver made
   before, percoat then too.
+- Cases: the bare half-space (E* = 1) under the unit square, tolerance 1e-8, 15 to 20 % in contact. One paraboloid: an
+  indenter of one level for percoat, as in a case file, its heights for the peers. Rough surfaces (H = 0.8, unit rms slope,
+  4 to 64 waves per cell and 4 to what the grid holds): heights for all.
+- "convolutions": those of percoat's solve on all grids, as equivalents of the finest grid in double precision; one in single
+  precision counts half. Nearly all are single: "solve over them" is the time of the solve over that of twice as many in
+  single precision, of which one is timed after each run in the same process (and counted in its processor time).
 - ASPHER in its fastest variant that converges, found before each case: either transform, double or mixed
   precision; nested grids, its |q| preconditioner, no output but the pressure. FFTW measures its plans before.
-- Convolution: real to complex, times a table, and back; plans and tables made before, result in place where offered.
-- Threads are set alike for everybody; Tamaas, whose package on PyPI is not parallel, is timed on one alone. Each contender is a process of its own that waits while others are timed; rounds go
-  A B C A B C …, and a ratio is the median of those of the rounds, peer over percoat: above 1 percoat is faster.
-  "processor time" is the same ratio of what the system counted (setup on both sides): it stands where others use the
-  machine too, but threads that wait for one another by spinning are counted as working.
-  A contender that has used up its time (--budget) sits out the rest; the rounds are in the table.
+- Convolution: real to complex, times a table, and back, in double and in single precision; plans and tables made before.
+  The input is written just before, untimed, and may be destroyed. The result goes into memory that was there before, where
+  the library offers that; percoat's is in place. "library" is the same by realfft and rustfft, benches/shared/library.rs.
+  On processors of AMD, MKL takes its general code (libmkl_def), not that for AVX2 or AVX-512.
+- Threads are set alike for everybody; Tamaas, whose package on PyPI is not parallel, is timed on one alone. Each contender is
+  a process of its own that waits while others are timed; rounds go A B C A B C …, and a ratio is the median of those of the
+  rounds, peer over percoat: above 1 percoat is faster. A contender that has used up its time (--budget) sits out the rest;
+  the rounds are in the table.
+- --avx2: percoat is built without AVX-512, and MKL is told to leave it alone (MKL_ENABLE_INSTRUCTIONS). SciPy, FFTW from its
+  package and rustfft have none; ASPHER stays as it is, compiled for this machine.
 
 How answers are judged: on the exact discrete problem, C(q) = 2/(E*q), in double precision, the Frank-Wolfe gap
 sum p (g - min g) over the elastic energy 1/2 sum p Cp (an upper bound on the relative excess of energy), the deepest penetration
@@ -32,6 +48,7 @@ outside contact over the penetration, and the error of the load. Where a peer's 
 
 import argparse
 import datetime
+import itertools
 import json
 import os
 import platform
@@ -49,7 +66,9 @@ ASPHER = "aspher==0.1.3.post1"
 ENGINES = ["pocketfft", "fftw"]
 PRECISIONS = ["double", "float_then_double"]
 # Ratios, peer over percoat, that percoat means to reach.
-TARGETS = {"ASPHER": 5.0, "Tamaas": 40.0, "MKL": 1.5, "FFTW": 1.8, "SciPy": 1.8}
+TARGETS = {"whole run": 3.0, "ASPHER": 5.0, "Tamaas": 40.0, "MKL": 1.3, "library": 1.3, "FFTW": 1.8, "SciPy": 1.8}
+# Parts of percoat's time.
+WHOLE = ["setup", "seconds", "readings"]
 # The surfaces that peer.rs makes.
 CASES = ["one-level", "rough-4-to-64", "rough-to-the-grid"]
 
@@ -77,10 +96,15 @@ def prepare(venv):
     return python
 
 
-def build():
-    """The bench `peer`, optimised; its path."""
+def build(avx2):
+    """The bench `peer`, optimised, in a folder of its own where it has no AVX-512; its path."""
     command = ["cargo", "bench", "--locked", "--bench", "peer", "--no-run", "--message-format=json"]
-    lines = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True).stdout.splitlines()
+    environment = dict(os.environ)
+    if avx2:
+        environment["CARGO_TARGET_DIR"] = str(Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "avx2")
+        environment["RUSTFLAGS"] = os.environ.get("RUSTFLAGS", "") + " --cfg disable_dispatch_avx512"
+    built = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    lines = built.stdout.splitlines()
     messages = [json.loads(line) for line in lines if line.startswith("{")]
     paths = [m["executable"] for m in messages if m.get("executable") and m["target"]["name"] == "peer"]
     return paths[-1]
@@ -119,7 +143,7 @@ def aspher(heights, mean_pressure, tolerance, threads, precision):
         )  # fmt: skip
         seconds = time.perf_counter() - began
         status = {"iterations": last[0].iterations, "converged": last[0].status == "converged"}
-        return {"setup": 0.0, "seconds": seconds, **status}
+        return {"seconds": seconds, **status}
 
     serve(run, lambda: last[0].pressure)
 
@@ -141,19 +165,23 @@ def tamaas(heights, mean_pressure, tolerance, threads):
         model.traction[:] = 0.0
         began = time.perf_counter()
         error = solver.solve(float(mean_pressure))
-        return {"setup": 0.0, "seconds": time.perf_counter() - began, "converged": error <= float(tolerance)}
+        return {"seconds": time.perf_counter() - began, "converged": error <= float(tolerance)}
 
     serve(run, lambda: model.traction)
 
 
-def convolution(kind, points, threads):
+def convolution(kind, precision, points, threads):
     from concurrent.futures import ThreadPoolExecutor
 
     import numpy as np
+    import pyfftw
 
     n, threads = int(points), int(threads)
-    table = compliance(n)
-    pressure = ((np.arange(n * n) * 7919) % 1009 / 1009).reshape(n, n)
+    real, complex_ = {"double": ("f8", "c16"), "single": ("f4", "c8")}[precision]
+    table = compliance(n).astype(real)
+    pressure = ((np.arange(n * n) * 7919) % 1009 / 1009).reshape(n, n).astype(real)
+    source, result = pyfftw.empty_aligned((n, n), real), pyfftw.empty_aligned((n, n), real)
+    spectrum = pyfftw.empty_aligned((n, n // 2 + 1), complex_)
     pool = ThreadPoolExecutor(threads)
     cuts = [n * part // threads for part in range(threads + 1)]
     parts = [slice(a, b) for a, b in zip(cuts, cuts[1:])]
@@ -164,31 +192,22 @@ def convolution(kind, points, threads):
     if kind == "MKL":
         import mkl_fft
 
-        spectrum, result = np.empty((n, n // 2 + 1), complex), np.empty((n, n))
-
         def convolve():
-            mkl_fft.rfft2(pressure, out=spectrum)
+            mkl_fft.rfft2(source, out=spectrum)
             times_table(spectrum)
-            mkl_fft.irfft2(spectrum, s=(n, n), out=result)
-            return result
+            return mkl_fft.irfft2(spectrum, s=(n, n), out=result)
     elif kind == "SciPy":
         import scipy.fft
 
         def convolve():
-            spectrum = scipy.fft.rfft2(pressure, workers=threads)
+            spectrum = scipy.fft.rfft2(source, workers=threads, overwrite_x=True)
             times_table(spectrum)
             return scipy.fft.irfft2(spectrum, s=(n, n), workers=threads, overwrite_x=True)
     else:
-        import pyfftw
-
-        flags = ("FFTW_MEASURE", "FFTW_DESTROY_INPUT")
-        source = pyfftw.empty_aligned((n, n))
-        spectrum, result = pyfftw.empty_aligned((n, n // 2 + 1), complex), pyfftw.empty_aligned((n, n))
-        forward = pyfftw.FFTW(source, spectrum, axes=(0, 1), flags=flags[:1], threads=threads)
-        backward = pyfftw.FFTW(
-            spectrum, result, axes=(0, 1), direction="FFTW_BACKWARD", flags=flags, threads=threads
-        )  # fmt: skip
-        source[:], table = pressure, table / (n * n)
+        plan = {"axes": (0, 1), "flags": ("FFTW_MEASURE", "FFTW_DESTROY_INPUT"), "threads": threads}
+        forward = pyfftw.FFTW(source, spectrum, **plan)
+        backward = pyfftw.FFTW(spectrum, result, direction="FFTW_BACKWARD", **plan)
+        table /= n * n
 
         def convolve():
             forward.execute()
@@ -199,9 +218,10 @@ def convolution(kind, points, threads):
     last = [None]
 
     def run():
+        source[:] = pressure
         began = time.perf_counter()
         last[0] = convolve()
-        return {"setup": 0.0, "seconds": time.perf_counter() - began}
+        return {"seconds": time.perf_counter() - began}
 
     serve(run, lambda: last[0])
 
@@ -271,10 +291,9 @@ def take_turns(contenders, rounds, budget):
             contender.runs[number] = contender.ask()
 
 
-def ratios(ours, peer, setup=False):
-    """Peer over percoat, round by round."""
-    seconds = lambda run: run["seconds"] + (run["setup"] if setup else 0.0)
-    return [run["seconds"] / seconds(ours.runs[number]) for number, run in peer.runs.items()]
+def ratios(ours, peer, parts):
+    """Peer over these parts of percoat, round by round."""
+    return [run["seconds"] / sum(ours.runs[number][part] for part in parts) for number, run in peer.runs.items()]
 
 
 def processor_ratio(ours, peer):
@@ -331,15 +350,18 @@ def judge(heights, mean_pressure, pressure):
 
 
 class Sheet:
-    """A table that is printed row by row, and kept."""
+    """A table; its rows are told as they come."""
 
     def __init__(self, title, header):
         self.lines = [f"\n{title}\n", "| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-        print("\n".join(self.lines), flush=True)
 
     def row(self, *cells):
         self.lines.append("| " + " | ".join(map(str, cells)) + " |")
-        print(self.lines[-1], flush=True)
+        print(self.lines[-1], file=sys.stderr, flush=True)
+
+    def done(self):
+        print("\n".join(self.lines), flush=True)
+        return self.lines
 
 
 def verdict(name, values):
@@ -372,11 +394,12 @@ def best_aspher(python, arguments, threads):
 
 
 def solves(options, peer, python):
-    header = [
-        "case", "points", "threads", "peer", "percoat s", "setup s", "peer s", "peer / percoat (range, rounds)", "target",
-        "processor time", "gap, penetration, load error: percoat", "peer", "processors: percoat, peer",
-    ]  # fmt: skip
-    sheet = Sheet(f"Solve, tolerance {options.tolerance:g}", header)
+    first = ["case", "points", "threads", "peer"]
+    last = ["peer s", "peer / percoat (range, rounds)", "target"]
+    parts = ["setup, solve, readings s", *last, "processor time", "convolutions", "solve over them"]
+    whole = Sheet(f"Whole run, tolerance {options.tolerance:g}", [*first, "percoat s", *parts])
+    judged = ["gap, penetration, load error: percoat", "peer", "processors: percoat, peer"]
+    solve = Sheet(f"Solve, tolerance {options.tolerance:g}", [*first, "percoat s", "setup s", *last, *judged])
     for case in options.cases:
         for n in options.points:
             with tempfile.TemporaryDirectory() as folder:
@@ -384,7 +407,7 @@ def solves(options, peer, python):
                 heights, mean_pressure = surface(peer, case, n, path)
                 arguments = [path, mean_pressure, options.tolerance]
                 for threads in options.threads:
-                    ours = Contender("percoat", [peer, "solve", *arguments, threads], threads)
+                    ours = Contender("percoat", [peer, "solve", case, n, options.tolerance, threads], threads)
                     others = [best_aspher(python, arguments, threads)] if "ASPHER" in options.peers else []
                     if "Tamaas" in options.peers and threads == 1:  # its package has no more
                         others.append(Contender("Tamaas", worker(python, "tamaas", *arguments, threads), threads))
@@ -393,48 +416,58 @@ def solves(options, peer, python):
                     own = judge(heights, mean_pressure, ours.field())
                     for other in others:
                         its = judge(heights, mean_pressure, other.field())
-                        values = ratios(ours, other, setup=other.name == "ASPHER")
                         name = other.name + (f" ({other.variant})" if hasattr(other, "variant") else "")
+                        row = [f"{case}, {100 * own[3]:.1f} %", n, threads, name]
+                        setup, seconds, readings = (f"{median(ours.runs, part):.3f}" for part in WHOLE)
+                        if other.name == "ASPHER":
+                            values = ratios(ours, other, WHOLE)
+                            total = statistics.median(sum(run[part] for part in WHOLE) for run in ours.runs.values())
+                            over = [run["seconds"] / (2 * run["convolutions"] * run["single"]) for run in ours.runs.values()]
+                            whole.row(
+                                *row, f"{total:.3f}", f"{setup}, {seconds}, {readings}", f"{median(other.runs):.3f}",
+                                spread(values), verdict("whole run", values), processor_ratio(ours, other),
+                                f"{median(ours.runs, 'convolutions'):.1f}", f"{statistics.median(over):.2f}",
+                            )  # fmt: skip
+                        values = ratios(ours, other, ["setup", "seconds"] if other.name == "ASPHER" else ["seconds"])
                         worse = "" if its[0] <= own[0] else f", worse {its[0] / own[0]:.1f}×"
                         failed = "" if all(run["converged"] for run in other.runs.values()) else ", not converged"
-                        sheet.row(
-                            f"{case}, {100 * own[3]:.1f} %", n, threads, name,
-                            f"{median(ours.runs):.3f}", f"{median(ours.runs, 'setup'):.3f}", f"{median(other.runs):.3f}",
-                            spread(values), verdict(other.name, values), processor_ratio(ours, other),
+                        solve.row(
+                            *row, seconds, setup, f"{median(other.runs):.3f}", spread(values), verdict(other.name, values),
                             "{:.0e}, {:.0e}, {:.0e}".format(*own), "{:.0e}, {:.0e}, {:.0e}".format(*its) + worse + failed,
                             f"{ours.processors():.1f}, {other.processors():.1f}",
                         )  # fmt: skip
                     for contender in [ours, *others]:
                         contender.end()
-    return sheet
+    return whole.done() + solve.done()
 
 
 def convolutions(options, peer, python):
     import numpy as np
 
-    header = ["points", "threads", "peer", "percoat ms", "peer ms", "peer / percoat (range, rounds)", "target"]
+    header = ["points", "threads", "precision", "peer", "percoat ms", "peer ms", "peer / percoat (range, rounds)", "target"]
     header += ["processor time", "difference", "processors: percoat, peer"]
     sheet = Sheet("One convolution", header)
-    for n in options.convolutions:
-        for threads in [max(options.threads)]:
-            ours = Contender("percoat", [peer, "convolution", n, threads], threads)
-            names = ["MKL", "SciPy", "FFTW"]
-            others = [Contender(name, worker(python, "convolution", name, n, threads), threads) for name in names]
-            take_turns([ours, *others], 5 * options.rounds, options.budget)
-            own = ours.field()
-            for other in others:
-                values = ratios(ours, other)
-                difference = np.abs(other.field() - own).max() / np.abs(own).max()
-                milliseconds = [f"{1e3 * median(contender.runs):.2f}" for contender in (ours, other)]
-                processors = f"{ours.processors():.1f}, {other.processors():.1f}"
-                result = spread(values), verdict(other.name, values), processor_ratio(ours, other)
-                sheet.row(n, threads, other.name, *milliseconds, *result, f"{difference:.0e}", processors)
-            for contender in [ours, *others]:
-                contender.end()
-    return sheet
+    limits = {"MKL_ENABLE_INSTRUCTIONS": "AVX2"} if options.avx2 else {}
+    for n, threads, precision in itertools.product(options.convolutions, options.threads, ["double", "single"]):
+        what = [precision, n, threads]
+        ours, *others = (Contender(name, [peer, "convolution", name, *what], threads) for name in ["percoat", "library"])
+        for name in ["MKL", "SciPy", "FFTW"]:
+            others.append(Contender(name, worker(python, "convolution", name, *what), threads, limits))
+        take_turns([ours, *others], 5 * options.rounds, options.budget)
+        own = ours.field()
+        for other in others:
+            values = ratios(ours, other, ["seconds"])
+            difference = np.abs(other.field() - own).max() / np.abs(own).max()
+            milliseconds = [f"{1e3 * median(contender.runs):.2f}" for contender in (ours, other)]
+            processors = f"{ours.processors():.1f}, {other.processors():.1f}"
+            result = spread(values), verdict(other.name, values), processor_ratio(ours, other)
+            sheet.row(n, threads, precision, other.name, *milliseconds, *result, f"{difference:.0e}", processors)
+        for contender in [ours, *others]:
+            contender.end()
+    return sheet.done()
 
 
-def machine():
+def machine(avx2):
     from importlib.metadata import version
 
     def said(*command):
@@ -449,7 +482,8 @@ def machine():
     changed = ", changed" if said("git", "status", "--porcelain", "--untracked-files=no") else ""
     packages = ["numpy", "scipy", "tamaas", "mkl_fft", "mkl", "pyfftw"]
     return [
-        f"{datetime.date.today()}, {cpu}, {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} before the run",
+        f"{datetime.date.today()}, {cpu}, {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} before the run"
+        + (", no AVX-512 in percoat and MKL" if avx2 else ""),
         f"percoat {said('git', 'rev-parse', '--short', 'HEAD')}{changed}, {said('rustc', '--version')}",
         ASPHER.replace("==", " ") + ", " + ", ".join(f"{name} {version(name)}" for name in packages),
     ]
@@ -468,6 +502,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--budget", type=float, default=120.0, help="seconds of a peer a case")
     parser.add_argument("--tolerance", type=float, default=1e-8)
+    parser.add_argument("--avx2", action="store_true", help="percoat and MKL without AVX-512")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--output", type=Path)
     options = parser.parse_args()
@@ -476,14 +511,17 @@ def main():
     python = prepare(options.venv.resolve())
     if Path(sys.prefix).resolve() != options.venv.resolve():
         os.execv(python, [str(python), *sys.argv])
-    peer = build()
-    head = machine()
+    peer = build(options.avx2)
+    head = machine(options.avx2)
     print("\n".join(head), flush=True)
     if os.getloadavg()[0] > 0.5:
         print("others use this machine: with two threads contenders that spin lose more than their share", flush=True)
-    sheets = [run(options, peer, python) for run in (solves, convolutions) if options.only in (None, run.__name__[:-1])]
+    lines = []
+    for run in (solves, convolutions):
+        if options.only in (None, run.__name__[:-1]):
+            lines += run(options, peer, python)
     if options.output:
-        options.output.write_text("\n".join([*head, *(line for sheet in sheets for line in sheet.lines)]) + "\n")
+        options.output.write_text("\n".join([*head, *lines]) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 //! Problems that several benches share, all on cells of side 1.
 #![allow(dead_code, reason = "each bench uses its part")]
 
+pub mod library;
 mod rough;
 
 pub use rough::Rough;
@@ -67,7 +68,7 @@ pub fn operator(half_space: &HalfSpace, n: usize) -> Operator {
     Operator::new(&grid, &TransferFunction::new(half_space))
 }
 
-/// One convolution at a time, pressure → displacement. The one place where benches meet the transform.
+/// One convolution at a time, pressure → displacement in place. The one place where benches meet the transform.
 pub struct Convolution {
     operator: Operator,
     workspace: Workspace,
@@ -78,9 +79,13 @@ impl Convolution {
         Self { operator: operator(half_space, n), workspace: Workspace::default() }
     }
 
-    /// n² samples each.
-    pub fn run(&mut self, pressure: &[f64], displacement: &mut [f64]) {
-        displacement.copy_from_slice(pressure);
-        self.operator.displacement(displacement, &mut self.workspace);
+    /// n² samples.
+    pub fn run(&mut self, field: &mut [f64]) {
+        self.operator.displacement(field, &mut self.workspace);
+    }
+
+    /// The same in single precision.
+    pub fn run_single(&mut self, field: &mut [f32]) {
+        self.operator.displacement_single(field, &mut self.workspace);
     }
 }

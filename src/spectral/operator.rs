@@ -16,6 +16,7 @@ use crate::body::{Compliances, TransferFunction};
 use crate::friction::Friction;
 use crate::lattice::Grid;
 use crate::numeric::aligned::Aligned;
+use crate::numeric::lanes::Real;
 use crate::numeric::rows::Parts;
 use rayon::prelude::*;
 
@@ -117,6 +118,12 @@ impl Operator {
         in_place(&self.double, times(1.0, &self.coupling), &self.compliance, field, workspace);
     }
 
+    /// [`displacement`](Self::displacement) in single precision, by which iterations find their way.
+    pub fn displacement_single(&mut self, field: &mut [f32], workspace: &mut Workspace) {
+        self.convolutions += 0.5;
+        in_place(&self.single, times(1.0, &self.coupling), &self.compliance, field, workspace);
+    }
+
     /// w → p: the pressure that displaces so. The mean is treated like a component of the least wavenumber.
     pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
         self.convolutions += 1.0;
@@ -187,11 +194,11 @@ fn times(factor: f64, coupling: &Option<(Turns, f64)>) -> Action<'_> {
     coupling.as_ref().map_or(Action::Times(factor), |(turns, _)| Action::TimesTurned(factor, turns))
 }
 
-fn in_place(
-    convolution: &Convolution<f64>,
+fn in_place<T: Real>(
+    convolution: &Convolution<T>,
     action: Action<'_>,
     compliance: &Multiplier,
-    field: &mut [f64],
+    field: &mut [T],
     workspace: &mut Workspace,
 ) {
     let (parts, room) = (convolution.parts(), workspace.of(convolution.room()));

@@ -89,3 +89,17 @@ fn the_pressure_inverts_the_displacement() {
     operator.pressure(&mut field, &mut workspace);
     assert!(common::relative_difference(&field, &pressure) < 1e-13);
 }
+
+#[test]
+fn in_single_precision_a_displacement_is_the_same() {
+    let half_space = common::coated(0.1, 0.05, [0.5, 0.3], Interface::Frictionless);
+    let grid = Arc::new(Grid::new(Cell::hexagonal(2.0).unwrap(), [20, 18]).unwrap());
+    let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
+    let mut random = Random(6);
+    let (mut field, mut workspace): (Vec<f64>, _) = ((0..360).map(|_| random.unit()).collect(), Workspace::default());
+    let mut single: Vec<f32> = field.iter().map(|&p| p as f32).collect();
+    operator.displacement(&mut field, &mut workspace);
+    operator.displacement_single(&mut single, &mut workspace);
+    let single: Vec<f64> = single.into_iter().map(f64::from).collect();
+    assert!(common::relative_difference(&single, &field) < 1e-5);
+}
