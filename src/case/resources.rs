@@ -21,7 +21,7 @@ const MEBIBYTE: u64 = 1 << 20;
 /// What the program takes before it solves anything: its code as it is mapped, for the most part.
 const PROGRAM: u64 = 15 * MEBIBYTE;
 /// Per sample: reading a step, when what solving it took is free again.
-const READING: u64 = 45;
+const READING: u64 = 20;
 /// Per sample, in its place: waves, their coefficients and what a search for maxima takes; and what a plane that is written
 /// takes more.
 const STRESS: u64 = 101;

@@ -5,6 +5,7 @@ use super::edge::Edge;
 use super::fraction::{Fraction, Fractions};
 use super::spots::{self, SpotReading};
 use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak, rough};
+use crate::body::TransferFunction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
 use crate::numeric::number::number;
@@ -62,7 +63,7 @@ impl Reading {
 
     /// What one grid says of a contact, without errors.
     pub fn of(contact: &Contact) -> Self {
-        Self::at_edge(contact, &Edge::of(&[contact]))
+        Self::at_edge(contact, &edge(&[contact]))
     }
 
     /// The same with the edge of the body at hand.
@@ -192,6 +193,14 @@ impl Reading {
             fractions,
         }
     }
+}
+
+/// The edge on the body of contacts, at all distances at which their boundaries are looked for.
+pub(super) fn edge(contacts: &[&Contact]) -> Edge {
+    let distances = contacts.iter().map(|contact| Scale::distances(contact.grid()));
+    let [shortest, longest] = distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
+    let problem = contacts[0].problem();
+    Edge::new(&TransferFunction::new(problem.half_space()), problem.friction(), shortest, longest)
 }
 
 /// The sample with the largest pressure, the first of several; `None` without contact.

@@ -21,11 +21,9 @@
 //! [`Friction::edge_exponent`]. They are tabulated for the normal across the direction of sliding, along and against it; in
 //! between the logarithms are those of the parabola through the three.
 
-use super::boundary::Scale;
 use crate::body::TransferFunction;
 use crate::friction::Friction;
 use crate::numeric::lanes::{LANES, Real, splat, vectorised};
-use crate::spectral::Contact;
 use fearless_simd::Simd;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -65,15 +63,6 @@ const RULE: f64 = 0.05;
 const BEYOND: f64 = 100.0;
 
 impl Edge {
-    /// The edge on the body of contacts, at all distances at which their boundaries are looked for.
-    pub fn of(contacts: &[&Contact]) -> Self {
-        let distances = contacts.iter().map(|contact| Scale::distances(contact.grid()));
-        let [shortest, longest] =
-            distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
-        let problem = contacts[0].problem();
-        Self::new(&TransferFunction::new(problem.half_space()), problem.friction(), shortest, longest)
-    }
-
     /// The edge on a half-space, at distances from `shortest` to `longest` (lengths).
     pub fn new(transfer: &TransferFunction, friction: Option<&Friction>, shortest: f64, longest: f64) -> Self {
         let first = (1.0 / (BEYOND * longest)).ln();
@@ -220,10 +209,10 @@ impl Integrals {
             let norm = real * real + square;
             let log = f64::group(simd, &self.logs, at, 0.0) / norm;
             let phase = f64::group(simd, &self.phases, at, 0.0) / norm;
-            totals[0] = totals[0] + log * real;
-            totals[1] = totals[1] + log;
-            totals[2] = totals[2] + phase * real;
-            totals[3] = totals[3] + phase;
+            totals[0] += log * real;
+            totals[1] += log;
+            totals[2] += phase * real;
+            totals[3] += phase;
             at += LANES;
         }
         for (sum, total) in sums.iter_mut().zip(totals) {

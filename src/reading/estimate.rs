@@ -2,7 +2,7 @@
 //!
 //! [`Errors`] has the laws.
 
-use super::edge::Edge;
+use super::contact::edge;
 use super::fraction::Fraction;
 use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading};
 use crate::load::Load;
@@ -42,7 +42,7 @@ impl Step {
     /// What a tribologist reads off the step, with its estimated discretisation errors.
     pub fn reading(&self) -> Reading {
         let coarser: Vec<&Contact> = self.coarser().iter().take(CHANGES.len()).collect();
-        let edge = Edge::of(&[&[self.finest()], &coarser[..]].concat());
+        let edge = edge(&[&[self.finest()], &coarser[..]].concat());
         let mut reading = Reading::at_edge(self.finest(), &edge);
         let coarser: Vec<Reading> = coarser.into_iter().map(|contact| Reading::at_edge(contact, &edge)).collect();
         let levels = self.problem().counterbody().levels();

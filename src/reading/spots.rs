@@ -193,8 +193,8 @@ pub fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
 }
 
 /// Fewest samples along the radius of a topography's spot, as it is counted, from which on its boundary is fitted: smaller
-/// ones, and those with bays, are as well read along the lines of samples.
-const FEWEST: f64 = 10.0;
+/// ones are read along the lines of samples.
+const FEWEST: f64 = 3.0;
 
 /// Label of a sample that belongs to no contact.
 const NOBODY: u32 = u32::MAX;
@@ -236,8 +236,7 @@ pub fn of_topography(contact: &Contact, components: &[Component], scale: &Scale<
         };
         let centre = component.centre(grid);
         let spot = Spot::new(grid, centre, component.farthest(grid, centre), &what);
-        let is_simple = spot.stands_alone() && Boundary::outlines(&spot, scale);
-        is_simple.then(|| Boundary::locate(&spot, scale, holes.has(own))).flatten()
+        spot.stands_alone().then(|| Boundary::locate(&spot, scale, holes.has(own))).flatten()
     };
     components.par_iter().enumerate().map(boundary).collect()
 }

@@ -2,7 +2,7 @@
 //!
 //! They are found once for all rounds of a fit, with a margin over which the rim may move.
 
-use super::fit::Rim;
+use super::rim::Rim;
 use super::spot::{Sample, Scale, Spot};
 use crate::numeric::closed_line::{ANGLES, angle, mean_radius, waves_into};
 use std::f64::consts::TAU;
@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// How far a rim may move before its samples are found anew, in spacings.
 const MARGIN: f64 = 2.0;
 /// Most angles of a sector.
-const WIDEST: usize = 5;
+const WIDEST: usize = 1;
 /// Waves of products of series of twelve harmonics.
 const WAVES: usize = 1 + 4 * 12;
 

@@ -4,29 +4,13 @@
 //! are added first; the waves are those of its middle. Where the fit stands its shift is zero, whatever the waves.
 
 use super::beside::Beside;
+use super::rim::Rim;
 use super::room::{SECTORS, room};
 use super::spot::{NEAREST, RISE, Sample, Scale, Spot};
 use crate::numeric::closed_line::{self, ANGLES, angle, mean_radius, series};
 use crate::numeric::series_fit::SeriesFit;
 use rayon::prelude::*;
 use std::f64::consts::PI;
-
-/// Which boundary of a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Rim {
-    Outer,
-    Hole,
-}
-
-impl Rim {
-    /// Of the outward normal along the radius.
-    pub fn sign(self) -> f64 {
-        match self {
-            Self::Outer => 1.0,
-            Self::Hole => -1.0,
-        }
-    }
-}
 
 /// What a fit rests on.
 #[derive(Debug, Clone, Copy)]
@@ -78,12 +62,12 @@ const OWN: f64 = 0.4;
 const ROOM: f64 = 0.6;
 /// Rounds of a fit, each from the boundary of the last; those that change a boundary that stands.
 const ROUNDS: usize = 8;
-const CHANGED: usize = 2;
+const CHANGED: usize = ROUNDS;
 /// Sectors whose samples are summed by one thread at least, and samples from which on it is worth while.
 const TOGETHER: usize = 30;
 const MANY: usize = 8192;
-/// Change of a boundary, in spacings, below which it stands: a hundredth of the least error that is stated.
-const STANDS: f64 = 1e-4;
+/// Change of a boundary, in spacings, below which it stands.
+const STANDS: f64 = 1e-7;
 /// What an error estimate adds to the differences of readings, in spacings; the error of a counted radius.
 const FLOOR: f64 = 0.01;
 pub(super) const COUNTED: f64 = 0.5;
@@ -113,23 +97,6 @@ pub(super) fn counted(spot: &Spot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>,
     let least = 0.1 * squares[0];
     let radius = |index| series(&squares, angle(index)).max(least).sqrt();
     ((0..ANGLES).map(radius).collect(), squares[0].sqrt())
-}
-
-/// Whether three harmonics outline a spot: none of its samples lies as far outside them, and none that is open as far inside, as
-/// no boundary is believed to.
-pub(super) fn is_outlined(spot: &Spot<'_>, scale: &Scale<'_>) -> bool {
-    let (radii, _) = counted(spot, scale.sample_area, Rim::Outer);
-    let [least, most] = radii.iter().fold([f64::INFINITY, 0.0], |[a, b], &r| [f64::min(a, r), f64::max(b, r)]);
-    let believed = BELIEF * scale.spacing;
-    let blocks = spot.taken([0.0, spot.farthest() * (1.0 + 1e-9)], |strays: &mut bool, _, [x, y], sample| {
-        let r = (x * x + y * y).sqrt();
-        *strays |= match sample {
-            Sample::Contact if r > least + believed => r > closed_line::radius(&radii, y.atan2(x)) + believed,
-            Sample::Open if r < most - believed => r < closed_line::radius(&radii, y.atan2(x)) - believed,
-            _ => false,
-        };
-    });
-    !blocks.contains(&true)
 }
 
 /// Radii of a rim and the estimated error of their mean.

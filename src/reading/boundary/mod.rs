@@ -21,13 +21,15 @@
 
 mod beside;
 mod fit;
+mod rim;
 mod room;
 mod spot;
 
 pub use spot::{Sample, Scale, Spot};
 
 use crate::numeric::closed_line::{self, ANGLES, mean_radius};
-use fit::{COUNTED, Rim, counted, is_outlined, located};
+use fit::{COUNTED, counted, located};
+use rim::Rim;
 use std::f64::consts::{PI, TAU};
 
 /// A closed boundary ρ(θ) around an indenter's axis, and the hole of a ring.
@@ -57,11 +59,6 @@ impl Boundary {
             });
         }
         Some(boundary)
-    }
-
-    /// Whether a few harmonics outline a spot to two spacings, as they do not outline that of a rough surface.
-    pub(crate) fn outlines(spot: &Spot<'_>, scale: &Scale<'_>) -> bool {
-        is_outlined(spot, scale)
     }
 
     /// ρ(θ), linear between the angles; a length.

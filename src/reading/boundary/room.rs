@@ -1,6 +1,6 @@
 //! How far what is open around a rim belongs to it, by directions.
 
-use super::fit::Rim;
+use super::rim::Rim;
 use super::spot::{Sample, Spot};
 use crate::numeric::closed_line::{ANGLES, angle, mean_radius};
 
