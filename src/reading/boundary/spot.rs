@@ -76,7 +76,9 @@ impl<'a> Spot<'a> {
         let [n1, n2] = self.grid.points();
         let place = [self.centre[0] + offset[0], self.centre[1] + offset[1]];
         let [s, t] = self.grid.cell().fractions(place);
-        let (row, column) = ((s * n1 as f64).round() as i64, (t * n2 as f64).round() as i64);
+        // Of places halfway between samples rounding does not decide.
+        let nearest = |place: f64| (place + 1e-6).round() as i64;
+        let (row, column) = (nearest(s * n1 as f64), nearest(t * n2 as f64));
         let index = row.rem_euclid(n1 as i64) as usize * n2 + column.rem_euclid(n2 as i64) as usize;
         self.what(index, offset)
     }
