@@ -8,7 +8,7 @@
 //! rows and columns the components stand in tiles, [tile][row][real parts, imaginary parts], where columns are transformed
 //! in place. A part of the rows has a run of lines in every tile; only the thread that transforms these rows writes there. Work is split into fixed
 //! parts: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
-//! Groups of rows that are zero, and groups that nobody looks at ([`Convolved::some_rows`]), are not transformed.
+//! Groups of rows whose samples are all zero, and groups whose result is not used ([`Convolved::some_rows`]), are not transformed.
 //! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Convolution::convolve`],
 //! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.
 //! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Convolution::multiplier`] puts it into K.
@@ -296,7 +296,7 @@ mod tests {
         [there, back].map(|sum| sum / (n1 * n2) as f64)
     }
 
-    /// Rows of zeros, and rows that nobody looks at, whole groups of them or not.
+    /// With rows of zeros, and rows whose result is not used, in whole groups or in parts of them, all others are the same.
     #[test]
     fn rows_that_are_left_out_change_no_other() {
         let [n1, n2] = [150, 36];

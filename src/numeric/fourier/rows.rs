@@ -150,7 +150,7 @@ impl<T: Real> Rows<T> {
         rows.for_each(|row| sink(&mut row[..self.len]));
     }
 
-    /// Zeros for the rows of a group that nobody looks at.
+    /// Zeros in the place of the rows of a group whose values are not used.
     pub fn blank(&self, count: usize, buffers: &mut Buffers<T>, sink: &mut impl FnMut(&mut [T])) {
         for row in buffers.samples.chunks_exact_mut(self.stride()).take(count) {
             row.fill(T::zero());

@@ -1,16 +1,14 @@
-//! The samples beside a rim, by sectors of the angle.
+//! The samples beside a rim, by the angle: a sector lies between one of the 360 angles of a line and the next.
 //!
 //! They are found once for all rounds of a fit, with a margin over which the rim may move.
 
 use super::rim::Rim;
 use super::spot::{Sample, Scale, Spot};
-use crate::numeric::closed_line::{ANGLES, angle, mean_radius, waves_into};
+use crate::numeric::closed_line::{ANGLES, angle, waves_into};
 use std::f64::consts::TAU;
 
 /// How far a rim may move before its samples are found anew, in spacings.
 const MARGIN: f64 = 2.0;
-/// Most angles of a sector.
-const WIDEST: usize = 1;
 /// Waves of products of series of twelve harmonics.
 const WAVES: usize = 1 + 4 * 12;
 
@@ -33,8 +31,6 @@ pub struct Beside<'a> {
     rim: Rim,
     reach: f64,
     radii: Vec<f64>,
-    /// Angles of a sector: one, or several where a contact has few samples around it.
-    width: usize,
     /// Waves of the middle of each sector.
     waves: Vec<[f64; WAVES]>,
     /// Where the samples of each sector begin: those in contact, then those that are open.
@@ -47,11 +43,9 @@ pub struct Beside<'a> {
 impl<'a> Beside<'a> {
     /// The samples nearer than `reach` to the rim `radii`.
     pub fn new(spot: &'a Spot<'a>, scale: &'a Scale<'a>, rim: Rim, reach: f64, radii: &[f64]) -> Self {
-        let around = TAU * scale.resolution(mean_radius(radii));
-        let width = ((ANGLES as f64 / around) as usize).clamp(1, WIDEST);
-        let waves = (0..ANGLES / width).map(|sector| {
+        let waves = (0..ANGLES).map(|sector| {
             let mut waves = [0.0; WAVES];
-            waves_into(angle(width * sector) + 0.5 * width as f64 * TAU / ANGLES as f64, &mut waves);
+            waves_into(angle(sector) + 0.5 * TAU / ANGLES as f64, &mut waves);
             waves
         });
         let mut beside = Self {
@@ -60,7 +54,6 @@ impl<'a> Beside<'a> {
             rim,
             reach,
             radii: radii.to_vec(),
-            width,
             waves: waves.collect(),
             starts: Vec::new(),
             points: Vec::new(),
@@ -94,19 +87,9 @@ impl<'a> Beside<'a> {
         self.points.len()
     }
 
-    /// Number of sectors.
-    pub fn sectors(&self) -> usize {
-        self.waves.len()
-    }
-
     /// Waves of the middle of a sector.
     pub fn waves(&self, sector: usize) -> &[f64] {
         &self.waves[sector]
-    }
-
-    /// The index of the angle in the middle of a sector.
-    pub fn middle(&self, sector: usize) -> usize {
-        sector * self.width + self.width / 2
     }
 
     /// Samples of a sector: those in contact, or those that are open.
@@ -128,7 +111,7 @@ impl<'a> Beside<'a> {
             let sign = if open { -1.0 } else { 1.0 };
             self.points(sector, open).iter().any(|point| sign * self.distance(point, radii) > self.scale.spacing)
         };
-        self.astray || (0..self.sectors()).any(|sector| wrong(sector, false) || wrong(sector, true))
+        self.astray || (0..ANGLES).any(|sector| wrong(sector, false) || wrong(sector, true))
     }
 
     fn find(&mut self) {
@@ -158,16 +141,16 @@ impl<'a> Beside<'a> {
             let distance = beside.distance(&point, &beside.radii);
             if distance.abs() < near {
                 point.value = if open { scale.opening(index) } else { scale.pressure[index] };
-                points.push((2 * (angle / beside.width as u32) + u32::from(open), point));
+                points.push((2 * angle + u32::from(open), point));
             } else {
                 *astray |= !open && distance > 0.0;
             }
         });
-        let mut starts = vec![0; 2 * self.sectors() + 1];
+        let mut starts = vec![0; 2 * ANGLES + 1];
         found.iter().flat_map(|(points, _)| points).for_each(|(side, _)| starts[*side as usize + 1] += 1);
         (1..starts.len()).for_each(|k| starts[k] += starts[k - 1]);
         let mut next = starts.clone();
-        let mut points = vec![Point::default(); starts[2 * self.sectors()]];
+        let mut points = vec![Point::default(); starts[2 * ANGLES]];
         for (side, point) in found.iter().flat_map(|(points, _)| points) {
             points[next[*side as usize]] = *point;
             next[*side as usize] += 1;

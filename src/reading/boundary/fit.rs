@@ -60,9 +60,8 @@ const PRESSURE: f64 = 0.1;
 const OWN: f64 = 0.4;
 /// Part of the samples outside the edge that must be there for a fit of the gap alone.
 const ROOM: f64 = 0.6;
-/// Rounds of a fit, each from the boundary of the last; those that change a boundary that stands.
+/// Rounds of a fit, each from the boundary of the last.
 const ROUNDS: usize = 8;
-const CHANGED: usize = ROUNDS;
 /// Sectors whose samples are summed by one thread at least, and samples from which on it is worth while.
 const TOGETHER: usize = 30;
 const MANY: usize = 8192;
@@ -146,10 +145,9 @@ impl Fit {
     fn stands_from(&self, beside: &mut Beside<'_>, counted: &[f64], other: &Option<Vec<f64>>) -> Option<Vec<f64>> {
         let spacing = beside.scale().spacing;
         let mut radii = other.as_deref().unwrap_or(counted).to_vec();
-        let rounds = if other.is_some() { CHANGED } else { ROUNDS };
         let mut amplitude = Vec::new();
         let bound = BELIEF * spacing + 0.1 * mean_radius(counted);
-        for _ in 0..rounds {
+        for _ in 0..ROUNDS {
             let before = std::mem::take(&mut radii);
             beside.follow(&before);
             radii = self.refined(beside, &before, &mut amplitude)?;
@@ -175,10 +173,10 @@ impl Fit {
         let (mean, sign) = (mean_radius(radii), beside.rim().sign());
         let whole = sign * PI * ((mean + sign * self.reach).powi(2) - mean * mean);
         let near = |sector: usize| {
-            let own = 0.0..self.own(beside.middle(sector));
+            let own = 0.0..self.own(sector);
             beside.points(sector, true).iter().filter(|point| own.contains(&beside.distance(point, radii))).count()
         };
-        (0..beside.sectors()).map(near).sum::<usize>() as f64 * beside.scale().sample_area > ROOM * whole
+        (0..ANGLES).map(near).sum::<usize>() as f64 * beside.scale().sample_area > ROOM * whole
     }
 
     /// What the samples of one side of a sector add, beside the rim `radii`.
@@ -189,10 +187,9 @@ impl Fit {
             return sums;
         }
         // The outward normal of a hole points to the axis; an outline is nearly round.
-        let middle = beside.middle(sector);
-        let along = beside.rim().sign() * scale.edge.along(angle(middle));
+        let along = beside.rim().sign() * scale.edge.along(angle(sector));
         let unit = if open { scale.edge.opening(reach, 0.0)[0] } else { scale.edge.pressure(reach, 0.0)[0].abs() };
-        let most = if open { self.own(middle) } else { reach };
+        let most = if open { self.own(sector) } else { reach };
         let outwards = if open { 1.0 } else { -1.0 };
         for point in beside.points(sector, open) {
             let d = outwards * beside.distance(point, radii);
@@ -229,7 +226,7 @@ impl Fit {
     fn refined(&self, beside: &Beside<'_>, radii: &[f64], amplitude: &mut Vec<f64>) -> Option<Vec<f64>> {
         let summed = |sector| [false, true].map(|open| self.summed(beside, radii, sector, open));
         let together = if beside.len() < MANY { ANGLES } else { TOGETHER };
-        let all: Vec<[Sums; 2]> = (0..beside.sectors()).into_par_iter().with_min_len(together).map(summed).collect();
+        let all: Vec<[Sums; 2]> = (0..ANGLES).into_par_iter().with_min_len(together).map(summed).collect();
         let over_all = |of: fn(&Sums) -> f64| all.iter().flatten().map(of).sum::<f64>();
         let count = all.iter().flatten().map(|sums| sums.count).sum::<usize>();
         let harmonics = self.harmonics.min(count / 24);

@@ -31,7 +31,7 @@ pub enum Sample {
 pub struct Spot<'a> {
     grid: &'a Grid,
     reduced: Reduced,
-    /// Half of the shortest lattice vector: nobody nearer to the axis is nearer to one of its images.
+    /// Half the length of the shortest lattice vector: a sample nearer than that to the axis is farther from all images of it.
     alone: f64,
     /// The axis, lengths.
     centre: [f64; 2],

@@ -81,7 +81,7 @@ fn overlaps<S: Simd>(
     let (mut before_here, mut common, mut last_direction) = (zero, zero, zero);
     for run in (0..residual.len()).step_by(RUN) {
         let end = residual.len().min(run + RUN);
-        // Nothing is added, and nobody looks at z outside.
+        // Without contact nothing is added to the sums, and z is not used.
         if all_zero(simd, &residual[run..end]) {
             continue;
         }
