@@ -98,16 +98,12 @@ pub fn components(grid: &Grid, joined: Joined, members: impl Fn(usize) -> bool +
 
 /// Runs [first, end) of members among the `count` samples of a row.
 fn runs_of_row(count: usize, joined: bool, member: impl Fn(usize) -> bool) -> Vec<[i32; 2]> {
-    let mut runs: Vec<[i32; 2]> = Vec::new();
-    let mut before = false;
-    for j in 0..count {
-        let is_member = member(j);
-        match runs.last_mut() {
-            Some(run) if is_member && before && joined => run[1] += 1,
-            _ if is_member => runs.push([j as i32, j as i32 + 1]),
-            _ => {}
-        }
-        before = is_member;
+    let mut runs = Vec::new();
+    let mut from = 0;
+    while let Some(first) = (from..count).find(|&j| member(j)) {
+        let end = if joined { (first..count).find(|&j| !member(j)).unwrap_or(count) } else { first + 1 };
+        runs.push([first as i32, end as i32]);
+        from = end;
     }
     runs
 }

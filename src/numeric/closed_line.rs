@@ -2,9 +2,12 @@
 //! angle.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 /// Angles at which lines are given.
 pub const ANGLES: usize = 360;
+/// Highest harmonic of the waves at these angles.
+pub const HIGHEST: usize = 24;
 
 /// The angle of an index, radians.
 pub fn angle(index: usize) -> f64 {
@@ -49,6 +52,25 @@ pub fn waves_into(theta: f64, waves: &mut [f64]) {
         (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
         pair.copy_from_slice(&[c, s]);
     }
+}
+
+/// The [`waves`] at the angle of an index, up to the [highest](HIGHEST).
+pub fn waves_at(index: usize) -> &'static [f64] {
+    static WAVES: LazyLock<Vec<[f64; 1 + 2 * HIGHEST]>> = LazyLock::new(|| {
+        let at = |index| {
+            let mut waves = [0.0; 1 + 2 * HIGHEST];
+            waves_into(angle(index), &mut waves);
+            waves
+        };
+        (0..ANGLES).map(at).collect()
+    });
+    &WAVES[index]
+}
+
+/// Sums of a series of [`waves`] at the angles of a line.
+pub fn series_line(coefficients: &[f64]) -> Vec<f64> {
+    let sum = |index| coefficients.iter().zip(waves_at(index)).map(|(c, wave)| c * wave).sum();
+    (0..ANGLES).map(sum).collect()
 }
 
 /// Sum of a series of [`waves`] with the coefficients, at least one.

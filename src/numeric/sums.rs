@@ -1,24 +1,30 @@
 //! Sums over fields that do not depend on the number of threads.
 //!
-//! A field is cut into blocks of fixed length; blocks are summed on any thread, their sums added in order.
+//! A field is cut into blocks of fixed length; blocks are summed on any thread, their sums added in order. Within a block a few
+//! sums run beside each other, so that none waits for the last addition.
 
 use rayon::prelude::*;
 
 /// Samples of one block.
 pub const BLOCK: usize = 4096;
+/// Sums beside each other.
+const BESIDE: usize = 8;
 
 /// Σᵢ term(i) for `K` sums at once over 0 ≤ i < `len`.
 pub fn of<const K: usize>(len: usize, term: impl Fn(usize) -> [f64; K] + Sync + Send) -> [f64; K] {
-    let add = |mut total: [f64; K], part: [f64; K]| {
-        for (t, p) in total.iter_mut().zip(part) {
-            *t += p;
+    let add = |total: [f64; K], part: [f64; K]| std::array::from_fn(|k| total[k] + part[k]);
+    let of_block = |block: usize| {
+        let (start, end) = (block * BLOCK, len.min((block + 1) * BLOCK));
+        let whole = start + (end - start) / BESIDE * BESIDE;
+        let mut sums = [[0.0; K]; BESIDE];
+        for first in (start..whole).step_by(BESIDE) {
+            for (k, sum) in sums.iter_mut().enumerate() {
+                *sum = add(*sum, term(first + k));
+            }
         }
-        total
+        (whole..end).map(&term).fold(sums.into_iter().fold([0.0; K], add), add)
     };
-    let blocks: Vec<[f64; K]> = (0..len.div_ceil(BLOCK))
-        .into_par_iter()
-        .map(|block| (block * BLOCK..len.min((block + 1) * BLOCK)).map(&term).fold([0.0; K], add))
-        .collect();
+    let blocks: Vec<[f64; K]> = (0..len.div_ceil(BLOCK)).into_par_iter().map(of_block).collect();
     blocks.into_iter().fold([0.0; K], add)
 }
 

@@ -63,16 +63,17 @@ impl Reading {
 
     /// What one grid says of a contact, without errors.
     pub fn of(contact: &Contact) -> Self {
-        Self::at_edge(contact, &edge(&[contact]))
+        Self::at_edge(contact, &edge(&[contact]), true)
     }
 
-    /// The same with the edge of the body at hand.
-    pub(super) fn at_edge(contact: &Contact, edge: &Edge) -> Self {
+    /// The same with the edge of the body at hand; without `errors` those of the boundaries are left out.
+    pub(super) fn at_edge(contact: &Contact, edge: &Edge, errors: bool) -> Self {
         let (grid, surface) = (contact.grid(), contact.surface());
         let (pressure, gap) = (contact.pressures(), contact.gaps());
         let mean_pressure = sums::mean(pressure);
         let modulus = contact.problem().half_space().surface_material().contact_modulus();
-        let scale = Scale { sample_area: grid.sample_area(), spacing: grid.spacing(), pressure, gap, modulus, edge };
+        let [sample_area, spacing] = [grid.sample_area(), grid.spacing()];
+        let scale = Scale { sample_area, spacing, pressure, gap, modulus, edge, errors };
         let components = contact.touching();
         let counts = contact.spots(Some(&components));
         let highest = highest(grid, pressure, &components);
@@ -173,7 +174,9 @@ impl Reading {
             uncertainty: located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error,
         };
         let corrected = surface.owners().is_empty().then(|| rough::corrected_fraction(grid, pressure));
-        let fractions = Fractions { between, corrected };
+        // The correction by the perimeter is a mean over the directions of borders: it takes many spots.
+        let many = components.len() > spots::MOST && located_area < 0.5 * contact_area;
+        let fractions = Fractions { between, many, corrected };
         let (fraction, _) = fractions.best(|own, _| own.uncertainty);
         let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
         Self {

@@ -37,9 +37,9 @@ pub struct Edge {
     ratios: Vec<[f64; 2]>,
     /// The same two, each with its slope over the logarithm, at equal steps of √x from √`shortest` on.
     roots: Vec<[[f64; 2]; 2]>,
-    /// The first of these roots, and their step.
+    /// The first of these roots, and one over their step.
     first: f64,
-    step: f64,
+    per_step: f64,
     sliding: Option<Sliding>,
 }
 
@@ -95,7 +95,8 @@ impl Edge {
         });
         let first = shortest.sqrt();
         let step = (longest.sqrt() - first) / ROOTS as f64;
-        let mut edge = Self { shortest, ratios: table(0.0), roots: Vec::new(), first, step, sliding };
+        let per_step = step.recip();
+        let mut edge = Self { shortest, ratios: table(0.0), roots: Vec::new(), first, per_step, sliding };
         let root = |k: usize| (first + k as f64 * step).powi(2);
         edge.roots = (0..=ROOTS).map(|k| [0, 1].map(|side| edge.logarithmic(&edge.ratios, root(k), side))).collect();
         edge
@@ -122,7 +123,7 @@ impl Edge {
 
     /// A ratio at a distance and its slope over the logarithm; 0: of the pressure, 1: of the gap.
     fn at(&self, distance: f64, root: f64, along: f64, side: usize) -> [f64; 2] {
-        let place = ((root - self.first) / self.step).clamp(0.0, ROOTS as f64 - 0.001);
+        let place = ((root - self.first) * self.per_step).clamp(0.0, ROOTS as f64 - 0.001);
         let k = place as usize;
         let rest = place - k as f64;
         let (own, next) = (self.roots[k][side], self.roots[k + 1][side]);

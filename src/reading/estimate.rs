@@ -4,6 +4,7 @@
 
 use super::contact::edge;
 use super::fraction::Fraction;
+use super::rough::{corrected_fraction, mean_gap};
 use super::{Errors, LevelErrors, LevelReading, Reading, RoughReading};
 use crate::load::Load;
 use crate::spectral::{Contact, Step};
@@ -41,10 +42,16 @@ fn centre_law(samples: f64) -> f64 {
 impl Step {
     /// What a tribologist reads off the step, with its estimated discretisation errors.
     pub fn reading(&self) -> Reading {
+        // Once among the threads that share the work, not anew for each part of it.
+        rayon::scope(|_| self.reading_here())
+    }
+
+    fn reading_here(&self) -> Reading {
         let coarser: Vec<&Contact> = self.coarser().iter().take(CHANGES.len()).collect();
         let edge = edge(&[&[self.finest()], &coarser[..]].concat());
-        let mut reading = Reading::at_edge(self.finest(), &edge);
-        let coarser: Vec<Reading> = coarser.into_iter().map(|contact| Reading::at_edge(contact, &edge)).collect();
+        let mut reading = Reading::at_edge(self.finest(), &edge, true);
+        let coarser: Vec<Reading> =
+            coarser.into_iter().map(|contact| Reading::at_edge(contact, &edge, false)).collect();
         let levels = self.problem().counterbody().levels();
         let exponents: Vec<f64> = levels.iter().map(|level| level.shape().exponent()).collect();
         let (errors, of_levels) = between(&reading, &coarser, &exponents, self.load);
@@ -63,18 +70,22 @@ impl Step {
     /// What is read of the contact of a topography beside its [`reading`](Self::reading), with its estimated discretisation
     /// errors; `None` for indenters.
     pub fn rough_reading(&self, reading: &Reading) -> Option<RoughReading> {
+        rayon::scope(|_| self.rough_reading_here(reading))
+    }
+
+    fn rough_reading_here(&self, reading: &Reading) -> Option<RoughReading> {
         let mut rough = RoughReading::of(self.finest())?;
-        let coarser: Vec<RoughReading> =
-            self.coarser().iter().take(CHANGES.len()).filter_map(RoughReading::of).collect();
+        let coarser: Vec<&Contact> = self.coarser().iter().take(CHANGES.len()).collect();
         if !coarser.is_empty() {
-            let error = |safety: f64, open: f64, of: fn(&RoughReading) -> f64| {
-                Some(widest(safety, open, of(&rough), coarser.iter().map(|coarse| Some(of(coarse)))))
+            let error = |safety: f64, open: f64, value: f64, of: fn(&Contact) -> f64| {
+                Some(widest(safety, open, value, coarser.iter().map(|coarse| Some(of(coarse)))))
             };
             let border = reading.fractions.corrected.map_or(0.0, |corrected| corrected.fraction.uncertainty);
-            let fraction = error(AREA, border, |rough| rough.corrected_fraction);
+            let corrected = |contact: &Contact| corrected_fraction(contact.grid(), contact.pressures()).fraction.value;
+            let fraction = error(AREA, border, rough.corrected_fraction, corrected);
             // The mean gap is that to complete contact, less the penetration.
             let depth = reading.penetration.abs() * topography_law(reading.spot_resolution.max(1.0));
-            let gap = error(TOPOGRAPHY, depth, |rough| rough.mean_gap);
+            let gap = error(TOPOGRAPHY, depth, rough.mean_gap, mean_gap);
             (rough.corrected_fraction_error, rough.mean_gap_error) = (fraction, gap);
         }
         Some(rough)

@@ -11,8 +11,8 @@
 //!
 //! The factor is that of square samples, a mean over the directions of a border; on others it is taken over as it is.
 //!
-//! Where spots have fewer than some ten samples across, what can be read between the samples errs by more: of both
-//! [`Reading::contact_fraction`](super::Reading::contact_fraction) is then the one with the smaller error.
+//! Where spots have fewer than some ten samples across, or are many without smooth boundaries, what can be read between the samples
+//! errs by more: of both [`Reading::contact_fraction`](super::Reading::contact_fraction) is then the one with the smaller error.
 //!
 //! **Spots** are samples in contact whose cells share an edge or a corner, as the usual tools of the field join them; what is
 //! open joins at edges alone, so that a spot closed at corners keeps its hole. Cells of samples are parallelograms of the reduced
@@ -104,7 +104,7 @@ impl RoughReading {
             corrected_fraction_error: None,
             perimeter_density: length / grid.cell().area(),
             spots,
-            mean_gap: sums::of(grid.len(), |k| if pressure[k] > 0.0 { [0.0] } else { [gap[k].max(0.0)] })[0] / total,
+            mean_gap: mean_gap(contact),
             mean_gap_error: None,
             stiffness: None,
             stiffness_error: None,
@@ -115,6 +115,12 @@ impl RoughReading {
             ],
         })
     }
+}
+
+/// Mean gap, 0 where there is contact.
+pub(super) fn mean_gap(contact: &Contact) -> f64 {
+    let (pressure, gap) = (contact.pressures(), contact.gaps());
+    sums::of(gap.len(), |k| if pressure[k] > 0.0 { [0.0] } else { [gap[k].max(0.0)] })[0] / gap.len() as f64
 }
 
 /// The counted fraction in contact corrected by the perimeter.

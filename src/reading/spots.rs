@@ -6,6 +6,7 @@ use crate::lattice::components::Component;
 use crate::lattice::runs::Run;
 use crate::spectral::Contact;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 
 /// Contact spot of one site.
 #[derive(Debug, Clone, Default)]
@@ -192,9 +193,12 @@ pub fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
     });
 }
 
-/// Fewest samples along the radius of a topography's spot, as it is counted, from which on its boundary is fitted: smaller
-/// ones are read along the lines of samples.
+/// Fewest samples along the radius of a topography's spot, as it is counted, from which on its boundary is fitted, and most
+/// spots, the largest ones: the others are read along the lines of samples.
 const FEWEST: f64 = 3.0;
+pub const MOST: usize = 8;
+/// Largest area of the circle around a spot over its own: that of an ellipse six times as long as wide.
+const LONG: f64 = 6.0;
 
 /// Label of a sample that belongs to no contact.
 const NOBODY: u32 = u32::MAX;
@@ -202,19 +206,27 @@ const NOBODY: u32 = u32::MAX;
 /// Boundaries of a topography's contacts around their own centres, where these are simple; one for each component.
 pub fn of_topography(contact: &Contact, components: &[Component], scale: &Scale<'_>) -> Vec<Option<Boundary>> {
     let (grid, pressure) = (contact.grid(), contact.pressures());
-    let large =
-        |component: &Component| !component.wraps && component.size() as f64 >= std::f64::consts::PI * FEWEST * FEWEST;
-    if !components.iter().any(large) {
-        return vec![None; components.len()];
+    let size = |own: &u32| components[*own as usize].size();
+    let large = |own: &u32| !components[*own as usize].wraps && size(own) as f64 >= PI * FEWEST * FEWEST;
+    let mut fitted: Vec<u32> = (0..components.len() as u32).filter(large).collect();
+    fitted.sort_by_key(|own| std::cmp::Reverse(size(own)));
+    // As many of equal size as there are: whichever comes first depends on the vectors that describe the cell.
+    let least = fitted.get(MOST - 1).map_or(0, size);
+    fitted.retain(|own| size(own) >= least);
+    let mut boundaries = vec![None; components.len()];
+    if fitted.is_empty() {
+        return boundaries;
     }
     let mut label = vec![NOBODY; grid.len()];
     for (own, component) in (0..).zip(components) {
         component.indices(grid).for_each(|run| label[run].fill(own));
     }
     let holes = Holes::of(grid, pressure, |index| Some(label[index]));
-    let boundary = |(own, component): (usize, &Component)| {
-        let own = own as u32;
-        if !large(component) {
+    let boundary = |&own: &u32| {
+        let component = &components[own as usize];
+        let centre = component.centre(grid);
+        let farthest = component.farthest(grid, centre);
+        if PI * farthest * farthest > LONG * component.size() as f64 * grid.sample_area() {
             return None;
         }
         let what = |index: usize| match (label[index], holes.around(index)) {
@@ -234,9 +246,10 @@ pub fn of_topography(contact: &Contact, components: &[Component], scale: &Scale<
                 }
             }
         };
-        let centre = component.centre(grid);
-        let spot = Spot::new(grid, centre, component.farthest(grid, centre), &what);
+        let spot = Spot::new(grid, centre, farthest, &what);
         spot.stands_alone().then(|| Boundary::locate(&spot, scale, holes.has(own))).flatten()
     };
-    components.par_iter().enumerate().map(boundary).collect()
+    let found: Vec<Option<Boundary>> = fitted.par_iter().map(boundary).collect();
+    fitted.iter().zip(found).for_each(|(own, boundary)| boundaries[*own as usize] = boundary);
+    boundaries
 }

@@ -223,7 +223,9 @@ fn a_load_search_says_so_and_keeps_within_the_iterations_it_is_given() {
     assert_eq!(stiffer.report.stop, Stop::Converged, "{}", stiffer.report);
     // Where the iteration stalls, and where it is cut, are matters of rounding: the first of some cases that show it.
     let parts = [0.99999, 0.999999, 0.9999995, 0.9999999];
-    let mut cases = [1e3, 2e3, 5e3, 500.0].into_iter().flat_map(|contrast| parts.map(|part| (contrast, part)));
+    let mut cases = [1e3, 2e3, 5e3, 500.0, 200.0, 1e4, 2e4, 5e4]
+        .into_iter()
+        .flat_map(|contrast| parts.map(|part| (contrast, part)));
     let ends_in_the_search = cases.any(|(contrast, part)| {
         let (free, penetration) = pushed(contrast, part, 10_000);
         assert_eq!(free.report.stop, Stop::Converged, "{contrast}, {part}: {}", free.report);

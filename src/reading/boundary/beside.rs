@@ -1,16 +1,17 @@
-//! The samples beside a rim, by the angle: a sector lies between one of the 360 angles of a line and the next.
+//! The samples beside a rim, by the angle: a sector lies around each of the 360 angles of a line.
+//!
+//! Rows of samples lie along the axes of a contact, and these in the middle of a sector: which sector such a sample falls into
+//! does not hang on rounding.
 //!
 //! They are found once for all rounds of a fit, with a margin over which the rim may move.
 
 use super::rim::Rim;
 use super::spot::{Sample, Scale, Spot};
-use crate::numeric::closed_line::{ANGLES, angle, waves_into};
+use crate::numeric::closed_line::ANGLES;
 use std::f64::consts::TAU;
 
 /// How far a rim may move before its samples are found anew, in spacings.
 const MARGIN: f64 = 2.0;
-/// Waves of products of series of twelve harmonics.
-const WAVES: usize = 1 + 4 * 12;
 
 /// A sample beside a rim.
 #[derive(Debug, Clone, Copy, Default)]
@@ -31,33 +32,28 @@ pub struct Beside<'a> {
     rim: Rim,
     reach: f64,
     radii: Vec<f64>,
-    /// Waves of the middle of each sector.
-    waves: Vec<[f64; WAVES]>,
     /// Where the samples of each sector begin: those in contact, then those that are open.
     starts: Vec<usize>,
     points: Vec<Point>,
-    /// Whether a sample lies in contact beyond all that is near.
-    astray: bool,
+    /// Sectors with samples.
+    filled: Vec<usize>,
+    /// Distance of the farthest sample in contact beyond the rim that is not near; 0 without one.
+    beyond: f64,
 }
 
 impl<'a> Beside<'a> {
     /// The samples nearer than `reach` to the rim `radii`.
     pub fn new(spot: &'a Spot<'a>, scale: &'a Scale<'a>, rim: Rim, reach: f64, radii: &[f64]) -> Self {
-        let waves = (0..ANGLES).map(|sector| {
-            let mut waves = [0.0; WAVES];
-            waves_into(angle(sector) + 0.5 * TAU / ANGLES as f64, &mut waves);
-            waves
-        });
         let mut beside = Self {
             spot,
             scale,
             rim,
             reach,
             radii: radii.to_vec(),
-            waves: waves.collect(),
             starts: Vec::new(),
             points: Vec::new(),
-            astray: false,
+            filled: Vec::new(),
+            beyond: 0.0,
         };
         beside.find();
         beside
@@ -87,9 +83,9 @@ impl<'a> Beside<'a> {
         self.points.len()
     }
 
-    /// Waves of the middle of a sector.
-    pub fn waves(&self, sector: usize) -> &[f64] {
-        &self.waves[sector]
+    /// The sectors with samples.
+    pub fn filled(&self) -> &[usize] {
+        &self.filled
     }
 
     /// Samples of a sector: those in contact, or those that are open.
@@ -105,13 +101,13 @@ impl<'a> Beside<'a> {
         self.rim.sign() * (point.r - radius - point.part * (next - radius))
     }
 
-    /// Whether a sample lies on the wrong side of the rim `radii`, by more than a spacing.
-    pub fn is_astray(&self, radii: &[f64]) -> bool {
+    /// Whether a sample lies on the wrong side of the rim `radii`, by more than a distance.
+    pub fn is_astray(&self, radii: &[f64], by: f64) -> bool {
         let wrong = |sector: usize, open: bool| {
             let sign = if open { -1.0 } else { 1.0 };
-            self.points(sector, open).iter().any(|point| sign * self.distance(point, radii) > self.scale.spacing)
+            self.points(sector, open).iter().any(|point| sign * self.distance(point, radii) > by)
         };
-        self.astray || (0..ANGLES).any(|sector| wrong(sector, false) || wrong(sector, true))
+        self.beyond > by || self.filled.iter().any(|&sector| wrong(sector, false) || wrong(sector, true))
     }
 
     fn find(&mut self) {
@@ -124,8 +120,8 @@ impl<'a> Beside<'a> {
             Rim::Outer => [(least - near).max(0.0), (most + near).max(spot.farthest() + scale.spacing)],
             Rim::Hole => [0.0, most + near],
         };
-        type Found = (Vec<(u32, Point)>, bool);
-        let found: Vec<Found> = spot.taken(distances, |(points, astray): &mut Found, index, [x, y], sample| {
+        type Found = (Vec<(u32, Point)>, f64);
+        let found: Vec<Found> = spot.taken(distances, |(points, beyond): &mut Found, index, [x, y], sample| {
             let open = match sample {
                 Sample::Contact => false,
                 Sample::Open if rim == Rim::Outer => true,
@@ -141,9 +137,10 @@ impl<'a> Beside<'a> {
             let distance = beside.distance(&point, &beside.radii);
             if distance.abs() < near {
                 point.value = if open { scale.opening(index) } else { scale.pressure[index] };
-                points.push((2 * angle + u32::from(open), point));
-            } else {
-                *astray |= !open && distance > 0.0;
+                let sector = if point.part < 0.5 { angle } else { (angle + 1) % ANGLES as u32 };
+                points.push((2 * sector + u32::from(open), point));
+            } else if !open {
+                *beyond = beyond.max(distance);
             }
         });
         let mut starts = vec![0; 2 * ANGLES + 1];
@@ -155,7 +152,8 @@ impl<'a> Beside<'a> {
             points[next[*side as usize]] = *point;
             next[*side as usize] += 1;
         }
-        self.astray = found.iter().any(|(_, astray)| *astray);
+        self.beyond = found.iter().fold(0.0, |most, (_, beyond)| most.max(*beyond));
+        self.filled = (0..ANGLES).filter(|sector| starts[2 * sector] < starts[2 * sector + 2]).collect();
         (self.starts, self.points) = (starts, points);
     }
 }

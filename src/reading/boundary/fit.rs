@@ -1,13 +1,13 @@
 //! The fit of one rim of a contact to the samples beside it: what it rests on, and where it stands.
 //!
 //! The normal equations of a fit need sums over samples of products of five factors with waves in the angle. Those of a sector
-//! are added first; the waves are those of its middle. Where the fit stands its shift is zero, whatever the waves.
+//! are added first; the waves are those at its middle. Where the fit stands its shift is zero, whatever the waves.
 
 use super::beside::Beside;
 use super::rim::Rim;
 use super::room::{SECTORS, room};
 use super::spot::{NEAREST, RISE, Sample, Scale, Spot};
-use crate::numeric::closed_line::{self, ANGLES, angle, mean_radius, series};
+use crate::numeric::closed_line::{self, ANGLES, angle, mean_radius, series_line, waves_at};
 use crate::numeric::series_fit::SeriesFit;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -46,10 +46,12 @@ struct Sums {
     slope_values: f64,
 }
 
-/// Highest harmonics of the boundary: the first that leave no sample on its wrong side. Contacts about to merge are
-/// polygons. And those of the counted boundary from which the fits start.
-const HARMONICS: [usize; 2] = [6, 12];
-const FIRST_HARMONICS: usize = 3;
+/// Highest harmonics of the boundary: the first that leave no sample on its wrong side, by more than a part of a spacing.
+/// Contacts about to merge are polygons. And those of the counted boundary from which the fits start.
+const HARMONICS: [(usize, f64); 2] = [(6, 0.5), (12, 1.0)];
+const FIRST_HARMONICS: usize = 6;
+/// Radius of a disc that round contacts fill, over the distance of their farthest sample.
+const DISC: f64 = 0.9;
 /// Fewest samples per radius for a fit.
 const FEWEST: f64 = 3.0;
 /// Largest distance of a located boundary from the counted one, in spacings: beyond it the fit is not believed.
@@ -60,13 +62,16 @@ const PRESSURE: f64 = 0.1;
 const OWN: f64 = 0.4;
 /// Part of the samples outside the edge that must be there for a fit of the gap alone.
 const ROOM: f64 = 0.6;
-/// Rounds of a fit, each from the boundary of the last.
+/// Rounds of a fit, each from the boundary of the last; after the first ones, one that changes it by more than half a spacing
+/// and by more than half as much as the one before comes to no stand.
 const ROUNDS: usize = 8;
+const FIRST_ROUNDS: usize = 2;
+const LARGE: f64 = 0.5;
 /// Sectors whose samples are summed by one thread at least, and samples from which on it is worth while.
 const TOGETHER: usize = 30;
 const MANY: usize = 8192;
 /// Change of a boundary, in spacings, below which it stands.
-const STANDS: f64 = 1e-7;
+const STANDS: f64 = 1e-4;
 /// What an error estimate adds to the differences of readings, in spacings; the error of a counted radius.
 const FLOOR: f64 = 0.01;
 pub(super) const COUNTED: f64 = 0.5;
@@ -75,13 +80,17 @@ pub(super) const COUNTED: f64 = 0.5;
 /// ½∮ρ² cos kθ dθ = ∫ cos kθ d²x.
 pub(super) fn counted(spot: &Spot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>, f64) {
     const COUNT: usize = 2 * FIRST_HARMONICS + 1;
+    // Waves have no sum over a disc: only samples add to theirs that lie outside it, or within it and not in the spot.
+    let disc = if rim == Rim::Outer { DISC * spot.farthest() } else { 0.0 };
     // No sample of the spot or its hole lies beyond the farthest in contact.
     let blocks = spot.taken([0.0, spot.farthest() * (1.0 + 1e-9)], |sums: &mut [f64; COUNT], _, [x, y], sample| {
-        if sample == Sample::Hole || rim == Rim::Outer && sample == Sample::Contact {
-            let r = (x * x + y * y).sqrt();
-            let (cosine, sine) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
-            let (mut c, mut s) = (1.0, 0.0);
-            sums[0] += 1.0;
+        let own = sample == Sample::Hole || rim == Rim::Outer && sample == Sample::Contact;
+        sums[0] += f64::from(u8::from(own));
+        let square = x * x + y * y;
+        if own != (square < disc * disc) && square > 0.0 {
+            let r = square.sqrt();
+            let (cosine, sine) = (x / r, y / r);
+            let (mut c, mut s) = (if own { 1.0 } else { -1.0 }, 0.0);
             for k in 0..FIRST_HARMONICS {
                 (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
                 sums[2 * k + 1] += c;
@@ -94,8 +103,7 @@ pub(super) fn counted(spot: &Spot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>,
         *square *= if k == 0 { 1.0 } else { 2.0 } * sample_area / PI;
     }
     let least = 0.1 * squares[0];
-    let radius = |index| series(&squares, angle(index)).max(least).sqrt();
-    ((0..ANGLES).map(radius).collect(), squares[0].sqrt())
+    (series_line(&squares).into_iter().map(|square| square.max(least).sqrt()).collect(), squares[0].sqrt())
 }
 
 /// Radii of a rim and the estimated error of their mean.
@@ -106,61 +114,104 @@ pub(super) fn located(spot: &Spot<'_>, scale: &Scale<'_>, rim: Rim) -> Option<(V
     }
     let (reach, room) = (scale.reach(radius), room(spot, rim, &start, scale.spacing));
     let mut beside = Beside::new(spot, scale, rim, reach, &start);
-    HARMONICS.into_iter().find_map(|harmonics| {
-        let fit = Fit { reach, inside: 0.0, powers: 2, harmonics, room };
-        let (radii, error) = fit.read(&mut beside, &start)?;
+    // No boundary that would be believed leaves its samples on the right side.
+    if beside.is_astray(&start, belief(&start, scale.spacing) + scale.spacing) {
+        return None;
+    }
+    HARMONICS.into_iter().find_map(|(harmonics, astray)| {
+        let whole = Fit { reach, inside: 0.0, powers: 2, harmonics, room };
+        let (best, radii) = whole.best(&mut beside, &start)?;
         beside.follow(&radii);
-        (!beside.is_astray(&radii)).then_some((radii, error))
+        if beside.is_astray(&radii, astray * scale.spacing) {
+            return None;
+        }
+        let error = if scale.errors { whole.error(best, &mut beside, &start, &radii) } else { 0.0 };
+        Some((radii, error))
     })
 }
 
+/// How far a boundary may lie from the counted one.
+fn belief(counted: &[f64], spacing: f64) -> f64 {
+    BELIEF * spacing + 0.1 * mean_radius(counted)
+}
+
+/// The largest distance of two lines.
+fn farthest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+}
+
 impl Fit {
-    /// The best of three readings and its error.
-    fn read(self, beside: &mut Beside<'_>, start: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let spacing = beside.scale().spacing;
-        let half = Self { reach: (0.5 * (self.reach + RISE * spacing)).min(self.reach), powers: 1, ..self };
+    /// The best reading first: the gap alone, the pressure too, and that without κ′.
+    fn readings(self) -> [Self; 3] {
         let both = Self { inside: PRESSURE, ..self };
-        let gap = |fit: Self, beside: &mut Beside<'_>, from: &Option<Vec<f64>>| {
-            if fit.has_room(beside, start) { fit.stands_from(beside, start, from) } else { None }
-        };
-        let whole = gap(self, beside, &None);
-        let both = both.stands_from(beside, start, &whole);
-        let half = gap(half, beside, whole.as_ref().map_or(&both, |_| &whole));
-        let (best, others) = match whole {
-            Some(whole) => (whole, [half, both]),
-            None => {
-                let short = Self { inside: PRESSURE, powers: 1, ..self }.stands_from(beside, start, &both);
-                (both.or_else(|| short.clone())?, [half, short])
-            }
-        };
-        let mean = mean_radius(&best);
-        // A reading that fails says no more than counting does.
-        let difference = |other: Option<Vec<f64>>| other.map_or(COUNTED * spacing, |o| (mean_radius(&o) - mean).abs());
-        let spread = others.into_iter().map(difference).fold(0.0, f64::max);
-        Some((best, 1.5 * spread + FLOOR * spacing))
+        [self, both, Self { powers: 1, ..both }]
     }
 
-    /// The boundary at which the fit stands, from another one that stands if there is one: by how much both differ needs few
-    /// rounds. `None` if it goes far from the one that is `counted`.
-    fn stands_from(&self, beside: &mut Beside<'_>, counted: &[f64], other: &Option<Vec<f64>>) -> Option<Vec<f64>> {
+    /// The best reading that stands, by its index, and where.
+    fn best(self, beside: &mut Beside<'_>, start: &[f64]) -> Option<(usize, Vec<f64>)> {
+        let mut readings = self.readings().into_iter().enumerate();
+        readings
+            .find_map(|(index, fit)| Some((index, fit.has_room(beside, start).then(|| fit.stands(beside, start))??)))
+    }
+
+    /// What the readings beside the best one, which stands at `radii`, say of its error.
+    fn error(self, best: usize, beside: &mut Beside<'_>, start: &[f64], radii: &[f64]) -> f64 {
         let spacing = beside.scale().spacing;
-        let mut radii = other.as_deref().unwrap_or(counted).to_vec();
-        let mut amplitude = Vec::new();
-        let bound = BELIEF * spacing + 0.1 * mean_radius(counted);
-        for _ in 0..ROUNDS {
+        let half = Self { reach: (0.5 * (self.reach + RISE * spacing)).min(self.reach), powers: 1, ..self };
+        let mean = mean_radius(radii);
+        let mut difference = |other: Self| {
+            let there = other.has_room(beside, start).then(|| other.moved(beside, start, radii))??;
+            Some((mean_radius(&there) - mean).abs())
+        };
+        // A reading that fails says no more than counting does.
+        let spread = [Some(half), self.readings().get(best + 1).copied()]
+            .map(|other| other.and_then(&mut difference).unwrap_or(COUNTED * spacing));
+        1.5 * spread[0].max(spread[1]) + FLOOR * spacing
+    }
+
+    /// The boundary at which the fit stands, from the one that is `counted`. `None` if it goes far from that or does not come to
+    /// a stand.
+    fn stands(&self, beside: &mut Beside<'_>, counted: &[f64]) -> Option<Vec<f64>> {
+        let spacing = beside.scale().spacing;
+        let (mut radii, mut amplitude, mut last) = (counted.to_vec(), Vec::new(), f64::INFINITY);
+        for round in 0..ROUNDS {
             let before = std::mem::take(&mut radii);
-            beside.follow(&before);
-            radii = self.refined(beside, &before, &mut amplitude)?;
-            // What is not a number is far, too.
-            let near = |(radius, counted): (&f64, &f64)| (radius - counted).abs() < bound;
-            if !radii.iter().zip(counted).all(near) {
+            radii = self.round(beside, counted, &before, &mut amplitude)?;
+            let change = farthest(&radii, &before);
+            if change < STANDS * spacing {
+                return Some(radii);
+            }
+            if round >= FIRST_ROUNDS && change > (LARGE * spacing).max(0.5 * last) {
                 return None;
             }
-            if radii.iter().zip(&before).all(|(now, before)| (now - before).abs() < STANDS * spacing) {
-                break;
-            }
+            last = change;
         }
         Some(radii)
+    }
+
+    /// Where the fit nearly stands, from where another one does: what it moves below the floor of the error does not count.
+    fn moved(&self, beside: &mut Beside<'_>, counted: &[f64], from: &[f64]) -> Option<Vec<f64>> {
+        let mut amplitude = Vec::new();
+        let radii = self.round(beside, counted, from, &mut amplitude)?;
+        if farthest(&radii, from) < FLOOR * beside.scale().spacing {
+            return Some(radii);
+        }
+        self.round(beside, counted, &radii, &mut amplitude)
+    }
+
+    /// The boundary fitted around `radii`, `None` if it goes far from the one that is `counted`.
+    fn round(
+        &self,
+        beside: &mut Beside<'_>,
+        counted: &[f64],
+        radii: &[f64],
+        amplitude: &mut Vec<f64>,
+    ) -> Option<Vec<f64>> {
+        beside.follow(radii);
+        let radii = self.refined(beside, radii, amplitude)?;
+        let bound = belief(counted, beside.scale().spacing);
+        // What is not a number is far, too.
+        radii.iter().zip(counted).all(|(radius, counted)| (radius - counted).abs() < bound).then_some(radii)
     }
 
     /// Distance outside the edge over which the gap at an angle, given by its index, is that of this edge.
@@ -168,19 +219,24 @@ impl Fit {
         self.reach.min(OWN * self.room[index * SECTORS / ANGLES])
     }
 
-    /// Whether most of the samples that could be outside the edge within reach are there and open.
+    /// Whether the samples in contact take part, or most of those that could be outside the edge within reach are there and
+    /// open.
     fn has_room(&self, beside: &Beside<'_>, radii: &[f64]) -> bool {
+        if self.inside > 0.0 {
+            return true;
+        }
         let (mean, sign) = (mean_radius(radii), beside.rim().sign());
         let whole = sign * PI * ((mean + sign * self.reach).powi(2) - mean * mean);
         let near = |sector: usize| {
             let own = 0.0..self.own(sector);
             beside.points(sector, true).iter().filter(|point| own.contains(&beside.distance(point, radii))).count()
         };
-        (0..ANGLES).map(near).sum::<usize>() as f64 * beside.scale().sample_area > ROOM * whole
+        beside.filled().iter().map(|&sector| near(sector)).sum::<usize>() as f64 * beside.scale().sample_area
+            > ROOM * whole
     }
 
-    /// What the samples of one side of a sector add, beside the rim `radii`.
-    fn summed(&self, beside: &Beside<'_>, radii: &[f64], sector: usize, open: bool) -> Sums {
+    /// What the samples of one side of a sector add, beside the rim `radii`; `unit` is φ or γ at the reach.
+    fn summed(&self, beside: &Beside<'_>, radii: &[f64], (sector, open): (usize, bool), unit: f64) -> Sums {
         let (scale, reach) = (beside.scale(), self.reach);
         let mut sums = Sums::default();
         if !open && self.inside == 0.0 {
@@ -188,23 +244,24 @@ impl Fit {
         }
         // The outward normal of a hole points to the axis; an outline is nearly round.
         let along = beside.rim().sign() * scale.edge.along(angle(sector));
-        let unit = if open { scale.edge.opening(reach, 0.0)[0] } else { scale.edge.pressure(reach, 0.0)[0].abs() };
         let most = if open { self.own(sector) } else { reach };
         let outwards = if open { 1.0 } else { -1.0 };
+        let (nearest, rise) = (NEAREST * scale.spacing, 1.0 / (RISE * scale.spacing));
+        let (per_reach, per_unit) = (1.0 / reach, 1.0 / unit);
         for point in beside.points(sector, open) {
             let d = outwards * beside.distance(point, radii);
-            if d < NEAREST * scale.spacing || d >= most {
+            if d < nearest || d >= most {
                 continue;
             }
-            let part = d / reach;
-            let rise = (d / (RISE * scale.spacing)).min(1.0);
+            let part = d * per_reach;
+            let rise = (d * rise).min(1.0);
             let ([value, slope], weight) = if open {
                 let [value, slope] = scale.edge.opening(d, along);
-                ([value, -slope], rise * rise / part / 2.25)
+                ([value, -slope], rise * rise / (2.25 * part))
             } else {
                 (scale.edge.pressure(d, along), (2.0 * self.inside * rise).powi(2) * part)
             };
-            let (y, value, slope) = (point.value / unit, value / unit, slope * reach / unit);
+            let (y, value, slope) = (point.value * per_unit, value * per_unit, slope * (reach * per_unit));
             sums.count += 1;
             let (mut square, mut mixed, mut own) = (weight * value * value, weight * value * slope, weight * value * y);
             for k in 0..5 {
@@ -224,9 +281,12 @@ impl Fit {
 
     /// The boundary fitted around `radii`; `amplitude` is A's series, empty at first.
     fn refined(&self, beside: &Beside<'_>, radii: &[f64], amplitude: &mut Vec<f64>) -> Option<Vec<f64>> {
-        let summed = |sector| [false, true].map(|open| self.summed(beside, radii, sector, open));
+        let edge = beside.scale().edge;
+        let units = [edge.pressure(self.reach, 0.0)[0].abs(), edge.opening(self.reach, 0.0)[0]];
+        let side = |sector: usize, open: bool| self.summed(beside, radii, (sector, open), units[usize::from(open)]);
+        let summed = |&sector: &usize| [false, true].map(|open| side(sector, open));
         let together = if beside.len() < MANY { ANGLES } else { TOGETHER };
-        let all: Vec<[Sums; 2]> = (0..ANGLES).into_par_iter().with_min_len(together).map(summed).collect();
+        let all: Vec<[Sums; 2]> = beside.filled().par_iter().with_min_len(together).map(summed).collect();
         let over_all = |of: fn(&Sums) -> f64| all.iter().flatten().map(of).sum::<f64>();
         let count = all.iter().flatten().map(|sums| sums.count).sum::<usize>();
         let harmonics = self.harmonics.min(count / 24);
@@ -241,8 +301,9 @@ impl Fit {
         let mut fit = SeriesFit::new([harmonics; 2].into_iter().chain(modified).collect());
         let terms = 2 + sides.len() * self.powers;
         let (mut products, mut values) = (vec![0.0; terms * (terms + 1) / 2], vec![0.0; terms]);
-        for (sector, sums) in all.iter().enumerate().filter(|(_, sums)| sums.iter().any(|sums| sums.count > 0)) {
-            let waves = &beside.waves(sector)[..1 + 4 * harmonics];
+        let counted = |(_, sums): &(&usize, &[Sums; 2])| sums.iter().any(|sums| sums.count > 0);
+        for (sector, sums) in beside.filled().iter().zip(&all).filter(counted) {
+            let waves = &waves_at(*sector)[..1 + 4 * harmonics];
             let size = amplitude.iter().zip(waves).map(|(c, wave)| c * wave).sum::<f64>() / unit;
             products.fill(0.0);
             values.fill(0.0);
@@ -273,7 +334,7 @@ impl Fit {
         }
         // A larger contact moves its outer rim out and that of a hole in.
         let sign = beside.rim().sign() * self.reach;
-        let shifts: Vec<f64> = (0..ANGLES).map(|index| sign * series(&c[count..2 * count], angle(index))).collect();
+        let shifts: Vec<f64> = series_line(&c[count..2 * count]).into_iter().map(|shift| sign * shift).collect();
         // One round moves the edge by one spacing at most.
         Some(closed_line::moved(radii, &shifts, beside.scale().spacing))
     }

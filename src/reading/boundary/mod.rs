@@ -158,7 +158,8 @@ mod tests {
             (_, true) => Sample::Hole,
             _ => Sample::Open,
         };
-        let scale = Scale { sample_area: spacing * spacing, spacing, pressure, gap, modulus: 1.0, edge: &edge };
+        let scale =
+            Scale { sample_area: spacing * spacing, spacing, pressure, gap, modulus: 1.0, edge: &edge, errors: true };
         let spot = Spot::new(grid, axis(spacing), 1.1, &what);
         Boundary::locate(&spot, &scale, hole.contains(&true))
     }

@@ -117,6 +117,8 @@ pub struct Scale<'a> {
     pub modulus: f64,
     /// The edge on the half-space, at [`Scale::distances`].
     pub edge: &'a Edge,
+    /// Whether the errors of boundaries are estimated.
+    pub errors: bool,
 }
 
 impl Scale<'_> {
