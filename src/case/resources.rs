@@ -26,8 +26,8 @@ const READING: u64 = 20;
 /// takes more.
 const STRESS: u64 = 92;
 const PLANE: u64 = 24;
-/// The same: what the allocator holds of the stresses of steps before, in a path and in a search for a limit; and coefficients where no two waves share theirs,
-/// of the pressure and of the traction each.
+/// The same: what the allocator holds of the stresses of steps before, in a path and in a search for a limit; and coefficients
+/// where no two waves share theirs, of the pressure and of the traction each.
 const AGAIN: u64 = 72;
 const SEARCH: u64 = 120;
 const SHELLS: u64 = 50;

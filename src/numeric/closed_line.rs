@@ -98,4 +98,12 @@ mod tests {
         assert!((radius(&radii, -PI) - 1.1).abs() < 1e-12 && (radius(&radii, 2.5 * PI) - 0.9).abs() < 1e-12);
         assert!((mean_radius(&radii) - 1.005f64.sqrt()).abs() < 1e-12 && mean_radius(&[]) == 0.0);
     }
+
+    #[test]
+    fn a_series_at_the_angles_of_a_line_is_its_sum_at_each() {
+        let coefficients: Vec<f64> = (0..=2 * HIGHEST).map(|k| (1.7 * k as f64).cos()).collect();
+        for (index, value) in series_line(&coefficients).into_iter().enumerate() {
+            assert!((value - series(&coefficients, angle(index))).abs() < 1e-12, "{index}");
+        }
+    }
 }

@@ -43,3 +43,17 @@ pub fn mean(field: &[f64]) -> f64 {
     let [sum] = of(field.len(), |i| [field[i]]);
     sum / field.len() as f64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whole numbers below 2⁵³, which any order adds exactly: every term counts once, in whole blocks and in what is left of them.
+    #[test]
+    fn every_term_is_added_once() {
+        for len in [0, 1, 7, 8, 9, BLOCK - 1, BLOCK, BLOCK + 13, 3 * BLOCK + 8] {
+            let squares = (0..len).map(|i| (i * i) as f64).sum::<f64>();
+            assert_eq!(of(len, |i| [1.0, (i * i) as f64]), [len as f64, squares], "{len}");
+        }
+    }
+}

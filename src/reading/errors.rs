@@ -22,8 +22,8 @@
 /// | areas, radii, asymmetry, fraction in contact | what the reading of the boundary says of itself |
 ///
 /// The fraction in contact of a topography is read between the samples; where its spots are narrower than ten samples on the
-/// average, or many and without boundaries of their own, it is the one of that and the count corrected by the perimeter whose error by these laws
-/// is the smaller one.
+/// average, or many and without boundaries of their own, it is the one of that and the count corrected by the perimeter
+/// whose error by these laws is the smaller one.
 ///
 /// The numbers are read off seven hundred random cases solved again with four times the points; that the estimates hold
 /// in 95 % of others is shown in `validation/discretisation`. What is prescribed has no error, the peak under a tip is

@@ -210,7 +210,7 @@ pub fn of_topography(contact: &Contact, components: &[Component], scale: &Scale<
     let large = |own: &u32| !components[*own as usize].wraps && size(own) as f64 >= PI * FEWEST * FEWEST;
     let mut fitted: Vec<u32> = (0..components.len() as u32).filter(large).collect();
     fitted.sort_by_key(|own| std::cmp::Reverse(size(own)));
-    // As many of equal size as there are: whichever comes first depends on the vectors that describe the cell.
+    // All of the same size as the last of them: which of these comes first depends on the vectors that describe the cell.
     let least = fitted.get(MOST - 1).map_or(0, size);
     fitted.retain(|own| size(own) >= least);
     let mut boundaries = vec![None; components.len()];

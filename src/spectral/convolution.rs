@@ -296,33 +296,34 @@ mod tests {
         [there, back].map(|sum| sum / (n1 * n2) as f64)
     }
 
-    /// With rows of zeros, and rows whose result is not used, in whole groups or in parts of them, all others are the same.
+    /// Of a field with zeros in all rows but 26 of 150 only the results of these rows are asked for: they are, bit for bit, those of
+    /// a transform of every row. The rows fill some groups that are transformed together, and parts of others.
     #[test]
     fn rows_that_are_left_out_change_no_other() {
         let [n1, n2] = [150, 36];
         let convolution = Convolution::<f32>::new([n1, n2]);
         let parts = convolution.parts();
         let multiplier = convolution.multiplier(false, |[k1, k2]| 1.0 / (1 + k1.min(n1 - k1) + k2) as f64);
-        let looked_at = |row: usize| (20..45).contains(&row) || row == 140;
+        let is_used = |row: usize| (20..45).contains(&row) || row == 140;
         let input: Vec<f32> = noise(n1 * n2).into_iter().map(|x| x as f32).collect();
         // Where rows are next to nothing each of them is transformed.
         let padded = |padding: f32| -> Vec<f32> {
             let rows = input.chunks(n2).enumerate();
-            rows.flat_map(|(row, samples)| samples.iter().map(move |&x| if looked_at(row) { x } else { padding }))
+            rows.flat_map(|(row, samples)| samples.iter().map(move |&x| if is_used(row) { x } else { padding }))
                 .collect()
         };
         let mut room = vec![0.0; convolution.room()];
-        let mut convolve = |field: &[f32], looked_at: &(dyn Fn(usize) -> bool + Sync)| {
+        let mut convolve = |field: &[f32], is_used: &(dyn Fn(usize) -> bool + Sync)| {
             let mut result = vec![0.0; n1 * n2];
             let convolved = convolution.convolve(Action::Over(1.0), &multiplier, &mut room, rows_of(parts, field));
-            convolved.some_rows(looked_at, rows_to(parts, &mut result));
+            convolved.some_rows(is_used, rows_to(parts, &mut result));
             result
         };
-        let (some, all) = (convolve(&padded(0.0), &looked_at), convolve(&padded(1e-30), &|_| true));
-        for row in (0..n1).filter(|&row| looked_at(row)) {
+        let (some, all) = (convolve(&padded(0.0), &is_used), convolve(&padded(1e-30), &|_| true));
+        for row in (0..n1).filter(|&row| is_used(row)) {
             assert_eq!(some[row * n2..][..n2], all[row * n2..][..n2], "row {row}");
         }
-        assert_eq!(some[80 * n2..][..n2], [0.0; 36], "nobody looks at row 80");
+        assert_eq!(some[80 * n2..][..n2], [0.0; 36], "row 80 is not used");
     }
 
     #[test]
