@@ -5,7 +5,7 @@
 //! the same sum by whichever thread it is taken. (Products are added in one rounding where the processor can: another one may
 //! differ in the last digit.)
 
-use fearless_simd::{f32x8, f32x16, f64x8, prelude::*};
+use fearless_simd::{f32x4, f32x8, f32x16, f64x2, f64x8, prelude::*};
 use rustfft::FftNum;
 
 /// Numbers of a group.
@@ -36,14 +36,8 @@ pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
     /// `WIDTH` of them.
     type Wide<S: Simd>: SimdFloat<S, Element = Self>;
 
-    /// `WIDTH` times `WIDTH` of them.
-    type Block<S: Simd>: AsRef<[Self::Wide<S>]> + AsMut<[Self::Wide<S>]>;
-
-    /// A block of zeros.
-    fn block<S: Simd>(simd: S) -> Self::Block<S>;
-
-    /// The vectors of a block turned into those of their first, second, … numbers.
-    fn transposed<S: Simd>(block: Self::Block<S>) -> Self::Block<S>;
+    /// `WIDTH` runs of as many numbers to their columns: number j of run i, at `from[i · apart + j]`, to `to[j · spread + i]`.
+    fn transpose<S: Simd>(simd: S, from: &[Self], apart: usize, to: &mut [Self], spread: usize);
 
     /// Rounded to this precision.
     fn rounded(value: f64) -> Self;
@@ -67,16 +61,14 @@ impl Real for f64 {
     type Lanes<S: Simd> = f64x8<S>;
     type Register<S: Simd> = S::f64s;
     type Wide<S: Simd> = f64x8<S>;
-    type Block<S: Simd> = [f64x8<S>; 8];
 
     #[inline(always)]
-    fn block<S: Simd>(simd: S) -> Self::Block<S> {
-        [f64x8::simd_from(simd, 0.0); 8]
-    }
-
-    #[inline(always)]
-    fn transposed<S: Simd>(block: Self::Block<S>) -> Self::Block<S> {
-        transposed(block)
+    fn transpose<S: Simd>(simd: S, from: &[Self], apart: usize, to: &mut [Self], spread: usize) {
+        if S::f64s::LEN < Self::WIDTH {
+            squares::<S, f64x2<S>, 2, { Self::WIDTH }>(simd, from, apart, to, spread);
+        } else {
+            squares::<S, f64x8<S>, 8, { Self::WIDTH }>(simd, from, apart, to, spread);
+        }
     }
 
     #[inline(always)]
@@ -116,16 +108,14 @@ impl Real for f32 {
     type Lanes<S: Simd> = f32x8<S>;
     type Register<S: Simd> = S::f32s;
     type Wide<S: Simd> = f32x16<S>;
-    type Block<S: Simd> = [f32x16<S>; 16];
 
     #[inline(always)]
-    fn block<S: Simd>(simd: S) -> Self::Block<S> {
-        [f32x16::simd_from(simd, 0.0); 16]
-    }
-
-    #[inline(always)]
-    fn transposed<S: Simd>(block: Self::Block<S>) -> Self::Block<S> {
-        transposed(block)
+    fn transpose<S: Simd>(simd: S, from: &[Self], apart: usize, to: &mut [Self], spread: usize) {
+        if S::f32s::LEN < Self::WIDTH {
+            squares::<S, f32x4<S>, 4, { Self::WIDTH }>(simd, from, apart, to, spread);
+        } else {
+            squares::<S, f32x16<S>, 16, { Self::WIDTH }>(simd, from, apart, to, spread);
+        }
     }
 
     #[inline(always)]
@@ -164,16 +154,33 @@ impl Real for f32 {
     }
 }
 
-/// N vectors of N numbers: the bits of a number's place, vector and lane, go round, one of them a time.
+/// The transpose of W runs of W numbers, by squares of N vectors of N numbers.
 #[inline(always)]
-fn transposed<S: Simd, V: SimdFloat<S>, const N: usize>(mut vectors: [V; N]) -> [V; N] {
-    for _ in 0..N.trailing_zeros() {
-        let before = vectors;
-        for pair in 0..N / 2 {
-            (vectors[2 * pair], vectors[2 * pair + 1]) = before[pair].interleave(before[pair + N / 2]);
+fn squares<S: Simd, V: SimdFloat<S>, const N: usize, const W: usize>(
+    simd: S,
+    from: &[V::Element],
+    apart: usize,
+    to: &mut [V::Element],
+    spread: usize,
+) {
+    for i in (0..W).step_by(N) {
+        for j in (0..W).step_by(N) {
+            let mut vectors = [V::from_slice(simd, &from[i * apart + j..][..N]); N];
+            for k in 1..N {
+                vectors[k] = V::from_slice(simd, &from[(i + k) * apart + j..][..N]);
+            }
+            // The bits of a number's place, vector and lane, go round, one of them a time.
+            for _ in 0..N.trailing_zeros() {
+                let before = vectors;
+                for pair in 0..N / 2 {
+                    (vectors[2 * pair], vectors[2 * pair + 1]) = before[pair].interleave(before[pair + N / 2]);
+                }
+            }
+            for k in 0..N {
+                vectors[k].store_slice(&mut to[(j + k) * spread + i..][..N]);
+            }
         }
     }
-    vectors
 }
 
 /// A group of a row in the row's own precision; what lies beyond its end is `beyond`.

@@ -100,7 +100,7 @@ impl<T: Real> Rows<T> {
             Way::Paired { halves, places, turns } => {
                 vectorised!(simd => paired(simd, samples, pairs));
                 halves.forward(&mut pairs[..self.len / 2 * line::<T>()], scratch);
-                vectorised!(simd => parted(simd, places, turns, pairs, tiles));
+                vectorised!(simd => parted(simd, places, turns, pairs, components, tiles));
             }
             Way::Library { forward, .. } => {
                 let (row_components, scratch) = scratch.split_at_mut(self.len / 2 + 1);
@@ -170,21 +170,12 @@ fn wide<S: Simd, T: Real>(simd: S, numbers: &[T], at: usize) -> T::Wide<S> {
     T::Wide::<S>::from_slice(simd, &numbers[at..at + T::WIDTH])
 }
 
-/// z of a group of rows of samples.
+/// z of a group of rows of samples: number 2j of a row is the real, number 2j + 1 the imaginary part of z_j.
 #[inline(always)]
 fn paired<S: Simd, T: Real>(simd: S, samples: &[T], pairs: &mut [T]) {
     let stride = samples.len() / T::WIDTH;
-    for (number, lines) in pairs.chunks_exact_mut(T::WIDTH * line::<T>()).enumerate() {
-        let (mut even, mut odd) = (T::block(simd), T::block(simd));
-        for row in 0..T::WIDTH {
-            let at = row * stride + 2 * T::WIDTH * number;
-            let halves = (wide(simd, samples, at), wide(simd, samples, at + T::WIDTH));
-            (even.as_mut()[row], odd.as_mut()[row]) = halves.0.deinterleave(halves.1);
-        }
-        let (even, odd) = (T::transposed(even), T::transposed(odd));
-        for j in 0..T::WIDTH {
-            put::<S, T>([even.as_ref()[j], odd.as_ref()[j]], lines, j);
-        }
+    for (number, lines) in pairs.chunks_exact_mut(T::WIDTH * T::WIDTH).enumerate() {
+        T::transpose(simd, &samples[number * T::WIDTH..], stride, lines, T::WIDTH);
     }
 }
 
@@ -192,18 +183,8 @@ fn paired<S: Simd, T: Real>(simd: S, samples: &[T], pairs: &mut [T]) {
 #[inline(always)]
 fn spread<S: Simd, T: Real>(simd: S, pairs: &[T], samples: &mut [T]) {
     let stride = samples.len() / T::WIDTH;
-    for (number, lines) in pairs.chunks_exact(T::WIDTH * line::<T>()).enumerate() {
-        let (mut even, mut odd) = (T::block(simd), T::block(simd));
-        for j in 0..T::WIDTH {
-            [even.as_mut()[j], odd.as_mut()[j]] = get(simd, lines, j);
-        }
-        let (even, odd) = (T::transposed(even), T::transposed(odd));
-        for row in 0..T::WIDTH {
-            let to = &mut samples[row * stride + 2 * T::WIDTH * number..][..2 * T::WIDTH];
-            let (low, high) = even.as_ref()[row].interleave(odd.as_ref()[row]);
-            low.store_slice(&mut to[..T::WIDTH]);
-            high.store_slice(&mut to[T::WIDTH..]);
-        }
+    for (number, lines) in pairs.chunks_exact(T::WIDTH * T::WIDTH).enumerate() {
+        T::transpose(simd, lines, T::WIDTH, &mut samples[number * T::WIDTH..], stride);
     }
 }
 
@@ -221,28 +202,28 @@ fn put<S: Simd, T: Real>([re, im]: [T::Wide<S>; 2], lines: &mut [T], number: usi
     im.store_slice(&mut own[T::WIDTH..]);
 }
 
-/// X from Z, to the lines of their tiles.
+/// X from Z, to the lines of their tiles; `components` of one tile are needed between.
 #[inline(always)]
 fn parted<'a, S: Simd, T: Real>(
     simd: S,
     places: &[usize],
     turns: &[[T; 2]],
     pairs: &[T],
+    components: &mut [T],
     tiles: impl Iterator<Item = &'a mut [T]>,
 ) {
     let (number, half) = (places.len(), T::Wide::<S>::simd_from(simd, T::rounded(0.5)));
     for (first, tile) in (0..=number).step_by(T::WIDTH).zip(tiles) {
-        let (mut re, mut im) = (T::block(simd), T::block(simd));
         for (k, turn) in (first..=number).zip(&turns[first..]).take(T::WIDTH) {
             let [a_re, a_im] = get(simd, pairs, places[if k < number { k } else { 0 }]);
             let [b_re, b_im] = get(simd, pairs, places[if k > 0 { number - k } else { 0 }]);
             let (e_re, e_im) = ((a_re + b_re) * half, (a_im - b_im) * half);
             let (o_re, o_im) = ((a_im + b_im) * half, (b_re - a_re) * half);
             let (c, s) = (T::Wide::<S>::simd_from(simd, turn[0]), T::Wide::<S>::simd_from(simd, turn[1]));
-            re.as_mut()[k - first] = o_re.mul_add(c, e_re - o_im * s);
-            im.as_mut()[k - first] = o_re.mul_add(s, o_im.mul_add(c, e_im));
+            let (re, im) = (o_re.mul_add(c, e_re - o_im * s), o_re.mul_add(s, o_im.mul_add(c, e_im)));
+            put::<S, T>([re, im], components, k - first);
         }
-        to_rows::<S, T>(re, im, tile);
+        transpose(simd, components, tile);
     }
 }
 
@@ -267,20 +248,7 @@ fn joined<S: Simd, T: Real>(simd: S, places: &[usize], turns: &[[T; 2]], compone
 #[inline(always)]
 fn separate<'a, S: Simd, T: Real>(simd: S, components: &[T], tiles: impl Iterator<Item = &'a mut [T]>) {
     for (from, tile) in components.chunks_exact(T::WIDTH * line::<T>()).zip(tiles) {
-        let (mut re, mut im) = (T::block(simd), T::block(simd));
-        for c in 0..T::WIDTH {
-            [re.as_mut()[c], im.as_mut()[c]] = get(simd, from, c);
-        }
-        to_rows::<S, T>(re, im, tile);
-    }
-}
-
-/// Components of a tile, one after the other, to its lines.
-#[inline(always)]
-fn to_rows<S: Simd, T: Real>(re: T::Block<S>, im: T::Block<S>, tile: &mut [T]) {
-    let (re, im) = (T::transposed(re), T::transposed(im));
-    for (row, (re, im)) in re.as_ref().iter().zip(im.as_ref()).enumerate().take(tile.len() / line::<T>()) {
-        put::<S, T>([*re, *im], tile, row);
+        transpose(simd, from, tile);
     }
 }
 
@@ -288,13 +256,23 @@ fn to_rows<S: Simd, T: Real>(re: T::Block<S>, im: T::Block<S>, tile: &mut [T]) {
 #[inline(always)]
 fn unite<'a, S: Simd, T: Real>(simd: S, tiles: impl Iterator<Item = &'a [T]>, components: &mut [T]) {
     for (to, tile) in components.chunks_exact_mut(T::WIDTH * line::<T>()).zip(tiles) {
-        let (mut re, mut im) = (T::block(simd), T::block(simd));
-        for row in 0..tile.len() / line::<T>() {
-            [re.as_mut()[row], im.as_mut()[row]] = get(simd, tile, row);
-        }
-        let (re, im) = (T::transposed(re), T::transposed(im));
-        for c in 0..T::WIDTH {
-            put::<S, T>([re.as_ref()[c], im.as_ref()[c]], to, c);
+        transpose(simd, tile, to);
+    }
+}
+
+/// Lines of real and imaginary parts, as many as each has, to those of their columns. Where one side has fewer lines, the
+/// rest of the other is left out.
+#[inline(always)]
+fn transpose<S: Simd, T: Real>(simd: S, from: &[T], to: &mut [T]) {
+    let (line, whole) = (line::<T>(), T::WIDTH * line::<T>());
+    if from.len() >= whole && to.len() >= whole {
+        T::transpose(simd, from, line, to, line);
+        T::transpose(simd, &from[T::WIDTH..], line, &mut to[T::WIDTH..], line);
+        return;
+    }
+    for (i, from) in from.chunks_exact(line).enumerate().take(T::WIDTH) {
+        for (j, to) in to.chunks_exact_mut(line).enumerate().take(T::WIDTH) {
+            (to[i], to[T::WIDTH + i]) = (from[j], from[T::WIDTH + j]);
         }
     }
 }
