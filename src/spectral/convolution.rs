@@ -159,13 +159,16 @@ impl<T: Real> Convolution<T> {
             runs.zip(&mut parts).for_each(|(run, part)| part.push(run));
         }
         assert_eq!(sources.len(), parts.len(), "sources of a convolution");
-        parts.into_par_iter().zip(sources).for_each(|(mut runs, mut source)| {
-            let mut buffers = self.rows.buffers();
-            for lines in self.groups(runs[0].len()) {
-                let tiles = runs.iter_mut().map(|run| &mut run[lines.clone()]);
-                self.rows.forward(lines.len() / line::<T>(), &mut source, &mut buffers, tiles);
-            }
-        });
+        let parts = parts.into_par_iter().zip(sources);
+        parts.for_each_init(
+            || self.rows.buffers(),
+            |buffers, (mut runs, mut source)| {
+                for lines in self.groups(runs[0].len()) {
+                    let tiles = runs.iter_mut().map(|run| &mut run[lines.clone()]);
+                    self.rows.forward(lines.len() / line::<T>(), &mut source, buffers, tiles);
+                }
+            },
+        );
     }
 
     /// The lines of the groups of rows in a run of so many numbers.
@@ -207,20 +210,22 @@ impl<T: Real> Convolved<'_, T> {
         let (Self { convolution, spectrum }, sinks) = (self, sinks.into_par_iter());
         let (parts, [n1, _]) = (convolution.parts, convolution.points());
         assert_eq!(sinks.len(), parts.count(), "sinks of a convolution");
-        sinks.enumerate().for_each(|(part, mut sink)| {
-            let (first, last) = (part * parts.rows(), n1.min((part + 1) * parts.rows()));
-            let run = first * line::<T>()..last * line::<T>();
-            let mut buffers = convolution.rows.buffers();
-            for lines in convolution.groups(run.len()) {
-                let (count, before) = (lines.len() / line::<T>(), first + lines.start / line::<T>());
-                if !(before..before + count).any(&looked_at) {
-                    convolution.rows.blank(count, &mut buffers, &mut sink);
-                    continue;
+        sinks.enumerate().for_each_init(
+            || convolution.rows.buffers(),
+            |buffers, (part, mut sink)| {
+                let (first, last) = (part * parts.rows(), n1.min((part + 1) * parts.rows()));
+                let run = first * line::<T>()..last * line::<T>();
+                for lines in convolution.groups(run.len()) {
+                    let (count, before) = (lines.len() / line::<T>(), first + lines.start / line::<T>());
+                    if !(before..before + count).any(&looked_at) {
+                        convolution.rows.blank(count, buffers, &mut sink);
+                        continue;
+                    }
+                    let tiles = spectrum.chunks_exact(convolution.tile()).map(|tile| &tile[run.clone()][lines.clone()]);
+                    convolution.rows.back(count, tiles, buffers, &mut sink);
                 }
-                let tiles = spectrum.chunks_exact(convolution.tile()).map(|tile| &tile[run.clone()][lines.clone()]);
-                convolution.rows.back(count, tiles, &mut buffers, &mut sink);
-            }
-        });
+            },
+        );
     }
 }
 

@@ -40,7 +40,7 @@ pub struct Stage<T> {
 impl<T: Real> Columns<T> {
     /// Plan for columns of `len` numbers.
     pub fn new(len: usize) -> Self {
-        match radices(len) {
+        match radices::<T>(len) {
             Some(radices) => {
                 let stages = radices.into_iter().scan(len, |len, radix| {
                     let (whole, part) = (*len, *len / radix);
@@ -124,17 +124,28 @@ impl<T: Real> Columns<T> {
     }
 }
 
-/// Radices whose product is `len`, eights first; none when a prime factor has no butterfly.
-fn radices(len: usize) -> Option<Vec<usize>> {
+/// Radices whose product is `len`; none when a prime factor has no butterfly. The butterfly for eight keeps as many numbers at
+/// hand as 32 registers hold; where registers hold less than a line there are 16 of them.
+fn radices<T: Real>(len: usize) -> Option<Vec<usize>> {
     assert!(len > 0, "a transform has points");
     let (mut rest, mut radices) = (len, Vec::new());
-    for radix in [8, 4, 2, 3, 5, 7, 11, LARGEST] {
+    let radices_of_two: &[usize] = if whole_registers::<T>() { &[8, 4, 2] } else { &[4, 2] };
+    for &radix in radices_of_two.iter().chain(&[3, 5, 7, 11, LARGEST]) {
         while rest.is_multiple_of(radix) {
             rest /= radix;
             radices.push(radix);
         }
     }
     (rest == 1).then_some(radices)
+}
+
+/// Whether a register of this processor holds a whole line's real parts.
+fn whole_registers<T: Real>() -> bool {
+    #[inline(always)]
+    fn of<S: Simd, T: Real>(_: S) -> bool {
+        T::Register::<S>::LEN == T::WIDTH
+    }
+    vectorised!(simd => of::<_, T>(simd))
 }
 
 /// Bytes that the nearest cache of a processor holds, with room for something else.
