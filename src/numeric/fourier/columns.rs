@@ -124,11 +124,16 @@ impl<T: Real> Columns<T> {
     }
 }
 
-/// Radices whose product is `len`; none when a prime factor has no butterfly. The butterfly for eight keeps as many numbers at
-/// hand as 32 registers hold; where registers hold less than a line there are 16 of them.
+/// Radices whose product is `len`; none when a prime factor has no butterfly.
+///
+/// The butterfly for eight keeps as many numbers at hand as 32 registers hold. Where registers hold less than a line there are
+/// 16 of them, and fours come first; the eight of an odd power of two is last, where no twiddles are needed.
 fn radices<T: Real>(len: usize) -> Option<Vec<usize>> {
     assert!(len > 0, "a transform has points");
-    let (mut rest, mut radices) = (len, Vec::new());
+    let (mut rest, mut radices, mut last) = (len, Vec::new(), None);
+    if !whole_registers::<T>() && len.trailing_zeros() > 1 && len.trailing_zeros() % 2 == 1 {
+        (rest, last) = (rest / 8, Some(8));
+    }
     let radices_of_two: &[usize] = if whole_registers::<T>() { &[8, 4, 2] } else { &[4, 2] };
     for &radix in radices_of_two.iter().chain(&[3, 5, 7, 11, LARGEST]) {
         while rest.is_multiple_of(radix) {
@@ -136,6 +141,7 @@ fn radices<T: Real>(len: usize) -> Option<Vec<usize>> {
             radices.push(radix);
         }
     }
+    radices.extend(last);
     (rest == 1).then_some(radices)
 }
 
@@ -176,13 +182,13 @@ fn through<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
         _ => {
             if FORTH {
                 for stage in stages {
-                    parts::<S, T, false>(simd, stage, lines);
+                    split::<S, T, false>(simd, stage, lines);
                 }
             }
             between(first, lines);
             if BACK {
                 for stage in stages.iter().rev() {
-                    parts::<S, T, true>(simd, stage, lines);
+                    split::<S, T, true>(simd, stage, lines);
                 }
             }
         }
@@ -205,39 +211,38 @@ fn deeper<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
 
 /// The splitting of every column, or (`BACK`) what undoes it.
 #[inline(always)]
-fn parts<S: Simd, T: Real, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
-    for whole in lines.chunks_exact_mut(stage.radix * stage.part * line::<T>()) {
-        split::<S, T, BACK>(simd, stage, whole);
-    }
-}
-
-/// One splitting of columns, or (`BACK`) what undoes it.
-#[inline(always)]
 fn split<S: Simd, T: Real, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
     match stage.radix {
-        2 => step::<S, T, 2, BACK>(simd, stage, lines),
-        3 => step::<S, T, 3, BACK>(simd, stage, lines),
-        4 => step::<S, T, 4, BACK>(simd, stage, lines),
-        5 => step::<S, T, 5, BACK>(simd, stage, lines),
-        7 => step::<S, T, 7, BACK>(simd, stage, lines),
-        8 => step::<S, T, 8, BACK>(simd, stage, lines),
-        11 => step::<S, T, 11, BACK>(simd, stage, lines),
-        _ => step::<S, T, LARGEST, BACK>(simd, stage, lines),
+        2 => steps::<S, T, 2, BACK>(simd, stage, lines),
+        3 => steps::<S, T, 3, BACK>(simd, stage, lines),
+        4 => steps::<S, T, 4, BACK>(simd, stage, lines),
+        5 => steps::<S, T, 5, BACK>(simd, stage, lines),
+        7 => steps::<S, T, 7, BACK>(simd, stage, lines),
+        8 => steps::<S, T, 8, BACK>(simd, stage, lines),
+        11 => steps::<S, T, 11, BACK>(simd, stage, lines),
+        _ => steps::<S, T, LARGEST, BACK>(simd, stage, lines),
     }
 }
 
 /// Forth: butterfly, then twiddles. Back: twiddles, then butterfly, with real and imaginary parts exchanged, which turns
 /// e^{−2πi…} into its conjugate. Twiddles of columns of one number are 1.
 #[inline(always)]
-fn step<S: Simd, T: Real, const R: usize, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
-    let mut parts = lines.chunks_exact_mut(stage.part * line::<T>());
-    let mut parts: [&mut [T]; R] = std::array::from_fn(|_| parts.next().expect("as many parts as the radix"));
-    if stage.part == 1 {
-        butterflies::<S, T, R, BACK, false>(simd, &stage.roots, &[], &mut parts, 0);
-        return;
-    }
-    for (j, twiddles) in stage.twiddles.chunks_exact(R - 1).enumerate() {
-        butterflies::<S, T, R, BACK, true>(simd, &stage.roots, twiddles, &mut parts, j * line::<T>());
+fn steps<S: Simd, T: Real, const R: usize, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
+    let part = stage.part * line::<T>();
+    for whole in lines.chunks_exact_mut(R * part) {
+        let mut rest = whole;
+        let mut parts: [&mut [T]; R] = std::array::from_fn(|_| {
+            let (first, others) = std::mem::take(&mut rest).split_at_mut(part);
+            rest = others;
+            first
+        });
+        if stage.part == 1 {
+            butterflies::<S, T, R, BACK, false>(simd, &stage.roots, &[], &mut parts, 0);
+            continue;
+        }
+        for (j, twiddles) in stage.twiddles.chunks_exact(R - 1).enumerate() {
+            butterflies::<S, T, R, BACK, true>(simd, &stage.roots, twiddles, &mut parts, j * line::<T>());
+        }
     }
 }
 

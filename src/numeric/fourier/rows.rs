@@ -60,9 +60,10 @@ impl<T: Real> Rows<T> {
         }
     }
 
-    /// Samples from row to row of a group.
+    /// Samples from row to row of a group: two lines of the cache more than a row has, so that rows of a power of two do not
+    /// all take the same places in it.
     fn stride(&self) -> usize {
-        self.len.next_multiple_of(2 * T::WIDTH)
+        self.len.next_multiple_of(2 * T::WIDTH) + 2 * T::WIDTH
     }
 
     /// What a group of rows takes.
