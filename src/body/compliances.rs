@@ -85,6 +85,16 @@ impl<'a> Compliances<'a> {
         }
     }
 
+    /// Compliances at wavenumbers > 0, in the place of these.
+    pub fn of(&self, wavenumbers: &mut [f64]) {
+        if self.transfer.strata.is_empty() {
+            let bare = self.transfer.compliance(1.0);
+            wavenumbers.iter_mut().for_each(|q| *q = bare / *q);
+        } else {
+            wavenumbers.iter_mut().for_each(|q| *q = self.at(*q));
+        }
+    }
+
     /// K/C of the [`SurfaceResponse`](super::SurfaceResponse) at the wavenumber q > 0 (1/length).
     pub fn coupling_ratio(&self, wavenumber: f64) -> f64 {
         self.ratios.at(wavenumber).unwrap_or_else(|| self.transfer.coupling_ratio(wavenumber))

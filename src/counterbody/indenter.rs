@@ -77,6 +77,14 @@ impl Shape {
         }
     }
 
+    /// Profiles at the radii whose squares are given, in the place of these.
+    pub(crate) fn profiles(&self, squares: &mut [f64]) {
+        match *self {
+            Self::Paraboloid { radius } => squares.iter_mut().for_each(|square| *square /= 2.0 * radius),
+            _ => squares.iter_mut().for_each(|square| *square = self.profile(square.sqrt())),
+        }
+    }
+
     /// Slope f′ of the flank at the radius `r` ≥ 0; infinite from the equator of a sphere on.
     pub fn slope(&self, r: f64) -> f64 {
         match *self {

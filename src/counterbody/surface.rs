@@ -158,18 +158,25 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
     let (mut gap, mut owner) = (vec![0.0; grid.len()], vec![0; grid.len()]);
     let rows = (gap.par_chunks_mut(points[1]), owner.par_chunks_mut(points[1])).into_par_iter().enumerate();
     let ties = rows.flat_map_iter(|(row, (gap, owner))| {
-        let (mut squares, mut tied) = (vec![0.0; points[1]], vec![false; points[1]]);
-        gap.fill(f64::INFINITY);
-        for (number, site) in (0..).zip(&sites) {
+        let depths = |site: &Site, depths: &mut [f64]| {
             let here = row as f64 / points[0] as f64;
-            reduced.nearest_squares([here - site.place[0], -site.place[1]], points[1], &mut squares);
-            let samples = gap.iter_mut().zip(owner.iter_mut()).zip(&mut tied).zip(&squares);
-            for (((nearest, owner), tied), square) in samples {
-                let distance = site.profile(square.sqrt());
-                if distance < *nearest * (1.0 - TIE) {
-                    (*nearest, *owner, *tied) = (distance, number, false);
+            reduced.nearest_squares([here - site.place[0], -site.place[1]], points[1], depths);
+            site.shape.profiles(depths);
+            depths.iter_mut().for_each(|depth| *depth += site.drop);
+        };
+        let (mut others, mut tied) = (vec![0.0; points[1]], vec![false; points[1]]);
+        for (number, site) in (0..).zip(&sites) {
+            // The first one is nearest until another is: it owns all samples.
+            if number == 0 {
+                depths(site, gap);
+                continue;
+            }
+            depths(site, &mut others);
+            for (((nearest, owner), tied), &depth) in gap.iter_mut().zip(&mut *owner).zip(&mut tied).zip(&others) {
+                if depth < *nearest * (1.0 - TIE) {
+                    (*nearest, *owner, *tied) = (depth, number, false);
                 } else {
-                    *tied |= distance <= *nearest * (1.0 + TIE);
+                    *tied |= depth <= *nearest * (1.0 + TIE);
                 }
             }
         }

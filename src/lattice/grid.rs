@@ -186,6 +186,12 @@ impl Grid {
         (x * x + y * y).sqrt()
     }
 
+    /// The same of the components (k₁, k₂), (k₁, k₂ + 1), …, from the `first` on.
+    pub(crate) fn wavenumbers(&self, first: [usize; 2], values: &mut [f64]) {
+        self.zone.squares(first, values);
+        values.iter_mut().for_each(|square| *square = square.sqrt());
+    }
+
     /// Least non-zero wavenumber of the cell, 1/length.
     pub fn least_wavenumber(&self) -> f64 {
         norm(self.cell().dual().reduced().short())

@@ -40,6 +40,12 @@ impl Zone {
         self.sampling.nearest(self.fractions_of(component))
     }
 
+    /// Squared lengths of the [shortest aliases](Self::wavevector) of the components (k₁, k₂), (k₁, k₂ + 1), …, from the
+    /// `first` on.
+    pub fn squares(&self, first: [usize; 2], squares: &mut [f64]) {
+        self.sampling.nearest_squares(self.fractions_of(first), self.points[1], squares);
+    }
+
     /// Fractions of N₁b₁ and N₂b₂ that a component stands for.
     fn fractions_of(&self, component: [usize; 2]) -> [f64; 2] {
         [0, 1].map(|axis| component[axis] as f64 / self.points[axis] as f64)

@@ -86,35 +86,38 @@ impl<T: Real> Convolution<T> {
         self.size() * size_of::<T>() / size_of::<f64>()
     }
 
-    /// The multiplier with the values `value([k₁, k₂])` > 0, 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
+    /// The multiplier of the positive values that `fill([k₁, k₂], values)` gives the components (k₁, k₂), (k₁, k₂ + 1), …,
+    /// 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
     ///
-    /// The value must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where it is also even in k₁ alone
-    /// (`mirrored`), half of them are asked for.
-    pub fn multiplier(&self, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Multiplier {
+    /// They must be even under (k₁, k₂) → (−k₁, −k₂): then real fields stay real. Where they are also even in k₁ alone
+    /// (`mirrored`), half of them are computed.
+    pub fn multiplier(&self, mirrored: bool, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Multiplier {
         let [n1, n2] = self.points();
         let normalisation = 1.0 / (n1 as f64 * n2 as f64);
-        let table = self.table(1.0, mirrored, |component| normalisation * value(component));
+        let table = self.table(1.0, mirrored, |first, values| {
+            fill(first, values);
+            values.iter_mut().for_each(|value| *value *= normalisation);
+        });
         Multiplier::new(table, n1, normalisation)
     }
 
-    /// The odd multiplier with the values `value([k₁, k₂])`, 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
+    /// The odd multiplier of values given in the same way.
     ///
-    /// The value must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero where that changes nothing: then real fields stay
+    /// They must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero where that changes nothing: then real fields stay
     /// real.
-    pub fn turns(&self, value: impl Fn([usize; 2]) -> f64 + Sync) -> Turns {
-        Turns::new(self.table(0.0, false, value))
+    pub fn turns(&self, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Turns {
+        Turns::new(self.table(0.0, false, fill))
     }
 
     /// Values in the order of the column pass, eight columns at a time, padded to whole tiles.
-    fn table(&self, padding: f64, mirrored: bool, value: impl Fn([usize; 2]) -> f64 + Sync) -> Vec<f64> {
+    fn table(&self, padding: f64, mirrored: bool, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Vec<f64> {
         let n1 = self.points()[0];
         let mut table = vec![padding; self.eights() * n1 * LANES];
         table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(eight, table)| {
             let mut lines = vec![[padding; LANES]; n1];
             for k1 in 0..if mirrored { n1 / 2 + 1 } else { n1 } {
-                for (k2, entry) in (eight * LANES..self.half()).zip(&mut lines[k1]) {
-                    *entry = value([k1, k2]);
-                }
+                let k2 = eight * LANES;
+                fill([k1, k2], &mut lines[k1][..self.half().saturating_sub(k2).min(LANES)]);
                 if mirrored {
                     lines[(n1 - k1) % n1] = lines[k1];
                 }
@@ -277,7 +280,9 @@ mod tests {
         };
         let input = noise(n1 * n2);
         let mean = input.iter().sum::<f64>() / input.len() as f64;
-        let multiplier = convolution.multiplier(false, |[k1, k2]| symbol(k1, k2));
+        let multiplier = convolution.multiplier(false, |[k1, k2], values| {
+            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = symbol(k1, k2));
+        });
         let (mut field, mut room) =
             (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), vec![0.0; convolution.room()]);
         let at = |i: usize, j: usize| input[(i % n1) * n2 + j % n2] - mean;
@@ -308,7 +313,9 @@ mod tests {
         let [n1, n2] = [150, 36];
         let convolution = Convolution::<f32>::new([n1, n2]);
         let parts = convolution.parts();
-        let multiplier = convolution.multiplier(false, |[k1, k2]| 1.0 / (1 + k1.min(n1 - k1) + k2) as f64);
+        let multiplier = convolution.multiplier(false, |[k1, k2], values| {
+            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = 1.0 / (1 + k1.min(n1 - k1) + k2) as f64);
+        });
         let is_used = |row: usize| (20..45).contains(&row) || row == 140;
         let input: Vec<f32> = noise(n1 * n2).into_iter().map(|x| x as f32).collect();
         // Where rows are next to nothing each of them is transformed.

@@ -72,9 +72,12 @@ impl Operator {
         }
         let compliances = Compliances::coupled(transfer, range(grid), grid.len() / 2);
         let own = Self::with(grid, transfer, &compliances);
-        let turns = own.double.turns(|component| match grid.mean_direction(component) {
+        let turn = |component| match grid.mean_direction(component) {
             [0.0, 0.0] => 0.0,
             [nx, ny] => (x * nx + y * ny) * compliances.coupling_ratio(grid.wavenumber(component)),
+        };
+        let turns = own.double.turns(|[k1, k2], values| {
+            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = turn([k1, k2]));
         });
         let largest = turns.largest();
         Self { coupling: Some((turns, largest)), ..own }
@@ -85,9 +88,12 @@ impl Operator {
         let unit = transfer.compliance(grid.least_wavenumber());
         // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
         // positive: it takes the mean for a component of the least wavenumber.
-        let compliance = double.multiplier(grid.cell().is_rectangular(), |component| match component {
-            [0, 0] => unit,
-            component => compliances.at(grid.wavenumber(component)),
+        let compliance = double.multiplier(grid.cell().is_rectangular(), |first, values| {
+            grid.wavenumbers(first, values);
+            if first == [0, 0] {
+                values[0] = grid.least_wavenumber();
+            }
+            compliances.of(values);
         });
         Self { double, single, compliance, coupling: None, unit, convolutions: 0.0 }
     }
