@@ -43,7 +43,6 @@ pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
     fn rounded(value: f64) -> Self;
 
     /// As a number of double precision.
-    #[cfg(test)]
     fn wide(self) -> f64;
 
     /// The group of a row that starts at `at`, in double precision; what lies beyond the row's end is `beyond`.
@@ -76,7 +75,6 @@ impl Real for f64 {
         value
     }
 
-    #[cfg(test)]
     fn wide(self) -> f64 {
         self
     }
@@ -123,7 +121,6 @@ impl Real for f32 {
         value as Self
     }
 
-    #[cfg(test)]
     fn wide(self) -> f64 {
         f64::from(self)
     }

@@ -18,7 +18,7 @@ use crate::numeric::fourier::{Columns, Rows, line};
 use crate::numeric::lanes::{LANES, Real};
 use crate::numeric::rows::{Parts, next};
 use rayon::prelude::*;
-use rustfft::num_complex::Complex;
+use rustfft::num_complex::Complex64;
 use std::fmt;
 use std::ops::Range;
 
@@ -181,7 +181,7 @@ impl<T: Real> Convolution<T> {
     }
 
     fn column_pass(&self, action: Action<'_>, multiplier: &Multiplier, spectrum: &mut [T]) {
-        let scratch = || vec![Complex::new(T::zero(), T::zero()); self.columns.scratch(self.points()[0])];
+        let scratch = || vec![Complex64::ZERO; self.columns.scratch(self.points()[0])];
         spectrum.par_chunks_exact_mut(self.tile()).enumerate().for_each_init(scratch, |scratch, (tile, lines)| {
             let multiply = |first: usize, lines: &mut [T]| action.multiply(multiplier, tile, first, lines);
             self.columns.there_and_back(lines, scratch, &multiply);

@@ -8,7 +8,7 @@
 use super::butterflies::{Complex, LARGEST, root, transform};
 use crate::numeric::lanes::{Real, vectorised};
 use fearless_simd::prelude::*;
-use rustfft::{Fft, FftPlanner, num_complex};
+use rustfft::{Fft, FftPlanner, num_complex::Complex64};
 use std::sync::Arc;
 
 /// Numbers of a line of a tile in double precision: the real, then the imaginary parts of one row in eight columns.
@@ -23,7 +23,11 @@ pub const fn line<T: Real>() -> usize {
 #[derive(Clone)]
 pub enum Columns<T: Real> {
     Butterflies(Vec<Stage<T>>),
-    Library { forward: Arc<dyn Fft<T>>, inverse: Arc<dyn Fft<T>> },
+    /// In double precision, whatever the columns are.
+    Library {
+        forward: Arc<dyn Fft<f64>>,
+        inverse: Arc<dyn Fft<f64>>,
+    },
 }
 
 /// One splitting of columns of `radix` · `part` numbers into `radix` columns.
@@ -84,7 +88,7 @@ impl<T: Real> Columns<T> {
     }
 
     /// A tile of columns forth, in place.
-    pub fn forward(&self, lines: &mut [T], scratch: &mut [num_complex::Complex<T>]) {
+    pub fn forward(&self, lines: &mut [T], scratch: &mut [Complex64]) {
         match self {
             Self::Butterflies(stages) => {
                 vectorised!(simd => through::<_, T, true, false>(simd, stages, 0, lines, &|_, _| ()));
@@ -94,7 +98,7 @@ impl<T: Real> Columns<T> {
     }
 
     /// A tile of columns back, in place, times the number of their points.
-    pub fn inverse(&self, lines: &mut [T], scratch: &mut [num_complex::Complex<T>]) {
+    pub fn inverse(&self, lines: &mut [T], scratch: &mut [Complex64]) {
         match self {
             Self::Butterflies(stages) => {
                 vectorised!(simd => through::<_, T, false, true>(simd, stages, 0, lines, &|_, _| ()));
@@ -105,12 +109,7 @@ impl<T: Real> Columns<T> {
 
     /// A tile of columns forth, `between`, and back. What is done between is given some lines at a time, and the number of the
     /// first one.
-    pub fn there_and_back(
-        &self,
-        lines: &mut [T],
-        scratch: &mut [num_complex::Complex<T>],
-        between: &impl Fn(usize, &mut [T]),
-    ) {
+    pub fn there_and_back(&self, lines: &mut [T], scratch: &mut [Complex64], between: &impl Fn(usize, &mut [T])) {
         match self {
             Self::Butterflies(stages) => {
                 vectorised!(simd => through::<_, T, true, true>(simd, stages, 0, lines, between));
@@ -272,15 +271,15 @@ fn butterflies<S: Simd, T: Real, const R: usize, const BACK: bool, const TURNED:
 }
 
 /// The library's transform of each column of a tile.
-fn by_column<T: Real>(fft: &dyn Fft<T>, lines: &mut [T], scratch: &mut [num_complex::Complex<T>]) {
+fn by_column<T: Real>(fft: &dyn Fft<f64>, lines: &mut [T], scratch: &mut [Complex64]) {
     let (column, scratch) = scratch.split_at_mut(lines.len() / line::<T>());
     for lane in 0..T::WIDTH {
         for (value, line) in column.iter_mut().zip(lines.chunks_exact(line::<T>())) {
-            *value = num_complex::Complex::new(line[lane], line[T::WIDTH + lane]);
+            *value = Complex64::new(line[lane].wide(), line[T::WIDTH + lane].wide());
         }
         fft.process_with_scratch(column, scratch);
         for (value, line) in column.iter().zip(lines.chunks_exact_mut(line::<T>())) {
-            (line[lane], line[T::WIDTH + lane]) = (value.re, value.im);
+            (line[lane], line[T::WIDTH + lane]) = (T::rounded(value.re), T::rounded(value.im));
         }
     }
 }

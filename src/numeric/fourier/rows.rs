@@ -13,7 +13,7 @@ use crate::numeric::aligned::Aligned;
 use crate::numeric::lanes::{Real, all_zero, vectorised};
 use fearless_simd::prelude::*;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::num_complex::Complex;
+use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
 /// Plan for rows of so many samples.
@@ -31,10 +31,8 @@ enum Way<T: Real> {
         places: Vec<usize>,
         turns: Vec<[T; 2]>,
     },
-    Library {
-        forward: Arc<dyn RealToComplex<T>>,
-        inverse: Arc<dyn ComplexToReal<T>>,
-    },
+    /// In double precision, whatever the rows are.
+    Library { forward: Arc<dyn RealToComplex<f64>>, inverse: Arc<dyn ComplexToReal<f64>> },
 }
 
 /// What a group of rows takes: samples row by row, z, and components one after the other.
@@ -42,7 +40,9 @@ pub struct Buffers<T> {
     samples: Aligned<T>,
     pairs: Aligned<T>,
     components: Aligned<T>,
-    scratch: Vec<Complex<T>>,
+    scratch: Vec<Complex64>,
+    /// A row for the library.
+    row: Vec<f64>,
 }
 
 impl<T: Real> Rows<T> {
@@ -69,15 +69,18 @@ impl<T: Real> Rows<T> {
     /// What a group of rows takes.
     pub fn buffers(&self) -> Buffers<T> {
         let (lines, half) = (self.stride() / 2, self.len / 2 + 1);
-        let scratch = match &self.way {
-            Way::Paired { halves, .. } => halves.scratch(self.len / 2),
-            Way::Library { forward, inverse } => half + forward.get_scratch_len().max(inverse.get_scratch_len()),
+        let (scratch, row) = match &self.way {
+            Way::Paired { halves, .. } => (halves.scratch(self.len / 2), 0),
+            Way::Library { forward, inverse } => {
+                (half + forward.get_scratch_len().max(inverse.get_scratch_len()), self.len)
+            }
         };
         Buffers {
             samples: Aligned::new(T::WIDTH * self.stride()),
             pairs: Aligned::new(lines * line::<T>()),
             components: Aligned::new(half.next_multiple_of(T::WIDTH) * line::<T>()),
-            scratch: vec![Complex::new(T::zero(), T::zero()); scratch],
+            scratch: vec![Complex64::ZERO; scratch],
+            row: vec![0.0; row],
         }
     }
 
@@ -90,7 +93,7 @@ impl<T: Real> Rows<T> {
         buffers: &mut Buffers<T>,
         tiles: impl Iterator<Item = &'a mut [T]>,
     ) {
-        let Buffers { samples, pairs, components, scratch } = buffers;
+        let Buffers { samples, pairs, components, scratch, row } = buffers;
         let rows = samples.chunks_exact_mut(self.stride()).take(count);
         rows.for_each(|row| source(&mut row[..self.len]));
         if vectorised!(simd => all_zero(simd, &samples[..count * self.stride()])) {
@@ -105,11 +108,12 @@ impl<T: Real> Rows<T> {
             }
             Way::Library { forward, .. } => {
                 let (row_components, scratch) = scratch.split_at_mut(self.len / 2 + 1);
-                for (lane, row) in samples.chunks_exact_mut(self.stride()).enumerate().take(count) {
-                    let done = forward.process_with_scratch(&mut row[..self.len], row_components, scratch);
+                for (lane, samples) in samples.chunks_exact(self.stride()).enumerate().take(count) {
+                    row.iter_mut().zip(samples).for_each(|(to, from)| *to = from.wide());
+                    let done = forward.process_with_scratch(row, row_components, scratch);
                     done.expect("lengths were planned");
                     for (line, value) in components.chunks_exact_mut(line::<T>()).zip(&*row_components) {
-                        (line[lane], line[T::WIDTH + lane]) = (value.re, value.im);
+                        (line[lane], line[T::WIDTH + lane]) = (T::rounded(value.re), T::rounded(value.im));
                     }
                 }
                 vectorised!(simd => separate(simd, components, tiles));
@@ -126,7 +130,7 @@ impl<T: Real> Rows<T> {
         buffers: &mut Buffers<T>,
         sink: &mut impl FnMut(&mut [T]),
     ) {
-        let Buffers { samples, pairs, components, scratch } = buffers;
+        let Buffers { samples, pairs, components, scratch, row } = buffers;
         vectorised!(simd => unite(simd, tiles, components));
         components[T::WIDTH..line::<T>()].fill(T::zero());
         match &self.way {
@@ -138,12 +142,13 @@ impl<T: Real> Rows<T> {
             }
             Way::Library { inverse, .. } => {
                 let (row_components, scratch) = scratch.split_at_mut(self.len / 2 + 1);
-                for (lane, row) in samples.chunks_exact_mut(self.stride()).enumerate().take(count) {
+                for (lane, samples) in samples.chunks_exact_mut(self.stride()).enumerate().take(count) {
                     for (value, line) in row_components.iter_mut().zip(components.chunks_exact(line::<T>())) {
-                        *value = Complex::new(line[lane], line[T::WIDTH + lane]);
+                        *value = Complex64::new(line[lane].wide(), line[T::WIDTH + lane].wide());
                     }
-                    let done = inverse.process_with_scratch(row_components, &mut row[..self.len], scratch);
+                    let done = inverse.process_with_scratch(row_components, row, scratch);
                     done.expect("lengths were planned, what must be real is");
+                    samples.iter_mut().zip(&*row).for_each(|(to, from)| *to = T::rounded(*from));
                 }
             }
         }

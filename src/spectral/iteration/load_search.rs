@@ -76,3 +76,63 @@ pub(super) fn solve(
     }
     Report { stop: Stop::Stalled, ..last }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Interface, Layer, Material, TransferFunction};
+    use crate::counterbody::{Counterbody, Indenters, Level, Shape, Surface};
+    use crate::lattice::Lattice;
+    use crate::spectral::iteration::Working;
+    use crate::spectral::operator::Operator;
+    use std::ops::ControlFlow;
+
+    /// Cones on a stiff sliding plate, pushed in by a `part` of what makes contact complete, from a uniform pressure.
+    fn searched(part: f64, before: usize, max_iterations: usize) -> (Report, Unknowns, f64) {
+        let substrate = Material::from_young(1.0, 0.3).unwrap();
+        let plate = Layer::new(Material::from_shear(100.0, 0.3).unwrap(), 0.1, Interface::Frictionless).unwrap();
+        let cones = [0.02, 0.01, 0.0].map(|height| Level::new(Shape::Cone { slope: 0.1 }, height).unwrap());
+        let indenters = Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), cones.to_vec()).unwrap();
+        let surface = Surface::new(&Counterbody::from(indenters), [24, 24]).unwrap();
+        let mut operator =
+            Operator::new(surface.grid(), &TransferFunction::new(&HalfSpace::new(vec![plate], substrate)));
+        let penetration = part * surface.mean();
+        let mut problem = GridProblem {
+            working: &mut Working::of_finest(&operator),
+            operator: &mut operator,
+            initial_gap: surface.gaps(),
+            largest_gap: surface.largest(),
+            load: Load::Penetration(penetration),
+            settings: Settings { max_iterations, ..Settings::default() },
+            outer: 0,
+            progress: &mut |_| ControlFlow::Continue(()),
+        };
+        let mut unknowns = Unknowns::new(surface.grid().len());
+        unknowns.pressure = std::sync::Arc::new(vec![0.01; surface.grid().len()]);
+        let report = solve(&mut problem, penetration, before, &mut unknowns);
+        (report, unknowns, penetration)
+    }
+
+    /// Light, half closed and almost complete contact.
+    #[test]
+    fn the_load_that_is_found_has_the_penetration() {
+        for part in [0.1, 0.5, 0.9, 0.999] {
+            let (report, unknowns, penetration) = searched(part, 0, 10_000);
+            assert_eq!(report.stop, Stop::Converged, "{part}: {report}");
+            assert!(report.route.trials() > 1, "{part}: {report}");
+            assert!((unknowns.penetration / penetration - 1.0).abs() < 1e-7, "{part}: {}", unknowns.penetration);
+        }
+    }
+
+    #[test]
+    fn a_search_keeps_within_the_iterations_it_is_given_and_says_that_it_was_cut() {
+        let before = 7;
+        let (whole, ..) = searched(0.9, before, 10_000);
+        assert!(whole.iterations > before + 8, "{whole}");
+        for given in [before + 1, before + 5, whole.iterations / 4, whole.iterations / 2] {
+            let (report, ..) = searched(0.9, before, given);
+            assert_eq!(report.stop, Stop::IterationLimit, "{given}: {report}");
+            assert!(report.iterations <= given && report.route.trials() > 0, "{given}: {report}");
+        }
+    }
+}
