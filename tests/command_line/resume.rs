@@ -123,7 +123,7 @@ fn and_one_on_a_rough_surface_whose_steps_do_not_all_converge() {
     survives_every_call(ROUGH, true);
 }
 
-const LONG: [&str; 3] = ["fig5", "--set", "grid.points=128"];
+const LONG: [&str; 3] = ["fig5", "--set", "grid.points=96"];
 
 #[test]
 fn a_killed_run_goes_on_and_leaves_the_same_files_and_pictures() {
