@@ -6,11 +6,11 @@
 //! peer convolution WHO PRECISION POINTS THREADS  the bare half-space, E* = 1; by percoat or library, double or single
 //! ```
 //!
-//! It answers `ready` with a line, then each line `run` with one of JSON: `seconds`, the median of nine convolutions, or those of
-//! a solution without its `setup` (surface, tables, plans) and its `readings` (boundaries, areas, spots, all on two coarser
-//! grids too for their errors; warnings). Of a solution also `iterations`, `converged`, `convolutions` (as equivalents of the
-//! finest grid in double precision, of which one in single precision counts half) and `single`, the seconds of one in single
-//! precision. `write FILE` writes the last pressure, or the displacement, as a NumPy file.
+//! It answers `ready` with a line, then each line `run` with one of JSON: `seconds`, of a solution without its `setup` (surface,
+//! tables, plans) and its `readings` (boundaries, areas, spots, all on two coarser grids too for their errors; warnings). Of a
+//! solution also `iterations`, `converged`, `convolutions` (as equivalents of the finest grid in double precision, of which one
+//! in single precision counts half) and `single`, the seconds of one in single precision. `write FILE` writes the last
+//! pressure, or the displacement, as a NumPy file.
 
 mod shared;
 
@@ -26,9 +26,6 @@ use std::error::Error;
 use std::fs::File;
 use std::io::{BufWriter, stdin};
 use std::time::Instant;
-
-/// Convolutions of a turn, of which the median counts; the same in `peers.py`.
-const IN_A_ROW: usize = 9;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
@@ -135,12 +132,8 @@ fn convolution<C, T: FftNum + Into<f64>>(n: usize, own: C, run: impl Fn(&mut C, 
     let pressure: Vec<T> =
         (0..n * n).map(|i| T::from_f64(((i * 7919) % 1009) as f64 / 1009.0).expect("a number")).collect();
     let timed_run = |(own, field): &mut (C, Vec<T>)| {
-        let mut seconds = [0.0; IN_A_ROW].map(|_: f64| {
-            field.copy_from_slice(&pressure);
-            timed(|| run(own, field))
-        });
-        seconds.sort_by(f64::total_cmp);
-        println!("{{\"seconds\": {:e}}}", seconds[IN_A_ROW / 2]);
+        field.copy_from_slice(&pressure);
+        println!("{{\"seconds\": {:e}}}", timed(|| run(own, field)));
         Ok(())
     };
     serve(n, (own, pressure.clone()), timed_run, |(_, field)| field.iter().map(|&value| value.into()).collect())

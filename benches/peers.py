@@ -31,8 +31,7 @@ What is timed
 - ASPHER in its fastest variant that converges, found before each case: either transform, double or mixed
   precision; nested grids, its |q| preconditioner, no output but the pressure. FFTW measures its plans before.
 - Convolution: real to complex, times a table, and back, in double and in single precision; plans and tables made before.
-  Nine in a row, as a solver does them, of which the median counts: a thread that has slept begins on a processor that another
-  one has. The input is written just before each, untimed, and may be destroyed. The result goes into memory that was there before, where
+  The input is written just before, untimed, and may be destroyed. The result goes into memory that was there before, where
   the library offers that; percoat's is in place. "library" is the same by realfft and rustfft, benches/shared/library.rs.
   On processors of AMD, MKL takes its general code (libmkl_def), not that for AVX2 or AVX-512.
 - Threads are set alike for everybody; Tamaas, whose package on PyPI is not parallel, is timed on one alone. Each contender is
@@ -70,8 +69,6 @@ PRECISIONS = ["double", "float_then_double"]
 TARGETS = {"whole run": 3.0, "ASPHER": 5.0, "Tamaas": 40.0, "MKL": 1.3, "library": 1.3, "FFTW": 1.8, "SciPy": 1.8}
 # Parts of percoat's time.
 WHOLE = ["setup", "seconds", "readings"]
-# Convolutions of a turn; the same in peer.rs.
-IN_A_ROW = 9
 # The surfaces that peer.rs makes.
 CASES = ["one-level", "rough-4-to-64", "rough-to-the-grid"]
 
@@ -220,14 +217,11 @@ def convolution(kind, precision, points, threads):
 
     last = [None]
 
-    def once():
+    def run():
         source[:] = pressure
         began = time.perf_counter()
         last[0] = convolve()
-        return time.perf_counter() - began
-
-    def run():
-        return {"seconds": statistics.median(once() for _ in range(IN_A_ROW))}
+        return {"seconds": time.perf_counter() - began}
 
     serve(run, lambda: last[0])
 
