@@ -85,8 +85,8 @@ impl<'a> Compliances<'a> {
         }
     }
 
-    /// Compliances at wavenumbers > 0, in the place of these.
-    pub fn of(&self, wavenumbers: &mut [f64]) {
+    /// Puts the compliances (lengths per pressure) at wavenumbers > 0 (1/length) in the place of these.
+    pub fn replace(&self, wavenumbers: &mut [f64]) {
         if self.transfer.strata.is_empty() {
             let bare = self.transfer.compliance(1.0);
             wavenumbers.iter_mut().for_each(|q| *q = bare / *q);
@@ -131,7 +131,11 @@ mod tests {
             let (mut worst, mut worst_ratio) = (0.0f64, 0.0f64);
             for k in 0..20_000 {
                 let q = 1e-3 * 1e8f64.powf((f64::from(k) + 0.37) / 20_000.0);
-                worst = worst.max((compliances.at(q) / transfer.compliance(q) - 1.0).abs());
+                let mut replaced = [q];
+                compliances.replace(&mut replaced);
+                for compliance in [compliances.at(q), replaced[0]] {
+                    worst = worst.max((compliance / transfer.compliance(q) - 1.0).abs());
+                }
                 let ratio = transfer.coupling_ratio(q);
                 worst_ratio = worst_ratio.max((compliances.coupling_ratio(q) - ratio).abs() / ratio.abs().max(1.0));
             }

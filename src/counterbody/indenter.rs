@@ -77,7 +77,7 @@ impl Shape {
         }
     }
 
-    /// Profiles at the radii whose squares are given, in the place of these.
+    /// Puts the profiles (lengths) at the radii whose squares are given in the place of these.
     pub(crate) fn profiles(&self, squares: &mut [f64]) {
         match *self {
             Self::Paraboloid { radius } => squares.iter_mut().for_each(|square| *square /= 2.0 * radius),
@@ -175,6 +175,21 @@ mod tests {
         assert!((sphere.profile(r) / paraboloid.profile(r) - 1.0).abs() < 1e-8);
         assert!((sphere.profile(1.2) - 0.4).abs() < 1e-15);
         assert_eq!(sphere.profile(2.5), 2.0);
+    }
+
+    #[test]
+    fn profiles_of_squares_are_those_at_their_roots() {
+        for shape in [
+            Shape::Paraboloid { radius: 0.8 },
+            Shape::Sphere { radius: 0.8 },
+            Shape::Cone { slope: 0.3 },
+            Shape::Power { coefficient: 2.0, exponent: 3.5 },
+        ] {
+            let mut squares = [0.0, 1e-8, 0.1, 0.64, 2.0];
+            let expected = squares.map(|square: f64| shape.profile(square.sqrt()));
+            shape.profiles(&mut squares);
+            assert!(squares.iter().zip(expected).all(|(f, own)| (f - own).abs() <= 1e-15 * own), "{squares:?}");
+        }
     }
 
     #[test]

@@ -23,6 +23,12 @@ impl Site {
     pub fn profile(&self, r: f64) -> f64 {
         self.shape.profile(r) + self.drop
     }
+
+    /// Puts the [depths](Self::profile) at the distances whose squares are given in the place of these.
+    pub(crate) fn profiles(&self, squares: &mut [f64]) {
+        self.shape.profiles(squares);
+        squares.iter_mut().for_each(|depth| *depth += self.drop);
+    }
 }
 
 /// Indenters at several levels on the sites of a lattice: level m + 1 stands on `lattice().sites()[m]`.

@@ -145,33 +145,32 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
     let lattice = indenters.lattice();
     let reduced = lattice.cell().reduced();
     let sites = indenters.sites();
-    let distance = |index: usize, site: &Site| {
+    let depth = |index: usize, site: &Site| {
         let here = grid.fractions(index);
         let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
         site.profile((x * x + y * y).sqrt())
     };
     let all_facing = |index: usize, nearest: f64| {
-        let facing = (0..).zip(&sites).filter(|(_, site)| distance(index, site) <= nearest * (1.0 + TIE));
+        let facing = (0..).zip(&sites).filter(|(_, site)| depth(index, site) <= nearest * (1.0 + TIE));
         (index, facing.map(|(number, _)| number).collect())
     };
     let points = grid.points();
     let (mut gap, mut owner) = (vec![0.0; grid.len()], vec![0; grid.len()]);
     let rows = (gap.par_chunks_mut(points[1]), owner.par_chunks_mut(points[1])).into_par_iter().enumerate();
     let ties = rows.flat_map_iter(|(row, (gap, owner))| {
-        let depths = |site: &Site, depths: &mut [f64]| {
+        let fill = |site: &Site, depths: &mut [f64]| {
             let here = row as f64 / points[0] as f64;
             reduced.nearest_squares([here - site.place[0], -site.place[1]], points[1], depths);
-            site.shape.profiles(depths);
-            depths.iter_mut().for_each(|depth| *depth += site.drop);
+            site.profiles(depths);
         };
         let (mut others, mut tied) = (vec![0.0; points[1]], vec![false; points[1]]);
         for (number, site) in (0..).zip(&sites) {
             // The first one is nearest until another is: it owns all samples.
             if number == 0 {
-                depths(site, gap);
+                fill(site, gap);
                 continue;
             }
-            depths(site, &mut others);
+            fill(site, &mut others);
             for (((nearest, owner), tied), &depth) in gap.iter_mut().zip(&mut *owner).zip(&mut tied).zip(&others) {
                 if depth < *nearest * (1.0 - TIE) {
                     (*nearest, *owner, *tied) = (depth, number, false);

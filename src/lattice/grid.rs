@@ -186,7 +186,7 @@ impl Grid {
         (x * x + y * y).sqrt()
     }
 
-    /// The same of the components (k₁, k₂), (k₁, k₂ + 1), …, from the `first` on.
+    /// Lengths |q| of the [wavevectors](Grid::wavevector) of the components (k₁, k₂), (k₁, k₂ + 1), … from the `first` on, 1/length.
     pub(crate) fn wavenumbers(&self, first: [usize; 2], values: &mut [f64]) {
         self.zone.squares(first, values);
         values.iter_mut().for_each(|square| *square = square.sqrt());
@@ -233,6 +233,30 @@ mod tests {
             let grid = Grid::new(cell, points).unwrap();
             let largest = (0..grid.len()).map(|k| grid.wavenumber([k / points[1], k % points[1]])).fold(0.0, f64::max);
             assert!(largest <= grid.largest_wavenumber() * (1.0 + 1e-12), "{cell}: {largest}");
+        }
+    }
+
+    /// Many at once and one by one, on the border of the zone too.
+    #[test]
+    fn wavenumbers_of_a_row_are_those_of_its_components() {
+        for (cell, points) in [
+            (Cell::square(1.0).unwrap(), [8, 8]),
+            (Cell::hexagonal(2.0).unwrap(), [12, 12]),
+            (Cell::new([1.0, 0.2], [1.7, 0.9]).unwrap(), [7, 31]),
+            (Cell::square(1.0).unwrap(), [1, 6]),
+        ] {
+            let grid = Grid::new(cell, points).unwrap();
+            for (k1, first) in (0..points[0]).flat_map(|k1| [0, 3].map(|first| (k1, first))) {
+                let mut found = vec![0.0; points[1] - first];
+                grid.wavenumbers([k1, first], &mut found);
+                for (k2, found) in (first..).zip(found) {
+                    let expected = grid.wavenumber([k1, k2]);
+                    assert!(
+                        (found - expected).abs() < 1e-14 * grid.largest_wavenumber(),
+                        "{cell}: ({k1}, {k2}): {found}"
+                    );
+                }
+            }
         }
     }
 

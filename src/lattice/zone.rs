@@ -40,8 +40,8 @@ impl Zone {
         self.sampling.nearest(self.fractions_of(component))
     }
 
-    /// Squared lengths of the [shortest aliases](Self::wavevector) of the components (k₁, k₂), (k₁, k₂ + 1), …, from the
-    /// `first` on.
+    /// Squared lengths of the [shortest aliases](Self::wavevector) of the components (k₁, k₂), (k₁, k₂ + 1), … from the
+    /// `first` on, 1/length².
     pub fn squares(&self, first: [usize; 2], squares: &mut [f64]) {
         self.sampling.nearest_squares(self.fractions_of(first), self.points[1], squares);
     }

@@ -2,8 +2,8 @@
 //!
 //! Loops over a row take its samples in groups of eight, each in double precision whatever the row is stored in; the
 //! last group is padded. A sum keeps eight lanes apart and adds them in one order at the end, so that the same row gives
-//! the same sum by whichever thread it is taken. (Products are added in one rounding where the processor can: another one may
-//! differ in the last digit.)
+//! the same sum by whichever thread it is taken. (Products are added in one rounding where the processor can, and
+//! transforms are split by the width of its registers: another one may differ in the last digits.)
 
 use fearless_simd::{f32x4, f32x8, f32x16, f64x2, f64x8, prelude::*};
 use rustfft::FftNum;
@@ -42,8 +42,8 @@ pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
     /// Rounded to this precision.
     fn rounded(value: f64) -> Self;
 
-    /// As a number of double precision.
-    fn wide(self) -> f64;
+    /// In double precision.
+    fn double(self) -> f64;
 
     /// The group of a row that starts at `at`, in double precision; what lies beyond the row's end is `beyond`.
     fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S>;
@@ -64,9 +64,9 @@ impl Real for f64 {
     #[inline(always)]
     fn transpose<S: Simd>(simd: S, from: &[Self], apart: usize, to: &mut [Self], spread: usize) {
         if S::f64s::LEN < Self::WIDTH {
-            squares::<S, f64x2<S>, 2, { Self::WIDTH }>(simd, from, apart, to, spread);
+            transpose_by_blocks::<S, f64x2<S>, 2, { Self::WIDTH }>(simd, from, apart, to, spread);
         } else {
-            squares::<S, f64x8<S>, 8, { Self::WIDTH }>(simd, from, apart, to, spread);
+            transpose_by_blocks::<S, f64x8<S>, 8, { Self::WIDTH }>(simd, from, apart, to, spread);
         }
     }
 
@@ -75,7 +75,8 @@ impl Real for f64 {
         value
     }
 
-    fn wide(self) -> f64 {
+    #[inline(always)]
+    fn double(self) -> f64 {
         self
     }
 
@@ -110,9 +111,9 @@ impl Real for f32 {
     #[inline(always)]
     fn transpose<S: Simd>(simd: S, from: &[Self], apart: usize, to: &mut [Self], spread: usize) {
         if S::f32s::LEN < Self::WIDTH {
-            squares::<S, f32x4<S>, 4, { Self::WIDTH }>(simd, from, apart, to, spread);
+            transpose_by_blocks::<S, f32x4<S>, 4, { Self::WIDTH }>(simd, from, apart, to, spread);
         } else {
-            squares::<S, f32x16<S>, 16, { Self::WIDTH }>(simd, from, apart, to, spread);
+            transpose_by_blocks::<S, f32x16<S>, 16, { Self::WIDTH }>(simd, from, apart, to, spread);
         }
     }
 
@@ -121,7 +122,8 @@ impl Real for f32 {
         value as Self
     }
 
-    fn wide(self) -> f64 {
+    #[inline(always)]
+    fn double(self) -> f64 {
         f64::from(self)
     }
 
@@ -151,9 +153,12 @@ impl Real for f32 {
     }
 }
 
-/// The transpose of W runs of W numbers, by squares of N vectors of N numbers.
+/// The [transpose](Real::transpose) of W runs of W numbers, by blocks of N vectors of N numbers.
+///
+/// Where a register holds fewer than W numbers the blocks are of 128 bits: to turn a wider one there takes more steps a number,
+/// since numbers cross its halves.
 #[inline(always)]
-fn squares<S: Simd, V: SimdFloat<S>, const N: usize, const W: usize>(
+fn transpose_by_blocks<S: Simd, V: SimdFloat<S>, const N: usize, const W: usize>(
     simd: S,
     from: &[V::Element],
     apart: usize,
@@ -233,4 +238,31 @@ pub fn lowest<S: Simd>(lanes: f64x8<S>) -> f64 {
 #[inline(always)]
 pub fn splat<S: Simd>(simd: S, value: f64) -> f64x8<S> {
     f64x8::simd_from(simd, value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Blocks of 128 bits, those of processors whose registers are short, and blocks of all W numbers.
+    #[test]
+    fn transposes_put_every_number_in_its_place() {
+        let (apart, spread) = (19, 23);
+        let from: Vec<f64> = (0..16 * apart).map(|k| k as f64).collect();
+        let single: Vec<f32> = from.iter().map(|&x| x as f32).collect();
+        let (mut short, mut whole) = (vec![-1.0; 16 * spread], vec![-1.0; 16 * spread]);
+        let (mut short_single, mut whole_single) = (vec![-1.0f32; 16 * spread], vec![-1.0f32; 16 * spread]);
+        vectorised!(simd => transpose_by_blocks::<_, f64x2<_>, 2, 8>(simd, &from, apart, &mut short, spread));
+        vectorised!(simd => transpose_by_blocks::<_, f64x8<_>, 8, 8>(simd, &from, apart, &mut whole, spread));
+        vectorised!(simd => transpose_by_blocks::<_, f32x4<_>, 4, 16>(simd, &single, apart, &mut short_single, spread));
+        vectorised!(simd => transpose_by_blocks::<_, f32x16<_>, 16, 16>(simd, &single, apart, &mut whole_single, spread));
+        let expected = |width: usize, k: usize| {
+            let (j, i) = (k / spread, k % spread);
+            if i < width && j < width { (i * apart + j) as f64 } else { -1.0 }
+        };
+        for k in 0..16 * spread {
+            assert_eq!([short[k], whole[k]], [expected(8, k); 2], "{k}");
+            assert_eq!([short_single[k], whole_single[k]].map(f64::from), [expected(16, k); 2], "{k}");
+        }
+    }
 }

@@ -101,10 +101,11 @@ impl<T: Real> Convolution<T> {
         Multiplier::new(table, n1, normalisation)
     }
 
-    /// The odd multiplier of values given in the same way.
+    /// The odd multiplier of the values that `fill([k₁, k₂], values)` gives the components (k₁, k₂), (k₁, k₂ + 1), …,
+    /// 0 ≤ k₁ < N₁, 0 ≤ k₂ ≤ N₂/2.
     ///
-    /// They must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero where that changes nothing: then real fields stay
-    /// real.
+    /// They must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero for components that are their own conjugates: then real
+    /// fields stay real.
     pub fn turns(&self, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Turns {
         Turns::new(self.table(0.0, false, fill))
     }
@@ -114,10 +115,13 @@ impl<T: Real> Convolution<T> {
         let n1 = self.points()[0];
         let mut table = vec![padding; self.eights() * n1 * LANES];
         table.par_chunks_mut(n1 * LANES).enumerate().for_each(|(eight, table)| {
+            let k2 = eight * LANES;
+            if k2 >= self.half() {
+                return;
+            }
             let mut lines = vec![[padding; LANES]; n1];
             for k1 in 0..if mirrored { n1 / 2 + 1 } else { n1 } {
-                let k2 = eight * LANES;
-                fill([k1, k2], &mut lines[k1][..self.half().saturating_sub(k2).min(LANES)]);
+                fill([k1, k2], &mut lines[k1][..LANES.min(self.half() - k2)]);
                 if mirrored {
                     lines[(n1 - k1) % n1] = lines[k1];
                 }
@@ -299,9 +303,9 @@ mod tests {
         };
         convolve(Action::Times(scale), &mut field);
         let there: f64 =
-            field.iter().enumerate().map(|(k, u)| (u.wide() / scale - expected(k / n2, k % n2)).abs()).sum();
+            field.iter().enumerate().map(|(k, u)| (u.double() / scale - expected(k / n2, k % n2)).abs()).sum();
         convolve(Action::Over(1.0 / scale), &mut field);
-        let back: f64 = field.iter().enumerate().map(|(k, u)| (u.wide() - at(k / n2, k % n2)).abs()).sum();
+        let back: f64 = field.iter().enumerate().map(|(k, u)| (u.double() - at(k / n2, k % n2)).abs()).sum();
         // Means, which a number that is none spoils.
         [there, back].map(|sum| sum / (n1 * n2) as f64)
     }
@@ -353,6 +357,8 @@ mod tests {
             [37, 19],
             [130, 9],
             [65, 16],
+            [96, 64],
+            [288, 512],
             [129, 2],
             [70, 1],
             [1, 40],

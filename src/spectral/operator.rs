@@ -93,7 +93,7 @@ impl Operator {
             if first == [0, 0] {
                 values[0] = grid.least_wavenumber();
             }
-            compliances.of(values);
+            compliances.replace(values);
         });
         Self { double, single, compliance, coupling: None, unit, convolutions: 0.0 }
     }

@@ -225,6 +225,7 @@ fn penetrations_just_below_complete_contact_are_found_within_the_iterations_give
         assert!((free.penetration() / penetration - 1.0).abs() < 1e-7, "{}", free.penetration());
         for given in [1, free.report.iterations / 2] {
             let cut = pushed(contrast, part, given).0.report;
+            assert_eq!(cut.stop, Stop::IterationLimit, "{given}: {cut}");
             assert!(cut.iterations <= given, "{given}: {cut}");
         }
     }

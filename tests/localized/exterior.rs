@@ -147,7 +147,7 @@ fn levels_of_several_indenters_on_an_oblique_lattice_carry_their_own_loads_whate
     let problem = Problem::new(indenters, half_space);
     let localized = Localized::new(&problem, 37).unwrap();
     let (_, spectral) = solve(&problem, [256, 256], load);
-    for inside in [1, 37] {
+    for inside in [7, 37] {
         let setup = Setup { rule: CircleRadius::LatticeSum, ..setup(inside, 48) };
         let solution = localized.solve(load, &setup);
         assert_eq!(solution.stop, Stop::Converged);

@@ -103,6 +103,7 @@ fn stresses_agree_with_the_spectral_field() {
             slid.is_none(),
             half_space.layers().iter().any(|layer| layer.interface() == Interface::Frictionless)
         );
+        // The half-space mean without friction stands on the body that nothing can slide on.
         for (mean, slid) in [(MeanStress::Confined, None), (MeanStress::HalfSpace, slid.as_ref())] {
             let field = LocalizedField::new(&solution, slid.map(|_| &friction), mean);
             let whole = StressField::new(slid.unwrap_or(&spectral).finest(), mean);

@@ -3,7 +3,8 @@
 //! Forth by decimation in frequency: a column of N = R M numbers becomes R columns of M, x_{j+qM} → Σ_q x_{j+qM}
 //! e^{−2πi qk/R} e^{−2πi jk/N}, and so on; the components end in the order of their digits reversed, where they are
 //! multiplied. Back by decimation in time, the same steps the other way round, so that nothing is ever reordered. A
-//! number of points with a prime factor beyond the largest butterfly is left to the library, column by column.
+//! number of points with a prime factor beyond the largest butterfly is left to the library, column by column, in double
+//! precision.
 
 use super::butterflies::{Complex, LARGEST, root, transform};
 use crate::numeric::lanes::{Real, vectorised};
@@ -44,22 +45,25 @@ pub struct Stage<T> {
 impl<T: Real> Columns<T> {
     /// Plan for columns of `len` numbers.
     pub fn new(len: usize) -> Self {
-        match radices::<T>(len) {
-            Some(radices) => {
-                let stages = radices.into_iter().scan(len, |len, radix| {
-                    let (whole, part) = (*len, *len / radix);
-                    *len = part;
-                    let twiddle = |j: usize| (1..radix).map(move |k| root(j * k, whole));
-                    let twiddles = (0..part).flat_map(twiddle).collect();
-                    Some(Stage { radix, part, twiddles, roots: (0..radix).map(|k| root(k, radix)).collect() })
-                });
-                Self::Butterflies(stages.collect())
-            }
+        match radices(len, whole_registers::<T>()) {
+            Some(radices) => Self::by(len, radices),
             None => {
                 let mut planner = FftPlanner::new();
                 Self::Library { forward: planner.plan_fft_forward(len), inverse: planner.plan_fft_inverse(len) }
             }
         }
+    }
+
+    /// Plan for columns of `len` numbers, the product of these radices.
+    fn by(len: usize, radices: Vec<usize>) -> Self {
+        let stages = radices.into_iter().scan(len, |len, radix| {
+            let (whole, part) = (*len, *len / radix);
+            *len = part;
+            let twiddle = |j: usize| (1..radix).map(move |k| root(j * k, whole));
+            let twiddles = (0..part).flat_map(twiddle).collect();
+            Some(Stage { radix, part, twiddles, roots: (0..radix).map(|k| root(k, radix)).collect() })
+        });
+        Self::Butterflies(stages.collect())
     }
 
     /// The component that stands at each place between forth and back.
@@ -125,15 +129,15 @@ impl<T: Real> Columns<T> {
 
 /// Radices whose product is `len`; none when a prime factor has no butterfly.
 ///
-/// The butterfly for eight keeps as many numbers at hand as 32 registers hold. Where registers hold less than a line there are
-/// 16 of them, and fours come first; the eight of an odd power of two is last, where no twiddles are needed.
-fn radices<T: Real>(len: usize) -> Option<Vec<usize>> {
+/// The butterfly for eight keeps 16 registers and more at hand. Processors whose registers hold a `WIDTH` of numbers (`whole`) have 32 of
+/// them; the others mostly 16: there fours come first, and the eight of an odd power of two last, where no twiddles are needed.
+fn radices(len: usize, whole: bool) -> Option<Vec<usize>> {
     assert!(len > 0, "a transform has points");
     let (mut rest, mut radices, mut last) = (len, Vec::new(), None);
-    if !whole_registers::<T>() && len.trailing_zeros() > 1 && len.trailing_zeros() % 2 == 1 {
+    if !whole && len.trailing_zeros() > 1 && len.trailing_zeros() % 2 == 1 {
         (rest, last) = (rest / 8, Some(8));
     }
-    let radices_of_two: &[usize] = if whole_registers::<T>() { &[8, 4, 2] } else { &[4, 2] };
+    let radices_of_two: &[usize] = if whole { &[8, 4, 2] } else { &[4, 2] };
     for &radix in radices_of_two.iter().chain(&[3, 5, 7, 11, LARGEST]) {
         while rest.is_multiple_of(radix) {
             rest /= radix;
@@ -144,7 +148,7 @@ fn radices<T: Real>(len: usize) -> Option<Vec<usize>> {
     (rest == 1).then_some(radices)
 }
 
-/// Whether a register of this processor holds a whole line's real parts.
+/// Whether a register of this processor holds the `WIDTH` real parts of a line.
 fn whole_registers<T: Real>() -> bool {
     #[inline(always)]
     fn of<S: Simd, T: Real>(_: S) -> bool {
@@ -275,11 +279,54 @@ fn by_column<T: Real>(fft: &dyn Fft<f64>, lines: &mut [T], scratch: &mut [Comple
     let (column, scratch) = scratch.split_at_mut(lines.len() / line::<T>());
     for lane in 0..T::WIDTH {
         for (value, line) in column.iter_mut().zip(lines.chunks_exact(line::<T>())) {
-            *value = Complex64::new(line[lane].wide(), line[T::WIDTH + lane].wide());
+            *value = Complex64::new(line[lane].double(), line[T::WIDTH + lane].double());
         }
         fft.process_with_scratch(column, scratch);
         for (value, line) in column.iter().zip(lines.chunks_exact_mut(line::<T>())) {
             (line[lane], line[T::WIDTH + lane]) = (T::rounded(value.re), T::rounded(value.im));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn radices_make_up_the_points_on_registers_of_any_width() {
+        for len in 1..3000 {
+            let [short, whole] = [false, true].map(|whole| radices(len, whole));
+            assert_eq!(short.is_some(), whole.is_some(), "{len}");
+            for radices in short.iter().chain(&whole) {
+                assert_eq!(radices.iter().product::<usize>(), len, "{radices:?}");
+            }
+            let eights = short.iter().flatten().filter(|radix| **radix == 8).count();
+            assert!(eights == 0 || (eights == 1 && short.is_some_and(|radices| radices.ends_with(&[8]))), "{len}");
+        }
+        assert_eq!(radices(512, false), Some(vec![4, 4, 4, 8]));
+        assert_eq!(radices(512, true), Some(vec![8, 8, 8]));
+    }
+
+    /// Both ways of splitting, whichever this processor takes, against the sums that they stand for.
+    #[test]
+    fn components_are_their_sums_by_either_radices() {
+        let len = 96;
+        let lines: Vec<f64> = (0..len * LINE).map(|k| ((k * 37) % 101) as f64 - 50.0).collect();
+        for whole in [false, true] {
+            let columns = Columns::<f64>::by(len, radices(len, whole).unwrap());
+            let mut found = lines.clone();
+            columns.forward(&mut found, &mut []);
+            for (place, component) in columns.order(len).into_iter().enumerate() {
+                let sum = (0..len).fold([0.0; 2], |[re, im], j| {
+                    let ([c, s], x, y) = (root::<f64>(j * component, len), lines[j * LINE + 3], lines[j * LINE + 11]);
+                    [re + x * c - y * s, im + x * s + y * c]
+                });
+                let found = [found[place * LINE + 3], found[place * LINE + 11]];
+                assert!((0..2).all(|k| (found[k] - sum[k]).abs() < 1e-10), "{component}: {found:?} {sum:?}");
+            }
+            columns.inverse(&mut found, &mut []);
+            let back = found.iter().zip(&lines);
+            assert!(back.into_iter().all(|(found, line)| (found / len as f64 - line).abs() < 1e-11));
         }
     }
 }

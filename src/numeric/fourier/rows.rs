@@ -6,7 +6,7 @@
 //! X_k = E + ω^k O,  X_{M−k} = (E − ω^k O)*,  and back  Z_k = E + iO,  Z_{M−k} = E* + iO*.
 //!
 //! The rows of a group stand in the lanes of vectors, as the columns of a tile do in the other direction, and are transformed by
-//! the same steps. An odd number of samples is left to the library, row by row.
+//! the same steps. An odd number of samples is left to the library, row by row, in double precision.
 
 use super::columns::{Columns, line};
 use crate::numeric::aligned::Aligned;
@@ -42,7 +42,7 @@ pub struct Buffers<T> {
     components: Aligned<T>,
     scratch: Vec<Complex64>,
     /// A row for the library.
-    row: Vec<f64>,
+    for_library: Vec<f64>,
 }
 
 impl<T: Real> Rows<T> {
@@ -68,8 +68,8 @@ impl<T: Real> Rows<T> {
 
     /// What a group of rows takes.
     pub fn buffers(&self) -> Buffers<T> {
-        let (lines, half) = (self.stride() / 2, self.len / 2 + 1);
-        let (scratch, row) = match &self.way {
+        let (lines, half) = (self.len.next_multiple_of(2 * T::WIDTH) / 2, self.len / 2 + 1);
+        let (scratch, for_library) = match &self.way {
             Way::Paired { halves, .. } => (halves.scratch(self.len / 2), 0),
             Way::Library { forward, inverse } => {
                 (half + forward.get_scratch_len().max(inverse.get_scratch_len()), self.len)
@@ -80,7 +80,7 @@ impl<T: Real> Rows<T> {
             pairs: Aligned::new(lines * line::<T>()),
             components: Aligned::new(half.next_multiple_of(T::WIDTH) * line::<T>()),
             scratch: vec![Complex64::ZERO; scratch],
-            row: vec![0.0; row],
+            for_library: vec![0.0; for_library],
         }
     }
 
@@ -93,7 +93,7 @@ impl<T: Real> Rows<T> {
         buffers: &mut Buffers<T>,
         tiles: impl Iterator<Item = &'a mut [T]>,
     ) {
-        let Buffers { samples, pairs, components, scratch, row } = buffers;
+        let Buffers { samples, pairs, components, scratch, for_library } = buffers;
         let rows = samples.chunks_exact_mut(self.stride()).take(count);
         rows.for_each(|row| source(&mut row[..self.len]));
         if vectorised!(simd => all_zero(simd, &samples[..count * self.stride()])) {
@@ -109,8 +109,8 @@ impl<T: Real> Rows<T> {
             Way::Library { forward, .. } => {
                 let (row_components, scratch) = scratch.split_at_mut(self.len / 2 + 1);
                 for (lane, samples) in samples.chunks_exact(self.stride()).enumerate().take(count) {
-                    row.iter_mut().zip(samples).for_each(|(to, from)| *to = from.wide());
-                    let done = forward.process_with_scratch(row, row_components, scratch);
+                    for_library.iter_mut().zip(samples).for_each(|(to, from)| *to = from.double());
+                    let done = forward.process_with_scratch(for_library, row_components, scratch);
                     done.expect("lengths were planned");
                     for (line, value) in components.chunks_exact_mut(line::<T>()).zip(&*row_components) {
                         (line[lane], line[T::WIDTH + lane]) = (T::rounded(value.re), T::rounded(value.im));
@@ -130,7 +130,7 @@ impl<T: Real> Rows<T> {
         buffers: &mut Buffers<T>,
         sink: &mut impl FnMut(&mut [T]),
     ) {
-        let Buffers { samples, pairs, components, scratch, row } = buffers;
+        let Buffers { samples, pairs, components, scratch, for_library } = buffers;
         vectorised!(simd => unite(simd, tiles, components));
         components[T::WIDTH..line::<T>()].fill(T::zero());
         match &self.way {
@@ -144,11 +144,11 @@ impl<T: Real> Rows<T> {
                 let (row_components, scratch) = scratch.split_at_mut(self.len / 2 + 1);
                 for (lane, samples) in samples.chunks_exact_mut(self.stride()).enumerate().take(count) {
                     for (value, line) in row_components.iter_mut().zip(components.chunks_exact(line::<T>())) {
-                        *value = Complex64::new(line[lane].wide(), line[T::WIDTH + lane].wide());
+                        *value = Complex64::new(line[lane].double(), line[T::WIDTH + lane].double());
                     }
-                    let done = inverse.process_with_scratch(row_components, row, scratch);
+                    let done = inverse.process_with_scratch(row_components, for_library, scratch);
                     done.expect("lengths were planned, what must be real is");
-                    samples.iter_mut().zip(&*row).for_each(|(to, from)| *to = T::rounded(*from));
+                    samples.iter_mut().zip(&*for_library).for_each(|(to, from)| *to = T::rounded(*from));
                 }
             }
         }
@@ -229,7 +229,7 @@ fn parted<'a, S: Simd, T: Real>(
             let (re, im) = (o_re.mul_add(c, e_re - o_im * s), o_re.mul_add(s, o_im.mul_add(c, e_im)));
             put::<S, T>([re, im], components, k - first);
         }
-        transpose(simd, components, tile);
+        transpose_lines(simd, components, tile);
     }
 }
 
@@ -254,7 +254,7 @@ fn joined<S: Simd, T: Real>(simd: S, places: &[usize], turns: &[[T; 2]], compone
 #[inline(always)]
 fn separate<'a, S: Simd, T: Real>(simd: S, components: &[T], tiles: impl Iterator<Item = &'a mut [T]>) {
     for (from, tile) in components.chunks_exact(T::WIDTH * line::<T>()).zip(tiles) {
-        transpose(simd, from, tile);
+        transpose_lines(simd, from, tile);
     }
 }
 
@@ -262,14 +262,14 @@ fn separate<'a, S: Simd, T: Real>(simd: S, components: &[T], tiles: impl Iterato
 #[inline(always)]
 fn unite<'a, S: Simd, T: Real>(simd: S, tiles: impl Iterator<Item = &'a [T]>, components: &mut [T]) {
     for (to, tile) in components.chunks_exact_mut(T::WIDTH * line::<T>()).zip(tiles) {
-        transpose(simd, tile, to);
+        transpose_lines(simd, tile, to);
     }
 }
 
-/// Lines of real and imaginary parts, as many as each has, to those of their columns. Where one side has fewer lines, the
-/// rest of the other is left out.
+/// `WIDTH` lines of real and imaginary parts to those of their columns. Where one side has fewer lines, what the other has
+/// beyond them stays as it was, and is not used.
 #[inline(always)]
-fn transpose<S: Simd, T: Real>(simd: S, from: &[T], to: &mut [T]) {
+fn transpose_lines<S: Simd, T: Real>(simd: S, from: &[T], to: &mut [T]) {
     let (line, whole) = (line::<T>(), T::WIDTH * line::<T>());
     if from.len() >= whole && to.len() >= whole {
         T::transpose(simd, from, line, to, line);
