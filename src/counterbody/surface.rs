@@ -145,6 +145,7 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
     let lattice = indenters.lattice();
     let reduced = lattice.cell().reduced();
     let sites = indenters.sites();
+    let (first, others) = sites.split_first().expect("a lattice has sites");
     let depth = |index: usize, site: &Site| {
         let here = grid.fractions(index);
         let [x, y] = reduced.nearest([here[0] - site.place[0], here[1] - site.place[1]]);
@@ -163,15 +164,12 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
             reduced.nearest_squares([here - site.place[0], -site.place[1]], points[1], depths);
             site.profiles(depths);
         };
-        let (mut others, mut tied) = (vec![0.0; points[1]], vec![false; points[1]]);
-        for (number, site) in (0..).zip(&sites) {
-            // The first one is nearest until another is: it owns all samples.
-            if number == 0 {
-                fill(site, gap);
-                continue;
-            }
-            fill(site, &mut others);
-            for (((nearest, owner), tied), &depth) in gap.iter_mut().zip(&mut *owner).zip(&mut tied).zip(&others) {
+        let (mut depths, mut tied) = (vec![0.0; points[1]], vec![false; points[1]]);
+        // The first one, number 0, owns every sample until another is nearer.
+        fill(first, gap);
+        for (number, site) in (1..).zip(others) {
+            fill(site, &mut depths);
+            for (((nearest, owner), tied), &depth) in gap.iter_mut().zip(&mut *owner).zip(&mut tied).zip(&depths) {
                 if depth < *nearest * (1.0 - TIE) {
                     (*nearest, *owner, *tied) = (depth, number, false);
                 } else {

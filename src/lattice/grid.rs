@@ -222,30 +222,33 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
+    /// Square, hexagonal (with components on corners of the zone), oblique with odd numbers, and a single row.
+    fn grids() -> [Grid; 5] {
+        let hexagonal = Cell::hexagonal(2.0).unwrap();
+        [
+            (Cell::square(1.0).unwrap(), [8, 8]),
+            (hexagonal, [12, 9]),
+            (hexagonal, [12, 12]),
+            (Cell::new([1.0, 0.2], [1.7, 0.9]).unwrap(), [7, 31]),
+            (Cell::square(1.0).unwrap(), [1, 6]),
+        ]
+        .map(|(cell, points)| Grid::new(cell, points).unwrap())
+    }
+
     #[test]
     fn no_component_has_a_larger_wavenumber_than_the_largest() {
-        for (cell, points) in [
-            (Cell::square(1.0).unwrap(), [8, 8]),
-            (Cell::hexagonal(2.0).unwrap(), [12, 9]),
-            (Cell::new([1.0, 0.2], [1.7, 0.9]).unwrap(), [7, 30]),
-            (Cell::square(1.0).unwrap(), [1, 6]),
-        ] {
-            let grid = Grid::new(cell, points).unwrap();
+        for grid in grids() {
+            let points = grid.points();
             let largest = (0..grid.len()).map(|k| grid.wavenumber([k / points[1], k % points[1]])).fold(0.0, f64::max);
-            assert!(largest <= grid.largest_wavenumber() * (1.0 + 1e-12), "{cell}: {largest}");
+            assert!(largest <= grid.largest_wavenumber() * (1.0 + 1e-12), "{grid}: {largest}");
         }
     }
 
     /// Many at once and one by one, on the border of the zone too.
     #[test]
     fn wavenumbers_of_a_row_are_those_of_its_components() {
-        for (cell, points) in [
-            (Cell::square(1.0).unwrap(), [8, 8]),
-            (Cell::hexagonal(2.0).unwrap(), [12, 12]),
-            (Cell::new([1.0, 0.2], [1.7, 0.9]).unwrap(), [7, 31]),
-            (Cell::square(1.0).unwrap(), [1, 6]),
-        ] {
-            let grid = Grid::new(cell, points).unwrap();
+        for grid in grids() {
+            let points = grid.points();
             for (k1, first) in (0..points[0]).flat_map(|k1| [0, 3].map(|first| (k1, first))) {
                 let mut found = vec![0.0; points[1] - first];
                 grid.wavenumbers([k1, first], &mut found);
@@ -253,7 +256,7 @@ mod tests {
                     let expected = grid.wavenumber([k1, k2]);
                     assert!(
                         (found - expected).abs() < 1e-14 * grid.largest_wavenumber(),
-                        "{cell}: ({k1}, {k2}): {found}"
+                        "{grid}: ({k1}, {k2}): {found}"
                     );
                 }
             }

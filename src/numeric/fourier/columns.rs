@@ -129,8 +129,9 @@ impl<T: Real> Columns<T> {
 
 /// Radices whose product is `len`; none when a prime factor has no butterfly.
 ///
-/// The butterfly for eight keeps 16 registers and more at hand. Processors whose registers hold a `WIDTH` of numbers (`whole`) have 32 of
-/// them; the others mostly 16: there fours come first, and the eight of an odd power of two last, where no twiddles are needed.
+/// The butterfly for eight keeps 16 registers and more at hand. Processors whose registers hold a `WIDTH` of numbers (`whole`)
+/// have 32 of them; the others mostly 16: there fours come first, and the eight of an odd power of two last, where no twiddles
+/// are needed.
 fn radices(len: usize, whole: bool) -> Option<Vec<usize>> {
     assert!(len > 0, "a transform has points");
     let (mut rest, mut radices, mut last) = (len, Vec::new(), None);

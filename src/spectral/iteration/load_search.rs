@@ -6,7 +6,7 @@
 //! criteria of displacement control; it is solved more sharply than these, because its own error moves its penetration.
 
 use super::check::Check;
-use super::iterate::iterate;
+use super::iterate::{iterate, unless_rounding};
 use super::problem::GridProblem;
 use super::report::{Report, Route, Stop};
 use super::settings::Settings;
@@ -19,13 +19,22 @@ const TRIALS: usize = 60;
 /// Tolerance of a trial over that of the search.
 const SHARPER: f64 = 0.1;
 
-/// Searches from and into `unknowns` for the `penetration` of `problem`; `iterations` are those before.
-pub(super) fn solve(
+/// What the `direct` iteration reports, unless it has stalled: then what the search reports that goes on from there.
+pub(super) fn unless_found(
     problem: &mut GridProblem<'_>,
     penetration: f64,
-    iterations: usize,
+    direct: Report,
     unknowns: &mut Unknowns,
 ) -> Report {
+    if direct.stop != Stop::Stalled {
+        return direct;
+    }
+    let report = solve(problem, penetration, direct.iterations, unknowns);
+    Report { stop: unless_rounding(problem, unknowns, report.stop), ..report }
+}
+
+/// Searches from and into `unknowns` for the `penetration` of `problem`; `iterations` are those before.
+fn solve(problem: &mut GridProblem<'_>, penetration: f64, iterations: usize, unknowns: &mut Unknowns) -> Report {
     let settings = problem.settings;
     let sharper = Settings { tolerance: SHARPER * settings.tolerance, ..settings };
     let mut pressure = sums::mean(&unknowns.pressure);
@@ -87,8 +96,9 @@ mod tests {
     use crate::spectral::operator::Operator;
     use std::ops::ControlFlow;
 
-    /// Cones on a stiff sliding plate, pushed in by a `part` of what makes contact complete, from a uniform pressure.
-    fn searched(part: f64, before: usize, max_iterations: usize) -> (Report, Unknowns, f64) {
+    /// Cones on a stiff sliding plate, pushed in by a `part` of what makes contact complete, from a uniform pressure, after a
+    /// direct iteration that has stopped so.
+    fn after(stop: Stop, part: f64, before: usize, max_iterations: usize) -> (Report, Unknowns, f64) {
         let substrate = Material::from_young(1.0, 0.3).unwrap();
         let plate = Layer::new(Material::from_shear(100.0, 0.3).unwrap(), 0.1, Interface::Frictionless).unwrap();
         let cones = [0.02, 0.01, 0.0].map(|height| Level::new(Shape::Cone { slope: 0.1 }, height).unwrap());
@@ -109,8 +119,22 @@ mod tests {
         };
         let mut unknowns = Unknowns::new(surface.grid().len());
         unknowns.pressure = std::sync::Arc::new(vec![0.01; surface.grid().len()]);
-        let report = solve(&mut problem, penetration, before, &mut unknowns);
+        let direct = Report { stop, route: Route::Direct, iterations: before, outer: 0, residual: 1.0 };
+        let report = unless_found(&mut problem, penetration, direct, &mut unknowns);
         (report, unknowns, penetration)
+    }
+
+    fn searched(part: f64, before: usize, max_iterations: usize) -> (Report, Unknowns, f64) {
+        after(Stop::Stalled, part, before, max_iterations)
+    }
+
+    #[test]
+    fn what_has_not_stalled_stays_as_it_is() {
+        for stop in [Stop::Converged, Stop::Rounding, Stop::IterationLimit, Stop::Interrupted] {
+            let (report, unknowns, _) = after(stop, 0.5, 3, 10_000);
+            assert!(report.stop == stop && report.route == Route::Direct && report.iterations == 3, "{report}");
+            assert!(unknowns.pressure.iter().all(|&p| p == 0.01));
+        }
     }
 
     /// Light, half closed and almost complete contact.

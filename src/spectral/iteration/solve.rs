@@ -1,7 +1,7 @@
 //! The way to a solution: at once where there is nothing to iterate, by iteration, or by a search for the load.
 
 use super::check::Check;
-use super::iterate::{iterate, unless_rounding};
+use super::iterate::iterate;
 use super::load_search;
 use super::problem::GridProblem;
 use super::report::{Report, Route, Stop};
@@ -50,12 +50,8 @@ impl GridProblem<'_> {
                     Check::new(self, unknowns);
                     return done(Stop::BeyondFullContact, f64::INFINITY);
                 }
-                let report = iterate(self, 0, unknowns);
-                if report.stop != Stop::Stalled {
-                    return report;
-                }
-                let report = load_search::solve(self, penetration, report.iterations, unknowns);
-                Report { stop: unless_rounding(self, unknowns, report.stop), ..report }
+                let direct = iterate(self, 0, unknowns);
+                load_search::unless_found(self, penetration, direct, unknowns)
             }
         }
     }
