@@ -115,7 +115,7 @@ fn solve(case: &str, n: usize, tolerance: f64) -> Outcome<()> {
         println!(
             "{{\"setup\": {setup:e}, \"seconds\": {seconds:e}, \"readings\": {readings:e}, \"iterations\": {}, \
              \"convolutions\": {}, \"single\": {single:e}, \"converged\": {}}}",
-            step.report.iterations,
+            step.iterations,
             step.convolutions,
             step.converged()
         );

@@ -10,7 +10,7 @@ use super::progress::Progress;
 use super::terminal;
 use crate::case::plausibility;
 use crate::case::resources::Job;
-use crate::output::{Plan, RunFolder, Writer, compare_json, table, write_text};
+use crate::output::{ComparisonFile, Plan, RunFolder, Writer, table, write_text};
 use crate::picture;
 use crate::plain;
 use crate::run::{End, Run, Sampling};
@@ -62,7 +62,7 @@ pub fn run(
     progress.finish();
     let comparison = comparison.map_err(Failure::refused)?;
 
-    let json = compare_json(&comparison, &case, steps);
+    let json = ComparisonFile::new(&comparison, &case, steps).to_json();
     write_text(&claim.staging().join("compare.json"), &json)?;
     pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
     interruption::publish(claim, &folder, common.quiet)?;

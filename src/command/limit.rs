@@ -10,7 +10,7 @@ use super::progress::Progress;
 use super::terminal;
 use crate::case::plausibility;
 use crate::case::resources::Job;
-use crate::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, with_error, write_text};
+use crate::output::{LimitFile, Plan, RunFolder, Writer, number, summary, table, with_error, write_text};
 use crate::picture::{self, Snapshot};
 use crate::plain;
 use crate::run::{Recorder, Shown, StepRecord};
@@ -46,7 +46,7 @@ impl Recorder for Searching<'_> {
     }
 
     fn step(&mut self, _step: &Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Infallible> {
-        let words = record.governing().map_or("no contact".to_owned(), |own| own.in_words(with_error));
+        let words = record.governing_in_words(with_error).unwrap_or("no contact".to_owned());
         let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
         if self.common.verbose {
             self.progress.tell(&words);
@@ -84,7 +84,7 @@ pub fn run(
     let limits = run.limits(&mut searching)?;
     searching.progress.finish();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
-    let json = limit_json(&limits, &case, &warnings);
+    let json = LimitFile::new(&limits, &case, &warnings).to_json();
     write_text(&claim.staging().join("limit.json"), &json)?;
     if !limits.steps.is_empty() {
         write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;

@@ -8,7 +8,7 @@ use super::sweep;
 use super::terminal::{self, tell};
 use crate::output::{RunFolder, SWEEP_LOG, disk, unlike_published};
 use crate::plain;
-use crate::sweep::{Description, Part, PartError, Row, UNFINISHED, description, join};
+use crate::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
 use std::path::{Path, PathBuf};
 
 impl From<PartError> for Failure {
@@ -46,7 +46,7 @@ pub fn run(
         )));
     }
     let parts: Vec<Part> = parts.into_iter().flatten().collect();
-    let seconds: f64 = parts.iter().map(|own| own.description.seconds()).sum();
+    let seconds: f64 = parts.iter().map(|own| own.description.timing.wall).sum();
     let (rows, twice) = join(parts)?;
     if twice > 0 && !saying.quiet {
         tell!("note: {twice} combinations stand in several parts, with the same results");
@@ -55,9 +55,8 @@ pub fn run(
     interruption::watch();
     let claim = RunFolder::claim(&folder, sweep::plan(pictures))?;
     terminal::tell_aside(claim.set_aside(), saying.quiet);
-    let (asked, of) = (first.asked(), first.of);
-    let description = description(asked, &rows, seconds);
-    sweep::finish(claim, &folder, &asked.identity(), &rows, &description, pictures, saying.quiet)?;
+    let (description, of) = (first.after(&rows, seconds), first.of);
+    sweep::finish(claim, &folder, &rows, &description, pictures, saying.quiet)?;
     sweep::print(&rows, &description, &folder, saying)?;
     if rows.len() < of {
         tell!("warning: {} of {of} combinations are missing: {}", of - rows.len(), missing(&rows, of));
@@ -74,7 +73,7 @@ fn unlike(own: &Description, other: &Description) -> Option<&'static str> {
             ("fingerprint", it.fingerprint.clone()),
             ("case", it.case.clone()),
             ("title", it.title.clone()),
-            ("task", it.task.clone()),
+            ("task", it.task.name().to_owned()),
             ("of", of),
             ("percoat", it.percoat.clone()),
         ]

@@ -97,7 +97,7 @@ impl Recorder for Shown<'_> {
 
     fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
         if self.common.verbose {
-            self.progress.tell(format_args!("{}\n{}\n{}", record.reading, record.report, record.certificate));
+            self.progress.tell(format_args!("{}\n{}\n{}", record.reading, record.report(), record.certificate));
         }
         self.recording.step(step, record, field)?;
         *interruption::hold() = self.saved();

@@ -12,16 +12,14 @@ use super::shown::Shown;
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};
-use crate::output::summary::summary;
 use crate::output::{
-    self, CannotGoOn, Clock, Plan, Recording, RunFolder, disk, is_beside, solved_plan, steps_of, table,
+    self, CannotGoOn, Clock, Plan, Recording, RunFolder, Summary, disk, is_beside, solved_plan, table,
     unlike_published, write_scalars,
 };
 use crate::picture::Snapshot;
 use crate::plain;
 use crate::run::{Finished, Run, Sampling, StepRecord};
 use clap::Args;
-use serde_json::Value;
 use std::io::Write;
 use std::path::Path;
 
@@ -101,7 +99,7 @@ pub fn run(
     write_scalars(&claim.staging(), &case, &outcome, &warnings, timing)?;
     interruption::publish(claim, &folder, common.quiet)?;
     if common.json {
-        write!(terminal::out(), "{}", summary(&case, &warnings, outcome.change, steps, timing))?;
+        write!(terminal::out(), "{}", Summary::new(&case, &warnings, outcome.change, steps, timing).to_json())?;
     } else if !common.quiet {
         let mut out = terminal::out();
         write!(out, "{}", table::outcome(&case, steps, outcome.change, terminal::width()))?;
@@ -164,8 +162,8 @@ fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(E
         return None;
     }
     let text = disk::read_text(&folder.join("summary.json")).ok()?;
-    let summary: Value = serde_json::from_str(&text).ok()?;
-    if summary["fingerprint"] != output::fingerprint(case, "") {
+    let summary = Summary::read(&serde_json::from_str(&text).ok()?).ok()?;
+    if summary.fingerprint != output::fingerprint(case, "") {
         return None;
     }
     let planned = solved_plan(case, steps, fields).names;
@@ -179,9 +177,9 @@ fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(E
         return None;
     }
     let reached = match case.grid {
-        Sampling::Accuracy(accuracy) => summary["accuracy"].as_f64().is_some_and(|change| change < accuracy),
+        Sampling::Accuracy(accuracy) => summary.accuracy.is_some_and(|change| change < accuracy),
         Sampling::Points(_) => true,
     };
-    let converged = steps_of(&summary).ok()?.iter().all(StepRecord::converged);
+    let converged = summary.steps.iter().all(StepRecord::converged);
     Some((if reached && converged { Ending::Done } else { Ending::NotConverged }, text))
 }

@@ -11,10 +11,9 @@ use crate::case::{Case, Room, Source};
 use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer, disk, write_text};
 use crate::picture;
 use crate::plain;
-use crate::sweep::{self, Asked, Axis, Combinations, Group, Log, Row, Status, Study, Task};
+use crate::sweep::{self, Axis, Combinations, Description, Group, Log, Row, Status, Study, Task};
 use crate::units::Units;
 use clap::Args;
-use serde_json::Value;
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -75,13 +74,10 @@ pub fn run(
     // Of what is common to all: it may be no case without what is varied.
     let whole = Case::read(&source, &fixed).ok();
     let text = whole.as_ref().map_or_else(|| source.text.clone(), Case::to_toml);
-    let asked = Asked {
-        title: whole.as_ref().map_or("", |case| &case.title),
-        case: &text,
-        task: if options.limit { "limit" } else { "solve" },
-        fingerprint: &sweep::fingerprint(&text, &fixed, &combinations),
-        of: combinations.all.len(),
-    };
+    let task = if options.limit { Task::Limit } else { Task::Solve };
+    let (title, fingerprint) =
+        (whole.map_or(String::new(), |case| case.title), sweep::fingerprint(&text, &fixed, &combinations));
+    let asked = Description::new(&title, &text, task, fingerprint, combinations.all.len());
     let combinations = match options.shard {
         Some((part, of)) => combinations.shard(part, of),
         None => combinations,
@@ -90,7 +86,7 @@ pub fn run(
     if let (Some((part, of)), None) = (options.shard, &common.output) {
         folder.push(format!("shard-{part}-of-{of}"));
     }
-    let (room, task) = (Room::on_this_machine(&folder), if options.limit { Task::Limit } else { Task::Solve });
+    let room = Room::on_this_machine(&folder);
     let study = Study::new(&source, &fixed, &combinations, task, room)?;
     let study = if options.keep_fields { study.keeping_fields() } else { study };
     interruption::watch();
@@ -142,9 +138,9 @@ pub fn run(
     }
     let staging = claim.staging();
     let mut log = Log::begin(&staging, &identity, &rows)?;
-    let describe = |rows: &[Row]| sweep::description(asked, rows, started.elapsed().as_secs_f64());
-    // For who merges a part that was killed.
-    write_text(&staging.join("sweep.json"), &format!("{:#}\n", describe(&rows)))?;
+    let describe = |rows: &[Row]| asked.after(rows, started.elapsed().as_secs_f64());
+    // A part that is killed can be merged with it.
+    write_text(&staging.join("sweep.json"), &describe(&rows).to_json())?;
     let (count, known) = (combinations.all.len(), rows.iter().map(|row| row.combination).collect());
     let saved = |done: usize| Saved::Combinations { done, of: count, folder: staging.clone() };
     *interruption::hold() = saved(rows.len());
@@ -174,7 +170,7 @@ pub fn run(
     drop(log);
     rows.sort_by_key(|row| row.combination);
     let description = describe(&rows);
-    finish(claim, &folder, &identity, &rows, &description, pictures, common.quiet)?;
+    finish(claim, &folder, &rows, &description, pictures, common.quiet)?;
     print(&rows, &description, &folder, &Saying { quiet: common.quiet, json: common.json })?;
     Ok(ending(&rows))
 }
@@ -183,21 +179,20 @@ pub fn run(
 pub fn finish(
     claim: RunFolder,
     folder: &Path,
-    identity: &str,
     rows: &[Row],
-    description: &Value,
+    description: &Description,
     pictures: &PictureOptions,
     quiet: bool,
 ) -> Result<(), Failure> {
     let staging = claim.staging();
     // In the order of the combinations, not in that of their ends.
-    drop(Log::begin(&staging, identity, rows)?);
+    drop(Log::begin(&staging, &description.identity(), rows)?);
     write_text(&staging.join("sweep.csv"), &sweep::table(rows))?;
-    write_text(&staging.join("sweep.json"), &format!("{description:#}\n"))?;
-    let text = |key: &str| description[key].as_str().unwrap_or_default().to_owned();
-    let common = Source { name: "the common case".to_owned(), text: text("case"), ..Source::default() };
+    write_text(&staging.join("sweep.json"), &description.to_json())?;
+    let text = description.case.clone();
+    let common = Source { name: "the common case".to_owned(), text, ..Source::default() };
     let units = Case::read(&common, &[]).map_or_else(|_| Units::unknown(), |case| case.units());
-    pictures.write(&staging, "sweep", || picture::sweep(&text("title"), &units, rows))?;
+    pictures.write(&staging, "sweep", || picture::sweep(&description.title, &units, rows))?;
     Ok(interruption::publish(claim, folder, quiet)?)
 }
 
@@ -234,11 +229,11 @@ fn tell_damaged(damaged: &[String], aside: Option<&Path>) {
 }
 
 /// How many are done, and why others are not.
-pub fn print(rows: &[Row], description: &Value, folder: &Path, saying: &Saying) -> Result<(), Failure> {
+pub fn print(rows: &[Row], description: &Description, folder: &Path, saying: &Saying) -> Result<(), Failure> {
     /// Failures told one by one.
     const TOLD: usize = 5;
     if saying.json {
-        writeln!(terminal::out(), "{description:#}")?;
+        write!(terminal::out(), "{}", description.to_json())?;
     }
     if saying.quiet || saying.json {
         return Ok(());
@@ -252,7 +247,7 @@ pub fn print(rows: &[Row], description: &Value, folder: &Path, saying: &Saying) 
             words += &format!(", {count} {what}");
         }
     }
-    let seconds = description["timing"]["wall"].as_f64().unwrap_or_default();
+    let seconds = description.timing.wall;
     writeln!(out, "{words}; {seconds:.2} s; written to {}", plain::path(folder))?;
     drop(out);
     tell_warnings(rows);

@@ -2,21 +2,28 @@
 
 use crate::localized;
 use crate::numeric::search::largest;
+#[cfg(feature = "serde")]
+use crate::numeric::serialised;
 use crate::reading::{LevelReading, Reading};
 
 /// Largest deviation of any level in contact from a reference; relative but for the share.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Deviation {
     /// Of the penetration, relative.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub penetration: f64,
     /// Of the load on one indenter, relative.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub load: f64,
     /// Of the share of the whole load, absolute.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub load_share: f64,
     /// Of the peak pressure, relative; not a number where it is infinite.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub max_pressure: f64,
     /// Of the contact radius, relative.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub contact_radius: f64,
 }
 
@@ -72,7 +79,12 @@ mod tests {
 
     #[test]
     fn the_peak_under_a_tip_is_not_compared() {
-        let tip = |max_pressure| LevelReading { load: 1.0, max_pressure, singular: true, ..LevelReading::default() };
+        let tip = |max_pressure| LevelReading {
+            load: 1.0,
+            max_pressure: f64::INFINITY,
+            resolved_peak: Some(max_pressure),
+            ..LevelReading::default()
+        };
         let [one, other] = [2.0, 3.0].map(|peak| Answer { penetration: 0.1, levels: vec![tip(peak)] });
         let deviation = one.deviation(&other);
         assert!(deviation.max_pressure.is_nan() && deviation.load == 0.0);

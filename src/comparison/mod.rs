@@ -102,7 +102,7 @@ impl Comparison {
             .map(|(rule, circle)| format!("{} circle of {} indenters: {}", rule.name(), circle.indenters, circle.stop))
             .collect();
         if !self.spectral.converged() {
-            warnings.push(format!("the spectral solution has not converged: {}", self.spectral.report));
+            warnings.push(format!("the spectral solution has not converged: {}", self.spectral.report()));
         }
         let samples =
             self.spectral.reading.levels.iter().filter(|level| level.load > 0.0).map(|level| level.resolution);

@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 
 /// Rule for the radius R of the circle outside of which the nominal pressure acts, or what acts there instead.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum CircleRadius {
     /// The indenters inside carry π R² p̄.

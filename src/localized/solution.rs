@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 /// How a localized solution ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Stop {
     /// Loads stand still to 1e-8 of the whole one, surfaces are met to 1e-9 of the deepest displacement.
@@ -117,19 +118,25 @@ impl Solution {
         let ring = !merged && own.iter().any(|(_, outline)| outline.as_ref().is_some_and(|outline| outline.hole > 0.0));
         let rings = outlines.as_ref().filter(|_| ring);
         let radii = || outlines.iter().flatten().flat_map(|outline| outline.radii.iter().copied());
+        let radius_min = radii().reduce(f64::min).filter(|_| !merged);
+        let radius_max = radii().reduce(f64::max).filter(|_| !merged);
+        let shown = own.iter().map(|(spot, _)| spot.peak()).fold(0.0, f64::max);
+        let is_tip = load > 0.0 && self.system.levels()[level - 1].shape().singular_peak();
+        let (max_pressure, resolved_peak) = LevelReading::peak_of(shown, is_tip);
         LevelReading {
             level,
             load: load / count,
             load_share: if whole > 0.0 { load / whole } else { 0.0 },
-            max_pressure: own.iter().map(|(spot, _)| spot.peak()).fold(0.0, f64::max),
-            singular: load > 0.0 && self.system.levels()[level - 1].shape().singular_peak(),
+            max_pressure,
+            resolved_peak,
             contact_area: area,
             contact_radius: (!merged).then_some(contact_radius),
             ring,
             radius_inner: rings.map(|all| mean(all.iter().map(|outline| outline.hole.powi(2)).sum())),
             radius_outer: rings.map(|all| mean(all.iter().map(|outline| mean_radius(&outline.radii).powi(2)).sum())),
-            radius_min: radii().reduce(f64::min).filter(|_| !merged),
-            radius_max: radii().reduce(f64::max).filter(|_| !merged),
+            radius_min,
+            radius_max,
+            asymmetry: LevelReading::asymmetry_of(radius_min, radius_max),
             merged,
             resolution: contact_radius / own.iter().map(|(spot, _)| spot.mesh.size).fold(0.0, f64::max),
             ..LevelReading::default()

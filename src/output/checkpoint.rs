@@ -5,9 +5,9 @@
 
 use super::npy::vector;
 use super::npz::Archive;
-use super::{OutputError, disk, recorded, write_file};
+use super::{OutputError, disk, write_file};
 use crate::run::Last;
-use crate::spectral::{Certificate, Checkpoint, Report, Stop, Unknowns};
+use crate::spectral::{Certificate, Checkpoint, Report, Route, Stop, Unknowns};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
@@ -40,9 +40,9 @@ pub(super) struct Place {
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct Solved {
-    stop: String,
-    route: String,
-    trials: usize,
+    stop: Stop,
+    #[serde(flatten)]
+    route: Route,
     iterations: usize,
     outer: usize,
     /// Number of coarser grids that the step keeps, and of all in the file.
@@ -126,15 +126,8 @@ impl Checkpoints {
 impl Solved {
     fn of(checkpoint: &Checkpoint) -> Self {
         let Report { stop, route, iterations, outer, .. } = checkpoint.report;
-        Self {
-            stop: stop.to_string(),
-            route: route.name().to_owned(),
-            trials: route.trials(),
-            iterations,
-            outer,
-            coarser: checkpoint.coarser,
-            grids: checkpoint.grids.len(),
-        }
+        let (coarser, grids) = (checkpoint.coarser, checkpoint.grids.len());
+        Self { stop, route, iterations, outer, coarser, grids }
     }
 }
 
@@ -249,11 +242,9 @@ impl<R: Read + Seek> Saved<R> {
     }
 
     fn last(&mut self, solved: &Solved) -> io::Result<Last> {
-        let unknown = || unlike(format!("`{}` by `{}` is no end of an iteration", solved.stop, solved.route));
-        let stop = Stop::ALL.into_iter().find(|stop| stop.to_string() == solved.stop).ok_or_else(unknown)?;
+        let Solved { stop, route, .. } = *solved;
         let finite = stop.solved();
         let [convolutions, residual, seconds] = self.numbers("numbers", finite)?;
-        let route = recorded::route(&solved.route, solved.trials).ok_or_else(unknown)?;
         let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
         if convolutions < 0.0 || seconds < 0.0 {
             return Err(unlike("a count or a time in it is negative".to_owned()));

@@ -1,71 +1,158 @@
 //! `compare.json`: spectral and localized solution side by side.
 
-use super::summary::units;
+use super::indented;
+use super::read_back::{Unreadable, read_back};
+use super::summary::{UnitNames, check};
 use crate::case::Case;
-use crate::comparison::{CircleComparison, Comparison, StressPair};
-use crate::localized::Stop;
+use crate::comparison::{CircleComparison, Comparison, Deviation, StressPair};
+use crate::localized::{CircleRadius, Stop};
 use crate::reading::LevelReading;
+use crate::run::StepRecord;
 use crate::stress::State;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// A comparison of the load step `step` (from 1) of a case, as indented JSON. What is infinite is null.
-pub fn compare_json(comparison: &Comparison, case: &Case, step: usize) -> String {
-    let task = &comparison.task;
-    let circles = |circles: &[CircleComparison]| circles.iter().map(circle).collect::<Value>();
-    let other = json!({ "rule": task.rule.other(), "localized": circles(&comparison.other_rule) });
-    let file = json!({
-        "percoat": env!("CARGO_PKG_VERSION"),
-        "title": case.title,
-        "case": case,
-        "units": units(case),
-        "step": step,
-        "spectral": comparison.spectral,
-        "spectral_error": comparison.grid_error,
-        "rule": task.rule,
-        "mutual_effect": task.mutual_effect,
-        "elements": task.elements,
-        "localized": circles(&comparison.circles),
-        "other_rule": Some(other).filter(|_| !comparison.other_rule.is_empty()),
-        "lattice_sum": comparison.lattice_sum.as_ref().map(circle),
-        "stresses": comparison.stresses.iter().map(pair).collect::<Value>(),
-    });
-    format!("{file:#}\n")
+/// A comparison of a load step of a case, as `compare.json` has it. What is infinite is null.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ComparisonFile {
+    /// The version that wrote it.
+    pub percoat: String,
+    /// Title of the case.
+    pub title: String,
+    /// The whole case, with its defaults.
+    pub case: Value,
+    /// Names of the units of all numbers.
+    pub units: UnitNames,
+    /// The load step, from 1.
+    pub step: usize,
+    /// The spectral solution.
+    pub spectral: StepRecord,
+    /// Change of the spectral solution from half the points.
+    pub spectral_error: Deviation,
+    /// Rule for the radius of the circles.
+    pub rule: CircleRadius,
+    /// Whether the indenters outside the circle act.
+    pub mutual_effect: bool,
+    /// Elements across the largest contact.
+    pub elements: usize,
+    /// The circles under the rule.
+    pub localized: Vec<Circle>,
+    /// The same circles under the other rule; `None` where they have none.
+    pub other_rule: Option<OtherRule>,
+    /// The first circle with the lattice sum of the indenters outside.
+    pub lattice_sum: Option<Circle>,
+    /// Stresses of both methods, with the last circle under the rule.
+    pub stresses: Vec<Stresses>,
 }
 
-fn circle(circle: &CircleComparison) -> Value {
-    let level = |reading: &LevelReading| {
-        json!({
-            "level": reading.level,
-            "load": reading.load,
-            "load_share": reading.load_share,
-            "max_pressure": reading.finite_peak(),
-            "contact_radius": reading.contact_radius,
-            "ring": reading.ring,
-        })
-    };
-    json!({
-        "indenters": circle.indenters,
-        "radius": circle.radii,
-        "converged": circle.stop == Stop::Converged,
-        "stop_reason": circle.stop.to_string(),
-        "penetration": circle.answer.penetration,
-        "additional_displacement": circle.additional_displacement,
-        "levels": circle.answer.levels.iter().map(level).collect::<Value>(),
-        "difference": circle.difference,
-        "mesh_error": circle.mesh_error,
-    })
+/// Circles under the rule that was not asked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OtherRule {
+    /// The rule.
+    pub rule: CircleRadius,
+    /// The circles.
+    pub localized: Vec<Circle>,
+}
+
+/// A circle of the localized method.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Circle {
+    /// Indenters inside.
+    pub indenters: usize,
+    /// Its radius, level by level, a length; `None` where it is infinite.
+    pub radius: Vec<Option<f64>>,
+    /// Whether its solution has converged.
+    pub converged: bool,
+    /// Why the solution ended.
+    pub stop_reason: Stop,
+    /// Penetration δ, a length.
+    pub penetration: f64,
+    /// Additional displacement w_a of Eq. (8), a length.
+    pub additional_displacement: f64,
+    /// From the highest level down.
+    pub levels: Vec<LevelReading>,
+    /// Deviation from the spectral solution.
+    pub difference: Deviation,
+    /// Change from half the number of elements.
+    pub mesh_error: Deviation,
 }
 
 /// Stresses of both methods at a point.
-fn pair(pair: &StressPair) -> Value {
-    let ([x, y], depth) = (pair.place, pair.depth);
-    let tensor = |State { xx, yy, zz, xy, xz, yz, .. }: &State| json!({ "xx": xx, "yy": yy, "zz": zz, "xy": xy, "xz": xz, "yz": yz });
-    json!({
-        "x": x,
-        "y": y,
-        "z": depth.z,
-        "side": depth.material,
-        "spectral": tensor(&pair.spectral),
-        "localized": tensor(&pair.localized),
-    })
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Stresses {
+    /// Place from the axis of the indenter, a length.
+    pub x: f64,
+    /// Place from the axis of the indenter, a length.
+    pub y: f64,
+    /// Depth, a length.
+    pub z: f64,
+    /// Material, from 1.
+    pub side: usize,
+    /// Of the spectral solution.
+    pub spectral: State,
+    /// Of the localized solution.
+    pub localized: State,
+}
+
+impl ComparisonFile {
+    /// Of a comparison of the load step `step` (from 1) of a case.
+    pub fn new(comparison: &Comparison, case: &Case, step: usize) -> Self {
+        let task = &comparison.task;
+        let circles = |circles: &[CircleComparison]| circles.iter().map(Circle::from).collect::<Vec<_>>();
+        let other = OtherRule { rule: task.rule.other(), localized: circles(&comparison.other_rule) };
+        Self {
+            percoat: env!("CARGO_PKG_VERSION").to_owned(),
+            title: case.title.clone(),
+            case: json!(case),
+            units: UnitNames::of(case),
+            step,
+            spectral: comparison.spectral.clone(),
+            spectral_error: comparison.grid_error,
+            rule: task.rule,
+            mutual_effect: task.mutual_effect,
+            elements: task.elements,
+            localized: circles(&comparison.circles),
+            other_rule: Some(other).filter(|other| !other.localized.is_empty()),
+            lattice_sum: comparison.lattice_sum.as_ref().map(Circle::from),
+            stresses: comparison.stresses.iter().map(Stresses::from).collect(),
+        }
+    }
+
+    /// Reads the comparison back that a file holds.
+    ///
+    /// # Errors
+    /// [`Unreadable`] with the key that is not as this version writes it.
+    pub fn read(file: &Value) -> Result<Self, Unreadable> {
+        let own: Self = read_back(file)?;
+        check(std::slice::from_ref(&own.spectral))?;
+        Ok(own)
+    }
+
+    /// The file.
+    pub fn to_json(&self) -> String {
+        indented(self)
+    }
+}
+
+impl From<&CircleComparison> for Circle {
+    fn from(circle: &CircleComparison) -> Self {
+        Self {
+            indenters: circle.indenters,
+            radius: circle.radii.iter().map(|radius| Some(*radius).filter(|radius| radius.is_finite())).collect(),
+            converged: circle.stop == Stop::Converged,
+            stop_reason: circle.stop,
+            penetration: circle.answer.penetration,
+            additional_displacement: circle.additional_displacement,
+            levels: circle.answer.levels.clone(),
+            difference: circle.difference,
+            mesh_error: circle.mesh_error,
+        }
+    }
+}
+
+impl From<&StressPair> for Stresses {
+    fn from(pair: &StressPair) -> Self {
+        let ([x, y], z, side) = (pair.place, pair.depth.z, pair.depth.material);
+        Self { x, y, z, side, spectral: pair.spectral, localized: pair.localized }
+    }
 }

@@ -60,7 +60,7 @@ mod number;
 #[cfg(test)]
 mod power_cut;
 mod publication;
-mod recorded;
+mod read_back;
 mod recording;
 mod scattered;
 mod seal;
@@ -77,7 +77,7 @@ pub use check::{Check, CheckError, Roughness, Touches};
 pub use checkpoint::{read_checkpoint, write_checkpoint};
 pub use checksum::checksum;
 pub use clock::{Clock, Phase, Timing};
-pub use comparison::compare_json;
+pub use comparison::ComparisonFile;
 pub use files::{Files, unlike_published};
 pub use fingerprint::fingerprint;
 pub use finished::{CannotGoOn, finished};
@@ -85,18 +85,20 @@ pub use folder::{Plan, RunFolder, is_released, release};
 pub use histograms::histograms;
 pub use kernel::{Traction, kernel};
 pub use layout::{COMBINATIONS, FolderError, SWEEP_LOG, is_beside, is_gathering};
-pub use limit::{limit_json, limits_json};
+pub use limit::{FirstLimit, LimitFile};
 pub use manifest::{Scope, Writer};
 pub use npy::{npy_bytes, npy_shared};
 pub use number::number;
 pub(crate) use number::with_error;
-pub use recorded::{Unreadable, limits_of, steps_of, timing_of};
+pub use read_back::Unreadable;
 pub use recording::Recording;
 pub use seal::{Unsealed, seal, sealed, unsealed};
 pub use solved::{solved_plan, write_scalars};
 pub use steps_log::whole_lines;
+pub use summary::{Summary, UnitNames};
 pub use volume::write_volume;
 
+use serde::Serialize;
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -113,6 +115,11 @@ impl OutputError {
     pub(crate) fn new(path: &Path, source: io::Error) -> Self {
         Self { path: path.to_owned(), source }
     }
+}
+
+/// A record as indented JSON.
+fn indented(record: &impl Serialize) -> String {
+    serde_json::to_string_pretty(record).expect("a record is numbers and texts under names") + "\n"
 }
 
 /// Makes `folder` and what leads to it.

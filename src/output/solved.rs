@@ -3,7 +3,7 @@
 use super::folder::Plan;
 use super::histograms::histograms;
 use super::manifest::Writer;
-use super::summary::{curve, summary};
+use super::summary::{Summary, curve};
 use super::{OutputError, Timing, write_text};
 use crate::case::Case;
 use crate::run::Outcome;
@@ -39,8 +39,8 @@ pub fn write_scalars(
     warnings: &[String],
     timing: Timing,
 ) -> Result<(), OutputError> {
-    let summary = summary(case, warnings, outcome.change, &outcome.steps, timing);
-    write_text(&folder.join("summary.json"), &summary)?;
+    let summary = Summary::new(case, warnings, outcome.change, &outcome.steps, timing);
+    write_text(&folder.join("summary.json"), &summary.to_json())?;
     write_text(&folder.join("curve.csv"), &curve(&outcome.steps))?;
     match histograms(&outcome.steps) {
         Some(histograms) => write_text(&folder.join("histograms.csv"), &histograms),

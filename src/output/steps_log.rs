@@ -5,8 +5,9 @@
 //! the run, the lines that end are whole steps: a step is finished where its line ends.
 
 use super::disk::{self, Appended};
+use super::read_back::read_back;
 use super::seal::{sealed, unsealed};
-use super::{Files, OutputError, recorded, write_file, write_text};
+use super::{Files, OutputError, write_file, write_text};
 use crate::load::Load;
 use crate::reading::Histogram;
 use crate::run::StepRecord;
@@ -32,17 +33,17 @@ pub(super) struct StepsLog {
     known: Option<String>,
 }
 
-#[derive(Serialize)]
-struct Line<'a> {
+/// A line.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Logged {
     #[serde(flatten)]
-    place: Place,
+    pub(super) place: Place,
     #[serde(flatten)]
-    record: &'a StepRecord,
-    /// Largest pressures on the grid, of all and of each level, also where they are infinite under a tip.
-    peaks: Vec<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    histograms: Option<&'a Vec<Histogram>>,
-    files: Files,
+    pub(super) record: StepRecord,
+    /// The histograms of a topography, which the record of a step leaves out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    histograms: Vec<Histogram>,
+    pub(super) files: Files,
 }
 
 /// Which step of which run a line is of.
@@ -72,14 +73,6 @@ impl From<Load> for Prescribed {
     }
 }
 
-/// A line that is as it was written.
-#[derive(Debug)]
-pub(super) struct Logged {
-    pub(super) place: Place,
-    pub(super) record: StepRecord,
-    pub(super) files: Files,
-}
-
 impl StepsLog {
     /// No steps yet; `folder` is where the result is gathered.
     pub(super) fn new(folder: &Path, run: Option<String>) -> Self {
@@ -98,12 +91,10 @@ impl StepsLog {
     /// Appends a step with the files that it has left. Refused when the first one finds steps there already, unless it goes on
     /// after them.
     pub(super) fn add(&mut self, load: Load, record: &StepRecord, files: Files) -> Result<(), OutputError> {
-        let histograms = record.rough.as_ref().map(|rough| &rough.histograms);
-        let levels = record.reading.levels.iter().map(|level| level.max_pressure);
-        let peaks = std::iter::once(record.reading.max_pressure).chain(levels).collect();
+        let histograms = record.rough.as_ref().map_or(Vec::new(), |rough| rough.histograms.clone());
         self.steps += 1;
         let place = Place { step: self.steps, run: self.run.clone(), load: load.into() };
-        let line = serde_json::to_string(&Line { place, record, peaks, histograms, files });
+        let line = serde_json::to_string(&Logged { place, record: record.clone(), histograms, files });
         let line = sealed(&line.expect("a step is numbers and texts under names")) + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {
@@ -125,10 +116,12 @@ impl StepsLog {
 pub(super) fn logged(line: &str) -> Result<Logged, String> {
     let object = unsealed(line).map_err(|error| error.to_string())?;
     let value: Value = serde_json::from_str(&object).map_err(|error| error.to_string())?;
-    let place = Place::deserialize(&value).map_err(|error| error.to_string())?;
-    let files = Files::deserialize(&value["files"]).map_err(|error| error.to_string())?;
-    let record = recorded::step(&value).map_err(|error| error.to_string())?;
-    Ok(Logged { place, record, files })
+    let mut line: Logged = read_back(&value).map_err(|error| error.to_string())?;
+    if let Some(rough) = &mut line.record.rough {
+        rough.histograms = std::mem::take(&mut line.histograms);
+    }
+    line.record.check().map_err(|reason| format!("step {}: {reason}", line.place.step))?;
+    Ok(line)
 }
 
 /// Whether a log is there and has a whole line.

@@ -98,8 +98,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     let residual = if residual { " Residual stress is in it." } else { "" };
     let failing = |(number, (criterion, _)): (usize, &(Criterion, [f64; 2]))| {
         let own = snapshot.strength.iter().find(|own| own.criterion == *criterion);
-        let is_open =
-            snapshot.failing != Some(*criterion) && own.is_some_and(|own| own.verdict() == Verdict::Undecided);
+        let is_open = snapshot.failing != Some(*criterion) && own.is_some_and(|own| own.verdict == Verdict::Undecided);
         format!("{number}: {criterion}{}", if is_open { " (undecided by its error)" } else { "" })
     };
     let failed: Vec<String> = (1..).zip(&failures).map(failing).collect();

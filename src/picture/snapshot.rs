@@ -55,7 +55,7 @@ impl Snapshot {
 
     /// The criterion that fails here or else governs: its utilisation is largest.
     pub fn governing(&self) -> Option<Criterion> {
-        self.failing.or_else(|| Governing::of(&self.strength).map(|own| own.first.criterion))
+        self.failing.or_else(|| Governing::of(&self.strength).map(|own| own.criterion))
     }
 
     /// Pressure sample by sample, a₂ fastest.

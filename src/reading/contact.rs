@@ -9,6 +9,8 @@ use crate::body::TransferFunction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
 use crate::numeric::number::number;
+#[cfg(feature = "serde")]
+use crate::numeric::serialised;
 use crate::numeric::sums;
 use crate::spectral::Contact;
 use std::f64::consts::PI;
@@ -16,49 +18,67 @@ use std::fmt;
 
 /// Scalars of one load step.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reading {
     /// Mean pressure p̄ over the cell, in the unit of Young's modulus.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub mean_pressure: f64,
-    /// Penetration δ, a length.
+    /// Penetration δ, a length: measured from the mean plane of the deformed surface, the additional displacement of Eq. (8).
+    #[cfg_attr(feature = "serde", serde(flatten, with = "both_names"))]
     pub penetration: f64,
     /// Fraction of the cell in contact: read between the samples, or counted and corrected by the perimeter where that errs
     /// less, as on rough surfaces whose spots have few samples.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub contact_fraction: f64,
-    /// What the reading of the fraction says of its own error, from the samples of this grid alone.
+    /// What the reading of the fraction says of its own error, from the samples of this grid alone; not kept in files.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub contact_fraction_uncertainty: f64,
     /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length: see
     /// [`Contact::elastic_energy`](crate::spectral::Contact::elastic_energy).
+    #[cfg_attr(feature = "serde", serde(default = "unknown", deserialize_with = "serialised::number"))]
     pub elastic_energy: f64,
-    /// Largest pressure, between the samples, in the unit of Young's modulus; what the grid resolves of it where it is
-    /// infinite ([`Reading::singular`]).
+    /// Largest pressure, between the samples, in the unit of Young's modulus; infinite where that of a level is.
+    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::max_pressure"))]
     pub max_pressure: f64,
-    /// Samples between the largest pressure and the edge of contact, at most `spot_resolution`; 0 where read back from a file.
+    /// What the grid resolves of a largest pressure that is infinite; `None` where it is finite.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub resolved_peak: Option<f64>,
+    /// Estimated discretisation errors, where coarser grids tell them.
+    pub errors: Errors,
+    /// Samples between the largest pressure and the edge of contact, at most `spot_resolution`; not kept in files.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub peak_to_edge: f64,
     /// Number of contact spots in the cell; merged contacts are one.
     pub contact_spots: usize,
     /// Samples along the radius of a disc as large as the typical spot: the one up to which, from the smallest on, half
     /// of the load is carried. 0 without contact.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub spot_resolution: f64,
     /// Per level; empty for a topography.
     pub levels: Vec<LevelReading>,
     /// Per site, the boundary of its contact; `None` without contact, for merged contacts and for spots of too few
-    /// samples or no smooth boundary. Empty for a topography.
+    /// samples or no smooth boundary. Empty for a topography; not kept in files.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub boundaries: Vec<Option<Boundary>>,
-    /// Estimated discretisation errors, where coarser grids tell them.
-    pub errors: Errors,
-    /// All readings of the fraction in contact.
+    /// All readings of the fraction in contact; not kept in files.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) fractions: Fractions,
 }
 
 impl Reading {
     /// Whether the largest pressure is infinite: that of a level is.
     pub fn singular(&self) -> bool {
-        self.levels.iter().any(|level| level.singular)
+        self.max_pressure.is_infinite()
     }
 
     /// The largest pressure where it is finite.
     pub fn finite_peak(&self) -> Option<f64> {
         (!self.singular()).then_some(self.max_pressure)
+    }
+
+    /// The largest pressure that the grid resolves: always finite.
+    pub fn grid_peak(&self) -> f64 {
+        self.resolved_peak.unwrap_or(self.max_pressure)
     }
 
     /// What one grid says of a contact, without errors.
@@ -136,20 +156,26 @@ impl Reading {
                 let most = |value| Some(all(value)?.fold(0.0, f64::max));
                 let ring_radii = mean(Boundary::mean_hole_radius).zip(mean(Boundary::mean_radius)).filter(|_| ring);
                 let (radius_inner, radius_outer) = ring_radii.unzip();
+                let radius_min = all(|b| b.extremes().0).and_then(|radii| radii.reduce(f64::min));
+                let radius_max = most(|b| b.extremes().1);
+                let shown = peaks().map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max);
+                let is_tip =
+                    load > 0.0 && surface.sites().iter().any(|site| site.level == level && site.shape.singular_peak());
+                let (max_pressure, resolved_peak) = LevelReading::peak_of(shown, is_tip);
                 LevelReading {
                     level,
                     load: load / indenters,
                     load_share: if mean_pressure > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
-                    max_pressure: peaks().map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max),
-                    singular: load > 0.0
-                        && surface.sites().iter().any(|site| site.level == level && site.shape.singular_peak()),
+                    max_pressure,
+                    resolved_peak,
                     contact_area: area,
                     contact_radius: (!merged).then_some(radius),
                     ring,
                     radius_inner,
                     radius_outer,
-                    radius_min: all(|b| b.extremes().0).and_then(|radii| radii.reduce(f64::min)),
-                    radius_max: most(|b| b.extremes().1),
+                    radius_min,
+                    radius_max,
+                    asymmetry: LevelReading::asymmetry_of(radius_min, radius_max),
                     centre: (load > 0.0 && !merged)
                         .then(|| [0, 1].map(|k| own.iter().map(|spot| spot.moment[k]).sum::<f64>() / load)),
                     merged,
@@ -179,14 +205,17 @@ impl Reading {
         let fractions = Fractions { between, many, corrected };
         let (fraction, _) = fractions.best(|own, _| own.uncertainty);
         let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
+        // Between the samples the highest of them need not be the highest peak.
+        let shown = levels.iter().map(LevelReading::grid_peak).fold(max_pressure, f64::max);
+        let (max_pressure, resolved_peak) = LevelReading::peak_of(shown, levels.iter().any(LevelReading::singular));
         Self {
             mean_pressure,
             penetration: contact.penetration(),
             contact_fraction: fraction.value,
             contact_fraction_uncertainty: fraction.uncertainty,
             elastic_energy: contact.elastic_energy(),
-            // Between the samples the highest of them need not be the highest peak.
-            max_pressure: levels.iter().map(|level| level.max_pressure).fold(max_pressure, f64::max),
+            max_pressure,
+            resolved_peak,
             peak_to_edge: highest.map_or(0.0, |index| peak::samples_to_edge(grid, pressure, index, spot_resolution)),
             contact_spots: counts.sizes.len(),
             spot_resolution,
@@ -195,6 +224,36 @@ impl Reading {
             errors: Errors::default(),
             fractions,
         }
+    }
+}
+
+/// The energy that a file of an earlier version does not have.
+#[cfg(feature = "serde")]
+fn unknown() -> f64 {
+    f64::NAN
+}
+
+/// The penetration under both of its names: δ is measured from the mean plane of the deformed surface, so that it is the
+/// additional displacement w_a of Eq. (8).
+#[cfg(feature = "serde")]
+mod both_names {
+    use super::serialised::number;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    struct Keys {
+        #[serde(deserialize_with = "number")]
+        penetration: f64,
+        #[serde(skip_deserializing)]
+        additional_displacement: f64,
+    }
+
+    pub fn serialize<S: Serializer>(penetration: &f64, keys: S) -> Result<S::Ok, S::Error> {
+        Keys { penetration: *penetration, additional_displacement: *penetration }.serialize(keys)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(keys: D) -> Result<f64, D::Error> {
+        Ok(Keys::deserialize(keys)?.penetration)
     }
 }
 
@@ -228,7 +287,7 @@ impl fmt::Display for Reading {
                 level.level,
                 number(level.load),
                 100.0 * level.load_share,
-                number(level.max_pressure),
+                number(level.grid_peak()),
                 number(level.contact_area),
                 match (level.merged, level.ring) {
                     (true, _) => ", merged with a neighbour",

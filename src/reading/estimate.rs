@@ -154,7 +154,7 @@ fn between(fine: &Reading, coarser: &[Reading], exponents: &[f64], load: Load) -
         // A single level carries the whole load.
         let share = if fine.levels.len() == 1 { 0.0 } else { share_law(samples) };
         let own_load = own.load * if by_load { share / own.load_share } else { load_law(samples) };
-        let peak = own.max_pressure * peak_law(own.uncertainty.peak_to_edge.max(1.0), exponent);
+        let peak = own.grid_peak() * peak_law(own.uncertainty.peak_to_edge.max(1.0), exponent);
         let radius = |error: Option<f64>, value: fn(&LevelReading) -> Option<f64>| of(AREA, error?, value);
         let relative = own.uncertainty.boundary.zip(own.radius_max).map(|(error, largest)| error / largest);
         LevelErrors {
@@ -167,7 +167,7 @@ fn between(fine: &Reading, coarser: &[Reading], exponents: &[f64], load: Load) -
             radius_outer: radius(own.uncertainty.boundary, |level| level.radius_outer),
             radius_min: radius(own.uncertainty.boundary, |level| level.radius_min),
             radius_max: radius(own.uncertainty.boundary, |level| level.radius_max),
-            asymmetry: radius(relative, LevelReading::asymmetry),
+            asymmetry: radius(relative, |level| level.asymmetry),
             centre: [
                 of(CENTRE, own.contact_radius.unwrap_or(0.0) * centre_law(samples), |level| Some(level.centre?[0])),
                 of(CENTRE, own.contact_radius.unwrap_or(0.0) * centre_law(samples), |level| Some(level.centre?[1])),
@@ -184,12 +184,12 @@ fn between(fine: &Reading, coarser: &[Reading], exponents: &[f64], load: Load) -
     let penetration = estimate(safety, fine.penetration.abs() * depth, &|reading| Some(reading.penetration));
     let [stored, safety] = if by_load { [depth, safety] } else { [load_law(largest), MEAN_PRESSURE] };
     let energy = estimate(safety, fine.elastic_energy * stored, &|reading| Some(reading.elastic_energy));
-    let peak = fine.max_pressure * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
+    let peak = fine.grid_peak() * peak_law(fine.peak_to_edge.min(smallest).max(1.0), sharpest);
     let levels: Vec<LevelErrors> = fine.levels.iter().zip(exponents).enumerate().map(level).collect();
     // The highest of all may be that of any level that reaches as high within its own error.
     let peaks =
         fine.levels.iter().zip(&levels).filter_map(|(own, errors)| Some(own.finite_peak()? + errors.max_pressure?));
-    let beyond = peaks.fold(0.0, f64::max) - fine.max_pressure;
+    let beyond = peaks.fold(0.0, f64::max) - fine.grid_peak();
     let errors = Errors {
         mean_pressure: prescribed(mean_pressure, by_load),
         penetration: prescribed(penetration, !by_load),

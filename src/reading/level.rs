@@ -1,23 +1,31 @@
 //! What is read of the indenters of one level.
 
 use super::LevelErrors;
+#[cfg(feature = "serde")]
+use crate::numeric::serialised;
 
 /// Scalars of one level. Where a level has several indenters in the cell, loads and areas are means over them, contact,
 /// inner and outer radius means by area, the others extremes.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LevelReading {
     /// Level, from 1.
     pub level: usize,
     /// Force on one indenter: a pressure times an area.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub load: f64,
     /// Share of the whole load that the level carries.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub load_share: f64,
-    /// Peak pressure, between the samples; in the unit of Young's modulus.
+    /// Peak pressure, between the samples, in the unit of Young's modulus; infinite under a tip with load, see
+    /// [`crate::counterbody::Shape::singular_peak`].
+    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::max_pressure"))]
     pub max_pressure: f64,
-    /// Whether the peak pressure is infinite, see [`crate::counterbody::Shape::singular_peak`]: `max_pressure` is then
-    /// only what the grid resolves of it. Never for a level without load.
-    pub singular: bool,
+    /// What the grid resolves of a peak pressure that is infinite; `None` where it is finite.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub resolved_peak: Option<f64>,
     /// Contact area of one indenter, a length squared.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub contact_area: f64,
     /// √(area/π), a length; `None` for merged contacts.
     pub contact_radius: Option<f64>,
@@ -33,14 +41,19 @@ pub struct LevelReading {
     pub radius_min: Option<f64>,
     /// Largest distance of the boundary from the axis, a length; see `radius_min`.
     pub radius_max: Option<f64>,
+    /// (largest − smallest)/largest boundary radius; see `radius_min`.
+    pub asymmetry: Option<f64>,
     /// Centre [x, y] of the pressure from the axis, lengths: Σ p **x**/Σ p. `None` without load and for merged contacts.
+    #[cfg_attr(feature = "serde", serde(with = "serialised::pair"))]
     pub centre: Option<[f64; 2]>,
     /// Whether the contact of an indenter of this level touches that of a neighbour, or by the localized method one of
     /// both reaches under the other's surface.
     pub merged: bool,
     /// Samples, or elements, along the contact radius: below [`FEW_SAMPLES`] the radii are rough.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub resolution: f64,
-    /// What the reading of the boundary says of its own errors.
+    /// What the reading of the boundary says of its own errors; not kept in files.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub uncertainty: Uncertainty,
     /// Estimated discretisation errors, where coarser grids tell them.
     pub errors: LevelErrors,
@@ -65,40 +78,28 @@ pub struct Uncertainty {
 pub const FEW_SAMPLES: f64 = 10.0;
 
 impl LevelReading {
-    /// (largest − smallest)/largest boundary radius.
-    pub fn asymmetry(&self) -> Option<f64> {
-        self.radius_min.zip(self.radius_max).map(|(least, largest)| (largest - least) / largest)
+    /// (largest − smallest)/largest of two radii of a boundary, where both are known.
+    pub(crate) fn asymmetry_of(least: Option<f64>, largest: Option<f64>) -> Option<f64> {
+        least.zip(largest).map(|(least, largest)| (largest - least) / largest)
+    }
+
+    /// The peak pressure and what the grid resolves of it, from what the grid shows and whether it stands under a tip.
+    pub(crate) fn peak_of(shown: f64, is_tip: bool) -> (f64, Option<f64>) {
+        if is_tip && !shown.is_nan() { (f64::INFINITY, Some(shown)) } else { (shown, None) }
+    }
+
+    /// Whether the peak pressure is infinite.
+    pub fn singular(&self) -> bool {
+        self.max_pressure.is_infinite()
     }
 
     /// The peak pressure where it is finite.
     pub fn finite_peak(&self) -> Option<f64> {
-        (!self.singular).then_some(self.max_pressure)
+        (!self.singular()).then_some(self.max_pressure)
     }
-}
 
-#[cfg(feature = "serde")]
-impl serde::Serialize for LevelReading {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        let mut keys = serializer.serialize_struct("level", 17)?;
-        keys.serialize_field("level", &self.level)?;
-        keys.serialize_field("load", &self.load)?;
-        keys.serialize_field("load_share", &self.load_share)?;
-        keys.serialize_field("max_pressure", &self.finite_peak())?;
-        keys.serialize_field("singular", &self.singular)?;
-        keys.serialize_field("contact_area", &self.contact_area)?;
-        keys.serialize_field("contact_radius", &self.contact_radius)?;
-        keys.serialize_field("ring", &self.ring)?;
-        keys.serialize_field("radius_inner", &self.radius_inner)?;
-        keys.serialize_field("radius_outer", &self.radius_outer)?;
-        keys.serialize_field("radius_min", &self.radius_min)?;
-        keys.serialize_field("radius_max", &self.radius_max)?;
-        keys.serialize_field("asymmetry", &self.asymmetry())?;
-        // Two columns of a table, whether it is known or not.
-        keys.serialize_field("centre", &self.centre.map_or([None; 2], |centre| centre.map(Some)))?;
-        keys.serialize_field("merged", &self.merged)?;
-        keys.serialize_field("resolution", &self.resolution)?;
-        keys.serialize_field("errors", &self.errors)?;
-        keys.end()
+    /// The peak pressure that the grid resolves: always finite.
+    pub fn grid_peak(&self) -> f64 {
+        self.resolved_peak.unwrap_or(self.max_pressure)
     }
 }

@@ -27,6 +27,8 @@ mod verdict;
 pub use boundary::Boundary;
 pub use contact::Reading;
 pub use errors::{Errors, LevelErrors};
+#[cfg(feature = "serde")]
+pub(crate) use governing::names;
 pub use governing::{Governing, within_the_errors};
 pub use histogram::Histogram;
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};

@@ -7,11 +7,19 @@
 use super::StressReading;
 use super::verdict::Verdict;
 use crate::body::HalfSpace;
+#[cfg(feature = "serde")]
+use crate::numeric::serialised;
 use crate::stress::Peak;
 use std::fmt;
+use std::str::FromStr;
 
 /// What can fail.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(tag = "criterion", rename_all = "snake_case")
+)]
 #[non_exhaustive]
 pub enum Criterion {
     /// A material yields: von Mises.
@@ -85,22 +93,50 @@ impl fmt::Display for Criterion {
     }
 }
 
+impl FromStr for Criterion {
+    type Err = String;
+
+    /// Reads a criterion as it prints itself.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = |start: &str| text.strip_prefix(start)?.parse().ok();
+        let yields = number("yield of material ").map(|material| Self::Yield { material });
+        let cracks = || number("cracking of material ").map(|material| Self::Cracking { material });
+        let parts = || number("delamination of interface ").map(|interface| Self::Delamination { interface });
+        yields.or_else(cracks).or_else(parts).ok_or_else(|| format!("criterion {text:?} is not known"))
+    }
+}
+
 /// How much of a criterion is taken up, and where.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Utilisation {
-    /// Which.
+    /// The criterion.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub criterion: Criterion,
-    /// 1 where it fails; infinite under a tip.
+    /// Stress over strength: 1 where the criterion fails; infinite under a tip.
+    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::utilisation"))]
     pub value: f64,
     /// Estimated error of the value by the grid.
     pub error: Option<f64>,
+    /// Whether the criterion fails, by value and error.
+    #[cfg_attr(feature = "serde", serde(rename = "state"))]
+    pub verdict: Verdict,
     /// x, y, z; lengths.
+    #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::place"))]
     pub position: [f64; 3],
     /// Another place (x, y, z), lengths, where the utilisation may be largest within the errors; see [`Peak::rival`].
+    #[cfg_attr(feature = "serde", serde(with = "serialised::place_or_none"))]
     pub rival: Option<[f64; 3]>,
 }
 
 impl Utilisation {
+    /// Of a criterion by its value and the error of it, at a place.
+    pub fn new(criterion: Criterion, value: f64, error: Option<f64>, position: [f64; 3]) -> Self {
+        let half = error.unwrap_or(0.0);
+        let verdict = Verdict::of(value - half, value + half);
+        Self { criterion, value, error, verdict, position, rival: None }
+    }
+
     /// The value less its error: what is taken up at least.
     pub fn least(&self) -> f64 {
         self.value - self.error.unwrap_or(0.0)
@@ -109,11 +145,6 @@ impl Utilisation {
     /// The value with its error: what is taken up at most.
     pub fn most(&self) -> f64 {
         self.value + self.error.unwrap_or(0.0)
-    }
-
-    /// Whether it fails.
-    pub fn verdict(&self) -> Verdict {
-        Verdict::of(self.least(), self.most())
     }
 
     /// Of every criterion of a half-space under the largest stresses of a step.
@@ -130,72 +161,10 @@ impl Utilisation {
             // Nothing fails by being pressed, and the error is that of what is above 0; what is not a number stays so.
             let (value, error) =
                 if taken < 0.0 { (0.0, error.map(|error| (taken + error).max(0.0))) } else { (taken, error) };
-            Some(Self {
-                criterion,
-                value,
-                error,
-                position: peak.position,
-                rival: peak.rival.map(|rival| rival.position),
-            })
+            let rival = peak.rival.map(|rival| rival.position);
+            Some(Self { rival, ..Self::new(criterion, value, error, peak.position) })
         };
         Criterion::all(half_space).into_iter().filter_map(of).collect()
-    }
-}
-
-#[cfg(feature = "serde")]
-impl serde::Serialize for Utilisation {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeMap;
-        let mut keys = serializer.serialize_map(None)?;
-        self.criterion.entries(&mut keys)?;
-        keys.serialize_entry("utilisation", &Some(self.value).filter(|value| value.is_finite()))?;
-        keys.serialize_entry("singular", &self.value.is_infinite())?;
-        keys.serialize_entry("error", &self.error)?;
-        keys.serialize_entry("state", self.verdict().name())?;
-        let [x, y, z] = self.position;
-        keys.serialize_entry("x", &x)?;
-        keys.serialize_entry("y", &y)?;
-        keys.serialize_entry("z", &z)?;
-        keys.serialize_entry("rival", &self.rival.map(Place))?;
-        keys.end()
-    }
-}
-
-/// x, y, z as keys.
-#[cfg(feature = "serde")]
-struct Place([f64; 3]);
-
-#[cfg(feature = "serde")]
-impl serde::Serialize for Place {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        let mut keys = serializer.serialize_struct("place", 3)?;
-        for (name, length) in ["x", "y", "z"].into_iter().zip(self.0) {
-            keys.serialize_field(name, &length)?;
-        }
-        keys.end()
-    }
-}
-
-#[cfg(feature = "serde")]
-impl serde::Serialize for Criterion {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeMap;
-        let mut keys = serializer.serialize_map(Some(2))?;
-        self.entries(&mut keys)?;
-        keys.end()
-    }
-}
-
-#[cfg(feature = "serde")]
-impl Criterion {
-    /// Its name, and the material or interface.
-    pub(super) fn entries<M: serde::ser::SerializeMap>(self, keys: &mut M) -> Result<(), M::Error> {
-        keys.serialize_entry("criterion", self.name())?;
-        match self {
-            Self::Yield { material } | Self::Cracking { material } => keys.serialize_entry("material", &material),
-            Self::Delamination { interface } => keys.serialize_entry("interface", &interface),
-        }
     }
 }
 

@@ -3,6 +3,8 @@
 use super::Reading;
 use crate::counterbody::Site;
 use crate::friction::Friction;
+#[cfg(feature = "serde")]
+use crate::numeric::serialised;
 use crate::spectral::Step;
 use crate::stress::maxima::{Carried, Extremes, Maxima};
 use crate::stress::{Peak, StressField};
@@ -10,14 +12,20 @@ use std::f64::consts::PI;
 
 /// Largest stresses of a step, residual stresses among them, see [`crate::stress::maxima`].
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StressReading {
+    /// Over all materials.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub overall: Extremes,
     /// Over each material, from the surface down.
     pub materials: Vec<Extremes>,
     /// On each face: the surface, then both sides of each interface.
     pub faces: Vec<Extremes>,
     /// What each interface carries, from the surface down.
     pub interfaces: Vec<Carried>,
-    /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`].
+    /// Estimated relative error of the largest tension on the surface, see [`crate::stress::Crest::error`]; infinite where
+    /// the samples do not tell it.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::infinite"))]
     pub surface_error: f64,
 }
 
@@ -37,16 +45,15 @@ impl StressReading {
             None => maxima,
         };
         let surface_error = maxima.surface_error();
-        let Maxima { materials, faces, interfaces, .. } = maxima;
-        let mut stress = Self { materials, faces, interfaces, surface_error };
-        for peak in stress.peaks() {
+        let Maxima { mut materials, mut faces, mut interfaces, .. } = maxima;
+        for peak in peaks(&mut materials, &mut faces, &mut interfaces) {
             peak.position = beside_site(step, peak.position);
             peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
         }
         // A tip is infinitely stressed, whatever a grid shows of it.
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
-            let first = [&mut stress.materials, &mut stress.faces].map(|all| all.first_mut());
+            let first = [&mut materials, &mut faces].map(|all| all.first_mut());
             let is_torn = tears(step);
             for Extremes { tau1, mises, tension } in first.into_iter().flatten() {
                 for peak in [Some(tau1), Some(mises), Some(tension).filter(|_| is_torn)].into_iter().flatten() {
@@ -61,61 +68,38 @@ impl StressReading {
                 }
             }
         }
-        Some(stress)
-    }
-
-    /// Largest principal shear stress of all.
-    pub fn tau1(&self) -> Peak {
-        self.largest(|extremes| extremes.tau1)
-    }
-
-    /// Largest tension of all.
-    pub fn tension(&self) -> Peak {
-        self.largest(|extremes| extremes.tension)
-    }
-
-    /// Largest stress of von Mises of all.
-    pub fn mises(&self) -> Peak {
-        self.largest(|extremes| extremes.mises)
-    }
-
-    /// Every place of a largest stress.
-    fn peaks(&mut self) -> impl Iterator<Item = &mut Peak> {
-        let extremes = self.materials.iter_mut().chain(&mut self.faces);
-        let extremes = extremes.flat_map(|Extremes { tau1, tension, mises }| [tau1, tension, mises]);
-        let interfaces = self.interfaces.iter_mut().flat_map(|carried| {
-            let Carried { normal, shear, delamination, .. } = carried;
-            [Some(normal), Some(shear), delamination.as_mut()].into_iter().flatten()
-        });
-        extremes.chain(interfaces)
-    }
-
-    fn largest(&self, peak: impl Fn(&Extremes) -> Peak) -> Peak {
-        let peaks: Vec<Peak> = self.materials.iter().map(peak).collect();
-        Peak::highest(&peaks, 0.0).expect("there is always a substrate")
+        Some(Self { overall: overall(&materials), materials, faces, interfaces, surface_error })
     }
 }
 
-#[cfg(feature = "serde")]
-impl serde::Serialize for StressReading {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use serde::ser::SerializeStruct;
-        let mut keys = serializer.serialize_struct("stress", 7)?;
-        keys.serialize_field("max_tau1", &self.tau1())?;
-        keys.serialize_field("max_tension", &self.tension())?;
-        keys.serialize_field("max_mises", &self.mises())?;
-        keys.serialize_field("materials", &self.materials)?;
-        keys.serialize_field("faces", &self.faces)?;
-        keys.serialize_field("interfaces", &self.interfaces)?;
-        keys.serialize_field("surface_error", &self.surface_error)?;
-        keys.end()
-    }
+/// Every place of a largest stress.
+fn peaks<'a>(
+    materials: &'a mut [Extremes],
+    faces: &'a mut [Extremes],
+    interfaces: &'a mut [Carried],
+) -> impl Iterator<Item = &'a mut Peak> {
+    let extremes = materials.iter_mut().chain(faces);
+    let extremes = extremes.flat_map(|Extremes { tau1, tension, mises }| [tau1, tension, mises]);
+    let interfaces = interfaces.iter_mut().flat_map(|carried| {
+        let Carried { normal, shear, delamination, .. } = carried;
+        [Some(normal), Some(shear), delamination.as_mut()].into_iter().flatten()
+    });
+    extremes.chain(interfaces)
+}
+
+/// The extremes over all of some materials.
+fn overall(materials: &[Extremes]) -> Extremes {
+    let largest = |peak: fn(&Extremes) -> Peak| {
+        let peaks: Vec<Peak> = materials.iter().map(peak).collect();
+        Peak::highest(&peaks, 0.0).expect("there is always a substrate")
+    };
+    Extremes { tau1: largest(|own| own.tau1), tension: largest(|own| own.tension), mises: largest(|own| own.mises) }
 }
 
 /// Where τ₁ is infinite: at the tips in contact, unless the surface material is incompressible, as σ_z and σ_r are then
 /// infinite alike; then the traction of a counterbody that slides still is.
 pub fn tips<'a>(step: &'a Step, reading: &'a Reading) -> impl Iterator<Item = &'a Site> {
-    let sites = step.surface().sites().iter().filter(|site| reading.levels[site.level - 1].singular);
+    let sites = step.surface().sites().iter().filter(|site| reading.levels[site.level - 1].singular());
     let slides = friction(step) > 0.0;
     sites.filter(move |_| slides || step.problem().half_space().surface_material().poisson() < 0.5)
 }

@@ -5,6 +5,7 @@ use std::fmt;
 
 /// Whether a criterion fails, by its utilisation and the estimated error of it. Where no error is known, the value decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 pub enum Verdict {
     /// The utilisation and its error stay below 1.
     Holds,

@@ -73,7 +73,7 @@ fn highest(levels: &[LevelReading]) -> Option<&LevelReading> {
 /// Says that not every step has converged; empty where all have.
 pub(super) fn doubts(steps: &[StepRecord]) -> Markup {
     let failed = (1..).zip(steps).filter(|(_, step)| !step.converged());
-    let failed: Vec<String> = failed.map(|(number, step)| format!("{number} ({})", step.stop_reason())).collect();
+    let failed: Vec<String> = failed.map(|(number, step)| format!("{number} ({})", step.stop)).collect();
     if failed.is_empty() {
         return Markup::default();
     }

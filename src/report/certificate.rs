@@ -3,7 +3,7 @@
 use super::markup::{Markup, tag, with};
 use crate::numeric::search::largest;
 use crate::run::StepRecord;
-use crate::spectral::Certificate;
+use crate::spectral::{Certificate, Stop};
 
 /// A quantity that convergence is judged by.
 struct Criterion {
@@ -21,9 +21,9 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
     if solved.is_empty() {
         return Markup::default();
     }
-    let at_rounding = solved.iter().any(|step| step.is_at_rounding());
+    let at_rounding = solved.iter().any(|step| step.stop == Stop::Rounding);
     let most = |of: fn(&StepRecord) -> f64| largest(solved.iter().map(|&step| of(step)));
-    let slides = solved.iter().any(|step| step.slides);
+    let slides = solved.iter().any(|step| step.friction.is_some());
     let criteria = [
         Criterion {
             name: "Energy gap",
@@ -47,7 +47,7 @@ pub(super) fn certificate(steps: &[StepRecord], tolerance: Option<f64>) -> Marku
         },
         Criterion {
             name: "Residual ε",
-            value: most(|step| step.report.residual),
+            value: most(|step| step.residual),
             below: tolerance,
             means: "Pressure times gap, which is zero everywhere in the exact solution, summed over the cell and relative to load \
                     times penetration.",

@@ -1,8 +1,7 @@
 //! Why there is no report of a folder.
 
-use crate::output::Unreadable;
 use crate::plain;
-use serde_json::Value;
+use crate::sweep::PartError;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -42,14 +41,11 @@ pub enum ReportError {
         reason: String,
     },
     /// A file is not as percoat wrote it there, although it can be read.
-    #[error(
-        "{} {reason}; its numbers are not shown: put back what was written, or compute it again",
-        plain::path(path)
-    )]
+    #[error("{}{reason}; its numbers are not shown: put back what was written, or compute it again", plain::path(path))]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is the matter with it.
+        /// What is the matter with it, as the words behind its name.
         reason: String,
     },
     /// A file cannot be read.
@@ -68,14 +64,19 @@ impl ReportError {
         move |error| Self::Input { path, error }
     }
 
-    /// Of a result that names its version, for a reason.
-    pub(super) fn version(path: &Path, file: &Value, reason: impl Into<String>) -> Self {
-        let version = file["percoat"].as_str().map(str::to_owned);
-        Self::Version { path: path.to_owned(), version, reason: reason.into() }
+    /// Of a result of a version of percoat, for a reason.
+    pub(super) fn version(path: &Path, version: &str, reason: impl Into<String>) -> Self {
+        Self::Version { path: path.to_owned(), version: Some(version.to_owned()), reason: reason.into() }
     }
+}
 
-    pub(super) fn unreadable(path: &Path, version: Option<&str>) -> impl FnOnce(Unreadable) -> Self {
-        let (path, version) = (path.to_owned(), version.map(str::to_owned));
-        move |error| Self::Version { path, version, reason: error.to_string() }
+impl From<PartError> for ReportError {
+    fn from(error: PartError) -> Self {
+        match error {
+            PartError::Input { path, error } => Self::Input { path, error },
+            PartError::Damaged { path, reason } => Self::Damaged { path, reason },
+            // Of two parts alone.
+            PartError::Unlike { first, .. } => Self::Damaged { path: first.into(), reason: String::new() },
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! What a folder holds of finished results.
 
 use super::ReportError;
-use crate::output::{disk, is_beside, unlike_published};
+use crate::output::{LimitFile, SWEEP_LOG, Summary, Unreadable, disk, is_beside, unlike_published};
+use crate::sweep::{Description, Part, Row};
 use serde_json::Value;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -11,25 +12,25 @@ use std::path::{Path, PathBuf};
 pub(super) struct Finished {
     pub folder: PathBuf,
     /// `summary.json`.
-    pub run: Option<Value>,
+    pub run: Option<Summary>,
     /// `limit.json`.
-    pub limit: Option<Value>,
-    /// `sweep.json` with its table.
+    pub limit: Option<LimitFile>,
+    /// `sweep.json` with its log.
     pub sweep: Option<Swept>,
     /// Files that do not stand there as percoat wrote them, each with what is the matter with it.
     unlike: Vec<(String, String)>,
 }
 
 /// Files whose numbers a page shows.
-const SHOWN: [&str; 4] = ["summary.json", "limit.json", "sweep.json", "sweep.csv"];
+const SHOWN: [&str; 4] = ["summary.json", "limit.json", "sweep.json", SWEEP_LOG];
 
 /// A sweep.
 #[derive(Debug)]
 pub(super) struct Swept {
-    /// `sweep.json`.
-    pub file: Value,
-    /// `sweep.csv`.
-    pub table: String,
+    /// What was asked for, and how it ended.
+    pub description: Description,
+    /// Its combinations, by ascending number.
+    pub rows: Vec<Row>,
 }
 
 impl Finished {
@@ -38,17 +39,12 @@ impl Finished {
         if !folder.is_dir() {
             return Err(ReportError::NoFolder(folder.to_owned()));
         }
-        let sweep = match json(&folder.join("sweep.json"))? {
-            Some(file) => {
-                let path = folder.join("sweep.csv");
-                let table = disk::read_text(&path).map_err(ReportError::input(&path))?;
-                Some(Swept { file, table })
-            }
-            None => None,
-        };
-        let [run, limit] = ["summary.json", "limit.json"].map(|name| json(&folder.join(name)));
+        let part = Part::read(folder)?;
+        let sweep = part.map(|part| Swept { description: part.description.clone(), rows: part.rows() });
+        let run = record(&folder.join("summary.json"), Summary::read)?;
+        let limit = record(&folder.join("limit.json"), LimitFile::read)?;
         let unlike = unlike_published(folder);
-        let finished = Self { folder: folder.to_owned(), run: run?, limit: limit?, sweep, unlike };
+        let finished = Self { folder: folder.to_owned(), run, limit, sweep, unlike };
         if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
             let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| disk::is_folder(&folder.join(name)));
             return Err(ReportError::Nothing { folder: folder.to_owned(), unfinished });
@@ -59,7 +55,9 @@ impl Finished {
     /// Refuses a file that is shown and not as it was written.
     pub(super) fn whole(&self) -> Result<(), ReportError> {
         match self.unlike.iter().find(|(name, _)| SHOWN.contains(&name.as_str()) && self.folder.join(name).exists()) {
-            Some((name, reason)) => Err(ReportError::Damaged { path: self.folder.join(name), reason: reason.clone() }),
+            Some((name, reason)) => {
+                Err(ReportError::Damaged { path: self.folder.join(name), reason: format!(" {reason}") })
+            }
             None => Ok(()),
         }
     }
@@ -90,12 +88,14 @@ fn text(path: &Path) -> Result<Option<String>, ReportError> {
     }
 }
 
-fn json(path: &Path) -> Result<Option<Value>, ReportError> {
+/// The record of a file, which names the version that wrote it.
+fn record<T>(path: &Path, read: impl Fn(&Value) -> Result<T, Unreadable>) -> Result<Option<T>, ReportError> {
     let Some(text) = text(path)? else { return Ok(None) };
-    let value = serde_json::from_str(&text).map_err(|error| ReportError::Version {
-        path: path.to_owned(),
-        version: None,
-        reason: format!("it is not JSON ({error})"),
-    })?;
-    Ok(Some(value))
+    let refused = |version: Option<&str>, reason: String| {
+        let version = version.map(str::to_owned);
+        ReportError::Version { path: path.to_owned(), version, reason }
+    };
+    let file: Value =
+        serde_json::from_str(&text).map_err(|error| refused(None, format!("it is not JSON ({error})")))?;
+    read(&file).map(Some).map_err(|error| refused(file["percoat"].as_str(), error.to_string()))
 }

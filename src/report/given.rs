@@ -1,55 +1,33 @@
 //! What the keys of a sweep are given, as a reader wants it.
 
-use super::rows::Line;
 use crate::output::number;
-use crate::sweep::column;
-use serde::Deserialize;
-use serde_json::Value;
+use crate::sweep::{Row, SweptKey};
 use std::collections::BTreeSet;
 
 /// Numbers of more letters are shortened.
 const LONG: usize = 8;
 
-/// A key with its values.
-#[derive(Debug, Deserialize)]
-pub(super) struct Key {
-    pub key: String,
-    values: Vec<Value>,
+/// The values of a key in a line.
+pub(super) fn values(key: &SweptKey) -> String {
+    let is_short = is_short(key);
+    listed(&key.values.iter().map(|text| shown(text, is_short)).collect::<Vec<_>>())
 }
 
-impl Key {
-    /// How many values it has.
-    pub(super) fn count(&self) -> usize {
-        self.values.len()
-    }
+/// The value of a key in a row.
+pub(super) fn value(key: &SweptKey, row: &Row) -> Option<String> {
+    let (_, text) = row.settings.iter().find(|(own, _)| *own == key.key)?;
+    Some(shown(text, is_short(key)))
+}
 
-    /// Its values in a line.
-    pub(super) fn values(&self) -> String {
-        let is_short = self.is_short();
-        listed(&self.texts().iter().map(|text| shown(text, is_short)).collect::<Vec<_>>())
-    }
-
-    /// Its value in a row.
-    pub(super) fn of(&self, line: Line<'_>) -> Option<String> {
-        line.text(&column(&self.key)).map(|text| shown(text, self.is_short()))
-    }
-
-    fn texts(&self) -> Vec<String> {
-        let text = |value: &Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-        self.values.iter().map(text).collect()
-    }
-
-    /// Whether its values stay apart when they are shortened.
-    fn is_short(&self) -> bool {
-        let texts = self.texts();
-        let short: BTreeSet<String> = texts.iter().map(|text| shown(text, true)).collect();
-        short.len() == texts.iter().collect::<BTreeSet<_>>().len()
-    }
+/// Whether the values of a key stay apart when they are shortened.
+fn is_short(key: &SweptKey) -> bool {
+    let short: BTreeSet<String> = key.values.iter().map(|text| shown(text, true)).collect();
+    short.len() == key.values.iter().collect::<BTreeSet<_>>().len()
 }
 
 /// What a row sets, in words.
-pub(super) fn settings(keys: &[Key], line: Line<'_>) -> String {
-    let equal = |key: &Key| Some(format!("{} = {}", key.key, key.of(line)?));
+pub(super) fn settings(keys: &[SweptKey], row: &Row) -> String {
+    let equal = |key: &SweptKey| Some(format!("{} = {}", key.key, value(key, row)?));
     keys.iter().filter_map(equal).collect::<Vec<_>>().join(", ")
 }
 
@@ -70,12 +48,13 @@ fn shown(text: &str, is_short: bool) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde_json::json;
 
     #[test]
     fn long_numbers_are_shortened_unless_two_become_one() {
-        let key = |values: Value| Key::deserialize(json!({ "key": "a", "values": values })).unwrap().values();
-        assert_eq!(key(json!(["0.5", "0.645774832507442", 5, "bonded"])), "0.5, 0.64577, 5, bonded");
-        assert_eq!(key(json!(["1.000000001", "1.000000002"])), "1.000000001, 1.000000002");
+        let key = |texts: &[&str]| {
+            values(&SweptKey { key: "a".to_owned(), values: texts.iter().map(|text| (*text).to_owned()).collect() })
+        };
+        assert_eq!(key(&["0.5", "0.645774832507442", "5", "bonded"]), "0.5, 0.64577, 5, bonded");
+        assert_eq!(key(&["1.000000001", "1.000000002"]), "1.000000001, 1.000000002");
     }
 }

@@ -7,14 +7,13 @@ use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
 use super::markup::{numbers, tag, with};
-use super::part::{Part, by, case_text, case_to_copy, mean_of, section, title, version, warnings};
+use super::part::{Part, by, case_text, case_to_copy, mean_of, section, warnings};
 use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::{case_of, measured_in, told, units_of};
-use crate::output::{limits_of, table as tables};
+use crate::output::{LimitFile, table as tables};
 use crate::run::{At, Limits};
 use crate::units::Units;
-use serde_json::Value;
 
 const PICTURES: [Named; 2] = [
     (
@@ -31,13 +30,11 @@ const PICTURES: [Named; 2] = [
 ];
 
 /// The part of `limit.json`.
-pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportError> {
+pub(super) fn part(finished: &Finished, file: &LimitFile) -> Result<Part, ReportError> {
     let path = finished.folder.join("limit.json");
-    let case = &file["case"];
-    let limits = limits_of(file).map_err(ReportError::unreadable(&path, version(file)))?;
-    let text = case_text(case).map_err(|reason| ReportError::version(&path, file, reason))?;
-    let doubted = warnings(file).map_err(|reason| ReportError::version(&path, file, reason))?;
-    let units = units_of(file, case_of(&text, &finished.folder).as_ref());
+    let (case, limits) = (&file.case, file.limits());
+    let text = case_text(case).map_err(|reason| ReportError::version(&path, &file.percoat, reason))?;
+    let units = units_of(&file.units, case_of(&text, &finished.folder).as_ref());
     let found = tables::limits(&limits, &units);
     let mut sections = vec![
         section(
@@ -62,15 +59,15 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
         let caption = "Loads that were solved in the search, by ascending mean pressure";
         sections.push(section("loads", "Loads solved", vec![table(caption, &tables::steps(&limits.steps, &units))]));
     }
-    sections.push(section("warnings", "Warnings", vec![doubted]));
+    sections.push(section("warnings", "Warnings", vec![warnings(&file.warnings)]));
     if !limits.steps.is_empty() {
         sections.push(section("resolution", "Resolution", vec![resolution(&limits.steps, limits.change)]));
         let tolerance = case["solver"]["tolerance"].as_f64();
         sections.push(section("certificate", "Certificate", vec![certificate(&limits.steps, tolerance)]));
     }
-    sections.push(section("time", "Version", vec![by(file)]));
+    sections.push(section("time", "Version", vec![by(&file.percoat)]));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "limit")]));
-    Ok(Part { name: "limit", kind: "Limit loads", title: title(file), sections })
+    Ok(Part { name: "limit", kind: "Limit loads", title: file.title.clone(), sections })
 }
 
 /// What fails first with its error, where a load makes it and nothing else comes first within the errors.

@@ -28,7 +28,6 @@ mod page;
 mod part;
 mod ranges;
 mod resolution;
-mod rows;
 mod run;
 mod seal;
 mod sweep;

@@ -2,7 +2,6 @@
 
 use super::markup::{Markup, tag, with};
 use crate::body::MeanStress;
-use serde::Deserialize;
 use serde_json::Value;
 
 /// A result on the page.
@@ -31,30 +30,13 @@ pub(super) fn section(name: &'static str, heading: &'static str, content: Vec<Ma
     Section { name, heading, content: content.into() }
 }
 
-/// The version that a result names.
-pub(super) fn version(file: &Value) -> Option<&str> {
-    file["percoat"].as_str()
-}
-
 /// The warnings of a result, or that there are none.
-///
-/// # Errors
-/// Where they are no list of texts.
-pub(super) fn warnings(file: &Value) -> Result<Markup, String> {
-    let list = Vec::<String>::deserialize(&file["warnings"]).map_err(|error| format!("`warnings`: {error}"))?;
+pub(super) fn warnings(list: &[String]) -> Markup {
     if list.is_empty() {
-        return Ok(tag("p", "None."));
+        return tag("p", "None.");
     }
     let items = list.iter().map(|warning| tag("li", warning.as_str())).collect::<Markup>();
-    Ok(with("ul", &[("class", "doubt")], items))
-}
-
-/// A number that a result may have; `None` where it has none.
-///
-/// # Errors
-/// Where something else stands in its place.
-pub(super) fn measured(file: &Value, key: &str) -> Result<Option<f64>, String> {
-    Option::<f64>::deserialize(&file[key]).map_err(|error| format!("`{key}`: {error}"))
+    with("ul", &[("class", "doubt")], items)
 }
 
 /// The case of a result as TOML.
@@ -79,21 +61,12 @@ pub(super) fn case_to_copy(text: &str, command: &str) -> Markup {
     vec![tag("p", hint), with("pre", &[("tabindex", "0"), ("aria-label", "The case")], tag("code", text))].into()
 }
 
-/// Which version has computed it.
-pub(super) fn by(file: &Value) -> Markup {
-    tag(
-        "p",
-        version(file)
-            .map_or("By a version that does not name itself.".to_owned(), |own| format!("Computed by percoat {own}.")),
-    )
+/// The version that has computed a result.
+pub(super) fn by(version: &str) -> Markup {
+    tag("p", format!("Computed by percoat {version}."))
 }
 
 /// The mean lateral stress in the stresses of a result, as its case says; the default where it says nothing.
 pub(super) fn mean_of(case: &Value) -> MeanStress {
     if case["stress"]["mean"] == "half-space" { MeanStress::HalfSpace } else { MeanStress::default() }
-}
-
-/// The title of a result's case.
-pub(super) fn title(file: &Value) -> String {
-    file["title"].as_str().unwrap_or_default().to_owned()
 }

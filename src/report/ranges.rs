@@ -1,14 +1,15 @@
 //! What a sweep comes to: which criterion comes first how often, and the least and the largest of every result.
 
-use super::given::{Key, settings};
+use super::given::settings;
 use super::markup::{Markup, numbers, with};
-use super::rows::{Limit, Line, Rows};
 use super::table::table;
 use super::units::told;
 use crate::output::table::{Table, percent_with_error};
 use crate::output::with_error;
+use crate::reading::Criterion;
+use crate::run::Limit;
+use crate::sweep::{Foremost, Kind, LimitValue, Row, SCALARS, Scalar, SweepResult, SweptKey};
 use crate::units::{Unit, Units};
-use std::collections::BTreeMap;
 
 /// A result in its least and in its largest.
 struct Range {
@@ -18,7 +19,7 @@ struct Range {
 }
 
 /// The answer of a sweep in sentences; nothing where no combination has results.
-pub(super) fn sentences(rows: &Rows<'_>, keys: &[Key], units: &Units) -> Vec<Markup> {
+pub(super) fn sentences(rows: &[Row], keys: &[SweptKey], units: &Units) -> Vec<Markup> {
     let sentence = |text: String| with("p", &[("class", "answer")], numbers(&text));
     let between = |Range { name, ends: [least, most] }: Range| {
         if least.0 == most.0 {
@@ -26,17 +27,15 @@ pub(super) fn sentences(rows: &Rows<'_>, keys: &[Key], units: &Units) -> Vec<Mar
         }
         format!("The {name} lies between {} ({}) and {} ({})", least.0, least.1, most.0, most.1)
     };
-    let pressure = Some(units.pressure());
-    if rows.limits().is_empty() {
-        let peak = range(rows, keys, "peak pressure", |line| line.measured("max_pressure"), pressure);
-        let steps = rows.last().count() < rows.lines().len();
-        let of = if steps { " in the last load step of each combination" } else { "" };
-        return peak.map(|peak| sentence(format!("{}{of}.", between(peak)))).into_iter().collect();
+    if !are_limits(rows) {
+        let peak = SCALARS.iter().find(|scalar| scalar.name == "peak pressure");
+        let peak = peak.and_then(|scalar| scalar_range(rows, keys, scalar, units));
+        return peak.map(|peak| sentence(format!("{}{}.", between(peak), of_last(rows)))).into_iter().collect();
     }
     let mut sentences: Vec<Markup> = firsts(rows).map(sentence).into_iter().collect();
-    let first = range(rows, keys, "first limit (a mean pressure)", |line| number_of(line.limit("first")), pressure);
-    let below = rows.last().filter_map(|line| match line.limit("first") {
-        Some(Limit::Below(load)) => Some(load),
+    let first = limit_range(rows, keys, "first limit (a mean pressure)", None, units);
+    let below = last(rows).filter_map(|(_, result)| match result.limit_value(None) {
+        Some(LimitValue::Below(load)) => Some(load),
         _ => None,
     });
     let below: Vec<f64> = below.collect();
@@ -54,52 +53,78 @@ pub(super) fn sentences(rows: &Rows<'_>, keys: &[Key], units: &Units) -> Vec<Mar
 }
 
 /// The least and the largest of every result over the combinations.
-pub(super) fn ranges(rows: &Rows<'_>, keys: &[Key], units: &Units) -> Markup {
-    let [pressure, length] = [units.pressure(), units.length()].map(Some);
-    let limits = rows.limits();
-    let mut all: Vec<Option<Range>> = Vec::new();
-    let firsts = Some("first").filter(|_| !limits.is_empty());
-    for name in firsts.into_iter().chain(limits) {
-        let words = if name == "first" { "first limit".to_owned() } else { name.replace('_', " ") };
-        all.push(range(rows, keys, &words, |line| number_of(line.limit(name)), pressure));
-    }
-    for (name, words, unit) in [
-        ("max_pressure", "peak pressure", pressure),
-        ("penetration", "penetration", length),
-        ("contact_fraction", "contact", None),
-        ("stress_max_tau1_value", "largest τ₁", pressure),
-        ("stress_max_tension_value", "largest tension", pressure),
-        ("stress_max_mises_value", "largest von Mises", pressure),
-    ] {
-        all.push(range(rows, keys, words, |line| line.measured(name), unit));
-    }
+pub(super) fn ranges(rows: &[Row], keys: &[SweptKey], units: &Units) -> Markup {
+    let limits = criteria(rows).into_iter().map(|criterion| {
+        let name = criterion.map_or("first limit".to_owned(), |criterion| criterion.to_string());
+        limit_range(rows, keys, &name, criterion, units)
+    });
+    // The mean pressure is what is given.
+    let scalars = SCALARS.iter().filter(|scalar| scalar.name != "mean pressure");
+    let scalars = scalars.map(|scalar| scalar_range(rows, keys, scalar, units));
     let row = |Range { name, ends: [least, most] }: Range| vec![name, least.0, least.1, most.0, most.1];
-    let all: Vec<Vec<String>> = all.into_iter().flatten().map(row).collect();
-    if all.is_empty() || rows.last().nth(1).is_none() {
+    let all: Vec<Vec<String>> = limits.chain(scalars).flatten().map(row).collect();
+    if all.is_empty() || rows.len() < 2 {
         return Markup::default();
     }
     let head = ["result", "least", "where", "largest", "where"].map(str::to_owned);
-    let steps = if rows.last().count() < rows.lines().len() { ", last load steps" } else { "" };
+    let steps = if of_last(rows).is_empty() { "" } else { ", last load steps" };
     table(
         &format!("Least and largest of all combinations{steps}; ± is the estimated error of the grid"),
         &Table::new(&head, all, 5),
     )
 }
 
-fn number_of(limit: Option<Limit>) -> Option<(f64, Option<f64>)> {
-    if let Limit::At(load, error) = limit? { Some((load, error)) } else { None }
+/// The last result of each combination that has any.
+fn last(rows: &[Row]) -> impl DoubleEndedIterator<Item = (&Row, &SweepResult)> {
+    rows.iter().filter_map(|row| Some((row, row.results.last()?)))
 }
 
-/// The least and the largest of what the combinations have.
+/// Of which steps the results are, as the end of a sentence.
+fn of_last(rows: &[Row]) -> &'static str {
+    if rows.iter().any(|row| row.results.len() > 1) { " in the last load step of each combination" } else { "" }
+}
+
+/// The first limit and that of each criterion; nothing where load steps were solved.
+pub(super) fn criteria(rows: &[Row]) -> Vec<Option<Criterion>> {
+    let limits = last(rows).next().and_then(|(_, result)| result.limits());
+    let each = |limits: &[Limit]| limits.iter().map(|limit| Some(limit.criterion)).collect::<Vec<_>>();
+    limits.map_or(Vec::new(), |limits| [vec![None], each(limits)].concat())
+}
+
+/// Whether limit loads were searched for.
+pub(super) fn are_limits(rows: &[Row]) -> bool {
+    last(rows).next().is_some_and(|(_, result)| result.limits().is_some())
+}
+
+/// The least and the largest of a scalar.
+fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units) -> Option<Range> {
+    let unit = match scalar.kind {
+        Kind::Pressure => Some(units.pressure()),
+        Kind::Length => Some(units.length()),
+        Kind::Part => None,
+    };
+    range(rows, keys, scalar.name, |result| (scalar.of)(result.step()?), unit)
+}
+
+/// The least and the largest of the first limit, or of that of a criterion.
+fn limit_range(rows: &[Row], keys: &[SweptKey], name: &str, of: Option<Criterion>, units: &Units) -> Option<Range> {
+    let value = |result: &SweepResult| match result.limit_value(of)? {
+        LimitValue::At(load, error) => Some((load, error)),
+        LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,
+    };
+    range(rows, keys, name, value, Some(units.pressure()))
+}
+
+/// The least and the largest of a value over the combinations that have it.
 fn range(
-    rows: &Rows<'_>,
-    keys: &[Key],
+    rows: &[Row],
+    keys: &[SweptKey],
     name: &str,
-    value: impl Fn(Line<'_>) -> Option<(f64, Option<f64>)>,
+    value: impl Fn(&SweepResult) -> Option<(f64, Option<f64>)>,
     unit: Option<&Unit>,
 ) -> Option<Range> {
-    let found: Vec<(f64, Option<f64>, Line<'_>)> =
-        rows.last().filter_map(|line| value(line).map(|(x, error)| (x, error, line))).collect();
+    let found = last(rows).filter_map(|(row, result)| value(result).map(|(x, error)| (x, error, row)));
+    let found: Vec<(f64, Option<f64>, &Row)> = found.collect();
     let least = found.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
     let most = found.iter().rev().max_by(|a, b| a.0.total_cmp(&b.0))?;
     // Both in one unit; what has none is a part.
@@ -108,29 +133,24 @@ fn range(
         Some(unit) => unit.behind(&with_error(unit.shown(x), error.map(|error| unit.shown(error)))),
         None => percent_with_error(x, error),
     };
-    let end = |(x, error, line): &(f64, Option<f64>, Line<'_>)| (told(*x, *error), settings(keys, *line));
+    let end = |(x, error, row): &(f64, Option<f64>, &Row)| (told(*x, *error), settings(keys, row));
     Some(Range { name: name.to_owned(), ends: [end(least), end(most)] })
 }
 
 /// Which criterion comes first in how many combinations.
-fn firsts(rows: &Rows<'_>) -> Option<String> {
-    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    let limits = rows.limits();
-    let searched = |line: &Line<'_>| limits.iter().any(|name| line.text(&format!("{name}_reached")).is_some());
-    for line in rows.last().filter(searched) {
-        let none = || if line.rivals("first").is_empty() { "nothing" } else { "undecided" }.to_owned();
-        *counts.entry(line.first().unwrap_or_else(none)).or_default() += 1;
-    }
-    let all: usize = counts.values().sum();
-    let mut counts: Vec<(String, usize)> = counts.into_iter().collect();
-    counts.sort_by_key(|(_, count)| usize::MAX - count);
-    let told = |(at, (name, count)): (usize, &(String, usize))| match at {
-        0 if *count == all => format!("{name} in all of them"),
-        0 => format!("{name} in {count} of {}", combinations(all)),
-        _ => format!("{name} in {count}"),
+fn firsts(rows: &[Row]) -> Option<String> {
+    let counts = Foremost::counted(last(rows).map(|(_, result)| result));
+    let all: usize = counts.iter().map(|(_, count)| count).sum();
+    let told = |(at, (first, count)): (usize, &(Foremost, usize))| {
+        let name = if *first == Foremost::Nothing { "nothing".to_owned() } else { first.to_string() };
+        match at {
+            0 if *count == all => format!("{name} in all of them"),
+            0 => format!("{name} in {count} of {}", combinations(all)),
+            _ => format!("{name} in {count}"),
+        }
     };
     let told: Vec<String> = counts.iter().enumerate().map(told).collect();
-    let open = rows.last().filter(|line| !line.rivals("first").is_empty()).count();
+    let open = last(rows).filter(|(_, result)| !result.rivals().is_empty()).count();
     let open = match open {
         0 => String::new(),
         _ => format!("; in {} the errors leave open which", combinations(open)),
@@ -145,12 +165,20 @@ fn combinations(count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use serde::Deserialize;
-    use serde_json::json;
+    use crate::sweep::examples::{below, never, reached, row, step};
 
-    fn said(table: &str) -> String {
-        let keys = [Key::deserialize(json!({ "key": "a", "values": ["1", "2", "3", "4"] })).unwrap()];
-        let (rows, units) = (Rows::read(table).unwrap(), Units::unknown().named(Some("mm"), Some("MPa")));
+    const YIELDS: Criterion = Criterion::Yield { material: 1 };
+    const CRACKS: Criterion = Criterion::Cracking { material: 1 };
+    const PARTS: Criterion = Criterion::Delamination { interface: 1 };
+
+    /// The sentences and the table of these results, one a combination that sets `a` to its number; without results it has
+    /// failed.
+    fn said(results: &[Vec<SweepResult>]) -> String {
+        let values = (1..=results.len()).map(|n| n.to_string()).collect();
+        let keys = [SweptKey { key: "a".to_owned(), values }];
+        let rows: Vec<Row> =
+            (1..).zip(results).map(|(n, results)| row(n, &[("a", n.to_string())], results.clone())).collect();
+        let units = Units::unknown().named(Some("mm"), Some("MPa"));
         let markup: Markup =
             [sentences(&rows, &keys, &units).into(), ranges(&rows, &keys, &units)].into_iter().collect();
         markup.as_str().replace('\u{a0}', " ")
@@ -158,19 +186,18 @@ mod tests {
 
     #[test]
     fn limits_are_summed_up_by_what_comes_first_and_by_the_range_of_the_first() {
-        let head = "combination,set_a,status,step,first_criterion,first_material,first_interface,first_mean_pressure,first_error,first_reached,first_below";
-        let page = said(&format!(
-            "{head},yield_of_material_1_mean_pressure,yield_of_material_1_error,yield_of_material_1_reached\n\
-             1,1,done,1,yield,1,,20,2,under load,,20,2,under load\n\
-             2,2,done,1,delamination,,1,7,0.5,under load,,30,,under load\n\
-             3,3,done,1,delamination,,1,,,by a contact of a few samples,3,,,under load\n\
-             4,4,failed,,,,,,,,,,,\n"
-        ));
+        let limits = |limits: [Limit; 2]| vec![SweepResult::Limits(limits.to_vec())];
+        let page = said(&[
+            limits([reached(YIELDS, 20.0, 2.0), never(PARTS, 100.0)]),
+            limits([reached(YIELDS, 30.0, 0.3), reached(PARTS, 7.0, 0.5)]),
+            limits([never(YIELDS, 100.0), below(PARTS, 3.0)]),
+            Vec::new(),
+        ]);
         for words in [
             "delamination of interface 1 in 2 of 3 combinations, yield of material 1 in 1.",
             "The first limit (a mean pressure) lies between 7.0 ± 0.5 MPa (a = 2) and 20 ± 2 MPa (a = 1); in 1 combination the \
              first limit is known only to lie below 3.0000 MPa.",
-            ">30.000 MPa<",
+            ">30.0 ± 0.3 MPa<",
         ] {
             assert!(page.contains(words), "no {words}: {page}");
         }
@@ -178,11 +205,10 @@ mod tests {
 
     #[test]
     fn what_the_errors_leave_open_is_told() {
-        let head = "combination,set_a,status,step,first_criterion,first_material,first_mean_pressure,first_error,first_reached,first_rivals,yield_of_material_1_reached";
-        let page = said(&format!(
-            "{head}\n1,1,done,1,yield,1,20,2,under load,cracking of material 1; yield of material 2,under load\n\
-             2,2,done,1,yield,1,7,0.5,under load,,under load\n"
-        ));
+        let limits = |crack: f64| {
+            vec![SweepResult::Limits(vec![reached(YIELDS, 20.0, 2.0), reached(CRACKS, crack, 0.1 * crack)])]
+        };
+        let page = said(&[limits(23.0), limits(40.0)]);
         assert!(
             page.contains("yield of material 1 in all of them; in 1 combination the errors leave open which."),
             "{page}"
@@ -191,10 +217,12 @@ mod tests {
 
     #[test]
     fn loads_are_summed_up_by_the_last_peak_pressures() {
-        let page = said(
-            "combination,set_a,status,step,max_pressure,errors_max_pressure,contact_fraction\n\
-             1,1,done,1,900,1,0.1\n1,1,done,2,100,1,0.2\n2,2,done,1,90,1,0.1\n2,2,done,2,200,20,0.25\n3,3,failed,,,,\n",
-        );
+        let step = |peak: f64, error: f64, part: f64| SweepResult::Step(Box::new(step(peak, Some(error), part)));
+        let page = said(&[
+            vec![step(900.0, 1.0, 0.1), step(100.0, 1.0, 0.2)],
+            vec![step(90.0, 1.0, 0.1), step(200.0, 20.0, 0.25)],
+            Vec::new(),
+        ]);
         let words = "The peak pressure lies between 100 ± 1 MPa (a = 1) and 200 ± 20 MPa (a = 2) in the last load step";
         assert!(page.contains(words) && page.contains(">25.00 %<"), "{page}");
     }

@@ -7,13 +7,12 @@ use super::certificate::certificate;
 use super::figures::{Named, figures};
 use super::finished::Finished;
 use super::markup::{tag, with};
-use super::part::{Part, by, case_text, case_to_copy, mean_of, measured, section, title, version, warnings};
+use super::part::{Part, by, case_text, case_to_copy, mean_of, section, warnings};
 use super::resolution::{resolution, upper};
 use super::table::table;
 use super::units::{case_of, measured_in, units_of};
 use crate::case::Case;
-use crate::output::{steps_of, table as tables, timing_of};
-use serde_json::Value;
+use crate::output::{Summary, table as tables};
 
 const PICTURES: [Named; 6] = [
     (
@@ -50,35 +49,31 @@ const PICTURES: [Named; 6] = [
 ];
 
 /// The part of `summary.json`.
-pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportError> {
+pub(super) fn part(finished: &Finished, summary: &Summary) -> Result<Part, ReportError> {
     let path = finished.folder.join("summary.json");
-    let case = &file["case"];
-    let unreadable = || ReportError::unreadable(&path, version(file));
-    let steps = steps_of(file).map_err(unreadable())?;
-    let text = case_text(case).map_err(|reason| ReportError::version(&path, file, reason))?;
+    let Summary { case, steps, .. } = summary;
+    let refused = |reason: String| ReportError::version(&path, &summary.percoat, reason);
+    let text = case_text(case).map_err(refused)?;
     // Without it the body is not known beyond its tables.
     let read = case_of(&text, &finished.folder);
-    let refused = |reason: String| ReportError::version(&path, file, reason);
     if let Some(loads) = read.as_ref().map(|case| case.load.values().len()).filter(|loads| *loads != steps.len()) {
         return Err(refused(format!("it has {} steps, and its case {loads} loads", steps.len())));
     }
-    let (doubted, change) = (warnings(file).map_err(refused)?, measured(file, "accuracy").map_err(refused)?);
-    let units = units_of(file, read.as_ref());
-
-    let taken = tables::utilisations(&steps, read.as_ref().map(Case::half_space), &units);
+    let units = units_of(&summary.units, read.as_ref());
+    let taken = tables::utilisations(steps, read.as_ref().map(Case::half_space), &units);
     let fails = taken.as_ref().map(|taken| with("p", &[("class", "answer")], upper(&taken.words)));
     let mean = tables::mean_stress(mean_of(case));
     let mut sections = vec![
-        section("answer", "Answer", vec![doubts(&steps), fails.unwrap_or_default(), answer(&steps, &units)]),
+        section("answer", "Answer", vec![doubts(steps), fails.unwrap_or_default(), answer(steps, &units)]),
         section("asked", "What was asked", vec![asked(case), tag("p", measured_in(&units))]),
         section("pictures", "Pictures", vec![figures(finished, "summary.json", &PICTURES)?]),
         section(
             "steps",
             "Load steps",
-            vec![table("Load steps; ± is the estimated error of the grid", &tables::steps(&steps, &units))],
+            vec![table("Load steps; ± is the estimated error of the grid", &tables::steps(steps, &units))],
         ),
     ];
-    if let Some(largest) = tables::largest_stresses(&steps, &units) {
+    if let Some(largest) = tables::largest_stresses(steps, &units) {
         sections.push(section(
             "stresses",
             "Largest stresses",
@@ -93,16 +88,15 @@ pub(super) fn part(finished: &Finished, file: &Value) -> Result<Part, ReportErro
             vec![table(caption, &taken.table), tag("p", upper(mean)), tag("p", upper(tables::RIGID))],
         ));
     }
-    sections.push(section("warnings", "Warnings", vec![doubted]));
-    sections.push(section("resolution", "Resolution", vec![resolution(&steps, change)]));
+    sections.push(section("warnings", "Warnings", vec![warnings(&summary.warnings)]));
+    sections.push(section("resolution", "Resolution", vec![resolution(steps, summary.accuracy)]));
     sections.push(section(
         "certificate",
         "Certificate",
-        vec![certificate(&steps, case["solver"]["tolerance"].as_f64())],
+        vec![certificate(steps, case["solver"]["tolerance"].as_f64())],
     ));
-    let timing = timing_of(file).map_err(unreadable())?;
-    let timing = timing.map(|timing| tag("p", format!("Seconds: {}.", tables::timing(&timing))));
-    sections.push(section("time", "Time and version", timing.into_iter().chain([by(file)]).collect()));
+    let timing = summary.timing.as_ref().map(|timing| tag("p", format!("Seconds: {}.", tables::timing(timing))));
+    sections.push(section("time", "Time and version", timing.into_iter().chain([by(&summary.percoat)]).collect()));
     sections.push(section("case", "Case", vec![case_to_copy(&text, "solve")]));
-    Ok(Part { name: "run", kind: "Run", title: title(file), sections })
+    Ok(Part { name: "run", kind: "Run", title: summary.title.clone(), sections })
 }

@@ -1,15 +1,14 @@
 //! What the numbers of a result are measured in, in words.
 
 use crate::case::{Case, Source};
-use crate::output::with_error;
+use crate::output::{UnitNames, with_error};
 use crate::units::{Unit, Units};
-use serde_json::Value;
 use std::path::Path;
 
 /// Those of a case, or where it cannot be read any more, those that a result names.
-pub(super) fn units_of(file: &Value, case: Option<&Case>) -> Units {
-    let name = |key: &str| file["units"][key].as_str();
-    case.map_or_else(|| Units::unknown().named(name("length"), name("pressure")), Case::units)
+pub(super) fn units_of(names: &UnitNames, case: Option<&Case>) -> Units {
+    let UnitNames { length, pressure } = names;
+    case.map_or_else(|| Units::unknown().named(length.as_deref(), pressure.as_deref()), Case::units)
 }
 
 /// A case as it stands in a result. A topography that has moved away cannot be read.

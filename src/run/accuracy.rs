@@ -154,25 +154,26 @@ impl Refinement {
 }
 
 fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
-    if fine.max_pressure <= 0.0 {
+    if fine.grid_peak() <= 0.0 {
         // Contact that has gone is no small change.
-        return if coarse.max_pressure <= 0.0 { 0.0 } else { f64::INFINITY };
+        return if coarse.grid_peak() <= 0.0 { 0.0 } else { f64::INFINITY };
     }
-    let peak = if fine.singular() { 0.0 } else { (fine.max_pressure - coarse.max_pressure).abs() };
+    let peak = if fine.singular() { 0.0 } else { (fine.grid_peak() - coarse.grid_peak()).abs() };
     let penetration = ((fine.penetration - coarse.penetration) / fine.penetration).abs();
     let load = (fine.mean_pressure - coarse.mean_pressure).abs() / fine.mean_pressure;
     let levels = coarse.levels.iter().zip(&fine.levels).flat_map(|(coarse, level)| {
-        let peak = if level.singular { 0.0 } else { (level.max_pressure - coarse.max_pressure).abs() };
-        [peak / fine.max_pressure, (level.load_share - coarse.load_share).abs()]
+        let peak = if level.singular() { 0.0 } else { (level.grid_peak() - coarse.grid_peak()).abs() };
+        [peak / fine.grid_peak(), (level.load_share - coarse.load_share).abs()]
     });
-    largest([peak / fine.max_pressure, penetration, load].into_iter().chain(levels))
+    largest([peak / fine.grid_peak(), penetration, load].into_iter().chain(levels))
 }
 
 /// Of the largest τ₁, tension and von Mises, over the largest of them, and at least what a rival of the finer grid may exceed
 /// them by; 0 without stresses.
 fn stress_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
     let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
-    let pairs = [(coarse.tau1(), fine.tau1()), (coarse.tension(), fine.tension()), (coarse.mises(), fine.mises())];
+    let (coarse, fine) = (&coarse.overall, &fine.overall);
+    let pairs = [(coarse.tau1, fine.tau1), (coarse.tension, fine.tension), (coarse.mises, fine.mises)];
     let comparable = || pairs.iter().filter(|(coarse, fine)| !(coarse.value.is_infinite() || fine.value.is_infinite()));
     let scale = largest(comparable().map(|(_, fine)| fine.value.abs()));
     let beyond = |fine: &Peak| fine.rival.map_or(0.0, |rival| rival.top() - fine.value);

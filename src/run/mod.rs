@@ -19,6 +19,8 @@
 //! ```
 
 mod accuracy;
+#[cfg(feature = "serde")]
+mod checked;
 mod finished;
 mod limit;
 mod outcome;
@@ -31,10 +33,10 @@ pub(crate) mod warnings;
 
 pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
 pub use finished::{Finished, Last};
-pub use limit::{At, Limit, Limits, Shown};
+pub use limit::{At, Limit, Limits, Shown, first, rivals};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
-pub use record::StepRecord;
+pub use record::{Sliding, StepRecord};
 pub use recorder::Recorder;
 pub use sampling::Sampling;
 pub use tapered::Tapered;
@@ -234,7 +236,7 @@ impl Run {
             if let Some(error) = ended.into_inner() {
                 return Err(RunError::Recorder(error));
             }
-            record.add_stress(stress.expect("nothing has ended the search"), self.problem.half_space());
+            record = record.with_stress(stress.expect("nothing has ended the search"), self.problem.half_space());
         }
         record.seconds = recorder.clock().zip(began).map(|(now, began)| before + now - began);
         recorder.step(&step, &record, field.as_ref()).map_err(RunError::Recorder)?;

@@ -1,36 +1,93 @@
-//! Every scalar of a load step, as `summary.json` has them.
+//! The record of a load step: every scalar of it, as it stands in `summary.json` and is read back from there.
 
 use super::Tapered;
 use crate::body::HalfSpace;
-use crate::reading::{Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness};
-use crate::spectral::{Certificate, Report, Step, Stop};
+#[cfg(feature = "serde")]
+use crate::numeric::serialised;
+use crate::reading::{
+    Criterion, Governing, Reading, RoughReading, StressReading, Utilisation, stiffness, within_the_errors,
+};
+use crate::spectral::{Certificate, Report, Route, Step, Stop};
 
-/// What stays of a load step beside its fields.
+/// Every scalar of a load step.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StepRecord {
-    /// What is read off it.
+    /// Loads, penetration, pressures, contact areas and radii with their errors.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub reading: Reading,
-    /// How it was solved.
-    pub report: Report,
-    /// What the pressure proves about itself.
-    pub certificate: Certificate,
-    /// Whether the counterbody slides.
-    pub slides: bool,
+    /// Why the iteration ended.
+    #[cfg_attr(feature = "serde", serde(flatten, with = "with_verdict"))]
+    pub stop: Stop,
+    /// Which way led to the solution.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub route: Route,
+    /// Iterations of all methods and trials on the finest grid.
+    pub iterations: usize,
     /// Convolutions on all grids, as equivalents of the finest one.
     pub convolutions: f64,
+    /// ε = Σ p|g| / (δ Σp) of the last iterate.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    pub residual: f64,
+    /// Bounds on the error of the pressure.
+    pub certificate: Certificate,
     /// Grid points along a₁ and a₂.
     pub points: [usize; 2],
-    /// What is read of the contact of a topography.
+    /// Areas, spots, gap and stiffness of a topography; `None` for indenters.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub rough: Option<RoughReading>,
-    /// What of the contact stands where the window of a topography is below 1, if it has one.
+    /// Parts of load and contact where the window of a topography is below 1; `None` without a window.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub tapered: Option<Tapered>,
-    /// Largest stresses, where stresses are asked for and there is contact.
+    /// How contact and traction were solved together; `None` without friction.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub friction: Option<Sliding>,
+    /// Largest stresses; `None` where they are not asked for, and without contact.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stress: Option<StressReading>,
-    /// What each criterion with a strength takes up, where there is contact.
+    /// Utilisation of each criterion with a strength; empty without contact.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub strength: Vec<Utilisation>,
+    /// The criterion nearest to failure, with its rivals; `None` without contact or strengths.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub governing: Option<Governing>,
     /// Wall time of the solution, the readings and the largest stresses, seconds, by the [clock](super::Recorder::clock)
     /// of the recorder; `None` where it has none.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub seconds: Option<f64>,
+}
+
+/// How contact and traction were solved together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Sliding {
+    /// How often the gap was computed afresh under the traction of the pressure; 0 where friction is not coupled.
+    pub outer_iterations: usize,
+    /// ε of the whole problem, the displacement by the traction included.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
+    pub residual: f64,
+}
+
+/// Why an iteration ended, with `converged` beside it, which follows from that.
+#[cfg(feature = "serde")]
+mod with_verdict {
+    use super::Stop;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    struct Keys {
+        #[serde(skip_deserializing)]
+        converged: bool,
+        stop_reason: Stop,
+    }
+
+    pub fn serialize<S: Serializer>(stop: &Stop, keys: S) -> Result<S::Ok, S::Error> {
+        Keys { converged: stop.solved(), stop_reason: *stop }.serialize(keys)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(keys: D) -> Result<Stop, D::Error> {
+        Ok(Keys::deserialize(keys)?.stop_reason)
+    }
 }
 
 impl StepRecord {
@@ -38,19 +95,25 @@ impl StepRecord {
     pub fn new(step: &Step, reading: Reading) -> Self {
         let Step { report, certificate, convolutions, .. } = *step;
         let rough = step.rough_reading(&reading);
-        Self {
+        let sliding = Sliding { outer_iterations: report.outer, residual: report.residual };
+        let record = Self {
             reading,
-            report,
-            certificate,
-            slides: step.problem().friction().is_some(),
+            stop: report.stop,
+            route: report.route,
+            iterations: report.iterations,
             convolutions,
+            residual: report.residual,
+            certificate,
             points: step.grid().points(),
             rough,
             tapered: Tapered::of(step.finest()),
+            friction: step.problem().friction().map(|_| sliding),
             stress: None,
             strength: Vec::new(),
+            governing: None,
             seconds: None,
-        }
+        };
+        record.judged()
     }
 
     /// Adds to the steps of a path on a topography what only all of them tell: its stiffness.
@@ -68,128 +131,61 @@ impl StepRecord {
         }
     }
 
-    /// Adds its largest stresses, and what they take up of the strengths of a half-space.
-    pub fn add_stress(&mut self, stress: StressReading, half_space: &HalfSpace) {
+    /// The record with its largest stresses, and the utilisations of the strengths of a half-space.
+    #[must_use]
+    pub fn with_stress(mut self, stress: StressReading, half_space: &HalfSpace) -> Self {
         self.strength = Utilisation::all(half_space, &stress);
+        self.governing = Governing::of(&self.strength);
         self.stress = Some(stress);
+        self.judged()
     }
 
-    /// What it takes up of a criterion; `None` without contact, or a strength.
+    /// The utilisation of a criterion; `None` without contact, or a strength.
     pub fn utilisation(&self, criterion: Criterion) -> Option<&Utilisation> {
         self.strength.iter().find(|own| own.criterion == criterion)
     }
 
-    /// What comes nearest to failure, with its rivals; `None` without contact, or strengths.
-    pub fn governing(&self) -> Option<Governing<'_>> {
-        Governing::of(&self.strength)
+    /// What comes nearest to failure in words, with numbers and their errors as `told` writes them: "yield of material 2 takes
+    /// up 0.93 ± 0.02, or cracking of material 1 within the errors"; `None` without contact or strengths.
+    pub fn governing_in_words(&self, told: impl Fn(f64, Option<f64>) -> String) -> Option<String> {
+        let Governing { criterion, rivals, .. } = self.governing.as_ref()?;
+        let Utilisation { value, error, .. } = *self.utilisation(*criterion)?;
+        let taken = if value.is_infinite() { "infinitely much".to_owned() } else { told(value, error) };
+        Some(format!("{criterion} takes up {taken}{}", within_the_errors(rivals)))
     }
 
-    /// Whether the solution meets the tolerance. What is not a number compares as small as any, and does not.
+    /// Whether the solution meets the tolerance, or as far as double precision carries, and every number of it is finite.
     pub fn converged(&self) -> bool {
-        self.report.stop.solved() && self.is_finite()
+        self.stop.solved()
     }
 
-    /// Whether it has converged as far as double precision carries, which is less far than the tolerance asks.
-    pub fn is_at_rounding(&self) -> bool {
-        self.report.stop == Stop::Rounding && self.is_finite()
+    /// How the solution was reached.
+    pub fn report(&self) -> Report {
+        let outer = self.friction.map_or(0, |friction| friction.outer_iterations);
+        Report { stop: self.stop, route: self.route, iterations: self.iterations, outer, residual: self.residual }
     }
 
-    /// Why the iteration ended.
-    pub fn stop_reason(&self) -> String {
-        if self.is_finite() { self.report.stop.to_string() } else { "not a number".to_owned() }
-    }
-
-    /// Whether contact is no wider than the grid's spacing.
-    pub fn is_unresolved(&self) -> bool {
-        self.report.stop == Stop::Unresolved && self.is_finite()
+    /// The record with [`Stop::NotANumber`] where a number of it is not finite.
+    fn judged(mut self) -> Self {
+        if !self.is_finite() {
+            self.stop = Stop::NotANumber;
+        }
+        self
     }
 
     fn is_finite(&self) -> bool {
-        let Reading { mean_pressure, penetration, max_pressure, .. } = self.reading;
+        let Reading { mean_pressure, penetration, .. } = self.reading;
         // Under a tip the pressure is infinite, whatever a grid says.
-        let peak = if self.reading.singular() && !max_pressure.is_nan() { 0.0 } else { max_pressure };
-        let scalars = [mean_pressure, penetration, peak, self.certificate.energy_gap];
+        let scalars = [mean_pressure, penetration, self.reading.grid_peak(), self.certificate.energy_gap];
         // Stresses are infinite under a tip.
-        let stresses =
-            self.stress.iter().flat_map(|s| [s.tau1().value, s.tension().value, s.mises().value, s.surface_error]);
-        let taken = self.strength.iter().map(|utilisation| utilisation.value);
+        let stresses = self.stress.iter().flat_map(|stress| {
+            let [tau1, tension, mises] = [stress.overall.tau1, stress.overall.tension, stress.overall.mises];
+            [tau1.value, tension.value, mises.value, stress.surface_error]
+        });
+        let utilisations = self.strength.iter().map(|utilisation| utilisation.value);
         let interfaces = self.stress.iter().flat_map(|stress| &stress.interfaces);
         let interfaces = interfaces.flat_map(|carried| [carried.normal.value, carried.shear.value]);
-        let stresses = stresses.chain(taken).chain(interfaces);
+        let stresses = stresses.chain(utilisations).chain(interfaces);
         scalars.iter().all(|x| x.is_finite()) && !stresses.into_iter().any(f64::is_nan)
-    }
-}
-
-/// How the contact with its traction was solved.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize)]
-struct Sliding {
-    /// See [`Report::outer`].
-    outer_iterations: usize,
-    /// ε of the whole problem, the traction's displacement included.
-    residual: f64,
-}
-
-#[cfg(feature = "serde")]
-impl serde::Serialize for StepRecord {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        use crate::spectral::Route;
-        use serde::ser::SerializeStruct;
-        let Self { reading, report, certificate, .. } = self;
-        let mut keys = serializer.serialize_struct("step", 28)?;
-        keys.serialize_field("mean_pressure", &reading.mean_pressure)?;
-        keys.serialize_field("penetration", &reading.penetration)?;
-        // Eq. (8): δ is measured from the mean plane of the deformed surface.
-        keys.serialize_field("additional_displacement", &reading.penetration)?;
-        keys.serialize_field("contact_fraction", &reading.contact_fraction)?;
-        keys.serialize_field("elastic_energy", &reading.elastic_energy)?;
-        keys.serialize_field("max_pressure", &reading.finite_peak())?;
-        keys.serialize_field("singular", &reading.singular())?;
-        keys.serialize_field("errors", &reading.errors)?;
-        keys.serialize_field("converged", &self.converged())?;
-        keys.serialize_field("stop_reason", &self.stop_reason())?;
-        keys.serialize_field("route", report.route.name())?;
-        keys.serialize_field("fell_back", &(report.route == Route::BaselineAfterStall))?;
-        keys.serialize_field("trials", &report.route.trials())?;
-        keys.serialize_field("iterations", &report.iterations)?;
-        keys.serialize_field("convolutions", &self.convolutions)?;
-        keys.serialize_field("residual", &report.residual)?;
-        keys.serialize_field("certificate", certificate)?;
-        keys.serialize_field("points", &self.points)?;
-        keys.serialize_field("contact_spots", &reading.contact_spots)?;
-        keys.serialize_field("spot_resolution", &reading.spot_resolution)?;
-        keys.serialize_field("levels", &reading.levels)?;
-        match &self.rough {
-            Some(rough) => keys.serialize_field("rough", rough)?,
-            None => keys.skip_field("rough")?,
-        }
-        match &self.tapered {
-            Some(tapered) => keys.serialize_field("tapered", tapered)?,
-            None => keys.skip_field("tapered")?,
-        }
-        if self.slides {
-            let outer_iterations = report.outer;
-            keys.serialize_field("friction", &Sliding { outer_iterations, residual: report.residual })?;
-        } else {
-            keys.skip_field("friction")?;
-        }
-        match &self.stress {
-            Some(stress) => keys.serialize_field("stress", stress)?,
-            None => keys.skip_field("stress")?,
-        }
-        if self.strength.is_empty() {
-            keys.skip_field("strength")?;
-        } else {
-            keys.serialize_field("strength", &self.strength)?;
-        }
-        match self.governing() {
-            Some(governing) => keys.serialize_field("governing", &governing)?,
-            None => keys.skip_field("governing")?,
-        }
-        match self.seconds {
-            Some(seconds) => keys.serialize_field("seconds", &seconds)?,
-            None => keys.skip_field("seconds")?,
-        }
-        keys.end()
     }
 }

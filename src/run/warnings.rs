@@ -12,6 +12,7 @@ use crate::numeric::number::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::FEW_SAMPLES;
+use crate::spectral::Stop;
 use std::f64::consts::PI;
 
 /// Slope of a flank beyond which strains are not small.
@@ -62,7 +63,7 @@ fn list(steps: &[Numbered], of: impl Fn(&StepRecord) -> bool) -> Option<String> 
 }
 
 fn unresolved(steps: &[Numbered]) -> Option<String> {
-    let list = list(steps, StepRecord::is_unresolved)?;
+    let list = list(steps, |step| step.stop == Stop::Unresolved)?;
     Some(format!(
         "the penetration of step {list} reaches hardly a sample: contact is no wider than the grid's spacing, and its load \
          is unknown; raise grid.points, or prescribe more"
@@ -70,7 +71,7 @@ fn unresolved(steps: &[Numbered]) -> Option<String> {
 }
 
 fn not_converged(steps: &[Numbered]) -> Option<String> {
-    let list = list(steps, |step| !step.converged() && !step.is_unresolved())?;
+    let list = list(steps, |step| !step.converged() && step.stop != Stop::Unresolved)?;
     Some(format!("not converged: step {list}; judge it by its certificate"))
 }
 

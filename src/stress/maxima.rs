@@ -17,7 +17,7 @@ use super::quantity::{OVERALL, Quantity};
 
 /// Maxima over a material or a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Extremes {
     /// Largest principal shear stress τ₁.
     #[cfg_attr(feature = "serde", serde(rename = "max_tau1"))]
@@ -32,7 +32,7 @@ pub struct Extremes {
 
 /// What an interface carries at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Carried {
     /// The interface, from 1: the lower face of that layer.
     pub interface: usize,

@@ -4,6 +4,7 @@ use std::fmt;
 
 /// Stress (positive in tension, a pressure) and displacement (a length; u_z into the body) at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State {
     /// σ_xx.
     pub xx: f64,
@@ -17,7 +18,8 @@ pub struct State {
     pub xz: f64,
     /// σ_yz.
     pub yz: f64,
-    /// u_x, u_y, u_z.
+    /// u_x, u_y, u_z; not kept in files.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub displacement: [f64; 3],
 }
 

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Log {
     path: PathBuf,
-    /// See [`Asked::identity`](super::Asked::identity).
+    /// See [`Asked::identity`](super::Description::identity).
     sweep: String,
     /// Open from the first row on.
     file: Option<Appended>,
@@ -35,7 +35,7 @@ struct Line<R> {
 pub struct Logged {
     /// The line on which it stands, from 1.
     pub line: usize,
-    /// The [identity](super::Asked::identity) of its sweep.
+    /// The [identity](super::Description::identity) of its sweep.
     pub sweep: String,
     /// The combination.
     pub row: Row,
@@ -57,7 +57,7 @@ impl fmt::Display for Damage {
 }
 
 impl Log {
-    /// Begins the log of a sweep of this [identity](super::Asked::identity) in a folder, with the rows that are known already.
+    /// Begins the log of a sweep of this [identity](super::Description::identity) in a folder, with the rows that are known already.
     /// The file is there from the first row on.
     ///
     /// # Errors
@@ -130,10 +130,11 @@ fn logged(line: usize, text: &str) -> Result<Logged, Damage> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::examples::step;
+    use super::super::result::SweepResult;
     use super::super::row::Status;
     use super::*;
     use crate::output::Files;
-    use serde_json::json;
 
     fn row(combination: usize) -> Row {
         Row {
@@ -143,7 +144,7 @@ mod tests {
             status: Status::Done,
             reason: None,
             warnings: vec!["thin".to_owned()],
-            results: vec![json!({"mean_pressure": 0.1 + 0.2})],
+            results: vec![SweepResult::Step(Box::new(step(0.1 + 0.2, None, 0.5)))],
             seconds: 1.5,
             files: Files::default(),
         }

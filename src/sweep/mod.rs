@@ -9,6 +9,8 @@
 
 mod axis;
 mod combinations;
+#[cfg(test)]
+pub(crate) mod examples;
 mod fields;
 mod known;
 mod log;
@@ -16,6 +18,7 @@ mod memory;
 mod parts;
 #[cfg(test)]
 mod power_cut;
+mod result;
 mod row;
 mod study;
 mod table;
@@ -26,8 +29,9 @@ pub use axis::{Axis, AxisError};
 pub use combinations::{Combination, Combinations, CombinationsError, Group, column};
 pub use known::Known;
 pub use log::{Damage, Log, Logged, read};
-pub use parts::{Description, Part, PartError, UNFINISHED, join};
+pub use parts::{Part, PartError, UNFINISHED, join};
+pub use result::{Foremost, Kind, LimitValue, SCALARS, Scalar, SweepResult};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
-pub use table::{Asked, description, fingerprint, table};
+pub use table::{Description, SweptKey, fingerprint, table};
 pub use task::Task;

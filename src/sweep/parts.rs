@@ -2,10 +2,9 @@
 
 use super::log::{Damage, Logged, read};
 use super::row::Row;
-use super::table::Asked;
+use super::table::Description;
 use crate::output::{SWEEP_LOG, disk, is_gathering};
 use crate::plain;
-use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::io;
@@ -58,31 +57,6 @@ fn advice(path: &Path) -> &'static str {
 /// Where a sweep that is not finished stands.
 pub const UNFINISHED: &str = "unfinished-sweep";
 
-/// What a part says of the whole sweep: `sweep.json`.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct Description {
-    /// The version that wrote it.
-    pub percoat: String,
-    /// Title of the case.
-    pub title: String,
-    /// `solve` or `limit`.
-    pub task: String,
-    /// Of the case and of all that it sets.
-    pub fingerprint: String,
-    /// Number of all combinations.
-    pub of: usize,
-    /// Number of those in the part, when it was written.
-    combinations: usize,
-    /// The common case as TOML.
-    pub case: String,
-    timing: Timing,
-}
-
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-struct Timing {
-    wall: f64,
-}
-
 /// A part of a sweep that stands in a place, finished or not.
 #[derive(Debug)]
 pub struct Part {
@@ -90,19 +64,6 @@ pub struct Part {
     pub description: Description,
     log: PathBuf,
     lines: Vec<Logged>,
-}
-
-impl Description {
-    /// The whole sweep.
-    pub fn asked(&self) -> Asked<'_> {
-        let Self { title, task, fingerprint, of, case, .. } = self;
-        Asked { title, case, task, fingerprint, of: *of }
-    }
-
-    /// Wall time of the part, seconds.
-    pub fn seconds(&self) -> f64 {
-        self.timing.wall
-    }
 }
 
 impl Part {
@@ -126,7 +87,7 @@ impl Part {
             Ok(None) => Vec::new(),
             _ => read(&log).map_err(|error| input(&log, error))?,
         };
-        let (whole, identity) = (lines.len(), description.asked().identity());
+        let (whole, identity) = (lines.len(), description.identity());
         let line = |own: Result<Logged, Damage>| {
             let own = own.map_err(|damage| damaged(&log, format!(", {damage}")))?;
             let (number, combination) = (own.line, own.row.combination);
@@ -148,6 +109,15 @@ impl Part {
             return Err(damaged(&log, format!(" has {whole} lines, and sweep.json beside it tells of {wanted}")));
         }
         Ok(Some(Self { description, log, lines }))
+    }
+}
+
+impl Part {
+    /// Its rows, by ascending number.
+    pub fn rows(self) -> Vec<Row> {
+        let mut rows: Vec<Row> = self.lines.into_iter().map(|own| own.row).collect();
+        rows.sort_by_key(|row| row.combination);
+        rows
     }
 }
 

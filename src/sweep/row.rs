@@ -1,13 +1,12 @@
 //! What is known of a combination when it is done.
 
+use super::combinations::column;
+use super::result::SweepResult;
 use crate::case::{Case, plausibility};
 use crate::output::Files;
-use crate::output::columns::{Cells, plain, scalars};
+use crate::output::columns::{Cells, plain};
 use crate::run::{Limits, Outcome, StepRecord};
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
-
-use super::combinations::column;
 
 /// How a combination ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -47,8 +46,8 @@ pub struct Row {
     pub reason: Option<String>,
     /// What a reader should know before trusting the numbers.
     pub warnings: Vec<String>,
-    /// Its results: one object a load step, as in `summary.json`, or one with the limits.
-    pub results: Vec<Value>,
+    /// Its results: its load steps, or one with the limits; none where it has failed.
+    pub results: Vec<SweepResult>,
     /// Wall time, seconds.
     pub seconds: f64,
     /// Where fields are kept, its files by their names in its folder.
@@ -62,7 +61,7 @@ pub(super) struct Ended {
     pub(super) status: Status,
     pub(super) reason: Option<String>,
     pub(super) warnings: Vec<String>,
-    pub(super) results: Vec<Value>,
+    pub(super) results: Vec<SweepResult>,
     pub(super) files: Files,
 }
 
@@ -74,25 +73,23 @@ impl Ended {
     }
 
     pub(super) fn solved(outcome: &Outcome, case: &Case) -> Self {
-        let stopped = outcome.steps.iter().find(|step| !step.converged()).map(StepRecord::stop_reason);
+        let stopped = outcome.steps.iter().find(|step| !step.converged()).map(|step| step.stop.to_string());
         let inaccurate =
             || outcome.end.filter(|_| !outcome.is_accurate()).map(|end| format!("accuracy not reached: {end}"));
         let reason = stopped.or_else(inaccurate);
-        let results = outcome.steps.iter().map(|step| {
-            let mut step = json!(step);
-            // No two runs share it.
-            step.as_object_mut().and_then(|step| step.shift_remove("seconds"));
-            step
-        });
+        // No two runs share the time.
+        let results = outcome.steps.iter().map(|step| StepRecord { seconds: None, ..step.clone() });
+        let results = results.map(|step| SweepResult::Step(Box::new(step)));
         Self::with(reason, [&outcome.warnings[..], &plausibility::of_case(case)].concat(), results.collect())
     }
 
-    pub(super) fn limited(limits: &Limits, results: Value, case: &Case) -> Self {
+    pub(super) fn limited(limits: &Limits, case: &Case) -> Self {
         let reason = (!limits.converged()).then(|| "a load or the accuracy did not converge".to_owned());
-        Self::with(reason, [&limits.warnings[..], &plausibility::of_case(case)].concat(), vec![results])
+        let results = vec![SweepResult::Limits(limits.limits.clone())];
+        Self::with(reason, [&limits.warnings[..], &plausibility::of_case(case)].concat(), results)
     }
 
-    fn with(reason: Option<String>, warnings: Vec<String>, results: Vec<Value>) -> Self {
+    fn with(reason: Option<String>, warnings: Vec<String>, results: Vec<SweepResult>) -> Self {
         let status = if reason.is_some() { Status::NotConverged } else { Status::Done };
         Self { status, reason, warnings, results, files: Files::default() }
     }
@@ -114,8 +111,8 @@ impl Row {
             let has = if has_failed { "has results" } else { "has no results" };
             return Err(format!("combination {} {has} and is marked {}", self.combination, self.status.name()));
         }
-        if !self.results.iter().all(Value::is_object) {
-            return Err(format!("a result of combination {} is none", self.combination));
+        for step in self.results.iter().filter_map(SweepResult::step) {
+            step.check().map_err(|reason| format!("combination {}: {reason}", self.combination))?;
         }
         if !(self.seconds >= 0.0 && self.seconds.is_finite()) {
             return Err(format!("combination {} took {} seconds", self.combination, self.seconds));
@@ -132,19 +129,19 @@ impl Row {
     /// Its lines in `sweep.csv`: one a load step, or one alone.
     pub fn cells(&self) -> Vec<Cells> {
         let cell = |name: &str, value: String| (name.to_owned(), value);
-        let line = |(step, results): (Option<usize>, &Value)| {
+        let line = |(step, results): (Option<usize>, Cells)| {
             let mut cells = vec![cell("combination", self.combination.to_string())];
             cells.extend(self.settings.iter().map(|(key, value)| cell(&column(key), plain(value))));
             cells.push(cell("status", self.status.name().to_owned()));
             cells.push(cell("step", step.map_or(String::new(), |step| step.to_string())));
-            cells.extend(scalars(results));
+            cells.extend(results);
             cells.push(cell("warnings", plain(&self.warnings.join("; "))));
             cells.push(cell("reason", plain(self.reason.as_deref().unwrap_or(""))));
             cells
         };
         if self.results.is_empty() {
-            return vec![line((None, &json!({})))];
+            return vec![line((None, Cells::new()))];
         }
-        (1..).map(Some).zip(&self.results).map(line).collect()
+        (1..).map(Some).zip(self.results.iter().map(SweepResult::cells)).map(line).collect()
     }
 }

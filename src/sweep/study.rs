@@ -60,6 +60,8 @@ pub(super) struct Planned {
     is_small: bool,
     /// What it leaves when its fields are kept.
     pub(super) files: Vec<String>,
+    /// Its case; `None` where it is refused, and of a topography, whose heights are read again when it is solved.
+    case: Option<Box<Case>>,
 }
 
 impl<'a> Study<'a> {
@@ -82,26 +84,13 @@ impl<'a> Study<'a> {
             let case = study.case(combination).map_err(StudyError::from);
             let planned = match case.and_then(|case| study.check(&case).map(|()| case)) {
                 Ok(case) => {
-                    let points = match case.grid {
-                        Sampling::Points(points) => Some(points),
-                        // How far it goes is not known.
-                        Sampling::Accuracy(_) => None,
-                    };
                     results += of_results(&case, task);
-                    let memory = points.map_or(room.memory, |points| needs(&case, points, study.job()).memory);
-                    let is_small = points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL);
-                    let files = solved_plan(&case, case.load.values().len(), true).names;
-                    Planned {
-                        index,
-                        fingerprint: output::fingerprint(&case, &format!("{task:?}")),
-                        memory,
-                        is_small,
-                        files,
-                    }
+                    study.planned(index, case)
                 }
                 Err(error) => {
                     first.get_or_insert(error);
-                    Planned { index, fingerprint: String::new(), memory: 0, is_small: true, files: Vec::new() }
+                    let (fingerprint, files) = (String::new(), Vec::new());
+                    Planned { index, fingerprint, memory: 0, is_small: true, files, case: None }
                 }
             };
             study.planned.push(planned);
@@ -111,6 +100,23 @@ impl<'a> Study<'a> {
         match first {
             Some(error) if study.planned.iter().all(|planned| planned.fingerprint.is_empty()) => Err(error),
             _ => Ok(study),
+        }
+    }
+
+    /// A combination whose case is allowed.
+    fn planned(&self, index: usize, case: Case) -> Planned {
+        let points = match case.grid {
+            Sampling::Points(points) => Some(points),
+            // How far it goes is not known.
+            Sampling::Accuracy(_) => None,
+        };
+        Planned {
+            index,
+            fingerprint: output::fingerprint(&case, &format!("{:?}", self.task)),
+            memory: points.map_or(self.room.memory, |points| needs(&case, points, self.job()).memory),
+            is_small: points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL),
+            files: solved_plan(&case, case.load.values().len(), true).names,
+            case: case.counterbody().topography().is_none().then(|| Box::new(case)),
         }
     }
 
@@ -212,7 +218,7 @@ impl<'a> Study<'a> {
     fn row(&self, planned: &Planned, folder: &Path, room: Room) -> Row {
         let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
         // One combination that brings the program down leaves the others as they are.
-        let ended = catch_unwind(AssertUnwindSafe(|| self.ended(combination, folder, room)));
+        let ended = catch_unwind(AssertUnwindSafe(|| self.ended(planned, folder, room)));
         let Ended { status, reason, warnings, results, files } =
             ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
         Row {
@@ -228,26 +234,34 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn ended(&self, combination: &Combination, folder: &Path, room: Room) -> Ended {
-        let case = match self.case(combination) {
-            Ok(case) => case,
-            Err(error) => return Ended::failed(error.message()),
+    fn ended(&self, planned: &Planned, folder: &Path, room: Room) -> Ended {
+        let combination = &self.combinations.all[planned.index];
+        let read;
+        let case = match &planned.case {
+            Some(case) => case,
+            None => match self.case(combination) {
+                Ok(case) => {
+                    read = case;
+                    &read
+                }
+                Err(error) => return Ended::failed(error.message()),
+            },
         };
-        if let Some(why) = refusal(&case, room, self.job()) {
+        if let Some(why) = refusal(case, room, self.job()) {
             return Ended::failed(why);
         }
-        let mut fits = Fits { case: &case, job: self.job(), room, stop: &self.stop };
+        let mut fits = Fits { case, job: self.job(), room, stop: &self.stop };
         match (self.task, self.keeps_fields) {
             (Task::Solve, true) => {
                 let folder = folder.join(folder_of(combination.number));
-                keep(&case, &folder, fits).unwrap_or_else(|error| Ended::failed(error.to_string()))
+                keep(case, &folder, fits).unwrap_or_else(|error| Ended::failed(error.to_string()))
             }
             (Task::Solve, false) => match case.run().solve(&mut fits) {
-                Ok(outcome) => Ended::solved(&outcome, &case),
+                Ok(outcome) => Ended::solved(&outcome, case),
                 Err(error) => Ended::failed(error.told()),
             },
             (Task::Limit, _) => match case.run().limits(&mut fits) {
-                Ok(limits) => Ended::limited(&limits, output::limits_json(&limits), &case),
+                Ok(limits) => Ended::limited(&limits, case),
                 Err(error) => Ended::failed(error.told()),
             },
         }

@@ -2,9 +2,10 @@
 
 use super::combinations::Combinations;
 use super::row::{Row, Status};
+use super::task::Task;
 use crate::output::columns::csv;
 use crate::output::{checksum, seal};
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// One row a combination and load step, by ascending combination.
@@ -14,27 +15,111 @@ pub fn table(rows: &[Row]) -> String {
     csv(|| sorted.iter().flat_map(|row| row.cells()))
 }
 
-/// What a whole sweep is, of which some rows may be a part.
-#[derive(Debug, Clone, Copy)]
-pub struct Asked<'a> {
-    /// Title of the case.
-    pub title: &'a str,
-    /// The common case as TOML.
-    pub case: &'a str,
-    /// `solve` or `limit`.
-    pub task: &'a str,
+/// What a sweep was asked for, and how it ended: `sweep.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Description {
+    /// The version that wrote it.
+    pub percoat: String,
+    /// Title of the common case.
+    pub title: String,
+    /// What is done with each combination.
+    pub task: Task,
+    /// The keys that change, with their values.
+    pub keys: Vec<SweptKey>,
     /// Of the case and of all that it sets: equal only for parts of one sweep.
-    pub fingerprint: &'a str,
-    /// Number of its combinations.
+    pub fingerprint: String,
+    /// Number of all combinations of the whole sweep.
     pub of: usize,
+    /// Number of combinations here.
+    pub combinations: usize,
+    /// Number of those that are done.
+    pub done: usize,
+    /// Number of those in which something did not converge.
+    pub not_converged: usize,
+    /// Number of those without results.
+    pub failed: usize,
+    /// Each warning of any combination.
+    pub warnings: Vec<String>,
+    /// The common case as TOML.
+    pub case: String,
+    /// Wall times, seconds.
+    pub timing: Seconds,
 }
 
-impl Asked<'_> {
+/// A key of a sweep with its values as they were typed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SweptKey {
+    /// The key as in the case file.
+    pub key: String,
+    /// Its values in the order of the combinations.
+    pub values: Vec<String>,
+}
+
+/// Wall times of a sweep, seconds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// Of all combinations, one after the other.
+    pub combinations: f64,
+    /// Of the whole.
+    pub wall: f64,
+}
+
+impl Description {
+    /// Of a sweep that has not begun: the title and text of the common case, the task, and the number of combinations.
+    pub fn new(title: &str, case: &str, task: Task, fingerprint: String, of: usize) -> Self {
+        Self {
+            percoat: env!("CARGO_PKG_VERSION").to_owned(),
+            title: title.to_owned(),
+            task,
+            keys: Vec::new(),
+            fingerprint,
+            of,
+            combinations: 0,
+            done: 0,
+            not_converged: 0,
+            failed: 0,
+            warnings: Vec::new(),
+            case: case.to_owned(),
+            timing: Seconds { combinations: 0.0, wall: 0.0 },
+        }
+    }
+
+    /// The same sweep after these rows and so much wall time.
+    #[must_use]
+    pub fn after(&self, rows: &[Row], wall: f64) -> Self {
+        let keys = rows.first().map_or(&[][..], |row| &row.settings).iter().map(|(key, _)| {
+            let all = rows.iter().flat_map(|row| &row.settings).filter(|(own, _)| own == key);
+            SweptKey { key: key.clone(), values: distinct(all.map(|(_, value)| value)) }
+        });
+        let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
+        Self {
+            keys: keys.collect(),
+            combinations: rows.len(),
+            done: count(Status::Done),
+            not_converged: count(Status::NotConverged),
+            failed: count(Status::Failed),
+            warnings: distinct(rows.iter().flat_map(|row| &row.warnings)),
+            timing: Seconds { combinations: rows.iter().map(|row| row.seconds).sum(), wall },
+            ..self.clone()
+        }
+    }
+
     /// What every line of its log says: equal only for parts of one sweep by one version of percoat.
     pub fn identity(&self) -> String {
-        let Self { title, case, task, fingerprint, of } = self;
-        seal(&format!("{}\n{task} {of} {fingerprint}\n{title}\n{case}", env!("CARGO_PKG_VERSION")))
+        let Self { percoat, title, case, task, fingerprint, of, .. } = self;
+        seal(&format!("{percoat}\n{} {of} {fingerprint}\n{title}\n{case}", task.name()))
     }
+
+    /// The file.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("a description is numbers and texts under names") + "\n"
+    }
+}
+
+/// Texts in the order in which they first come, each once.
+fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    texts.filter(|text| seen.insert(*text)).cloned().collect()
 }
 
 /// A fingerprint of the common case, what all combinations set, and every combination.
@@ -44,32 +129,4 @@ pub fn fingerprint(case: &str, fixed: &[String], combinations: &Combinations) ->
     let text = parts.collect::<Vec<_>>().join("\n");
     let (length, checksum) = checksum(&mut text.as_bytes()).expect("what is in memory can be read");
     format!("{length:x}-{checksum:016x}")
-}
-
-/// What was asked for and how it ended.
-pub fn description(asked: Asked<'_>, rows: &[Row], seconds: f64) -> Value {
-    let Asked { title, case, task, fingerprint, of } = asked;
-    let keys: Vec<&String> = rows.first().map_or(Vec::new(), |row| row.settings.iter().map(|(key, _)| key).collect());
-    let values = |key: &String| -> Vec<&String> {
-        let (mut seen, all) = (BTreeSet::new(), rows.iter().flat_map(|row| &row.settings));
-        all.filter(|(own, value)| own == key && seen.insert(value)).map(|(_, value)| value).collect()
-    };
-    let count = |status: Status| rows.iter().filter(|row| row.status == status).count();
-    let (mut seen, all) = (BTreeSet::new(), rows.iter().flat_map(|row| &row.warnings));
-    let warnings: Vec<&String> = all.filter(|warning| seen.insert(*warning)).collect();
-    json!({
-        "percoat": env!("CARGO_PKG_VERSION"),
-        "title": title,
-        "task": task,
-        "keys": keys.iter().map(|key| json!({"key": key, "values": values(key)})).collect::<Value>(),
-        "fingerprint": fingerprint,
-        "of": of,
-        "combinations": rows.len(),
-        "done": count(Status::Done),
-        "not_converged": count(Status::NotConverged),
-        "failed": count(Status::Failed),
-        "warnings": warnings,
-        "case": case,
-        "timing": { "combinations": rows.iter().map(|row| row.seconds).sum::<f64>(), "wall": seconds },
-    })
 }

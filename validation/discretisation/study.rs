@@ -114,7 +114,7 @@ fn quantities(step: &Reading) -> Vec<Option<f64>> {
     let whole = [step.mean_pressure, step.penetration, step.contact_fraction, step.max_pressure].map(Some);
     let levels = step.levels.iter().flat_map(|level| {
         let loads = [level.load, level.load_share, level.max_pressure].map(Some);
-        loads.into_iter().chain([level.contact_radius, level.radius_min, level.radius_max, level.asymmetry()])
+        loads.into_iter().chain([level.contact_radius, level.radius_min, level.radius_max, level.asymmetry])
     });
     whole.into_iter().chain(levels).collect()
 }

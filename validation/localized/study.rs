@@ -129,8 +129,8 @@ fn coated(
         mean: MeanStress::Confined,
     };
     let compared = task.compare([POINTS; 2], &mut |_| ControlFlow::Continue(()))?;
-    if !compared.spectral.report.stop.solved() {
-        return Err(format!("{name}: {}", compared.spectral.report).into());
+    if !compared.spectral.converged() {
+        return Err(format!("{name}: {}", compared.spectral.report()).into());
     }
     if let Some(circle) =
         compared.circles.iter().chain(&compared.other_rule).find(|circle| circle.stop != Stop::Converged)

@@ -99,8 +99,8 @@ pub fn thin_coatings(coatings: &[Coating], outcome: &mut Outcome) -> Result<(), 
             "E₁ = {young}, ν₁ = {poisson}, h = {thickness}, {}",
             if slides { "frictionless" } else { "bonded" }
         );
-        if circle.stop != Stop::Converged || !compared.spectral.report.stop.solved() {
-            return Err(format!("{name}: {}, {}", circle.stop, compared.spectral.report).into());
+        if circle.stop != Stop::Converged || !compared.spectral.converged() {
+            return Err(format!("{name}: {}, {}", circle.stop, compared.spectral.report()).into());
         }
         let difference = &circle.difference;
         let radius = compared.spectral.reading.levels[0].contact_radius.ok_or("the contacts have merged")?;

@@ -2,7 +2,7 @@
 //! square elements would make of its asymmetry.
 
 use crate::localized::spot::Spot;
-use crate::reading::{Boundary, LevelReading, Reading};
+use crate::reading::{Boundary, Reading};
 use crate::spectral::Step;
 use crate::validation::StudyError;
 use std::f64::consts::PI;
@@ -12,7 +12,7 @@ pub const TOWARD_NEIGHBOUR: f64 = PI / 6.0;
 
 /// (max − min)/max of each level's boundary; not a number where there is none.
 pub fn asymmetries(found: &Reading) -> [f64; 3] {
-    [0, 1, 2].map(|m| found.levels.get(m).and_then(LevelReading::asymmetry).unwrap_or(f64::NAN))
+    [0, 1, 2].map(|m| found.levels.get(m).and_then(|level| level.asymmetry).unwrap_or(f64::NAN))
 }
 
 /// A sample seen from an indenter's axis: its distance, a length, its angle, radians, and its pressure.

@@ -22,6 +22,7 @@ use crate::numeric::search::largest;
 use crate::plain;
 use crate::reading::{LevelReading, Reading};
 use crate::run::{Limits, StepRecord};
+use crate::spectral::Stop;
 use crate::units::{Prefixed, Units};
 
 /// Relative errors up to this are rounding.
@@ -151,7 +152,7 @@ fn detailed(steps: &[StepRecord], units: &Units) -> Table {
                 percent_with_error(level.load_share, level.errors.load_share),
                 finite(&pressure, level.finite_peak(), level.errors.max_pressure),
                 radius,
-                level.asymmetry().map_or("–".to_owned(), |part| percent_with_error(part, level.errors.asymmetry)),
+                level.asymmetry.map_or("–".to_owned(), |part| percent_with_error(part, level.errors.asymmetry)),
             ];
             rows.push([&lead[..], &cells[..]].concat());
             lead = [const { String::new() }; 3];
@@ -218,10 +219,10 @@ pub(crate) fn percent_with_error(x: f64, error: Option<f64>) -> String {
 /// How far the load steps have been solved, in a line.
 pub fn solved(steps: &[StepRecord]) -> String {
     let [n1, n2] = steps.last().map_or([0, 0], |step| step.points);
-    let most = steps.iter().map(|step| step.report.iterations).max().unwrap_or(0);
+    let most = steps.iter().map(|step| step.iterations).max().unwrap_or(0);
     let gap = largest(steps.iter().map(|step| step.certificate.energy_gap));
     let done = steps.iter().filter(|step| step.converged()).count();
-    let at_rounding = match steps.iter().filter(|step| step.is_at_rounding()).count() {
+    let at_rounding = match steps.iter().filter(|step| step.stop == Stop::Rounding).count() {
         0 => String::new(),
         count => format!("; {count} of them as far as double precision carries, short of solver.tolerance"),
     };

@@ -37,20 +37,20 @@ fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units)
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
     let told = |pressure: f64| units.pressure().told(pressure, number);
     let least = |loads: &mut dyn Iterator<Item = f64>| loads.min_by(f64::total_cmp);
-    let fails = least(&mut taken().filter(|(_, own)| own.verdict() == Verdict::Fails).map(|(load, _)| load));
+    let fails = least(&mut taken().filter(|(_, own)| own.verdict == Verdict::Fails).map(|(load, _)| load));
     let Some(above) = fails else {
-        let open = taken().any(|(_, own)| own.verdict() == Verdict::Undecided);
+        let open = taken().any(|(_, own)| own.verdict == Verdict::Undecided);
         // That in which something comes nearest.
         let reach = |step: &&StepRecord| step.strength.iter().map(Utilisation::most).fold(0.0, f64::max);
         let with_strength = steps.iter().filter(|step| !step.strength.is_empty());
         let step = with_strength.max_by(|a, b| reach(a).total_cmp(&reach(b)))?;
-        let words = step.governing()?.in_words(with_error);
+        let words = step.governing_in_words(with_error)?;
         let begins = if open { "undecided by the errors whether anything fails" } else { "nothing fails" };
         return Some(format!("{begins}: at p̄ = {} {words}", told(step.reading.mean_pressure)));
     };
     // Every criterion that may fail up to there may be the first, also between the steps; the least load by its value,
     // and at that load the largest, is named before the others.
-    let may = |load: f64, own: &Utilisation| load <= above && own.verdict() != Verdict::Holds;
+    let may = |load: f64, own: &Utilisation| load <= above && own.verdict != Verdict::Holds;
     let mut first: Vec<(f64, &Utilisation)> = taken().filter(|(load, own)| may(*load, own)).collect();
     let open = least(&mut first.iter().map(|(load, _)| *load)).unwrap_or(above);
     let rank = |(load, own): &(f64, &Utilisation)| (if own.value >= 1.0 { *load } else { f64::INFINITY }, -own.value);
@@ -110,7 +110,7 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
                 format!("< {}", number(pressure.shown(mean_pressure))),
                 format!("{}, a contact of a few samples", place(position)),
             ),
-            At::Never { up_to, utilisation, error, at } => {
+            At::Never { up_to, utilisation, error, at, .. } => {
                 (format!("> {}", number(pressure.shown(up_to))), most(utilisation, error, at))
             }
             At::Undecided { from, utilisation, error, at, .. } => {

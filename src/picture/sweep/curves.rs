@@ -7,7 +7,6 @@ use super::super::number::short;
 use super::keys::{Keys, number, scale};
 use super::numbers::Number;
 use crate::sweep::Row;
-use serde_json::Value;
 use std::collections::{BTreeMap, HashMap};
 
 /// Curves in a chart, at most.
@@ -40,12 +39,12 @@ impl Keys {
             let steps = if self.names.len() == 1 { row.results.len() } else { 1 };
             for (step, result) in row.results.iter().enumerate().skip(row.results.len() - steps.min(row.results.len()))
             {
-                let load = result.get("mean_pressure").and_then(Value::as_f64).filter(|_| steps > 1);
+                let load = result.step().map(|step| step.reading.mean_pressure).filter(|_| steps > 1);
                 let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
                 let curve = curves.entry(own).or_insert_with(|| Found { label, load, points: Vec::new() });
                 // A step whose load is not the same everywhere has a number only.
                 curve.load = curve.load.filter(|_| curve.load == load);
-                curve.points.push([x, (shown.value)(result).unwrap_or(f64::NAN)]);
+                curve.points.push([x, shown.value(result).unwrap_or(f64::NAN)]);
             }
         }
         let all = curves.len();

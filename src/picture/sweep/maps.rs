@@ -7,11 +7,10 @@ use super::super::colour::Colour;
 use super::super::map::{Fill, Map, Over};
 use super::super::scale::Scale;
 use super::super::sheet::{Panel, sheet};
-use super::first::{First, Named, colour};
+use super::first::{Named, colour};
 use super::keys::{Keys, number, scale};
 use super::numbers::{Bound, Number};
-use crate::sweep::Row;
-use serde_json::Value;
+use crate::sweep::{Foremost, Row, SweepResult};
 use std::collections::BTreeMap;
 
 /// Numbers of more than this ratio have a logarithmic bar.
@@ -31,28 +30,28 @@ impl Keys {
             let (x, y) = (x.axis(&self.names[along.0]), y.axis(&self.names[up.0]));
             Map { title, x, y, aspect: 0.8, fill, over }
         };
-        let counted = First::counted(rows.iter().filter_map(|row| row.results.last()));
-        let coloured = |(index, (first, _)): (usize, &(First, usize))| (first.clone(), colour(first, index));
-        let colours: BTreeMap<First, Colour> = counted.iter().enumerate().map(coloured).collect();
-        let firsts = self.field(rows, |result| colours.get(&First::of(result)?).copied());
+        let counted = Foremost::counted(rows.iter().filter_map(|row| row.results.last()));
+        let coloured = |(index, (first, _)): (usize, &(Foremost, usize))| (*first, colour(*first, index));
+        let colours: BTreeMap<Foremost, Colour> = counted.iter().enumerate().map(coloured).collect();
+        let firsts = self.field(rows, |result| colours.get(&result.foremost()?).copied());
         let first = |place: [f64; 2]| firsts[cell(place)].unwrap_or(Colour::PALE);
-        let undecided = self.field(rows, |result| First::is_undecided(result).then_some(()));
+        let undecided = self.field(rows, |result| (!result.rivals().is_empty()).then_some(()));
         let place = |at: usize| [x.values[at % columns], y.values[at / columns]];
         let question = |(at, own): (usize, &Option<()>)| {
             let ink = |colour: Colour| if colour.lightness() > 0.6 { Colour::BLACK } else { Colour::WHITE };
             own.map(|()| Over::Word { word: "?".to_owned(), at: place(at), colour: ink(first(place(at))) })
         };
         let questions: Vec<Over> = undecided.iter().enumerate().filter_map(question).collect();
-        let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.get("first").is_none());
+        let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
         let what = if of_loads { "what governs" } else { "what comes first" };
-        let names = counted.iter().map(|(first, count)| (colours[first], format!("{} ({count})", first.name())));
+        let names = counted.iter().map(|(first, count)| (colours[first], format!("{first} ({count})")));
         let first = (!counted.is_empty()).then(|| Named {
             map: map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions),
             names: names.collect(),
         });
         let fields: Vec<Field<f64>> = numbers
             .iter()
-            .map(|shown| self.field(rows, |result| (shown.value)(result).filter(|value| value.is_finite())))
+            .map(|shown| self.field(rows, |result| shown.value(result).filter(|value| value.is_finite())))
             .collect();
         let lookups: Vec<_> = fields.iter().map(|field| move |place: [f64; 2]| field[cell(place)]).collect();
         let maps = numbers.iter().zip(&fields).zip(&lookups).map(|((shown, field), value)| {
@@ -89,7 +88,7 @@ impl Keys {
     }
 
     /// What the last results of the rows have, cell by cell: first the lowest row.
-    fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&Value) -> Option<T>) -> Field<T> {
+    fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&SweepResult) -> Option<T>) -> Field<T> {
         let Some(up) = &self.pair else { return Vec::new() };
         let mut field = vec![None; self.along.1.len() * up.1.len()];
         for row in rows {

@@ -8,13 +8,11 @@ mod numbers;
 
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use crate::sweep::Row;
+use crate::sweep::{Foremost, Row, SweepResult};
 use crate::units::Units;
 use curves::one_in;
-use first::First;
 use keys::Keys;
 use numbers::{Bound, Number, numbers};
-use serde_json::Value;
 
 /// Quantities that a picture shows, at most.
 const QUANTITIES: usize = 12;
@@ -46,9 +44,9 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
         return keys.maps(rows, &numbers, &(words.join("; ") + "."));
     }
     let (charts, counts): (Vec<Chart>, Vec<usize>) = numbers.iter().map(|own| keys.chart(rows, own)).unzip();
-    let firsts = First::counted(rows.iter().filter_map(|row| row.results.last()));
-    let firsts: Vec<String> = firsts.iter().map(|(first, count)| format!("{} in {count}", first.name())).collect();
-    let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.get("first").is_none());
+    let firsts = Foremost::counted(rows.iter().filter_map(|row| row.results.last()));
+    let firsts: Vec<String> = firsts.iter().map(|(first, count)| format!("{first} in {count}")).collect();
+    let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
     let what = if of_loads { "what governs:" } else { "first comes" };
     words.extend((!firsts.is_empty()).then(|| format!("{what} {}", firsts.join(", "))));
     let curves = counts.into_iter().max().unwrap_or(0);
@@ -63,8 +61,8 @@ pub fn sweep(title: &str, units: &Units, rows: &[Row]) -> Option<Canvas> {
 fn undecided(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     let last = || rows.iter().filter_map(|row| row.results.last());
     let sign = if is_map { "?: " } else { "" };
-    let first = last().filter(|result| First::is_undecided(result)).count();
-    let is_open = |result: &&Value| numbers.iter().any(|own| !own.is_limit() && own.is_undecided(result));
+    let first = last().filter(|result| !result.rivals().is_empty()).count();
+    let is_open = |result: &&SweepResult| numbers.iter().any(|own| !own.is_limit() && own.is_undecided(result));
     let fails = last().filter(is_open).count();
     let told = |count: usize, what: &str| (count > 0).then(|| format!("{sign}{what} in {count}"));
     [told(first, "the errors leave open what comes first"), told(fails, "the errors leave open whether anything fails")]
@@ -76,7 +74,8 @@ fn undecided(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
 /// What places without a number mean; empty where there are none.
 fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     let all = || rows.iter().flat_map(|row| numbers.iter().map(move |shown| (row.results.last(), shown)));
-    let value = |(result, shown): (Option<&Value>, &Number)| (shown.value)(result?).filter(|value| value.is_finite());
+    let value =
+        |(result, shown): (Option<&SweepResult>, &Number)| shown.value(result?).filter(|value| value.is_finite());
     let has = |bound: Bound| all().any(|(result, shown)| result.and_then(|own| shown.bound(own)) == Some(bound));
     let mut words = Vec::new();
     if all().any(|own| value(own).is_none()) {
@@ -97,22 +96,12 @@ fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
 mod tests {
     use super::super::canvas::Mark;
     use super::*;
-    use crate::sweep::Status;
-    use serde_json::json;
+    use crate::reading::{Criterion, Utilisation};
+    use crate::sweep::examples::{self, below, never, reached, row, strained};
 
-    fn row(combination: usize, settings: &[(&str, String)], results: Vec<Value>) -> Row {
-        Row {
-            combination,
-            settings: settings.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect(),
-            fingerprint: String::new(),
-            status: Status::Done,
-            reason: None,
-            warnings: Vec::new(),
-            results,
-            seconds: 0.0,
-            files: Default::default(),
-        }
-    }
+    const YIELDS: Criterion = Criterion::Yield { material: 2 };
+    const CRACKS: Criterion = Criterion::Cracking { material: 1 };
+    const PARTS: Criterion = Criterion::Delamination { interface: 1 };
 
     /// All that stands on a picture, in a line.
     fn words(picture: Option<Canvas>) -> String {
@@ -121,8 +110,8 @@ mod tests {
         words.collect::<Vec<_>>().join(" ")
     }
 
-    fn step(value: f64) -> Value {
-        json!({ "mean_pressure": 0.1, "max_pressure": value, "penetration": value, "contact_fraction": 0.5 })
+    fn step(value: f64) -> SweepResult {
+        SweepResult::Step(Box::new(examples::step(value, None, 0.5)))
     }
 
     #[test]
@@ -168,16 +157,14 @@ mod tests {
     #[test]
     fn maps_of_limits_say_what_comes_first_and_where_there_is_a_bound_only() {
         let limits = |place: usize| {
-            let first = match place {
-                0 => json!({ "criterion": "delamination", "interface": 1, "mean_pressure": null, "below": 1e-4 }),
-                1 => Value::Null,
-                _ => {
-                    json!({ "criterion": "yield", "material": 2, "mean_pressure": 0.002 * f64::powi(2.0, place as i32) })
-                }
-            };
-            json!({ "first": first })
+            let yields = 0.002 * f64::powi(2.0, place as i32);
+            SweepResult::Limits(match place {
+                0 => vec![never(YIELDS, 1.0), below(PARTS, 1e-4)],
+                1 => vec![never(YIELDS, 1.0), never(PARTS, 1.0)],
+                _ => vec![reached(YIELDS, yields, 0.01 * yields), never(PARTS, 1.0)],
+            })
         };
-        let rows = |limits: &dyn Fn(usize) -> Value| -> Vec<Row> {
+        let rows = |limits: &dyn Fn(usize) -> SweepResult| -> Vec<Row> {
             let set = |n: usize| [("a", (n % 3).to_string()), ("b", (n / 3).to_string())];
             (0..9).map(|n| row(n + 1, &set(n), vec![limits(n)])).collect()
         };
@@ -196,15 +183,15 @@ mod tests {
     #[test]
     fn maps_have_a_question_mark_where_the_errors_leave_the_first_open() {
         let limit = |n: usize| {
-            let rivals = if n.is_multiple_of(4) { json!(["cracking of material 1"]) } else { json!([]) };
-            json!({ "first": { "criterion": "yield", "material": 2, "mean_pressure": 1.0 + n as f64, "rivals": rivals } })
+            let load = 1.0 + n as f64;
+            let error = if n.is_multiple_of(4) { 1.5 * load } else { 0.1 * load };
+            SweepResult::Limits(vec![reached(YIELDS, load, 0.1 * load), reached(CRACKS, 2.0 * load, error)])
         };
         let load = |n: usize| {
-            let state = if n == 4 { "undecided" } else { "holds" };
-            let own = json!({ "criterion": "yield", "material": 2, "state": state, "rivals": [] });
-            json!({ "strength": [{ "utilisation": 0.1 * n as f64 }], "governing": own })
+            let error = (n == 4).then_some(0.7);
+            strained(vec![Utilisation::new(YIELDS, 0.1 * n as f64, error, [0.0; 3])])
         };
-        let told = |result: &dyn Fn(usize) -> Value| {
+        let told = |result: &dyn Fn(usize) -> SweepResult| {
             let set = |n: usize| [("a", (n % 3).to_string()), ("b", (n / 3).to_string())];
             let rows: Vec<Row> = (0..9).map(|n| row(n + 1, &set(n), vec![result(n)])).collect();
             let told = words(sweep("", &Units::unknown(), &rows));
@@ -240,14 +227,14 @@ mod tests {
     fn every_quantity_has_its_map_or_is_told() {
         let rows = |limits: usize| -> Vec<Row> {
             let result = |p: usize| {
-                let own = (0..limits).map(|k| (format!("limit_{k}"), json!({ "mean_pressure": p + k })));
-                Value::Object([("first".to_owned(), json!({ "mean_pressure": p }))].into_iter().chain(own).collect())
+                let criteria = (1..=limits).map(|material| Criterion::Yield { material });
+                SweepResult::Limits(criteria.zip(p..).map(|(own, load)| reached(own, load as f64, 0.01)).collect())
             };
             let pairs = (0..9).map(|n| (n, [("a", (n / 3).to_string()), ("b", (n % 3).to_string())]));
             pairs.map(|(n, set)| row(n + 1, &set, vec![result(n)])).collect()
         };
         let maps = |limits: usize| words(sweep("", &Units::unknown(), &rows(limits)));
-        assert!(maps(7).contains("limit 6, mean pressure") && !maps(7).contains("quantities"));
+        assert!(maps(7).contains("yield of material 7, mean pressure") && !maps(7).contains("quantities"));
         assert!(maps(20).contains("the first 12 of 21 quantities"));
     }
 }

@@ -1,23 +1,25 @@
 //! The numbers of a sweep's results that a picture shows.
 
 use super::super::quantity::Quantity;
-use super::first::First;
-use crate::sweep::Row;
+use crate::reading::{Criterion, Verdict};
+use crate::run::StepRecord;
+use crate::sweep::{LimitValue, Row, SweepResult};
 use crate::units::Units;
-use serde_json::Value;
-
-/// Name of the number that says what is taken up of a strength.
-const UTILISATION: &str = "largest utilisation";
-
-/// Where a number of a result stands.
-type Place = Box<dyn Fn(&Value) -> Option<f64> + Sync>;
 
 /// A number of a result.
 pub struct Number {
     pub quantity: Quantity,
-    pub value: Place,
-    /// Name of the limit whose number it is.
-    limit: Option<String>,
+    of: Of,
+}
+
+/// Which number it is.
+enum Of {
+    /// A scalar of a load step.
+    Scalar(fn(&StepRecord) -> Option<f64>),
+    /// The largest utilisation of a load step.
+    Utilisation,
+    /// The first limit load, or that of a criterion.
+    Limit(Option<Criterion>),
 }
 
 /// What is known where there is no number.
@@ -32,79 +34,75 @@ pub enum Bound {
 }
 
 impl Number {
-    fn at(quantity: impl Into<Quantity>, pointer: &'static str) -> Self {
-        Self {
-            quantity: quantity.into(),
-            value: Box::new(move |result| result.pointer(pointer)?.as_f64()),
-            limit: None,
-        }
+    fn scalar(quantity: impl Into<Quantity>, of: fn(&StepRecord) -> Option<f64>) -> Self {
+        Self { quantity: quantity.into(), of: Of::Scalar(of) }
     }
 
-    /// The largest of a list.
-    fn largest(quantity: impl Into<Quantity>, list: &'static str, pointer: &'static str) -> Self {
-        let value = move |result: &Value| {
-            let items = result.pointer(list)?.as_array()?.iter();
-            items.filter_map(|item| item.pointer(pointer)?.as_f64()).reduce(f64::max)
-        };
-        Self { quantity: quantity.into(), value: Box::new(value), limit: None }
+    /// Its value; `None` where the result does not have it, or it is infinite.
+    pub fn value(&self, result: &SweepResult) -> Option<f64> {
+        match self.of {
+            Of::Scalar(of) => of(result.step()?),
+            Of::Utilisation => {
+                let values = result.step()?.strength.iter().map(|own| own.value);
+                values.filter(|value| value.is_finite()).reduce(f64::max)
+            }
+            Of::Limit(of) => match result.limit_value(of)? {
+                LimitValue::At(load, _) => Some(load),
+                LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,
+            },
+        }
     }
 
     /// Whether it is a limit load.
     pub fn is_limit(&self) -> bool {
-        self.limit.is_some()
+        matches!(self.of, Of::Limit(_))
     }
 
     /// Whether the errors leave open which criterion the number is of, or for the largest utilisation whether anything fails.
-    pub fn is_undecided(&self, result: &Value) -> bool {
-        match &self.limit {
-            Some(limit) => limit == "first" && First::is_undecided(result),
-            None if self.quantity.text() == UTILISATION => {
-                result.pointer("/governing/state").and_then(Value::as_str) == Some("undecided")
+    pub fn is_undecided(&self, result: &SweepResult) -> bool {
+        match self.of {
+            Of::Limit(of) => of.is_none() && !result.rivals().is_empty(),
+            Of::Utilisation => {
+                let governing = result.step().and_then(|step| step.governing.as_ref());
+                governing.is_some_and(|governing| governing.verdict == Verdict::Undecided)
             }
-            None => false,
+            Of::Scalar(_) => false,
         }
     }
 
     /// What is known of a limit that has no number.
-    pub fn bound(&self, result: &Value) -> Option<Bound> {
-        let limit = result.get(self.limit.as_ref()?)?;
-        if limit.get("reached").and_then(Value::as_str) == Some("undecided") {
-            return Some(Bound::Undecided);
-        }
-        match (limit.get("below"), limit.get("up_to")) {
-            (Some(_), _) => Some(Bound::Below),
-            (None, Some(_)) => Some(Bound::Above),
+    pub fn bound(&self, result: &SweepResult) -> Option<Bound> {
+        let Of::Limit(of) = self.of else { return None };
+        result.limits()?;
+        match result.limit_value(of) {
+            Some(LimitValue::At(..)) => None,
+            Some(LimitValue::Undecided) => Some(Bound::Undecided),
+            Some(LimitValue::Below(_)) => Some(Bound::Below),
             // The first of all, where nothing fails.
-            (None, None) => limit.is_null().then_some(Bound::Above),
+            Some(LimitValue::Above(_)) | None => Some(Bound::Above),
         }
     }
 }
 
 /// The numbers that the rows have.
 pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
-    let limits = |result: &Value| -> Vec<String> {
-        let names = result.as_object().into_iter().flatten().map(|(name, _)| name.clone());
-        names.filter(|name| result.get("first").is_some() && name != "first").collect()
-    };
-    let limit = |words: &str, name: String| {
-        let (quantity, own) = (units.pressure_of(&format!("{words}, mean pressure"), "p̄"), name.clone());
-        let value = move |result: &Value| result.get(&own)?.get("mean_pressure")?.as_f64();
-        Number { quantity, value: Box::new(value), limit: Some(name) }
+    let limit = |words: &str, of: Option<Criterion>| {
+        let quantity = units.pressure_of(&format!("{words}, mean pressure"), "p̄");
+        Number { quantity, of: Of::Limit(of) }
     };
     let mut all = vec![
-        limit("first limit", "first".to_owned()),
-        Number::at(units.pressure_of("peak pressure", "p"), "/max_pressure"),
-        Number::at(units.length_of("penetration", "δ"), "/penetration"),
-        Number::at("fraction in contact", "/contact_fraction"),
-        Number::largest(UTILISATION, "/strength", "/utilisation"),
-        Number::largest(units.pressure_of("largest shear stress", "τ₁"), "/stress/materials", "/max_tau1/value"),
+        limit("first limit", None),
+        Number::scalar(units.pressure_of("peak pressure", "p"), |step| step.reading.finite_peak()),
+        Number::scalar(units.length_of("penetration", "δ"), |step| Some(step.reading.penetration)),
+        Number::scalar("fraction in contact", |step| Some(step.reading.contact_fraction)),
+        Number { quantity: "largest utilisation".into(), of: Of::Utilisation },
+        Number::scalar(units.pressure_of("largest shear stress", "τ₁"), |step| {
+            step.stress.as_ref()?.materials.iter().filter_map(|own| own.tau1.finite()).reduce(f64::max)
+        }),
     ];
-    for name in rows.iter().flat_map(|row| &row.results).next().map(limits).unwrap_or_default() {
-        all.push(limit(&name.replace('_', " "), name));
-    }
-    let is_there = |number: &Number| {
-        rows.iter().filter_map(|row| row.results.last()).any(|result| (number.value)(result).is_some())
-    };
-    all.retain(is_there);
+    let limits = rows.iter().flat_map(|row| &row.results).next().and_then(SweepResult::limits).unwrap_or_default();
+    all.extend(limits.iter().map(|own| limit(&own.criterion.to_string(), Some(own.criterion))));
+    let last = || rows.iter().filter_map(|row| row.results.last());
+    all.retain(|number| last().any(|result| number.value(result).is_some()));
     all
 }

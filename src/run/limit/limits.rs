@@ -57,6 +57,8 @@ pub enum At {
     Never {
         /// Up to this mean pressure.
         up_to: f64,
+        /// Whether contact is complete there.
+        complete: bool,
         /// The largest utilisation, to a hundredth where it is more than a half and has its top between the loads.
         utilisation: f64,
         /// Estimated error of the largest utilisation.
@@ -84,8 +86,13 @@ pub enum At {
 
 /// The limit load of a criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(into = "super::record::Keys", try_from = "super::record::Keys")
+)]
 pub struct Limit {
-    /// Which.
+    /// The criterion.
     pub criterion: Criterion,
     /// Where it is reached.
     pub at: At,
@@ -206,37 +213,56 @@ impl Limit {
     }
 }
 
+/// All of some limits, the first one first, and those that are never reached last.
+fn ordered(limits: &[Limit]) -> Vec<&Limit> {
+    let mut ordered: Vec<&Limit> = limits.iter().collect();
+    ordered.sort_by(|a, b| a.order(b));
+    ordered
+}
+
+/// The one of some limits that is reached first; `None` where nothing fails.
+pub fn first(limits: &[Limit]) -> Option<&Limit> {
+    ordered(limits).into_iter().next().filter(|limit| limit.mean_pressure().is_finite())
+}
+
+fn contenders(limits: &[Limit]) -> Vec<&Limit> {
+    let ordered = ordered(limits);
+    let sure = ordered.iter().map(|limit| limit.interval()[1]).fold(f64::INFINITY, f64::min);
+    let first = first(limits).map(|first| first.criterion);
+    let others = ordered.into_iter().filter(|limit| Some(limit.criterion) != first);
+    others.filter(|limit| limit.interval()[0] < sure).collect()
+}
+
+/// The criteria that may be reached before the [first] one of some limits by the errors of both.
+pub fn rivals(limits: &[Limit]) -> Vec<Criterion> {
+    contenders(limits).iter().map(|limit| limit.criterion).collect()
+}
+
+/// Whether contact is complete under a mean pressure that is read off a step, to rounding; it becomes so at `complete`.
+pub(super) fn is_complete(mean_pressure: f64, complete: f64) -> bool {
+    mean_pressure >= complete * (1.0 - 1e-9)
+}
+
 impl Limits {
     /// The limit that is reached first; `None` where nothing fails.
     pub fn first(&self) -> Option<&Limit> {
-        self.ordered().into_iter().next().filter(|limit| limit.mean_pressure().is_finite())
+        first(&self.limits)
     }
 
-    /// What may be reached before the [first](Self::first) one by the errors of both, in the order of all; everything undecided
-    /// where none is reached.
+    /// Limits that may be reached before the [first](Self::first) one by the errors of both, in the order of all; everything
+    /// undecided where none is reached.
     pub fn contenders(&self) -> Vec<&Limit> {
-        let ordered = self.ordered();
-        let sure = ordered.iter().map(|limit| limit.interval()[1]).fold(f64::INFINITY, f64::min);
-        let first = self.first().map(|first| first.criterion);
-        let others = ordered.into_iter().filter(|limit| Some(limit.criterion) != first);
-        others.filter(|limit| limit.interval()[0] < sure).collect()
+        contenders(&self.limits)
     }
 
-    /// Names of the [contenders](Self::contenders).
-    pub fn rivals(&self) -> Vec<String> {
-        self.contenders().iter().map(|limit| limit.criterion.to_string()).collect()
+    /// The criteria of the [contenders](Self::contenders).
+    pub fn rivals(&self) -> Vec<Criterion> {
+        rivals(&self.limits)
     }
 
-    /// All of them, what comes first first, and what is never reached last.
+    /// All limits, the first one first, and those that are never reached last.
     pub fn ordered(&self) -> Vec<&Limit> {
-        let mut ordered: Vec<&Limit> = self.limits.iter().collect();
-        ordered.sort_by(|a, b| a.order(b));
-        ordered
-    }
-
-    /// Whether contact is complete under a mean pressure, which is read off a step to rounding.
-    pub fn is_complete(&self, mean_pressure: f64) -> bool {
-        mean_pressure >= self.complete * (1.0 - 1e-9)
+        ordered(&self.limits)
     }
 
     /// Largest relative change of the limits from those of a coarser grid.
@@ -288,9 +314,10 @@ impl Limits {
 impl Limits {
     /// What fails first, in words, with pressures as `told` has them.
     pub fn in_words(&self, told: impl Fn(f64) -> String) -> String {
-        let others = self.rivals().join(" or ");
+        let others: Vec<String> = self.rivals().iter().map(Criterion::to_string).collect();
+        let others = others.join(" or ");
         let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
-        let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
+        let complete = if is_complete(most, self.complete) { ", where contact is complete" } else { "" };
         let Some(limit) = self.first() else {
             if others.is_empty() {
                 return format!("nothing fails up to the mean pressure {}{complete}", told(most));

@@ -20,9 +20,11 @@
 
 mod curve;
 mod limits;
+#[cfg(feature = "serde")]
+mod record;
 mod search;
 
-pub use limits::{At, Limit, Limits, Shown};
+pub use limits::{At, Limit, Limits, Shown, first, rivals};
 
 use super::{Recorder, Refinement, Run, RunError, Sampling};
 use crate::reading::Criterion;

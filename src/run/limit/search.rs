@@ -1,6 +1,7 @@
 //! The search on one grid, load by load.
 
 use super::curve::{Band, Crossing};
+use super::limits::is_complete;
 use super::{At, Limit, Limits, Shown};
 use crate::load::Load;
 use crate::reading::{Criterion, Reading, Utilisation};
@@ -217,13 +218,8 @@ impl<'a, R: Recorder> Search<'a, R> {
     /// What a step takes up of a criterion; without contact what residual stress does.
     fn utilisation(&self, record: &StepRecord, criterion: Criterion) -> Utilisation {
         let value = criterion.at_rest(self.run.problem.half_space());
-        record.utilisation(criterion).copied().unwrap_or(Utilisation {
-            criterion,
-            value,
-            error: None,
-            position: [0.0; 3],
-            rival: None,
-        })
+        let at_rest = Utilisation::new(criterion, value, None, [0.0; 3]);
+        record.utilisation(criterion).copied().unwrap_or(at_rest)
     }
 
     /// Solves loads until it is known where a criterion is reached.
@@ -250,7 +246,7 @@ impl<'a, R: Recorder> Search<'a, R> {
             let error = error.map(|error| error.max(most - utilisation));
             let at = load(at);
             if from.is_infinite() {
-                At::Never { up_to, utilisation, error, at }
+                At::Never { up_to, complete: is_complete(up_to, self.complete), utilisation, error, at }
             } else {
                 At::Undecided { from, up_to, utilisation, error, at, position }
             }

@@ -4,43 +4,39 @@ use std::fmt;
 
 /// Why the iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Stop {
     /// ε < tolerance, energy gap < 20 tolerance and penetration outside contact < 10 tolerance · δ.
     Converged,
     /// The tolerance is not reached, and no iteration gets nearer: ε, energy gap and penetration outside contact are each
     /// below their multiple of the tolerance, or below eight times what rounding in double precision makes of them.
+    #[cfg_attr(feature = "serde", serde(rename = "converged_to_rounding", alias = "converged to rounding"))]
     Rounding,
     /// Over the last window of iterations the mean of what must fall below the tolerance was not below 0.9 of that over
     /// the window before, half as long; or the load is no finite number.
     Stalled,
     /// As many iterations as allowed, tolerance not reached.
+    #[cfg_attr(feature = "serde", serde(alias = "iteration limit"))]
     IterationLimit,
     /// Nothing to solve: the load or the penetration is not above zero.
+    #[cfg_attr(feature = "serde", serde(alias = "no contact"))]
     NoContact,
     /// At the prescribed penetration at most four samples are in contact, a touching indenter (of a topography, in
     /// all): contact is no wider than the grid's spacing, and its load a matter of where the samples lie.
     Unresolved,
     /// The prescribed penetration is not below the mean of the initial gap f, where contact is complete: no finite load
     /// reaches it.
+    #[cfg_attr(feature = "serde", serde(alias = "beyond full contact"))]
     BeyondFullContact,
     /// Whoever heard of its iterations wanted no more of them.
     Interrupted,
+    /// A number of the result is not finite.
+    #[cfg_attr(feature = "serde", serde(alias = "not a number"))]
+    NotANumber,
 }
 
 impl Stop {
-    /// Every one.
-    pub const ALL: [Self; 8] = [
-        Self::Converged,
-        Self::Rounding,
-        Self::Stalled,
-        Self::IterationLimit,
-        Self::NoContact,
-        Self::Unresolved,
-        Self::BeyondFullContact,
-        Self::Interrupted,
-    ];
-
     /// Whether the returned pressure solves the problem, to the tolerance or as far as double precision carries.
     pub fn solved(self) -> bool {
         matches!(self, Self::Converged | Self::Rounding | Self::NoContact)
@@ -58,12 +54,14 @@ impl fmt::Display for Stop {
             Self::Unresolved => "unresolved",
             Self::BeyondFullContact => "beyond full contact",
             Self::Interrupted => "interrupted",
+            Self::NotANumber => "not a number",
         })
     }
 }
 
 /// Which way led to a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(tag = "route", rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Route {
     /// The method asked for is the preconditioned one, and it has led there or had nothing to solve.
@@ -100,6 +98,21 @@ impl Route {
             Self::BaselineAfterStall => "baseline-after-stall",
             Self::LoadSearch { .. } => "load-search",
         }
+    }
+}
+
+/// A route in a record: its name, whether it fell back to the baseline, and mean pressures tried. The last two follow from
+/// the route.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Route {
+    fn serialize<S: serde::Serializer>(&self, keys: S) -> Result<S::Ok, S::Error> {
+        #[derive(serde::Serialize)]
+        struct Keys {
+            route: &'static str,
+            fell_back: bool,
+            trials: usize,
+        }
+        Keys { route: self.name(), fell_back: *self == Self::BaselineAfterStall, trials: self.trials() }.serialize(keys)
     }
 }
 

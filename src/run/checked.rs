@@ -1,0 +1,72 @@
+//! Which numbers a record of a load step must have when it is read back.
+
+use super::StepRecord;
+use crate::spectral::{Certificate, Stop};
+
+/// What a record that is read back must have: a number that is null was not finite, which only a step with [`Stop::NotANumber`]
+/// may have; elsewhere a null, or a pressure below zero, is a file that was damaged or edited.
+impl StepRecord {
+    /// Refuses a record of which a number is missing, or is what it cannot be.
+    ///
+    /// # Errors
+    /// The key, and what stands there.
+    pub fn check(&self) -> Result<(), String> {
+        if self.stop == Stop::NotANumber {
+            return Ok(());
+        }
+        let reading = &self.reading;
+        let Certificate { energy_gap, penetration, load } = self.certificate;
+        at_least_zero("mean_pressure", reading.mean_pressure)?;
+        finite("penetration", reading.penetration)?;
+        at_least_zero("contact_fraction", reading.contact_fraction)?;
+        peak("max_pressure", reading.max_pressure)?;
+        // An iteration that could not begin has none.
+        if self.stop.solved() {
+            finite("residual", self.residual)?;
+        }
+        for (name, value) in [("energy_gap", energy_gap), ("penetration", penetration), ("load", load)] {
+            finite(&format!("certificate.{name}"), value)?;
+        }
+        for level in &reading.levels {
+            let name = |key: &str| format!("{key} of level {}", level.level);
+            for (key, value) in
+                [("load", level.load), ("load_share", level.load_share), ("contact_area", level.contact_area)]
+            {
+                at_least_zero(&name(key), value)?;
+            }
+            peak(&name("max_pressure"), level.max_pressure)?;
+        }
+        if let Some(stress) = &self.stress {
+            let within = [&stress.overall].into_iter().chain(&stress.materials).chain(&stress.faces).flat_map(|own| {
+                [("max_tau1", own.tau1.value), ("max_tension", own.tension.value), ("max_mises", own.mises.value)]
+            });
+            let between = stress.interfaces.iter();
+            let between = between.flat_map(|own| [("max_normal", own.normal.value), ("max_shear", own.shear.value)]);
+            within.chain(between).try_for_each(|(name, value)| number(name, value))?;
+        }
+        self.strength.iter().try_for_each(|own| number(&format!("utilisation of {}", own.criterion), own.value))
+    }
+}
+
+fn refused(name: &str, value: f64) -> String {
+    if value.is_nan() { format!("`{name}` is null where a number is due") } else { format!("`{name}` is {value}") }
+}
+
+/// Infinite at most.
+fn number(name: &str, value: f64) -> Result<(), String> {
+    if value.is_nan() { Err(refused(name, value)) } else { Ok(()) }
+}
+
+fn finite(name: &str, value: f64) -> Result<(), String> {
+    if value.is_finite() { Ok(()) } else { Err(refused(name, value)) }
+}
+
+fn at_least_zero(name: &str, value: f64) -> Result<(), String> {
+    finite(name, value)?;
+    if value < 0.0 { Err(format!("`{name}` is {value}, which is below zero")) } else { Ok(()) }
+}
+
+/// A largest pressure, which may be infinite.
+fn peak(name: &str, value: f64) -> Result<(), String> {
+    if value == f64::INFINITY { Ok(()) } else { at_least_zero(name, value) }
+}

@@ -1,0 +1,178 @@
+//! A limit in records: every limit has the keys of a load, null where the limit does not have it, and a code that says how it is
+//! reached.
+
+use super::{At, Limit};
+use crate::reading::Criterion;
+use serde::{Deserialize, Serialize};
+
+/// How a limit is reached.
+#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Reached {
+    #[serde(alias = "by residual stress alone")]
+    ResidualStressAlone,
+    #[serde(alias = "under a tip however small the load")]
+    TipAtAnyLoad,
+    #[serde(alias = "under load")]
+    UnderLoad,
+    #[serde(alias = "by a contact of a few samples")]
+    ContactOfFewSamples,
+    #[serde(alias = "not up to complete contact")]
+    NotUpToCompleteContact,
+    #[serde(alias = "not up to the largest load")]
+    NotUpToLargestLoad,
+    Undecided,
+}
+
+/// The keys of a limit.
+#[derive(Clone, Serialize, Deserialize)]
+pub(super) struct Keys {
+    #[serde(flatten)]
+    criterion: Criterion,
+    mean_pressure: Option<f64>,
+    error: Option<f64>,
+    /// An end that is null is infinite.
+    interval: Option<[Option<f64>; 2]>,
+    x: Option<f64>,
+    y: Option<f64>,
+    z: Option<f64>,
+    reached: Reached,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    below: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    up_to: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    utilisation: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    utilisation_error: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    utilisation_at: Option<f64>,
+}
+
+impl From<Limit> for Keys {
+    fn from(limit: Limit) -> Self {
+        let finite = |x: f64| Some(x).filter(|x| x.is_finite());
+        let [x, y, z] = limit.position().map_or([None; 3], |position| position.map(Some));
+        let interval = Some(limit.interval().map(finite));
+        let own = Self {
+            criterion: limit.criterion,
+            mean_pressure: None,
+            error: None,
+            interval,
+            x,
+            y,
+            z,
+            reached: Reached::Undecided,
+            below: None,
+            up_to: None,
+            utilisation: None,
+            utilisation_error: None,
+            utilisation_at: None,
+        };
+        let no_load = |reached| Self { mean_pressure: Some(0.0), error: Some(0.0), reached, ..own.clone() };
+        match limit.at {
+            At::Rest => no_load(Reached::ResidualStressAlone),
+            At::Tip { .. } => no_load(Reached::TipAtAnyLoad),
+            At::Load { mean_pressure, error, .. } => {
+                Self { mean_pressure: Some(mean_pressure), error, reached: Reached::UnderLoad, ..own }
+            }
+            At::Below { mean_pressure, utilisation, .. } => Self {
+                reached: Reached::ContactOfFewSamples,
+                below: Some(mean_pressure),
+                utilisation: finite(utilisation),
+                ..own
+            },
+            At::Never { up_to, complete, utilisation, error, at } => Self {
+                interval: None,
+                reached: if complete { Reached::NotUpToCompleteContact } else { Reached::NotUpToLargestLoad },
+                up_to: Some(up_to),
+                utilisation: Some(utilisation),
+                utilisation_error: error,
+                utilisation_at: Some(at),
+                ..own
+            },
+            At::Undecided { up_to, utilisation, error, at, .. } => Self {
+                up_to: Some(up_to),
+                utilisation: Some(utilisation),
+                utilisation_error: error,
+                utilisation_at: Some(at),
+                ..own
+            },
+        }
+    }
+}
+
+impl TryFrom<Keys> for Limit {
+    type Error = String;
+
+    fn try_from(keys: Keys) -> Result<Self, String> {
+        let criterion = keys.criterion;
+        let at = keys.at().ok_or_else(|| format!("the limit of {criterion} lacks a number, or one is below zero"))?;
+        Ok(Self { criterion, at })
+    }
+}
+
+impl Keys {
+    fn at(&self) -> Option<At> {
+        let sizes = [self.mean_pressure, self.error, self.below, self.up_to, self.utilisation_at];
+        if sizes.into_iter().flatten().any(|size| size < 0.0) {
+            return None;
+        }
+        let position = || Some([self.x?, self.y?, self.z?]);
+        let interval = || Some(self.interval?.map(|end| end.unwrap_or(f64::INFINITY)));
+        let error = self.utilisation_error;
+        Some(match self.reached {
+            Reached::ResidualStressAlone => At::Rest,
+            Reached::TipAtAnyLoad => At::Tip { position: position()? },
+            Reached::UnderLoad => {
+                let (mean_pressure, error) = (self.mean_pressure?, self.error);
+                At::Load { mean_pressure, error, interval: interval()?, position: position()? }
+            }
+            Reached::ContactOfFewSamples => {
+                let utilisation = self.utilisation.unwrap_or(f64::INFINITY);
+                At::Below { mean_pressure: self.below?, utilisation, position: position()? }
+            }
+            Reached::NotUpToCompleteContact | Reached::NotUpToLargestLoad => At::Never {
+                up_to: self.up_to?,
+                complete: self.reached == Reached::NotUpToCompleteContact,
+                utilisation: self.utilisation?,
+                error,
+                at: self.utilisation_at?,
+            },
+            Reached::Undecided => {
+                let [from, _] = interval()?;
+                let (up_to, utilisation, at) = (self.up_to?, self.utilisation?, self.utilisation_at?);
+                At::Undecided { from, up_to, utilisation, error, at, position: position()? }
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every way in which a limit is reached comes back from JSON as it was.
+    #[cfg(feature = "cli")]
+    #[test]
+    fn every_limit_is_read_back_as_it_was_written() {
+        let (position, error) = ([0.1, -0.2, 0.3], Some(0.01));
+        let all = [
+            At::Rest,
+            At::Tip { position },
+            At::Load { mean_pressure: 0.2, error: None, interval: [0.0, f64::INFINITY], position },
+            At::Load { mean_pressure: 0.2, error, interval: [0.19, 0.21], position },
+            At::Below { mean_pressure: 0.1, utilisation: f64::INFINITY, position },
+            At::Never { up_to: 1.0, complete: true, utilisation: 0.5, error, at: 0.7 },
+            At::Never { up_to: 1.0, complete: false, utilisation: 0.5, error: None, at: 0.7 },
+            At::Undecided { from: 0.0, up_to: 1.0, utilisation: 0.5, error, at: 0.7, position },
+        ];
+        for at in all {
+            let limit = Limit { criterion: Criterion::Delamination { interface: 1 }, at };
+            let text = serde_json::to_string(&limit).unwrap();
+            assert_eq!(serde_json::from_str::<Limit>(&text).unwrap(), limit, "{text}");
+        }
+        let unknown = r#"{"criterion":"yield","material":1,"mean_pressure":null,"error":null,"interval":null,"x":null,"y":null,"z":null,"reached":"x"}"#;
+        assert!(serde_json::from_str::<Limit>(unknown).unwrap_err().to_string().contains("unknown variant `x`"));
+    }
+}

@@ -1,0 +1,79 @@
+//! Rows and results for tests.
+
+use super::{Row, Status, SweepResult};
+use crate::reading::{Criterion, Governing, Reading, Utilisation};
+use crate::run::{At, Limit, StepRecord};
+use crate::spectral::{Certificate, Route, Stop};
+
+/// A combination that is done.
+pub fn row(combination: usize, settings: &[(&str, String)], results: Vec<SweepResult>) -> Row {
+    Row {
+        combination,
+        settings: settings.iter().map(|(key, value)| ((*key).to_owned(), value.clone())).collect(),
+        fingerprint: String::new(),
+        status: Status::Done,
+        reason: None,
+        warnings: Vec::new(),
+        results,
+        seconds: 0.0,
+        files: Default::default(),
+    }
+}
+
+/// A load step under the mean pressure 0.1 with a peak pressure and its error; the penetration is as large as the peak.
+pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> StepRecord {
+    StepRecord {
+        reading: Reading {
+            mean_pressure: 0.1,
+            penetration: max_pressure,
+            contact_fraction,
+            contact_fraction_uncertainty: 0.0,
+            elastic_energy: 0.0,
+            max_pressure,
+            resolved_peak: None,
+            errors: crate::reading::Errors { max_pressure: error, ..Default::default() },
+            peak_to_edge: 0.0,
+            contact_spots: 1,
+            spot_resolution: 0.0,
+            levels: Vec::new(),
+            boundaries: Vec::new(),
+            fractions: Default::default(),
+        },
+        stop: Stop::Converged,
+        route: Route::Direct,
+        iterations: 1,
+        convolutions: 1.0,
+        residual: 0.0,
+        certificate: Certificate::default(),
+        points: [32, 32],
+        rough: None,
+        tapered: None,
+        friction: None,
+        stress: None,
+        strength: Vec::new(),
+        governing: None,
+        seconds: None,
+    }
+}
+
+/// A load step that takes up so much of strengths.
+pub fn strained(strength: Vec<Utilisation>) -> SweepResult {
+    let governing = Governing::of(&strength);
+    SweepResult::Step(Box::new(StepRecord { strength, governing, ..step(1.0, None, 0.5) }))
+}
+
+/// A limit that is reached at a load with its error.
+pub fn reached(criterion: Criterion, mean_pressure: f64, error: f64) -> Limit {
+    let interval = [mean_pressure - error, mean_pressure + error];
+    Limit { criterion, at: At::Load { mean_pressure, error: Some(error), interval, position: [0.0; 3] } }
+}
+
+/// A limit that is known to lie below a load only.
+pub fn below(criterion: Criterion, mean_pressure: f64) -> Limit {
+    Limit { criterion, at: At::Below { mean_pressure, utilisation: 2.0, position: [0.0; 3] } }
+}
+
+/// A limit that is not reached up to a load.
+pub fn never(criterion: Criterion, up_to: f64) -> Limit {
+    Limit { criterion, at: At::Never { up_to, complete: true, utilisation: 0.5, error: None, at: up_to } }
+}

@@ -1,0 +1,254 @@
+//! What a combination results in: load steps, or limit loads; and what tables, pictures and the report show of it.
+
+use crate::output::columns::{Cells, plain, scalars};
+use crate::output::{FirstLimit, number, with_error};
+use crate::reading::{Criterion, within_the_errors};
+use crate::run::{At, Limit, StepRecord, first, rivals};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// A result of a combination.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SweepResult {
+    /// One of its load steps, without the time it took.
+    Step(Box<StepRecord>),
+    /// The limit load of each criterion.
+    Limits(Vec<Limit>),
+}
+
+/// What comes first: in a search for limit loads the first criterion that is reached, under a load the one that governs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Foremost {
+    /// This criterion.
+    Criterion(Criterion),
+    /// No criterion is reached, and by the errors some may be.
+    Undecided,
+    /// Nothing fails.
+    Nothing,
+}
+
+/// What is known of a limit, a mean pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LimitValue {
+    /// The limit and its error.
+    At(f64, Option<f64>),
+    /// It is reached below this load, the least one that the grid resolves.
+    Below(f64),
+    /// It is not reached up to this load.
+    Above(f64),
+    /// By its error it may be reached.
+    Undecided,
+}
+
+/// A scalar of a load step with its error.
+#[derive(Debug, Clone, Copy)]
+pub struct Scalar {
+    /// Its name in tables.
+    pub name: &'static str,
+    /// What it is measured in.
+    pub kind: Kind,
+    /// Its value and error; `None` where the step does not have it, or it is infinite.
+    pub of: fn(&StepRecord) -> Option<(f64, Option<f64>)>,
+}
+
+/// What a scalar is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A pressure.
+    Pressure,
+    /// A length.
+    Length,
+    /// A part of a whole.
+    Part,
+}
+
+/// The main scalars of a load step.
+pub const SCALARS: [Scalar; 7] = {
+    use Kind::{Length, Part, Pressure};
+    const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<(f64, Option<f64>)>) -> Scalar {
+        Scalar { name, kind, of }
+    }
+    [
+        scalar("mean pressure", Pressure, |step| Some((step.reading.mean_pressure, step.reading.errors.mean_pressure))),
+        scalar("penetration", Length, |step| Some((step.reading.penetration, step.reading.errors.penetration))),
+        scalar("contact", Part, |step| Some((step.reading.contact_fraction, step.reading.errors.contact_fraction))),
+        scalar("peak pressure", Pressure, |step| Some((step.reading.finite_peak()?, step.reading.errors.max_pressure))),
+        scalar("largest τ₁", Pressure, |step| finite(&step.stress.as_ref()?.overall.tau1)),
+        scalar("largest tension", Pressure, |step| finite(&step.stress.as_ref()?.overall.tension)),
+        scalar("largest von Mises", Pressure, |step| finite(&step.stress.as_ref()?.overall.mises)),
+    ]
+};
+
+fn finite(peak: &crate::stress::Peak) -> Option<(f64, Option<f64>)> {
+    Some((peak.finite()?, peak.error))
+}
+
+impl SweepResult {
+    /// The load step; `None` of limits.
+    pub fn step(&self) -> Option<&StepRecord> {
+        if let Self::Step(step) = self { Some(step) } else { None }
+    }
+
+    /// The limit of each criterion; `None` of a load step.
+    pub fn limits(&self) -> Option<&[Limit]> {
+        if let Self::Limits(limits) = self { Some(limits) } else { None }
+    }
+
+    /// The first limit, or that of a criterion; `None` of a load step, and where none is reached first.
+    pub fn limit(&self, of: Option<Criterion>) -> Option<&Limit> {
+        let limits = self.limits()?;
+        match of {
+            None => first(limits),
+            Some(criterion) => limits.iter().find(|limit| limit.criterion == criterion),
+        }
+    }
+
+    /// What is known of the first limit, or of that of a criterion. Where nothing is reached first, by the errors something may
+    /// be, or `None`.
+    pub fn limit_value(&self, of: Option<Criterion>) -> Option<LimitValue> {
+        match self.limit(of) {
+            Some(limit) => Some(limit.into()),
+            None => (self.foremost()? == Foremost::Undecided).then_some(LimitValue::Undecided),
+        }
+    }
+
+    /// What comes first; `None` of a load step without strengths.
+    pub fn foremost(&self) -> Option<Foremost> {
+        match self {
+            Self::Step(step) => step.governing.as_ref().map(|governing| Foremost::Criterion(governing.criterion)),
+            Self::Limits(limits) => Some(match first(limits) {
+                Some(first) => Foremost::Criterion(first.criterion),
+                None if rivals(limits).is_empty() => Foremost::Nothing,
+                None => Foremost::Undecided,
+            }),
+        }
+    }
+
+    /// The criteria that may come first within the errors instead.
+    pub fn rivals(&self) -> Vec<Criterion> {
+        match self {
+            Self::Step(step) => step.governing.as_ref().map_or(Vec::new(), |governing| governing.rivals.clone()),
+            Self::Limits(limits) => rivals(limits),
+        }
+    }
+
+    /// The criterion that comes first with its rivals in words; `None` where there is none.
+    pub fn foremost_in_words(&self) -> Option<String> {
+        let Foremost::Criterion(criterion) = self.foremost()? else { return None };
+        Some(format!("{criterion}{}", within_the_errors(&self.rivals())))
+    }
+
+    /// Its cells in `sweep.csv`: the scalars of a step, or the first limit under `first` and each under its name.
+    pub(super) fn cells(&self) -> Cells {
+        let limits = match self {
+            Self::Step(step) => return scalars(&json!(step)),
+            Self::Limits(limits) => limits,
+        };
+        let rivals = rivals(limits);
+        let first = match first(limits) {
+            Some(limit) => json!(FirstLimit { limit: *limit, rivals }),
+            None if rivals.is_empty() => json!(null),
+            None => {
+                let rivals: Vec<String> = rivals.iter().map(Criterion::to_string).collect();
+                json!({ "criterion": null, "reached": "undecided", "rivals": rivals })
+            }
+        };
+        let named = limits.iter().map(|limit| {
+            let mut keys = json!(limit);
+            if let Some(keys) = keys.as_object_mut() {
+                // They stand in the names of the columns.
+                ["criterion", "material", "interface"].iter().for_each(|key| drop(keys.shift_remove(*key)));
+            }
+            json!({ plain(&limit.criterion.to_string()).replace(' ', "_"): keys })
+        });
+        [json!({ "first": first })].into_iter().chain(named).flat_map(|value| scalars(&value)).collect()
+    }
+}
+
+impl Foremost {
+    /// What comes first in any of the results, the most frequent first, with how often it does.
+    pub fn counted<'a>(results: impl Iterator<Item = &'a SweepResult>) -> Vec<(Self, usize)> {
+        let mut counts: BTreeMap<Self, usize> = BTreeMap::new();
+        results.filter_map(SweepResult::foremost).for_each(|own| *counts.entry(own).or_default() += 1);
+        let mut counted: Vec<(Self, usize)> = counts.into_iter().collect();
+        counted.sort_by_key(|(_, count)| usize::MAX - count);
+        counted
+    }
+}
+
+impl fmt::Display for Foremost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Criterion(criterion) => criterion.fmt(f),
+            Self::Undecided => f.write_str("undecided"),
+            Self::Nothing => f.write_str("nothing fails"),
+        }
+    }
+}
+
+impl From<&Limit> for LimitValue {
+    fn from(limit: &Limit) -> Self {
+        match limit.at {
+            At::Rest | At::Tip { .. } => Self::At(0.0, Some(0.0)),
+            At::Load { mean_pressure, error, .. } => Self::At(mean_pressure, error),
+            At::Below { mean_pressure, .. } => Self::Below(mean_pressure),
+            At::Never { up_to, .. } => Self::Above(up_to),
+            At::Undecided { .. } => Self::Undecided,
+        }
+    }
+}
+
+/// As a table has it: 0.007 ± 0.003, < 0.01 or > 2.
+impl fmt::Display for LimitValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::At(0.0, _) => f.write_str("0"),
+            Self::At(load, error) => f.write_str(&with_error(load, error)),
+            Self::Below(load) => write!(f, "< {}", number(load)),
+            Self::Above(load) => write!(f, "> {}", number(load)),
+            Self::Undecided => f.write_str("undecided"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples::{below, never, reached};
+    use super::*;
+
+    #[test]
+    fn limits_are_shown_with_their_errors_or_a_bound() {
+        let [yields, parts] = [Criterion::Yield { material: 2 }, Criterion::Delamination { interface: 2 }];
+        let told = |limits: Vec<Limit>, of: Option<Criterion>| {
+            SweepResult::Limits(limits).limit_value(of).map(|value| value.to_string())
+        };
+        let text = |text: &str| Some(text.to_owned());
+        assert_eq!(told(vec![reached(parts, 0.006_646_1, 0.0025), never(yields, 3.5)], None), text("0.007 ± 0.003"));
+        assert_eq!(told(vec![below(parts, 0.0012)], None), text("< 0.0012000"));
+        assert_eq!(told(vec![never(yields, 3.5)], Some(yields)), text("> 3.5000"));
+        assert_eq!(told(vec![Limit { criterion: yields, at: At::Rest }], Some(yields)), text("0"));
+        assert_eq!(told(vec![never(yields, 3.5)], None), None);
+    }
+
+    #[test]
+    fn the_cells_of_limits_are_the_first_and_each_under_its_name() {
+        let [yields, parts] = [Criterion::Yield { material: 2 }, Criterion::Delamination { interface: 1 }];
+        let cells = SweepResult::Limits(vec![reached(yields, 0.2, 0.05), reached(parts, 0.24, 0.01)]).cells();
+        let cell = |name: &str| cells.iter().find(|(own, _)| own == name).map(|(_, cell)| cell.as_str());
+        for (name, value) in [
+            ("first_criterion", "yield"),
+            ("first_material", "2"),
+            ("first_mean_pressure", "0.2"),
+            ("first_reached", "under_load"),
+            ("first_rivals", "delamination of interface 1"),
+            ("yield_of_material_2_mean_pressure", "0.2"),
+            ("delamination_of_interface_1_error", "0.01"),
+        ] {
+            assert_eq!(cell(name), Some(value), "{name}");
+        }
+        assert_eq!(cell("yield_of_material_2_criterion"), None, "it stands in the name");
+    }
+}
