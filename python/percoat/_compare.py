@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from typing import Optional
 
@@ -49,8 +48,8 @@ def compare(
     True
     """
     width = shutil.get_terminal_size().columns
-    text, table, warnings, converged = _core.compare(_core.Case(case, set), width, threads, listener(progress))
-    own = Comparison({**json.loads(text), "text": table.rstrip(), "warnings": warnings, "converged": converged})
+    found, table, warnings, converged = _core.compare(_core.Case(case, set), width, threads, listener(progress))
+    own = Comparison({**found, "text": table.rstrip(), "warnings": warnings, "converged": converged})
     warn(warnings)
     if not converged:
         warn(["a solution or the accuracy did not converge"], NotConverged)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any, Mapping, Optional, Sequence
 
 import numpy as np
@@ -73,7 +72,7 @@ class HalfSpace:
         """Response to a harmonic traction, see :func:`percoat.kernel`."""
         q = np.asarray(wavenumber, dtype=float)
         depths = [] if depth is None else np.atleast_1d(np.asarray(depth, dtype=float)).ravel().tolist()
-        lines = [json.loads(line) for line in self._core.kernel(q.ravel(), depths, traction)]
+        lines = self._core.kernel(q.ravel(), depths, traction)
 
         def column(name: str) -> Any:
             return _shaped(np.array([line[name] for line in lines], dtype=float), q.shape)
@@ -81,7 +80,7 @@ class HalfSpace:
         names = ["wavenumber", "compliance", "correction"] + ([] if traction == "across" else ["coupling"])
         record = Record({name: column(name) for name in names})
         if depths:
-            rows = json.loads(self._core.kernel(np.ones(1), depths, traction)[0])["depths"]
+            rows = self._core.kernel(np.ones(1), depths, traction)[0]["depths"]
             record["z"] = np.array([row["z"] for row in rows])
             record["side"] = np.array([row["side"] for row in rows])
             for name in rows[0]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from typing import Any, Optional
 
@@ -33,7 +32,7 @@ class Limits(Record):
 
     def __str__(self) -> str:
         width = shutil.get_terminal_size().columns
-        return _core.limit_text(self.__dict__["_case"], json.dumps(self.to_dict()), width).rstrip()
+        return _core.limit_text(self.__dict__["_case"], self.to_dict(), width).rstrip()
 
     def __repr__(self) -> str:
         if self.first is None:
@@ -60,8 +59,8 @@ def limit(
     ('yield', 2, 6)
     """
     own = _core.Case(case, set)
-    text, converged = _core.limit(own, threads, listener(progress))
-    limits = Limits({**json.loads(text), "converged": converged}, own)
+    found, converged = _core.limit(own, threads, listener(progress))
+    limits = Limits({**found, "converged": converged}, own)
     warn(limits.warnings)
     if not converged:
         warn(["a load or the accuracy did not converge"], NotConverged)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Callable, Iterator, Optional, Sequence, Union
@@ -357,7 +356,7 @@ class Step:
             asked: Record = self._record.stress
             return asked
         found = self._core.maxima()
-        return None if found is None else Record(json.loads(found))
+        return None if found is None else Record(found)
 
     def to_dict(self) -> dict[str, Any]:
         """Every scalar, as ``summary.json`` has it."""
@@ -553,7 +552,7 @@ class Result:
 
     def __str__(self) -> str:
         width = shutil.get_terminal_size().columns
-        return _core.outcome_text(self._common.case, json.dumps(self.to_dict()), width).rstrip()
+        return _core.outcome_text(self._common.case, self.to_dict(), width).rstrip()
 
 
 def _step(common: Common, index: int, entries: dict[str, Any], core: Union[_core.Step, bytes]) -> Step:
@@ -624,8 +623,7 @@ def solve(
     0.0554
     """
     own = _core.Case(case, set)
-    summary, accurate, places, cores = _core.solve(own, threads, listener(progress))
-    head = json.loads(summary)
+    head, accurate, places, cores = _core.solve(own, threads, listener(progress))
     records = head.pop("steps")
     common = Common(own, head, accurate, places)
     steps = [_step(common, index, record, core) for index, (record, core) in enumerate(zip(records, cores))]

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import re
-from typing import Any, Callable, Dict, Iterable, Mapping, Optional
+from typing import Any, Dict, Iterable, Mapping, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,13 +76,12 @@ def sweep(
     """
     if not isinstance(set, Mapping):
         raise TypeError("what is swept over is a dict of keys and their values, {'layers.0.thickness': [0.1, 0.2]}")
-    text, told = _core.sweep(case, dict(set), zip, limit, threads, listener(progress))
+    columns, told = _core.sweep(case, dict(set), zip, limit, threads, listener(progress))
     warn(_merged(told))
     warn((f"{name}: failed: {reason}" for name, status, reason, _ in told if status == "failed"))
     unsettled = (f"{name}: not converged: {reason}" for name, status, reason, _ in told if status == "not_converged")
     warn(unsettled, NotConverged)
-    head, *rows = csv.reader(io.StringIO(text))
-    return Columns({name: _column(name, [row[index] for row in rows]) for index, name in enumerate(head)})
+    return Columns({name: _column(name, cells) for name, cells in columns})
 
 
 def _merged(told: list[tuple[str, str, str, list[str]]]) -> Iterable[str]:
@@ -100,25 +97,26 @@ def _merged(told: list[tuple[str, str, str, list[str]]]) -> Iterable[str]:
         yield f"{names[0]}{others}: {doubt}"
 
 
-def _column(name: str, cells: list[str]) -> NDArray[Any]:
+def _column(name: str, cells: list[Any]) -> NDArray[Any]:
     """Cells as whole numbers, numbers, truths, or texts, whatever all of them are."""
-    if not name.endswith(TEXTS):
-        if all(cell == "" for cell in cells):
-            return np.full(len(cells), np.nan)
-        if all(cell in ("true", "false", "") for cell in cells):
-            truths = [{"true": True, "false": False}.get(cell) for cell in cells]
-            return np.array(truths, dtype=object if None in truths else bool)
-        for kind in (int, float):
-            numbers = _numbers(cells, kind)
-            if numbers is not None:
-                return numbers
-    return np.array(cells, dtype=object)
+    if name.startswith("set_"):
+        numbers = [_number(cell) for cell in cells]
+        cells = cells if any(isinstance(own, str) for own in numbers) else numbers
+    there = [cell for cell in cells if cell is not None]
+    if name.endswith(TEXTS) or any(isinstance(cell, str) for cell in there):
+        return np.array(["" if cell is None else str(cell) for cell in cells], dtype=object)
+    if there and all(isinstance(cell, bool) for cell in there):
+        return np.array(cells, dtype=bool if len(there) == len(cells) else object)
+    if len(there) == len(cells) and all(isinstance(cell, int) for cell in there):
+        return np.array(cells)
+    return np.array([np.nan if cell is None else cell for cell in cells], dtype=float)
 
 
-def _numbers(cells: list[str], kind: Callable[[str], Any]) -> Optional[NDArray[Any]]:
-    if kind is int and "" in cells:
-        return None
-    try:
-        return np.array([np.nan if cell == "" else kind(cell) for cell in cells])
-    except ValueError:
-        return None
+def _number(text: str) -> Any:
+    """A value as it was typed: a number where it is one."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text

@@ -3,11 +3,12 @@
 use crate::case::Case;
 use crate::errors::refused;
 use crate::progress::Progress;
+use crate::record::to_python;
 use crate::work;
 use percoat::Sampling;
 use percoat::case::plausibility;
 use percoat::case::resources::{Job, needs};
-use percoat::output::{compare_json, table};
+use percoat::output::{ComparisonFile, table};
 use percoat::run::{End, Recorder, Run};
 use pyo3::prelude::*;
 use std::convert::Infallible;
@@ -25,17 +26,20 @@ impl<F: Fn([usize; 2]) -> bool + Send> Recorder for Fits<F> {
     }
 }
 
-/// Compares both methods under the last load: `compare.json`, its tables as the command line prints them in so many letters,
+/// A comparison as a dict, its tables, what is doubtful about it, and whether all has converged.
+type Compared<'py> = (Bound<'py, PyAny>, String, Vec<String>, bool);
+
+/// Compares both methods under the last load: a dict with the keys of `compare.json`, its tables as the command line prints them in so many letters,
 /// what is doubtful, and whether all has converged.
 #[pyfunction]
 #[pyo3(signature = (case, width, threads = None, progress = None))]
-pub fn compare(
-    py: Python<'_>,
-    case: &Bound<'_, Case>,
+pub fn compare<'py>(
+    py: Python<'py>,
+    case: &Bound<'py, Case>,
     width: usize,
     threads: Option<i64>,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(String, String, Vec<String>, bool)> {
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Compared<'py>> {
     let job = Job::Compare { pictures: false };
     let own = Arc::clone(&case.get().own);
     let task = own.comparison();
@@ -74,7 +78,9 @@ pub fn compare(
             warnings.push(format!("grid.accuracy is not reached: {end}"));
         }
         let converged = comparison.converged() && end == End::Reached;
-        Ok::<_, String>((compare_json(&comparison, &own, own.load.values().len()), text, warnings, converged))
+        let file = ComparisonFile::new(&comparison, &own, own.load.values().len());
+        Ok::<_, String>((file, text, warnings, converged))
     })?;
-    compared.map_err(refused)
+    let (file, text, warnings, converged) = compared.map_err(refused)?;
+    Ok((to_python(py, &file)?, text, warnings, converged))
 }

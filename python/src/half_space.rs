@@ -2,6 +2,7 @@
 
 use crate::case;
 use crate::errors::refused;
+use crate::record::to_python;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use percoat::body::TransferFunction;
 use percoat::case::{CARRIED, half_space};
@@ -62,14 +63,14 @@ impl HalfSpace {
         self.of_each(py, &wavenumbers, TransferFunction::correction)
     }
 
-    /// The lines of `percoat kernel`.
-    fn kernel(
+    /// The lines of `percoat kernel`, as dicts.
+    fn kernel<'py>(
         &self,
-        py: Python<'_>,
-        wavenumbers: PyReadonlyArray1<'_, f64>,
+        py: Python<'py>,
+        wavenumbers: PyReadonlyArray1<'py, f64>,
         depths: Vec<f64>,
         traction: &str,
-    ) -> PyResult<Vec<String>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let traction = match traction {
             "normal" => Traction::Normal,
             "along" => Traction::Along,
@@ -81,8 +82,9 @@ impl HalfSpace {
         }
         let wavenumbers = wavenumbers.as_array().to_vec();
         checked(&wavenumbers)?;
-        let line = |&q: &f64| output::kernel(&self.transfer, &self.own, q, &depths, traction).to_string();
-        Ok(py.detach(|| wavenumbers.iter().map(line).collect()))
+        let line = |&q: &f64| output::kernel(&self.transfer, &self.own, q, &depths, traction);
+        let lines: Vec<_> = py.detach(|| wavenumbers.iter().map(line).collect());
+        to_python(py, &lines)
     }
 
     fn __str__(&self) -> String {

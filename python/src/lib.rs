@@ -1,7 +1,7 @@
 //! percoat from Python: what the package `percoat` is made of.
 //!
-//! Cases, numbers and tables cross as text, TOML one way and JSON the other, in the very form that the command line reads and
-//! writes; fields cross as arrays that stay where they are. The package in `percoat/` gives them the shape that users see.
+//! Records cross as dicts of the keys that they have in the files of the command line; fields cross as arrays that stay where
+//! they are. The package in `percoat/` gives them the shape that users see.
 
 mod case;
 mod command;
@@ -11,6 +11,7 @@ mod half_space;
 mod interior;
 mod limit;
 mod progress;
+mod record;
 mod solve;
 mod step;
 mod sweep;

@@ -2,23 +2,24 @@
 
 use crate::case::Case;
 use crate::errors::refused;
+use crate::record::{from_python, to_python};
 use crate::solve::Keeping;
 use crate::work;
 use percoat::case::plausibility;
 use percoat::case::resources::Job;
-use percoat::output::{Clock, limit_json, limits_of, table};
+use percoat::output::{Clock, LimitFile, table};
 use pyo3::prelude::*;
 use std::sync::Arc;
 
-/// Looks for the limit loads: `limit.json`.
+/// Looks for the limit loads: a dict with the keys of `limit.json`, and whether all has converged.
 #[pyfunction]
 #[pyo3(signature = (case, threads = None, progress = None))]
-pub fn limit(
-    py: Python<'_>,
-    case: &Bound<'_, Case>,
+pub fn limit<'py>(
+    py: Python<'py>,
+    case: &Bound<'py, Case>,
     threads: Option<i64>,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(String, bool)> {
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<(Bound<'py, PyAny>, bool)> {
     let job = Job::Limit { pictures: false };
     let room = case.get().allow(job)?;
     let own = Arc::clone(&case.get().own);
@@ -41,15 +42,15 @@ pub fn limit(
         };
         let limits = run.limits(&mut keeping).map_err(|error| error.told())?;
         let warnings = [limits.warnings.clone(), plausibility::of_case(&own)].concat();
-        Ok::<_, String>((limit_json(&limits, &own, &warnings), limits.converged()))
+        Ok::<_, String>((LimitFile::new(&limits, &own, &warnings), limits.converged()))
     })?;
-    found.map_err(refused)
+    let (limits, converged) = found.map_err(refused)?;
+    Ok((to_python(py, &limits)?, converged))
 }
 
-/// The table of limit loads that the command line prints, of `limit.json`.
+/// The table of limit loads that the command line prints, of the dict that [`limit`] gives.
 #[pyfunction]
-pub fn limit_text(case: &Bound<'_, Case>, limits: &str, width: usize) -> PyResult<String> {
-    let file: serde_json::Value = serde_json::from_str(limits).map_err(refused)?;
-    let limits = limits_of(&file).map_err(refused)?;
-    Ok(table::limited(&case.get().own, &limits, width))
+pub fn limit_text(case: &Bound<'_, Case>, limits: &Bound<'_, PyAny>, width: usize) -> PyResult<String> {
+    let file: LimitFile = from_python(limits)?;
+    Ok(table::limited(&case.get().own, &file.limits(), width))
 }

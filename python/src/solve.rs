@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::errors::refused;
 use crate::progress::Progress as Told;
+use crate::record::{from_python, to_python};
 use crate::step::{Kept, Step};
 use crate::work::{self, Listener};
 use ndarray::Array2;
@@ -10,7 +11,7 @@ use numpy::{IntoPyArray, PyArray2};
 use percoat::Progress;
 use percoat::case::resources::{Job, needs};
 use percoat::case::{self, Room, plausibility};
-use percoat::output::{Clock, Phase, steps_of, summary::summary, table};
+use percoat::output::{Clock, Phase, Summary, table};
 use percoat::run::{Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
 use percoat::{Load, Solver, StressField, Surface};
@@ -124,7 +125,7 @@ impl Recorder for Keeping<'_> {
 /// Fields of a surface: x, y, and the level that owns each sample.
 type Places<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>);
 
-/// Solves a case: its summary as JSON, whether the accuracy is reached if one was asked for, the places of its samples, and
+/// Solves a case: its summary as a dict, whether the accuracy is reached if one was asked for, the places of its samples, and
 /// its steps.
 #[pyfunction]
 #[pyo3(signature = (case, threads = None, progress = None))]
@@ -133,7 +134,7 @@ pub fn solve<'py>(
     case: &Bound<'py, Case>,
     threads: Option<i64>,
     progress: Option<&Bound<'py, PyAny>>,
-) -> PyResult<(String, bool, Places<'py>, Vec<Step>)> {
+) -> PyResult<(Bound<'py, PyAny>, bool, Places<'py>, Vec<Step>)> {
     let room = case.get().allow(Job::Keep)?;
     let own = Arc::clone(&case.get().own);
     let solved = work::run(py, threads, progress, move |listener| {
@@ -156,13 +157,13 @@ pub fn solve<'py>(
         };
         let outcome = run.solve(&mut keeping).map_err(|error| error.told())?;
         let warnings = [outcome.warnings.clone(), plausibility::of_case(&own)].concat();
-        let text = summary(&own, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
+        let summary = Summary::new(&own, &warnings, outcome.change, &outcome.steps, keeping.clock.timing());
         let surface = keeping.surface.take().expect("a run begins a grid before its steps");
-        Ok::<_, String>((text, outcome.is_accurate(), places(&surface), keeping.steps))
+        Ok::<_, String>((summary, outcome.is_accurate(), places(&surface), keeping.steps))
     })?;
     let (summary, accurate, (x, y, owner), kept) = solved.map_err(refused)?;
     let places = (x.into_pyarray(py), y.into_pyarray(py), owner.into_pyarray(py));
-    Ok((summary, accurate, places, kept.into_iter().map(Step::from).collect()))
+    Ok((to_python(py, &summary)?, accurate, places, kept.into_iter().map(Step::from).collect()))
 }
 
 fn places(surface: &Surface) -> (Array2<f64>, Array2<f64>, Array2<i32>) {
@@ -178,8 +179,7 @@ fn places(surface: &Surface) -> (Array2<f64>, Array2<f64>, Array2<i32>) {
 
 /// The table of a run that the command line prints, of its summary.
 #[pyfunction]
-pub fn outcome_text(case: &Bound<'_, Case>, summary: &str, width: usize) -> PyResult<String> {
-    let summary: serde_json::Value = serde_json::from_str(summary).map_err(refused)?;
-    let steps = steps_of(&summary).map_err(refused)?;
-    Ok(table::outcome(&case.get().own, &steps, summary["accuracy"].as_f64(), width))
+pub fn outcome_text(case: &Bound<'_, Case>, summary: &Bound<'_, PyAny>, width: usize) -> PyResult<String> {
+    let summary: Summary = from_python(summary)?;
+    Ok(table::outcome(&case.get().own, &summary.steps, summary.accuracy, width))
 }

@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::errors::refused;
 use crate::interior;
+use crate::record::to_python;
 use crate::work;
 use ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray2};
@@ -127,18 +128,18 @@ impl Step {
         Ok((own, materials.into_pyarray(py), components.into_pyarray(py)))
     }
 
-    /// The largest stresses, as JSON; nothing without contact.
-    fn maxima(&self, py: Python<'_>) -> PyResult<Option<String>> {
+    /// The largest stresses, as a dict; `None` without contact.
+    fn maxima<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let kept = Arc::clone(&self.0);
-        work::run(py, None, None, move |listener| {
+        let stress = work::run(py, None, None, move |listener| {
             let reading = kept.step.reading();
             let stop = listener.stop();
             let goes_on = || !stop.load(Ordering::Relaxed);
-            let stress = (reading.max_pressure > 0.0)
+            (reading.max_pressure > 0.0)
                 .then(|| StressReading::of_while(&kept.step, &reading, &kept.field(), &goes_on))
-                .flatten();
-            stress.map(|stress| serde_json::to_string(&stress).expect("numbers under names"))
-        })
+                .flatten()
+        })?;
+        stress.map(|stress| to_python(py, &stress)).transpose()
     }
 
     /// What the step is made again of, see [`step`].

@@ -3,11 +3,12 @@
 use crate::case;
 use crate::errors::refused;
 use crate::progress::Progress;
+use crate::record::to_python;
 use crate::toml::{value, written};
 use crate::work;
 use ::toml::Value;
 use percoat::case::Room;
-use percoat::sweep::{Axis, Combinations, Group, Row, Study, Task, table};
+use percoat::sweep::{Axis, Combinations, Group, Row, Study, Task, columns};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -17,19 +18,22 @@ use std::path::Path;
 /// A combination: its name, how it ended, why if not well, and what is doubtful about it.
 type Told = (String, &'static str, String, Vec<String>);
 
-/// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the table as CSV, and what is
-/// told of each.
+/// Columns by their names, each a list, and what is told of each combination.
+type Swept<'py> = (Bound<'py, PyAny>, Vec<Told>);
+
+/// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the columns of the table, and what is
+/// told of each combination.
 #[pyfunction]
 #[pyo3(signature = (case, set, zip = false, limit = false, threads = None, progress = None))]
-pub fn sweep(
-    py: Python<'_>,
-    case: &Bound<'_, PyAny>,
-    set: &Bound<'_, PyDict>,
+pub fn sweep<'py>(
+    py: Python<'py>,
+    case: &Bound<'py, PyAny>,
+    set: &Bound<'py, PyDict>,
     zip: bool,
     limit: bool,
     threads: Option<i64>,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(String, Vec<Told>)> {
+    progress: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Swept<'py>> {
     let (source, _) = case::source(case)?;
     let (mut fixed, mut axes) = (Vec::new(), Vec::new());
     for (key, values) in set.iter() {
@@ -76,7 +80,7 @@ pub fn sweep(
     let rows = rows.map_err(refused)?;
     let told =
         |row: &Row| (row.named(), row.status.name(), row.reason.clone().unwrap_or_default(), row.warnings.clone());
-    Ok((table(&rows), rows.iter().map(told).collect()))
+    Ok((to_python(py, &columns(&rows))?, rows.iter().map(told).collect()))
 }
 
 /// The values of a key: a list, a text as the command line takes it, or one value alone, which is told.

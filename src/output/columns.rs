@@ -4,8 +4,8 @@
 use serde_json::Value;
 use std::collections::{HashMap, HashSet};
 
-/// A row: its cells, each with the name of its column.
-pub type Cells = Vec<(String, String)>;
+/// A row: its cells, each with the name of its column; a cell is a scalar of JSON, null where there is no value.
+pub type Cells = Vec<(String, Value)>;
 
 /// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1; texts of a list
 /// stand in one cell, with semicolons between them.
@@ -22,14 +22,12 @@ fn flatten(name: &str, value: &Value, cells: &mut Cells) {
         // A list of texts is one cell.
         Value::Array(items) if !items.is_empty() && items.iter().all(Value::is_string) => {
             let texts: Vec<&str> = items.iter().filter_map(Value::as_str).collect();
-            cells.push((name.to_owned(), plain(&texts.join("; "))));
+            cells.push((name.to_owned(), texts.join("; ").into()));
         }
         Value::Array(items) => {
             (1..).zip(items).for_each(|(number, value): (usize, _)| flatten(&join(&number.to_string()), value, cells));
         }
-        Value::Null => cells.push((name.to_owned(), String::new())),
-        Value::String(text) => cells.push((name.to_owned(), plain(text))),
-        other => cells.push((name.to_owned(), other.to_string())),
+        scalar => cells.push((name.to_owned(), scalar.clone())),
     }
 }
 
@@ -39,12 +37,12 @@ pub fn plain(text: &str) -> String {
     words.join(" ").replace(',', ";").replace(['#', '"'], "'")
 }
 
-/// Rows under one head. Columns stand in the order in which they first come; one that comes late stands behind what comes
-/// before it in its row. The rows are made twice and not kept: of many they take far more than their text.
-pub fn csv<I: Iterator<Item = Cells>>(rows: impl Fn() -> I) -> String {
+/// The names of the columns of rows, in the order in which they first come; one that comes late stands behind what comes before
+/// it in its row.
+pub fn names(rows: impl Iterator<Item = Cells>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut known: HashSet<String> = HashSet::new();
-    for row in rows() {
+    for row in rows {
         let mut after = 0;
         for (name, _) in row {
             if names.get(after) == Some(&name) {
@@ -58,13 +56,28 @@ pub fn csv<I: Iterator<Item = Cells>>(rows: impl Fn() -> I) -> String {
             }
         }
     }
+    names
+}
+
+/// Rows under one head. They are made twice and not kept: of many they take far more than their text.
+pub fn csv<I: Iterator<Item = Cells>>(rows: impl Fn() -> I) -> String {
+    let names = names(rows());
     let mut text = names.join(",") + "\n";
     for row in rows() {
-        let cells: HashMap<String, String> = row.into_iter().collect();
-        let line: Vec<&str> = names.iter().map(|name| cells.get(name).map_or("", String::as_str)).collect();
+        let cells: HashMap<String, Value> = row.into_iter().collect();
+        let line: Vec<String> = names.iter().map(|name| cells.get(name).map_or(String::new(), cell)).collect();
         text += &(line.join(",") + "\n");
     }
     text
+}
+
+/// A cell of a table.
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => plain(text),
+        other => other.to_string(),
+    }
 }
 
 #[cfg(test)]
@@ -83,12 +96,9 @@ mod tests {
 
     #[test]
     fn a_row_may_have_columns_that_others_have_not() {
-        let row = |cells: &[(&str, &str)]| cells.iter().map(|(n, c)| ((*n).to_owned(), (*c).to_owned())).collect();
-        let rows: [Cells; 3] = [
-            row(&[("a", "1"), ("z", "2")]),
-            row(&[("a", "3"), ("b", "4"), ("z", "5"), ("y", "6")]),
-            row(&[("z", "7")]),
-        ];
+        let row = |cells: &[(&str, u32)]| cells.iter().map(|(n, c)| ((*n).to_owned(), json!(c))).collect();
+        let rows: [Cells; 3] =
+            [row(&[("a", 1), ("z", 2)]), row(&[("a", 3), ("b", 4), ("z", 5), ("y", 6)]), row(&[("z", 7)])];
         assert_eq!(csv(|| rows.iter().cloned()), "a,b,z,y\n1,,2,\n3,4,5,6\n,,7,\n");
     }
 }

@@ -96,3 +96,82 @@ pub(super) fn check(steps: &[StepRecord]) -> Result<(), Unreadable> {
 pub fn curve(steps: &[StepRecord]) -> String {
     csv(|| steps.iter().map(|step| scalars(&json!(step))))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::LimitFile;
+    use super::*;
+    use crate::case::embedded;
+    use crate::run::Outcome;
+
+    /// A record as a file keeps it: without what only the estimate of errors and pictures need.
+    fn kept(mut step: StepRecord) -> StepRecord {
+        let reading = &mut step.reading;
+        (reading.contact_fraction_uncertainty, reading.peak_to_edge) = (0.0, 0.0);
+        reading.boundaries.clear();
+        reading.fractions = Default::default();
+        reading.levels.iter_mut().for_each(|level| level.uncertainty = Default::default());
+        let interfaces = step.stress.iter_mut().flat_map(|stress| &mut stress.interfaces);
+        interfaces.for_each(|carried| carried.delamination = None);
+        step.rough.iter_mut().for_each(|rough| rough.histograms.clear());
+        step
+    }
+
+    #[test]
+    fn every_case_is_read_back_as_it_was_written() {
+        for (name, _) in embedded::all() {
+            let coarse = ["grid={ points = 32 }", "stress={ planes = [0.0] }"].map(str::to_owned);
+            let case = Case::read(&embedded::source(name).unwrap(), &coarse).unwrap();
+            let Outcome { steps, .. } = case.run().solve(&mut ()).unwrap();
+            let steps: Vec<StepRecord> = steps.into_iter().map(kept).collect();
+            let timing = Timing { setup: 0.1, solve: 0.2, stress: 0.3, output: 0.4 };
+            let written = Summary::new(&case, &["doubtful".to_owned()], Some(1e-3), &steps, timing);
+            let read = Summary::read(&serde_json::from_str(&written.to_json()).unwrap()).unwrap();
+            assert_eq!(read, written, "{name}");
+            if case.run().check_limits().is_ok() {
+                let mut limits = case.run().limits(&mut ()).unwrap();
+                limits.steps = limits.steps.into_iter().map(kept).collect();
+                let written = LimitFile::new(&limits, &case, &[]);
+                let read = LimitFile::read(&serde_json::from_str(&written.to_json()).unwrap()).unwrap();
+                assert_eq!(read, written, "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_tip_and_numbers_that_are_none_are_read_back_too() {
+        let case = Case::read(&embedded::source("fig2").unwrap(), &["grid.points=32".to_owned()]).unwrap();
+        let step = kept(case.run().solve(&mut ()).unwrap().steps.remove(0));
+        let mut tip = step.clone();
+        (tip.reading.max_pressure, tip.reading.resolved_peak) = (f64::INFINITY, Some(2.0));
+        let back = |step: &StepRecord| -> StepRecord { serde_json::from_value(json!(step)).unwrap() };
+        assert_eq!(back(&tip), tip);
+        assert_eq!(json!(tip)["max_pressure"], Value::Null);
+        let mut none = step;
+        none.reading.penetration = f64::NAN;
+        none.stop = crate::spectral::Stop::NotANumber;
+        let read = back(&none);
+        assert!(read.reading.penetration.is_nan() && !read.converged() && read.check().is_ok());
+        assert_eq!(json!(read), json!(none));
+        none.stop = crate::spectral::Stop::Converged;
+        assert!(back(&none).check().unwrap_err().contains("`penetration` is null"));
+    }
+
+    #[test]
+    fn codes_of_the_version_before_are_read_and_unknown_ones_refused() {
+        let case = Case::read(&embedded::source("fig2").unwrap(), &["grid.points=32".to_owned()]).unwrap();
+        let steps = case.run().solve(&mut ()).unwrap().steps;
+        let summary =
+            Summary::new(&case, &[], None, &steps, Timing { setup: 0.0, solve: 0.0, stress: 0.0, output: 0.0 });
+        let mut file: Value = serde_json::from_str(&summary.to_json()).unwrap();
+        let mut read = |key: &str, code: &str| {
+            let before = std::mem::replace(&mut file["steps"][0][key], code.into());
+            let read = Summary::read(&file).map(|summary| summary.steps[0].stop);
+            file["steps"][0][key] = before;
+            read.map_err(|error| error.to_string())
+        };
+        assert_eq!(read("stop_reason", "iteration limit"), Ok(crate::spectral::Stop::IterationLimit));
+        assert!(read("stop_reason", "x").unwrap_err().contains("`steps[0]`: unknown variant `x`"));
+        assert!(read("route", "x").unwrap_err().contains("unknown variant `x`"));
+    }
+}

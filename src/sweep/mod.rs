@@ -33,5 +33,5 @@ pub use parts::{Part, PartError, UNFINISHED, join};
 pub use result::{Foremost, Kind, LimitValue, SCALARS, Scalar, SweepResult};
 pub use row::{Row, Status};
 pub use study::{Study, StudyError};
-pub use table::{Description, SweptKey, fingerprint, table};
+pub use table::{Description, SweptKey, columns, fingerprint, table};
 pub use task::Task;

@@ -1,6 +1,6 @@
 //! What a combination results in: load steps, or limit loads; and what tables, pictures and the report show of it.
 
-use crate::output::columns::{Cells, plain, scalars};
+use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
 use crate::reading::{Criterion, within_the_errors};
 use crate::run::{At, Limit, StepRecord, first, rivals};
@@ -162,7 +162,7 @@ impl SweepResult {
                 // They stand in the names of the columns.
                 ["criterion", "material", "interface"].iter().for_each(|key| drop(keys.shift_remove(*key)));
             }
-            json!({ plain(&limit.criterion.to_string()).replace(' ', "_"): keys })
+            json!({ limit.criterion.to_string().replace(' ', "_"): keys })
         });
         [json!({ "first": first })].into_iter().chain(named).flat_map(|value| scalars(&value)).collect()
     }
@@ -237,15 +237,15 @@ mod tests {
     fn the_cells_of_limits_are_the_first_and_each_under_its_name() {
         let [yields, parts] = [Criterion::Yield { material: 2 }, Criterion::Delamination { interface: 1 }];
         let cells = SweepResult::Limits(vec![reached(yields, 0.2, 0.05), reached(parts, 0.24, 0.01)]).cells();
-        let cell = |name: &str| cells.iter().find(|(own, _)| own == name).map(|(_, cell)| cell.as_str());
+        let cell = |name: &str| cells.iter().find(|(own, _)| own == name).map(|(_, cell)| cell.clone());
         for (name, value) in [
-            ("first_criterion", "yield"),
-            ("first_material", "2"),
-            ("first_mean_pressure", "0.2"),
-            ("first_reached", "under_load"),
-            ("first_rivals", "delamination of interface 1"),
-            ("yield_of_material_2_mean_pressure", "0.2"),
-            ("delamination_of_interface_1_error", "0.01"),
+            ("first_criterion", json!("yield")),
+            ("first_material", json!(2)),
+            ("first_mean_pressure", json!(0.2)),
+            ("first_reached", json!("under_load")),
+            ("first_rivals", json!("delamination of interface 1")),
+            ("yield_of_material_2_mean_pressure", json!(0.2)),
+            ("delamination_of_interface_1_error", json!(0.01)),
         ] {
             assert_eq!(cell(name), Some(value), "{name}");
         }

@@ -4,9 +4,10 @@ use super::combinations::column;
 use super::result::SweepResult;
 use crate::case::{Case, plausibility};
 use crate::output::Files;
-use crate::output::columns::{Cells, plain};
+use crate::output::columns::Cells;
 use crate::run::{Limits, Outcome, StepRecord};
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 
 /// How a combination ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -128,15 +129,15 @@ impl Row {
 
     /// Its lines in `sweep.csv`: one a load step, or one alone.
     pub fn cells(&self) -> Vec<Cells> {
-        let cell = |name: &str, value: String| (name.to_owned(), value);
+        let cell = |name: &str, value: Value| (name.to_owned(), value);
         let line = |(step, results): (Option<usize>, Cells)| {
-            let mut cells = vec![cell("combination", self.combination.to_string())];
-            cells.extend(self.settings.iter().map(|(key, value)| cell(&column(key), plain(value))));
-            cells.push(cell("status", self.status.name().to_owned()));
-            cells.push(cell("step", step.map_or(String::new(), |step| step.to_string())));
+            let mut cells = vec![cell("combination", self.combination.into())];
+            cells.extend(self.settings.iter().map(|(key, value)| cell(&column(key), value.as_str().into())));
+            cells.push(cell("status", self.status.name().into()));
+            cells.push(cell("step", json!(step)));
             cells.extend(results);
-            cells.push(cell("warnings", plain(&self.warnings.join("; "))));
-            cells.push(cell("reason", plain(self.reason.as_deref().unwrap_or(""))));
+            cells.push(cell("warnings", self.warnings.join("; ").into()));
+            cells.push(cell("reason", self.reason.as_deref().unwrap_or("").into()));
             cells
         };
         if self.results.is_empty() {

@@ -3,16 +3,31 @@
 use super::combinations::Combinations;
 use super::row::{Row, Status};
 use super::task::Task;
-use crate::output::columns::csv;
+use crate::output::columns::{Cells, csv, names};
 use crate::output::{checksum, seal};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use serde_json::Value;
+use std::collections::{BTreeSet, HashMap};
 
 /// One row a combination and load step, by ascending combination.
 pub fn table(rows: &[Row]) -> String {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by_key(|row| row.combination);
     csv(|| sorted.iter().flat_map(|row| row.cells()))
+}
+
+/// The columns of that table: their names, and the scalars of each.
+pub fn columns(rows: &[Row]) -> Vec<(String, Vec<Value>)> {
+    let mut sorted: Vec<&Row> = rows.iter().collect();
+    sorted.sort_by_key(|row| row.combination);
+    let lines: Vec<Cells> = sorted.iter().flat_map(|row| row.cells()).collect();
+    let names = names(lines.iter().cloned());
+    let mut lines: Vec<HashMap<String, Value>> = lines.into_iter().map(|line| line.into_iter().collect()).collect();
+    let column = |name: String| {
+        let cells = lines.iter_mut().map(|line| line.remove(&name).unwrap_or_default()).collect();
+        (name, cells)
+    };
+    names.into_iter().map(column).collect()
 }
 
 /// What a sweep was asked for, and how it ended: `sweep.json`.

@@ -1,10 +1,15 @@
 //! `report` shows no number of a result that is not whole, and tells what is missing.
 
-use crate::damages::{BLOWS, CASE, VALUES, copy, ends, relined, strike};
+use crate::damages::{BLOWS, CASE, VALUES, copy, ends, relined, resealed, strike};
 use crate::program::{Desk, Folder};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
+
+/// Changes a key of the first step of the second line of a sweep's log.
+fn step(lines: &mut [String], key: &str, value: Value) {
+    lines[1] = resealed(&lines[1], |row| row["results"][0]["step"][key] = value);
+}
 
 #[test]
 fn a_report_is_made_of_whole_results_alone() {
@@ -48,7 +53,7 @@ fn a_report_is_made_of_whole_results_alone() {
     };
     // Any change of a result that percoat's list knows.
     for (base, file) in
-        [("run", "summary.json"), ("limit", "limit.json"), ("sweep", "sweep.json"), ("sweep", "sweep.csv")]
+        [("run", "summary.json"), ("limit", "limit.json"), ("sweep", "sweep.json"), ("sweep", "sweep.jsonl")]
     {
         for (what, blow) in BLOWS.iter().filter(|(what, _)| *what != "missing") {
             let answer = report(base, true, &|place| strike(&place.join(file), *blow));
@@ -71,32 +76,29 @@ fn a_report_is_made_of_whole_results_alone() {
         ("run", "summary.json", "/steps/0/levels/0/load_share", Value::Null, "`load_share of level 1` is null"),
         ("run", "summary.json", "/steps/0/contact_fraction", "x".into(), "invalid type"),
         ("run", "summary.json", "/steps/0/certificate", Value::Null, "invalid type"),
-        ("run", "summary.json", "/steps/0/stop_reason", "x".into(), "stop_reason \"x\" is not known"),
-        ("run", "summary.json", "/steps/0/route", "x".into(), "route \"x\" is not known"),
+        ("run", "summary.json", "/steps/0/stop_reason", "x".into(), "unknown variant `x`"),
+        ("run", "summary.json", "/steps/0/route", "x".into(), "unknown variant `x`"),
         ("run", "summary.json", "/steps/0/stress/materials/0/max_mises/value", Value::Null, "`max_mises` is null"),
         ("run", "summary.json", "/warnings", "none".into(), "`warnings`"),
         ("run", "summary.json", "/case/load", Value::Null, "`case` is no case"),
         ("run", "summary.json", "/case", Value::Null, "`case` is missing"),
         ("run", "summary.json", "/steps", Value::Null, "`steps`"),
-        ("limit", "limit.json", "/limits/0/criterion", "x".into(), "the limit of x"),
-        ("limit", "limit.json", "/limits", Value::Null, "limit loads"),
-        ("limit", "limit.json", "/warnings", 3.into(), "limit loads"),
+        ("limit", "limit.json", "/limits/0/criterion", "x".into(), "`limits[0]`: unknown variant `x`"),
+        ("limit", "limit.json", "/limits/0/reached", "x".into(), "`limits[0]`: unknown variant `x`"),
+        ("limit", "limit.json", "/limits", Value::Null, "`limits`"),
+        ("limit", "limit.json", "/warnings", 3.into(), "`warnings`"),
         ("sweep", "sweep.json", "/failed", "0".into(), "invalid type"),
-        ("sweep", "sweep.json", "/warnings", Value::Null, "`warnings`"),
+        ("sweep", "sweep.json", "/warnings", Value::Null, "invalid type"),
     ] {
         let answer = report(base, false, &edited(file, pointer, value));
         assert_eq!(answer.code, 2, "{file}: {pointer}: {}", answer.err);
         assert!(answer.err.contains(file) && answer.err.contains(words), "{pointer}: {}", answer.err);
     }
     let answer = report("sweep", false, &edited("sweep.json", "/combinations", 2.into()));
-    answer.complains(2, &["sweep.csv", "it has 3 combinations", "tells of 2"]);
+    answer.complains(2, &["sweep.jsonl has 3 lines", "tells of 2"]);
     for (base, file, words, from, to) in [
         ("run", "summary.json", "not JSON", "\"residual\": ", "\"residual\": NaN, \"was\": "),
-        ("sweep", "sweep.csv", "status", ",done,", ",dun,"),
-        ("sweep", "sweep.csv", "not a number", ",done,1,", ",done,1,x"),
-        ("sweep", "sweep.csv", "not a number", ",done,1,0.01,", ",done,1,NaN,"),
-        ("sweep", "sweep.csv", "not a number", ",done,1,0.01,", ",done,1,,"),
-        ("sweep", "sweep.csv", "below zero", ",done,1,", ",done,1,-"),
+        ("sweep", "sweep.jsonl", "changed or damaged", "\"done\"", "\"dun\""),
     ] {
         let answer = report(base, false, &replaced(file, from, to));
         assert_eq!(answer.code, 2, "{file}: {from} → {to}: {}", answer.err);
@@ -110,14 +112,21 @@ fn a_report_is_made_of_whole_results_alone() {
     });
     answer.complains(2, &["summary.json", "1 steps", "2 loads"]);
     for (what, change) in [
-        ("a line less", (|lines| drop(lines.drain(1..3))) as fn(&mut Vec<String>)),
-        ("a cell less", |lines| lines[1] = lines[1].replacen(",done", "", 1)),
-        ("an empty number", |lines| lines[1] = lines[1].replacen(",done,1,", ",done,1,,", 1)),
-        ("a line of another combination", |lines| lines[1] = lines[1].replacen("1,", "x,", 1)),
+        ("has 2 lines", (|lines| drop(lines.remove(1))) as fn(&mut Vec<String>)),
+        ("line 2: combination 1 stands on line 1 too", |lines| lines[1] = lines[0].clone()),
+        ("line 2: it is no row", |lines| lines[1] = resealed(&lines[1], |row| row["status"] = "dun".into())),
+        ("line 2: it is no row", |lines| lines[1] = resealed(&lines[1], |row| drop(row["results"].take()))),
+        ("`mean_pressure` is null", |lines| step(lines, "mean_pressure", Value::Null)),
+        ("`mean_pressure` is -1, which is below zero", |lines| step(lines, "mean_pressure", (-1.0).into())),
+        ("line 2: it is no row", |lines| step(lines, "max_pressure", "x".into())),
+        ("line 2: it is no row", |lines| step(lines, "stop_reason", "x".into())),
     ] {
-        let answer = report("sweep", false, &|place| relined(&place.join("sweep.csv"), change));
-        assert!(answer.code == 2 && answer.err.contains("sweep.csv"), "{what}: {}", answer.err);
+        let answer = report("sweep", false, &|place| relined(&place.join("sweep.jsonl"), change));
+        assert!(answer.code == 2 && answer.err.contains("sweep.jsonl"), "{what}: {}", answer.err);
+        assert!(answer.err.contains(what), "{what}: {}", answer.err);
     }
+    let answer = report("sweep", true, &|place| strike(&place.join("sweep.csv"), BLOWS[0].1));
+    assert!(answer.code == 0 && answer.err.contains("warning: sweep.csv is "), "{}", answer.err);
     // What is not shown because it is missing or damaged is told, on the page too.
     for (file, blow) in ["contact.npz", "stress.npz", "pressure.svg", "curve.csv"]
         .iter()

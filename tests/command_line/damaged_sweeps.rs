@@ -196,7 +196,7 @@ fn parts_that_are_damaged_or_of_another_sweep_are_refused_with_file_line_and_wha
     merge(&["less", "two"]).complains(3, &["1 of 3 combinations are missing: 1"]);
     // Results of one combination that differ are not of one sweep, whatever their seals say.
     relined(&desk.path("begun/unfinished-sweep/sweep.jsonl"), |lines| {
-        lines[0] = resealed(&lines[0], |row| row["results"][0]["penetration"] = 0.5.into());
+        lines[0] = resealed(&lines[0], |row| row["results"][0]["step"]["penetration"] = 0.5.into());
     });
     merge(&["one", "begun", "two"]).complains(2, &["different results of combination 1", "one/sweep.jsonl, line 1"]);
 }

@@ -51,7 +51,7 @@ fn too_few_iterations_are_told_and_what_is_there_is_written() {
     assert!(answer.out.contains("0 of 1 load steps converged"), "{}", answer.out);
     let short = Folder(desk.path("short"));
     let steps = short.steps();
-    assert_eq!((&steps[0]["converged"], &steps[0]["stop_reason"]), (&false.into(), &"iteration limit".into()));
+    assert_eq!((&steps[0]["converged"], &steps[0]["stop_reason"]), (&false.into(), &"iteration_limit".into()));
     assert_eq!(short.contact().field("pressure").shape, [1, 64, 64]);
     assert_eq!(short.text("curve.csv").lines().count(), 2);
     assert!(!short.names().contains("contact.partial"));
