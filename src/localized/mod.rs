@@ -27,12 +27,13 @@
 pub(crate) mod circle;
 mod coupled;
 pub mod disc;
-pub(crate) mod edge;
+pub(crate) mod edge_ratios;
 mod exchange;
 pub mod exterior;
 pub mod isolated;
 pub mod mesh;
 pub(crate) mod outline;
+mod passes;
 mod patterns;
 pub mod point;
 pub(crate) mod press;

@@ -15,7 +15,7 @@ const ITERATIONS: usize = 400;
 
 /// How the iteration of one spot ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum End {
+pub enum SpotEnd {
     /// The surface is met.
     Met,
     /// It is not, after the iterations allowed.
@@ -26,11 +26,11 @@ pub enum End {
 
 /// A spot after its iteration.
 #[derive(Debug, Clone)]
-pub struct Pressed {
+pub struct SpotSolution {
     /// A p − b, a length, one value per element.
     pub gap: Vec<f64>,
     /// How the iteration ended.
-    pub end: End,
+    pub end: SpotEnd,
     /// Products with A.
     pub iterations: usize,
 }
@@ -73,13 +73,13 @@ impl Conjugate {
 
 /// Brings `pressure` to the solution for the wanted displacements b = `wanted`; `tolerance` is relative to the largest
 /// of them.
-pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> Pressed {
+pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> SpotSolution {
     let len = wanted.len();
     let scale = largest(wanted.iter().copied());
     if scale == 0.0 {
         // Nothing is displaced far enough to touch.
         pressure.fill(0.0);
-        return Pressed { gap: wanted.iter().map(|b| -b).collect(), end: End::Met, iterations: 0 };
+        return SpotSolution { gap: wanted.iter().map(|b| -b).collect(), end: SpotEnd::Met, iterations: 0 };
     }
     let residual = |pressure: &[f64]| {
         let mut gap: Vec<f64> = wanted.iter().map(|b| -b).collect();
@@ -95,12 +95,12 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
         let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale || gap[i].is_nan();
         let worst = largest(active.iter().filter(counts).map(|&i| gap[i].abs()));
         if worst <= tolerance * scale {
-            return Pressed { gap, end: End::Met, iterations };
+            return SpotSolution { gap, end: SpotEnd::Met, iterations };
         }
         // An element that is penetrated but carries nothing yet joins the contact: a new start.
         let grown = active.iter().any(|&i| pressure[i] == 0.0);
         let Some(step) = conjugate.step(influence, &gap, &active, grown) else {
-            return Pressed { gap, end: End::Unbounded, iterations: iterations + 1 };
+            return SpotSolution { gap, end: SpotEnd::Unbounded, iterations: iterations + 1 };
         };
         let mut clipped = false;
         for &i in &active {
@@ -116,7 +116,7 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
             gap.iter_mut().zip(&conjugate.image).for_each(|(g, u)| *g -= step * u);
         }
     }
-    Pressed { gap, end: End::Unmet, iterations: ITERATIONS }
+    SpotSolution { gap, end: SpotEnd::Unmet, iterations: ITERATIONS }
 }
 
 /// Pressures on the elements in contact that displace all of them by one unit: their sum times the area of an element

@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub enum Stop {
     /// Loads stand still to 1e-8 of the whole one, surfaces are met to 1e-9 of the deepest displacement.
     Converged,
-    /// Not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot; or the
+    /// Not converged: loads still moved, or a surface was not met, after 60 passes over the levels or 2000 iterations per spot; or the
     /// prescribed penetration lies beyond complete contact.
     Stalled,
     /// A contact reaches the rim of its mesh.
@@ -32,7 +32,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
-            Self::Stalled => "not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot, or the \
+            Self::Stalled => "not converged: loads still moved, or a surface was not met, after 60 passes over the levels or 2000 iterations per spot, or the \
                  penetration lies beyond complete contact",
             Self::Rim => "a contact reaches the rim of its mesh",
             Self::Merged => "merged: a contact reaches under its neighbour",
@@ -54,8 +54,8 @@ pub struct Solution {
     pub spots: Vec<Spot>,
     /// How the iteration ended.
     pub stop: Stop,
-    /// Sweeps over the levels.
-    pub sweeps: usize,
+    /// Number of passes over the levels.
+    pub passes: usize,
 }
 
 impl Solution {
@@ -147,6 +147,6 @@ impl Solution {
 
 impl fmt::Display for Solution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "localized solution of {} spots, {}; {} sweeps", self.spots.len(), self.stop, self.sweeps)
+        write!(f, "localized solution of {} spots, {}; {} passes", self.spots.len(), self.stop, self.passes)
     }
 }

@@ -1,7 +1,7 @@
 //! One contact spot of a localized solution, and what is read off it.
 
 use super::circle::Circle;
-use super::edge::Edge;
+use super::edge_ratios::EdgeRatios;
 use super::mesh::Mesh;
 use super::outline::Outline;
 use crate::numeric::array::samples;
@@ -31,7 +31,7 @@ pub struct Spot {
     /// Whether its contact reaches under a neighbour's surface, or a neighbour's contact under its own.
     pub merged: bool,
     /// How pressure and gap leave the edge of a contact on this half-space.
-    pub(super) edge: Arc<Edge>,
+    pub(super) edge: Arc<EdgeRatios>,
 }
 
 impl Spot {

@@ -1,7 +1,7 @@
 //! A system of indenters on a layered half-space, as the localized method sees it.
 
 use super::circle::Circle;
-use super::edge::Edge;
+use super::edge_ratios::EdgeRatios;
 use super::point::PointKernel;
 use crate::body::HalfSpace;
 use crate::counterbody::{Indenters, Level, Site};
@@ -19,7 +19,7 @@ pub struct System {
     sites: Vec<Site>,
     kernel: PointKernel,
     half_space: HalfSpace,
-    edge: Arc<Edge>,
+    edge: Arc<EdgeRatios>,
 }
 
 impl System {
@@ -36,7 +36,7 @@ impl System {
         let kernel = PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest));
         Self {
             sites,
-            edge: Arc::new(Edge::new(&kernel)),
+            edge: Arc::new(EdgeRatios::new(&kernel)),
             kernel,
             indenters: indenters.clone(),
             half_space: half_space.clone(),
@@ -54,7 +54,7 @@ impl System {
     }
 
     /// How pressure and gap leave the edge of a contact.
-    pub(super) fn edge(&self) -> &Arc<Edge> {
+    pub(super) fn edge(&self) -> &Arc<EdgeRatios> {
         &self.edge
     }
 

@@ -17,7 +17,7 @@ use std::f64::consts::{LN_2, PI};
 /// Pressure over √d inside an edge and gap over d^{3/2} outside it, relative to those of a bare body of the surface
 /// material, over the logarithm of the distance d.
 #[derive(Debug, Clone)]
-pub struct Edge {
+pub struct EdgeRatios {
     shortest: f64,
     /// Both ratios at d = `shortest`·e^{k STEP}; none on a bare body.
     ratios: Vec<[f64; 2]>,
@@ -33,7 +33,7 @@ const RULE: f64 = 0.05;
 const SHORTEST: f64 = 1e-3;
 const LONGEST: f64 = 1e4;
 
-impl Edge {
+impl EdgeRatios {
     /// The edge on the half-space of `kernel`.
     pub fn new(kernel: &PointKernel) -> Self {
         let Some(thickness) = kernel.thickness() else { return Self::bare() };
@@ -129,7 +129,7 @@ mod tests {
             for interface in [Interface::Bonded, Interface::Frictionless] {
                 let layer = Layer::new(coating, 0.02, interface).unwrap();
                 let kernel = PointKernel::new(&HalfSpace::new(vec![layer], substrate), 1.0);
-                let edge = Edge::new(&kernel);
+                let edge = EdgeRatios::new(&kernel);
                 let root = young.sqrt();
                 let near = [edge.pressure(2e-5), edge.opening(2e-5)];
                 let far = [edge.pressure(190.0) * root, edge.opening(190.0) / root];
