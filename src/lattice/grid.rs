@@ -7,7 +7,7 @@
 //! zone of the sampling lattice) keeps it.
 
 use super::cell::norm;
-use super::waves::{BORDER, TIE, Waves};
+use super::waves::{BORDER_TOLERANCE, WAVENUMBER_TOLERANCE, Waves};
 use super::zone::Zone;
 use super::{Cell, LatticeError};
 use crate::numeric::number::number;
@@ -137,7 +137,7 @@ impl Grid {
             let signed = |k: usize, n: usize| if 2 * k < n { k as i32 } else { k as i32 - n as i32 };
             return vec![[signed(k1, n1), signed(k2, n2)]];
         }
-        self.tied_wavevectors(component, TIE).into_iter().map(|(index, _)| index).collect()
+        self.tied_wavevectors(component, WAVENUMBER_TOLERANCE).into_iter().map(|(index, _)| index).collect()
     }
 
     /// How many waves the component (k₁, k₂) stands for: its shortest aliases.
@@ -147,12 +147,12 @@ impl Grid {
 
     /// Whether no alias of a wave is shorter.
     pub(crate) fn holds(&self, wavevector: [f64; 2]) -> bool {
-        !self.zone.on_border(wavevector, -BORDER)
+        !self.zone.on_border(wavevector, -BORDER_TOLERANCE)
     }
 
     /// Whether all aliases of a wave are longer, so that the grid tells it from all others.
     pub(crate) fn resolves(&self, wavevector: [f64; 2]) -> bool {
-        !self.zone.on_border(wavevector, BORDER)
+        !self.zone.on_border(wavevector, BORDER_TOLERANCE)
     }
 
     /// The plane waves it holds; found when they are first asked for, and kept.
@@ -172,10 +172,10 @@ impl Grid {
             return [0.0; 2];
         }
         let q = self.wavevector(component);
-        if !self.zone.on_border(q, BORDER) {
+        if !self.zone.on_border(q, BORDER_TOLERANCE) {
             return unit(q);
         }
-        let tied = self.tied_wavevectors(component, TIE);
+        let tied = self.tied_wavevectors(component, WAVENUMBER_TOLERANCE);
         let sum = tied.iter().fold([0.0; 2], |sum, &(_, q)| [sum[0] + unit(q)[0], sum[1] + unit(q)[1]]);
         sum.map(|x| x / tied.len() as f64)
     }

@@ -1,23 +1,23 @@
-//! Runs: samples that follow each other in a row of the periodic plane.
+//! Runs of consecutive samples in a row of the periodic plane.
 
 use super::Grid;
 
-/// Samples of one row from the column `first` up to `end`, which is not one of them; rows and columns go on beyond the
-/// borders of the cell.
+/// Samples of one row from the column `first` up to, but not including, the column `end`; rows and columns continue beyond
+/// the borders of the cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Run {
+pub struct SampleRun {
     pub row: i32,
     pub first: i32,
     pub end: i32,
 }
 
-impl Run {
+impl SampleRun {
     /// Number of samples.
     pub fn len(&self) -> usize {
         (self.end - self.first) as usize
     }
 
-    /// Flat index of the sample of the cell that the first one repeats.
+    /// Flat index, within the cell, of the sample whose image is the first one.
     pub fn index(&self, [n1, n2]: [usize; 2]) -> usize {
         self.row.rem_euclid(n1 as i32) as usize * n2 + self.first.rem_euclid(n2 as i32) as usize
     }
@@ -28,14 +28,14 @@ impl Run {
     }
 }
 
-/// Where a sample stands, lengths.
+/// Position of a sample, lengths.
 fn place(grid: &Grid, [row, column]: [i32; 2]) -> [f64; 2] {
     let [n1, n2] = grid.points();
     grid.cell().point([f64::from(row) / n1 as f64, f64::from(column) / n2 as f64])
 }
 
 /// The samples of the plane at distances from `centre` of at least `from` and less than `to` (lengths).
-pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Run> {
+pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<SampleRun> {
     let [down, along] = grid.steps();
     let length = along[0].hypot(along[1]);
     let unit = along.map(|x| x / length);
@@ -57,13 +57,17 @@ pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Run> 
             Some([from, to]) => [[first, from], [to, end]],
             None => [[first, end], [end, end]],
         };
-        runs.extend(parts.into_iter().filter(|[first, end]| first < end).map(|[first, end]| Run { row, first, end }));
+        runs.extend(parts.into_iter().filter(|[first, end]| first < end).map(|[first, end]| SampleRun {
+            row,
+            first,
+            end,
+        }));
     }
     runs
 }
 
 /// The samples of runs: flat index of the one in the cell, and the place from `centre`, a length.
-pub fn samples(grid: &Grid, runs: &[Run], centre: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
+pub fn samples(grid: &Grid, runs: &[SampleRun], centre: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
     let [n1, n2] = grid.points();
     let along = grid.steps()[1];
     runs.iter().flat_map(move |run| {

@@ -12,17 +12,17 @@ use super::zone::Zone;
 use std::f64::consts::TAU;
 
 /// Wavenumbers closer than this, relatively, are one shell; aliases closer than this are tied.
-pub(super) const TIE: f64 = 1e-11;
+pub(super) const WAVENUMBER_TOLERANCE: f64 = 1e-11;
 /// How near the border of the zone, relatively, ties are looked for.
-pub(super) const BORDER: f64 = 1e-9;
+pub(super) const BORDER_TOLERANCE: f64 = 1e-9;
 /// Beyond this many rows per sample along the sides, most rows of a skewed cell are empty.
-const MANY: f64 = 4.0;
+const MAX_ROWS_PER_SAMPLE: f64 = 4.0;
 
 /// All waves of a grid but the mean.
 #[derive(Debug)]
 pub(crate) struct Waves {
     /// By ascending κ₂.
-    rows: Vec<Row>,
+    rows: Vec<WaveRow>,
     /// **b**₁, from a wave to the next one of its row, 1/length.
     step: [f64; 2],
     /// Waves that are not the whole of a Fourier component, by their number: the part they are, 0 for what lies just
@@ -36,7 +36,7 @@ pub(crate) struct Waves {
 
 /// Waves of one κ₂ and ascending κ₁.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Row {
+pub(crate) struct WaveRow {
     /// κ₂.
     pub across: i32,
     /// κ₁ of the first wave.
@@ -57,14 +57,15 @@ impl Waves {
             let len = (last - first + 1) as usize;
             // A middle one is a shortest alias, of which the zone knows the wavevector to round-off.
             let middle = first + (last - first) / 2;
-            let tied = zone.tied_wavevectors(component(zone, [middle, across]), TIE);
+            let tied = zone.tied_wavevectors(component(zone, [middle, across]), WAVENUMBER_TOLERANCE);
             let Some((_, q)) = tied.into_iter().find(|(index, _)| *index == [middle, across]) else { continue };
             let back = f64::from(middle - first);
-            let row = Row { across, first, origin: [q[0] - back * step[0], q[1] - back * step[1]], start: count, len };
+            let row =
+                WaveRow { across, first, origin: [q[0] - back * step[0], q[1] - back * step[1]], start: count, len };
             for k in 0..len {
                 let index = [first + k as i32, across];
-                if zone.on_border(row.at(k, step), BORDER) {
-                    let tied = zone.tied_wavevectors(component(zone, index), TIE);
+                if zone.on_border(row.at(k, step), BORDER_TOLERANCE) {
+                    let tied = zone.tied_wavevectors(component(zone, index), WAVENUMBER_TOLERANCE);
                     let part =
                         if tied.iter().any(|(alias, _)| *alias == index) { 1.0 / tied.len() as f64 } else { 0.0 };
                     parts.push((count + k, part));
@@ -98,9 +99,9 @@ impl Waves {
     }
 
     /// The rows cut down to waves of the first `count` shells: by convexity an interval again.
-    pub fn rows_within(&self, count: usize) -> Vec<Row> {
+    pub fn rows_within(&self, count: usize) -> Vec<WaveRow> {
         let [x, y] = self.step;
-        let cut = |row: &Row| {
+        let cut = |row: &WaveRow| {
             let shells = &self.shells[row.start..row.start + row.len];
             let within = |shell: &u32| (*shell as usize) < count;
             // Wavenumbers grow to both sides of the one nearest to the origin.
@@ -111,7 +112,7 @@ impl Waves {
             }
             let skipped = shells[..nearest].partition_point(|shell| !within(shell));
             let last = nearest + shells[nearest..].partition_point(within) - 1;
-            Some(Row {
+            Some(WaveRow {
                 first: row.first + skipped as i32,
                 origin: row.at(skipped, self.step),
                 start: row.start + skipped,
@@ -136,7 +137,7 @@ impl Waves {
     }
 }
 
-impl Row {
+impl WaveRow {
     /// Wavevector of its wave number k, one `step` from the one before.
     pub fn at(&self, k: usize, step: [f64; 2]) -> [f64; 2] {
         [self.origin[0] + k as f64 * step[0], self.origin[1] + k as f64 * step[1]]
@@ -155,7 +156,7 @@ fn intervals(zone: &Zone) -> Vec<(i32, [i32; 2])> {
     let [r1, r2, _] = facets;
     let most = 0.5 * (norm(r1) + norm(r2)) * norm(zone.cell().vectors()[1]) / TAU;
     let [n1, n2] = zone.points();
-    if most > MANY * (n1 + n2 + 16) as f64 {
+    if most > MAX_ROWS_PER_SAMPLE * (n1 + n2 + 16) as f64 {
         return skewed(zone);
     }
     let interval = |across: i32| {
@@ -163,7 +164,7 @@ fn intervals(zone: &Zone) -> Vec<(i32, [i32; 2])> {
         for g in facets {
             let along = b1[0] * g[0] + b1[1] * g[1];
             let offset = f64::from(across) * (b2[0] * g[0] + b2[1] * g[1]);
-            let reach = 0.5 * (1.0 + BORDER) * (g[0] * g[0] + g[1] * g[1]);
+            let reach = 0.5 * (1.0 + BORDER_TOLERANCE) * (g[0] * g[0] + g[1] * g[1]);
             if along.abs() > 1e-12 * norm(b1) * norm(g) {
                 let (one, other) = ((-reach - offset) / along, (reach - offset) / along);
                 (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
@@ -181,7 +182,7 @@ fn intervals(zone: &Zone) -> Vec<(i32, [i32; 2])> {
 fn skewed(zone: &Zone) -> Vec<(i32, [i32; 2])> {
     let [n1, n2] = zone.points();
     let components = (0..n1).flat_map(|k1| (0..n2).map(move |k2| [k1, k2]));
-    let aliases = components.flat_map(|component| zone.tied_wavevectors(component, TIE));
+    let aliases = components.flat_map(|component| zone.tied_wavevectors(component, WAVENUMBER_TOLERANCE));
     let mut indices: Vec<[i32; 2]> =
         aliases.map(|([along, across], _)| [across, along]).filter(|&index| index > [0, 0]).collect();
     indices.sort_unstable();
@@ -190,7 +191,7 @@ fn skewed(zone: &Zone) -> Vec<(i32, [i32; 2])> {
 }
 
 /// The shell of each wave, and the wavenumbers of the shells.
-fn shells(rows: &[Row], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>) {
+fn shells(rows: &[WaveRow], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>) {
     let lengths: Vec<f64> = rows.iter().flat_map(|row| (0..row.len).map(|k| norm(row.at(k, step)))).collect();
     // Waves lie evenly in the plane: as many buckets of equal area are nearly sorted.
     let most = lengths.iter().copied().fold(0.0, f64::max);
@@ -212,7 +213,7 @@ fn shells(rows: &[Row], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>) {
         own.sort_unstable_by(|&a, &b| lengths[a as usize].total_cmp(&lengths[b as usize]));
         for &mut number in own {
             let q = lengths[number as usize];
-            if wavenumbers.last().is_none_or(|last| q > last * (1.0 + TIE)) {
+            if wavenumbers.last().is_none_or(|last| q > last * (1.0 + WAVENUMBER_TOLERANCE)) {
                 wavenumbers.push(q);
             }
             shells[number as usize] = wavenumbers.len() as u32 - 1;
@@ -252,7 +253,7 @@ mod tests {
                         let least = norm(zone.wavevector([k1, k2]));
                         assert!(parts[row.start + k] == 0.0 || (norm(q) / least - 1.0).abs() < 1e-11);
                         let shell = waves.wavenumbers()[waves.shells()[row.start + k] as usize];
-                        assert!((norm(q) / shell - 1.0).abs() < 1.1 * TIE);
+                        assert!((norm(q) / shell - 1.0).abs() < 1.1 * WAVENUMBER_TOLERANCE);
                     }
                 }
             }

@@ -7,14 +7,15 @@
 //! and whatever may be larger than v less its own error is a rival for the place. So what is stated of a part, a face of a
 //! material, never exceeds what is stated of the whole.
 
+use super::constants::{CHANGE_SAFETY, DEEP_OPENING_ERROR, DEEP_SHEAR_ERROR, DEEP_TENSION_ERROR, SHALLOW_ERROR};
 use super::crest::Crest;
 use super::field::StressField;
+use super::measure::StressMeasure;
 use super::peak::{Peak, Rival};
-use super::quantity::Quantity;
 use super::tensor::State;
 
-/// All that contends, each with its quantity.
-pub(super) type Contenders = Vec<(Quantity, Contender)>;
+/// All that contends, each with its measure.
+pub(super) type Contenders = Vec<(StressMeasure, Contender)>;
 
 /// A value that may be the largest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,55 +30,48 @@ pub(super) struct Contender {
     pub size: f64,
 }
 
-/// By how much a change from the next coarser grid is multiplied.
-const SAFETY: f64 = 1.6;
-/// The error of a stress under spots of n samples per radius is at least this over n of it near the surface, …
-const SHALLOW: f64 = 0.2;
-/// … and this over n² below: of shears, of what opens an interface, and of tensions.
-const DEEP: [f64; 3] = [0.015, 0.01, 0.1];
-
 /// A coarser grid that errors are read from.
 #[derive(Debug)]
-pub(super) struct Coarser<'a> {
+pub(super) struct CoarserField<'a> {
     field: &'a StressField,
-    crests: Vec<(Quantity, Crest)>,
+    crests: Vec<(StressMeasure, Crest)>,
 }
 
-impl<'a> Coarser<'a> {
+impl<'a> CoarserField<'a> {
     pub fn new(field: &'a StressField) -> Self {
         Self { field, crests: field.crests() }
     }
 
-    /// The value of a quantity where a contender of the finer grid stands; where it is the crest of the surface, that of this
+    /// The value of a measure where a contender of the finer grid stands; where it is the crest of the surface, that of this
     /// surface, as long as contact ends anywhere.
-    fn value(&self, contender: &Contender, quantity: Quantity, near: f64) -> f64 {
-        let crest = contender.crest.and_then(|_| self.crests.iter().find(|(of, _)| *of == quantity));
-        crest.map_or_else(|| self.field.beside(contender, quantity, near), |(_, crest)| crest.peak.value)
+    fn value(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
+        let crest = contender.crest.and_then(|_| self.crests.iter().find(|(of, _)| *of == measure));
+        crest.map_or_else(|| self.field.value_beside(contender, measure, near), |(_, crest)| crest.peak.value)
     }
 }
 
 impl Contender {
     /// The estimated error of its value, from a coarser grid and by the samples of the smallest spot; `near`: the depth down
     /// to which the series converges slowly.
-    pub fn error(&self, quantity: Quantity, coarser: &Coarser<'_>, resolution: f64, near: f64) -> f64 {
+    pub fn error(&self, measure: StressMeasure, coarser: &CoarserField<'_>, resolution: f64, near: f64) -> f64 {
         let Peak { value, position, .. } = self.peak;
-        let coarse = coarser.value(self, quantity, near);
+        let coarse = coarser.value(self, measure, near);
         if let Some(crest) = self.crest {
             return crest.scale * crest.error(Some(coarse));
         }
-        let deep = match quantity {
-            Quantity::Tension => DEEP[2],
-            Quantity::Opening => DEEP[1],
-            _ => DEEP[0],
+        let deep = match measure {
+            StressMeasure::Tension => DEEP_TENSION_ERROR,
+            StressMeasure::Opening => DEEP_OPENING_ERROR,
+            _ => DEEP_SHEAR_ERROR,
         };
-        let open = if position[2] < near { SHALLOW / resolution } else { deep / resolution.powi(2) };
-        SAFETY * (value - coarse).abs() + quantity.rise(&self.state, open * self.size)
+        let open = if position[2] < near { SHALLOW_ERROR / resolution } else { deep / resolution.powi(2) };
+        CHANGE_SAFETY * (value - coarse).abs() + measure.rise(&self.state, open * self.size)
     }
 }
 
 /// The maximum of what contends; without errors where any has none. Places within `apart` are one.
-pub(super) fn stated(contenders: &Contenders, quantity: Quantity, apart: f64) -> Option<Peak> {
-    let own = contenders.iter().filter(|(of, _)| *of == quantity);
+pub(super) fn stated(contenders: &Contenders, measure: StressMeasure, apart: f64) -> Option<Peak> {
+    let own = contenders.iter().filter(|(of, _)| *of == measure);
     let peaks: Vec<Peak> = own.map(|(_, contender)| contender.peak).collect();
     Peak::highest(&peaks, apart)
 }

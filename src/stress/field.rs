@@ -1,8 +1,8 @@
 //! The stress field under a solved contact, and its states at points.
 
+use super::depth_response::DepthResponse;
 use super::regions::Regions;
 use super::series::{Response, Series};
-use super::slice::Slice;
 use super::tables::Tables;
 use super::tensor::State;
 use crate::body::{Depth, HalfSpace, Interface, Interiors, Layer, MeanStress};
@@ -147,14 +147,20 @@ impl StressField {
     }
 
     /// Wavenumbers of the shells with qz up to `reach` at a depth.
-    pub(super) fn reached(&self, depth: Depth, reach: f64) -> &[f64] {
+    pub(super) fn wavenumbers_within(&self, depth: Depth, reach: f64) -> &[f64] {
         let waves = &self.series.waves;
         &waves.wavenumbers()[..waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE))]
     }
 
     /// What the waves with qz up to `reach` cause at a depth.
-    pub(super) fn slice(&self, depth: Depth, reach: f64) -> Slice {
-        Slice::new(&self.interiors, depth, self.reached(depth, reach), self.traction, self.mean(depth))
+    pub(super) fn depth_response(&self, depth: Depth, reach: f64) -> DepthResponse {
+        DepthResponse::new(
+            &self.interiors,
+            depth,
+            self.wavenumbers_within(depth, reach),
+            self.traction,
+            self.mean(depth),
+        )
     }
 
     /// The state that the mean pressure causes at a depth.
@@ -170,7 +176,7 @@ impl StressField {
     /// # Panics
     /// When the depth is in a material that is not there.
     pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<State> {
-        let states = self.at(points, &self.slice(depth, REACH));
+        let states = self.at(points, &self.depth_response(depth, REACH));
         states.into_iter().map(State::from_components).collect()
     }
 

@@ -9,11 +9,12 @@
 //! maximum inside, where each depth has one place: that of its largest sample. All of them have errors of their own, and so the
 //! largest value has an error that covers those of its rivals.
 
-use super::contender::{Coarser, Contender, Contenders, stated};
+use super::constants::SHALLOW;
+use super::contender::{CoarserField, Contender, Contenders, stated};
 use super::crest::Crest;
 use super::field::StressField;
+use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
-use super::quantity::{OVERALL, Quantity};
 
 /// Maxima over a material or a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,7 +60,7 @@ pub struct Maxima {
     /// The largest tension on the surface with its uncertainty; `None` where contact has no edge.
     pub crest: Option<Crest>,
     /// What the maxima are the largest of.
-    found: Found,
+    contenders: ContenderLists,
     /// Samples along the radius of a disc as large as the smallest contact spot.
     pub resolution: f64,
     /// Distance between neighbouring samples, a length.
@@ -68,56 +69,58 @@ pub struct Maxima {
 
 /// All that contends for the maxima, in their order.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Found {
+pub(super) struct ContenderLists {
     pub materials: Vec<Contenders>,
     pub faces: Vec<Contenders>,
     /// The interface, from 1, and what contends on it.
     pub interfaces: Vec<(usize, Contenders)>,
 }
 
-impl Found {
-    fn each(&mut self) -> impl Iterator<Item = &mut (Quantity, Contender)> {
+impl ContenderLists {
+    fn each(&mut self) -> impl Iterator<Item = &mut (StressMeasure, Contender)> {
         let interfaces = self.interfaces.iter_mut().map(|(_, contenders)| contenders);
         self.materials.iter_mut().chain(&mut self.faces).chain(interfaces).flatten()
     }
 }
 
 impl Maxima {
-    pub(super) fn new(found: Found, crest: Option<Crest>, resolution: f64, spacing: f64) -> Self {
-        let none = Self { materials: vec![], faces: vec![], interfaces: vec![], crest, found, resolution, spacing };
+    pub(super) fn new(contenders: ContenderLists, crest: Option<Crest>, resolution: f64, spacing: f64) -> Self {
+        let none =
+            Self { materials: vec![], faces: vec![], interfaces: vec![], crest, contenders, resolution, spacing };
         none.stated()
     }
 
     /// States the maxima of what was found.
     fn stated(mut self) -> Self {
-        let apart = NEAR * self.spacing;
+        let apart = SHALLOW * self.spacing;
         let extremes = |contenders: &Contenders| {
-            let [tau1, tension, mises] = OVERALL.map(|quantity| {
-                stated(contenders, quantity, apart).expect("each material and each face has one of each")
+            let [tau1, tension, mises] = MATERIAL_MEASURES.map(|measure| {
+                stated(contenders, measure, apart).expect("each material and each face has one of each")
             });
             Extremes { tau1, tension, mises }
         };
-        self.materials = self.found.materials.iter().map(extremes).collect();
-        self.faces = self.found.faces.iter().map(extremes).collect();
+        self.materials = self.contenders.materials.iter().map(extremes).collect();
+        self.faces = self.contenders.faces.iter().map(extremes).collect();
         let carried = |(interface, contenders): &(usize, Contenders)| {
-            let strength = contenders.iter().map(|(quantity, _)| *quantity).find(Quantity::is_delamination);
+            let strength = contenders.iter().map(|(measure, _)| *measure).find(StressMeasure::is_delamination);
             Some(Carried {
                 interface: *interface,
-                normal: stated(contenders, Quantity::Opening, apart)?,
-                shear: stated(contenders, Quantity::Shear, apart)?,
-                delamination: strength.and_then(|quantity| stated(contenders, quantity, apart)),
+                normal: stated(contenders, StressMeasure::Opening, apart)?,
+                shear: stated(contenders, StressMeasure::Shear, apart)?,
+                delamination: strength.and_then(|measure| stated(contenders, measure, apart)),
             })
         };
-        self.interfaces = self.found.interfaces.iter().filter_map(carried).collect();
+        self.interfaces = self.contenders.interfaces.iter().filter_map(carried).collect();
         self
     }
 
     /// Estimated relative error of the largest tension on the surface; by this grid alone before errors are known from a
     /// coarser one, 0 where contact has no edge.
     pub fn surface_error(&self) -> f64 {
-        let surface = self.found.faces.first().into_iter().flatten();
-        let own =
-            surface.filter(|(of, _)| *of == Quantity::Tension).find_map(|(_, own)| Some((own.crest?, own.peak.error)));
+        let surface = self.contenders.faces.first().into_iter().flatten();
+        let own = surface
+            .filter(|(of, _)| *of == StressMeasure::Tension)
+            .find_map(|(_, own)| Some((own.crest?, own.peak.error)));
         own.map_or(0.0, |(crest, error)| error.map_or_else(|| crest.error(None), |error| error / crest.scale))
     }
 
@@ -140,24 +143,21 @@ impl Maxima {
     /// The same, unless `goes_on`, called between contenders, says no.
     #[must_use]
     pub fn with_errors_while(mut self, coarser: &StressField, goes_on: &dyn Fn() -> bool) -> Option<Self> {
-        let (coarser, resolution, near) = (Coarser::new(coarser), self.resolution, NEAR * self.spacing);
-        let mut known: Vec<(Quantity, Contender)> = Vec::new();
-        for (quantity, contender) in self.found.each() {
+        let (coarser, resolution, near) = (CoarserField::new(coarser), self.resolution, SHALLOW * self.spacing);
+        let mut known: Vec<(StressMeasure, Contender)> = Vec::new();
+        for (measure, contender) in self.contenders.each() {
             // What wins on a face contends in its material too.
             let same = known.iter().find(|(of, other)| {
-                of == quantity
+                of == measure
                     && (other.peak.position, other.peak.material) == (contender.peak.position, contender.peak.material)
             });
             contender.peak.error = match same {
                 Some((_, same)) => same.peak.error,
                 None if !goes_on() => return None,
-                None => Some(contender.error(*quantity, &coarser, resolution, near)),
+                None => Some(contender.error(*measure, &coarser, resolution, near)),
             };
-            known.push((*quantity, *contender));
+            known.push((*measure, *contender));
         }
         Some(self.stated())
     }
 }
-
-/// Depth in spacings down to which the series converges slowly.
-pub(super) const NEAR: f64 = 2.0;

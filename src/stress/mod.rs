@@ -22,21 +22,22 @@
 //! - **maxima** over each material and each face ([`maxima`]).
 
 mod climb;
+mod constants;
 mod contender;
 mod crest;
-mod edge;
+mod depth_response;
 mod expansion;
 mod field;
 pub mod maxima;
+mod measure;
 mod peak;
 mod plane;
-mod quantity;
 mod regions;
 mod search;
 mod section;
 mod series;
-mod slice;
-mod surface;
+mod smoothed_edge;
+mod smoothed_surface;
 mod tables;
 mod tensor;
 mod trace;

@@ -1,7 +1,7 @@
 //! Planes of constant depth.
 
+use super::depth_response::{DisplacementComponents, StressComponents};
 use super::field::{REACH, StressField};
-use super::slice::{Displacements, Stresses};
 use super::tensor::State;
 use super::transform::Transform;
 use crate::body::Depth;
@@ -40,12 +40,14 @@ impl StressField {
     /// # Panics
     /// When a number of points is zero, or the depth in a material that is not there.
     pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
-        let (transform, slice, [n1, n2]) = (Transform::new(points), self.slice(depth, REACH), points);
+        let (transform, response, [n1, n2]) = (Transform::new(points), self.depth_response(depth, REACH), points);
         let mut components = vec![0.0; 9 * n1 * n2];
         let (stresses, displacements) = components.split_at_mut(6 * n1 * n2);
-        let columns = self.series.on_plane(&transform, Vec::new(), &Stresses(&slice));
+        let columns = self.series.on_plane(&transform, Vec::new(), &StressComponents(&response));
         columns.write(stresses);
-        self.series.on_plane(&transform, columns.into_room(), &Displacements(&slice)).write(displacements);
+        self.series
+            .on_plane(&transform, columns.into_buffer(), &DisplacementComponents(&response))
+            .write(displacements);
         let components = Array3::from_shape_vec([9, n1, n2], components);
         Plane { depth, components: components.expect("nine fields") }
     }
@@ -65,8 +67,8 @@ impl StressField {
         points: [usize; 2],
         sink: impl FnMut(ArrayView3<'_, f64>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let (transform, slice) = (Transform::new(points), self.slice(depth, REACH));
-        let columns = self.series.on_plane(&transform, Vec::new(), &Stresses(&slice));
+        let (transform, response) = (Transform::new(points), self.depth_response(depth, REACH));
+        let columns = self.series.on_plane(&transform, Vec::new(), &StressComponents(&response));
         let read = |stresses @ [xx, yy, zz, xy, xz, yz]: [f64; 6]| {
             let [tau1, mises, s1] = State::from_stresses(stresses).derived();
             [xx, yy, zz, xy, xz, yz, tau1, mises, s1]
@@ -87,7 +89,7 @@ impl StressField {
         points: [usize; 2],
         sink: impl FnMut(ArrayView3<'_, f64>) -> Result<(), E>,
     ) -> Result<(), E> {
-        let (transform, slice) = (Transform::new(points), self.slice(depth, REACH));
-        self.series.on_plane(&transform, Vec::new(), &Displacements(&slice)).hand_on(|row| row, sink)
+        let (transform, response) = (Transform::new(points), self.depth_response(depth, REACH));
+        self.series.on_plane(&transform, Vec::new(), &DisplacementComponents(&response)).hand_on(|row| row, sink)
     }
 }

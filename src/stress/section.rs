@@ -1,10 +1,11 @@
 //! Vertical sections and lines, without whole-plane transforms: the waves are collapsed onto a [`Trace`].
 //!
-//! On the surface the stresses are those of [`super::surface`]: a line meets edges between the samples, where the series
+//! On the surface the stresses are those of [`super::smoothed_surface`]: a line meets edges between the samples, where the series
 //! itself overshoots. Just below it, where the series still does, stresses are interpolated in depth.
 
+use super::constants::OPEN_WIDTH;
 use super::field::{REACH, StressField};
-use super::surface::{OPEN, Skin};
+use super::smoothed_surface::SmoothedSurface;
 use super::tensor::State;
 use super::trace::Trace;
 use crate::body::Depth;
@@ -15,7 +16,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Into so many parts the distance of two points is divided to find the largest stress between them.
-const BETWEEN: usize = 512;
+const REFINEMENT: usize = 512;
 
 /// Equally spaced points on a straight line along the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,12 +75,12 @@ pub struct Section {
 
 /// A field below a line. Sections and the highest place are read off it.
 #[derive(Debug)]
-struct Below<'a> {
+struct LineField<'a> {
     field: &'a StressField,
     line: Line,
     trace: Trace<'a>,
     /// The surface, where contact has edges.
-    skin: Option<Skin>,
+    smoothed: Option<SmoothedSurface>,
 }
 
 impl StressField {
@@ -88,7 +89,7 @@ impl StressField {
     /// # Panics
     /// When a depth is in a material that is not there.
     pub fn section(&self, line: &Line, depths: &[Depth]) -> Section {
-        let below = Below::new(self, *line);
+        let below = LineField::new(self, *line);
         let rows = below.rows(depths);
         let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| below.highest(surface));
         let states = field([depths.len(), line.points], rows.into_iter().flatten().collect());
@@ -98,18 +99,21 @@ impl StressField {
     /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
     /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
     fn shallow(&self) -> f64 {
-        let depth = if self.regions().have_edges() { 0.5 * OPEN * OPEN / self.grid().least_aliased() } else { 0.0 };
+        let depth =
+            if self.regions().have_edges() { 0.5 * OPEN_WIDTH * OPEN_WIDTH / self.grid().least_aliased() } else { 0.0 };
         depth.min(self.half_space().faces(1).1)
     }
 }
 
-impl<'a> Below<'a> {
+impl<'a> LineField<'a> {
     fn new(field: &'a StressField, line: Line) -> Self {
         let cell = field.grid().cell();
         let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
-        let skin =
-            field.regions().have_edges().then(|| Skin::new(field, &Arc::new(field.slice(Depth::SURFACE, REACH)), 1.0));
-        Self { field, line, trace, skin }
+        let smoothed = field
+            .regions()
+            .have_edges()
+            .then(|| SmoothedSurface::new(field, &Arc::new(field.depth_response(Depth::SURFACE, REACH)), 1.0));
+        Self { field, line, trace, smoothed }
     }
 
     /// States on the vertical section below the line: for each depth those at its points.
@@ -139,29 +143,29 @@ impl<'a> Below<'a> {
             Some([line.distances()[best], stress])
         };
         let [s, stress] = highest(surface, line)?;
-        let Some(skin) = &self.skin else { return Some([s, stress]) };
+        let Some(smoothed) = &self.smoothed else { return Some([s, stress]) };
         // The stress drops at once at an edge: as many points between two as say where.
         let [first, last] = line.span;
         let span = [s - line.step(), s + line.step()].map(|s| s.clamp(first.min(last), first.max(last)));
-        let finer = Line { span, points: 2 * BETWEEN + 1, ..line };
-        highest(&self.sharp(skin, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
+        let finer = Line { span, points: 2 * REFINEMENT + 1, ..line };
+        highest(&self.sharp(smoothed, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
     }
 
     /// States at a depth, at the points of `line`: of its own or a part of it.
     fn row(&self, line: &Line, depth: Depth) -> Vec<State> {
         let (first, step) = (line.span[0], line.step());
-        let slice = self.field.slice(depth, REACH);
-        let states = self.trace.sums(&slice, [first, step], line.points).into_iter().map(State::from_components);
-        let Some(skin) = self.skin.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
-        let sharp = self.sharp(skin, line).into_iter().zip(states);
+        let response = self.field.depth_response(depth, REACH);
+        let states = self.trace.sums(&response, [first, step], line.points).into_iter().map(State::from_components);
+        let Some(smoothed) = self.smoothed.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
+        let sharp = self.sharp(smoothed, line).into_iter().zip(states);
         sharp.map(|(sharp, state)| State { displacement: state.displacement, ..sharp }).collect()
     }
 
     /// States on the surface, displacements left out, at the points of `line`.
-    fn sharp(&self, skin: &Skin, line: &Line) -> Vec<State> {
+    fn sharp(&self, smoothed: &SmoothedSurface, line: &Line) -> Vec<State> {
         let places = [line.span[0], line.step()];
-        let near = self.trace.sums(&skin.near, places, line.points);
-        let [edge, open] = [&skin.edge, &skin.open].map(|flat| self.trace.sums(flat, places, line.points));
-        near.into_iter().zip(edge).zip(open).map(|((near, edge), open)| skin.state(near, edge, open)).collect()
+        let near = self.trace.sums(&smoothed.near, places, line.points);
+        let [edge, open] = [&smoothed.edge, &smoothed.open].map(|flat| self.trace.sums(flat, places, line.points));
+        near.into_iter().zip(edge).zip(open).map(|((near, edge), open)| smoothed.state(near, edge, open)).collect()
     }
 }

@@ -4,9 +4,9 @@
 //! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over points of a plane by transforms,
 //! and at single places term by term.
 
-use super::transform::{Column, Columns, Transform};
+use super::transform::{FieldColumn, FieldColumns, Transform};
 use crate::lattice::Grid;
-use crate::lattice::waves::{Row, Waves};
+use crate::lattice::waves::{WaveRow, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
@@ -34,7 +34,7 @@ pub(super) struct Series {
 }
 
 /// Waves from which on a sum is worth more than one thread.
-pub(super) const MANY: usize = 4096;
+pub(super) const PARALLEL_WAVES: usize = 4096;
 
 impl Series {
     /// Of `pressure`, one value per sample of `grid`.
@@ -55,7 +55,7 @@ impl Series {
     }
 
     /// Wavevector, shell and coefficient of the waves of a row.
-    pub fn of<'a>(&'a self, row: &'a Row) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
+    pub fn of<'a>(&'a self, row: &'a WaveRow) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
         let range = row.start..row.start + row.len;
         let pairs = self.waves.shells()[range.clone()].iter().zip(&self.coefficients[range]);
         let step = self.waves.step();
@@ -63,18 +63,18 @@ impl Series {
     }
 
     /// Components at the points of the cell that the transform is for: exact there, however few they are, as waves that
-    /// look alike at the points add up. For the `room` see [`Transform::columns`].
+    /// look alike at the points add up. For the `buffer` see [`Transform::columns`].
     pub fn on_plane<'t, const K: usize, R: Response<K>>(
         &self,
         transform: &'t Transform,
-        room: Vec<f64>,
+        buffer: Vec<f64>,
         response: &R,
-    ) -> Columns<'t, K> {
+    ) -> FieldColumns<'t, K> {
         let [n1, n2] = transform.points().map(|n| n as i32);
         let rows = self.waves.rows_within(response.shells());
         // Re C e^{iq·x} is half the wave and half its conjugate; each stands in one column or in its mirror image.
         let sides = rows.iter().flat_map(|row| [(row, 1), (row, -1)]);
-        let mut placed: Vec<(i32, i32, &Row)> = sides
+        let mut placed: Vec<(i32, i32, &WaveRow)> = sides
             .map(|(row, sign)| ((sign * row.across).rem_euclid(n2), sign, row))
             .filter(|(column, ..)| 2 * column <= n2)
             .collect();
@@ -86,7 +86,7 @@ impl Series {
             &placed[first..end]
         };
         let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
-        transform.columns(room, occupied, |k2, column: &mut Column<'_, K>| {
+        transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
             if k2 == 0 {
                 column.add(0, mean.map(Complex64::from));
             }
@@ -120,17 +120,17 @@ impl Series {
 
     fn lanes<const K: usize, const P: usize, R: Response<K>>(
         &self,
-        rows: &[Row],
+        rows: &[WaveRow],
         places: [[f64; 2]; P],
         response: &R,
     ) -> [[f64; K]; P] {
         let along = Phases::along(rows, places.map(|[s, _]| s));
         let across = Phases::across(rows, places.map(|[_, t]| t));
-        let of_row = |row: &Row| vectorised!(_simd => self.row(row, along.from(row), across.of(row), response));
+        let of_row = |row: &WaveRow| vectorised!(_simd => self.row(row, along.from(row), across.of(row), response));
         let waves: usize = rows.iter().map(|row| row.len).sum();
         // Rows are added in their order, whoever has summed them.
         let sums: Vec<[[f64; P]; K]> =
-            rows.par_iter().with_min_len(MANY * rows.len() / waves.max(1)).map(of_row).collect();
+            rows.par_iter().with_min_len(PARALLEL_WAVES * rows.len() / waves.max(1)).map(of_row).collect();
         let mean = response.mean();
         std::array::from_fn(|p| std::array::from_fn(|k| mean[k] + sums.iter().map(|sum| sum[k][p]).sum::<f64>()))
     }
@@ -139,7 +139,7 @@ impl Series {
     #[inline(always)]
     fn row<const K: usize, const P: usize, R: Response<K>>(
         &self,
-        row: &Row,
+        row: &WaveRow,
         along: &[[[f64; P]; 2]],
         [across_re, across_im]: &[[f64; P]; 2],
         response: &R,
@@ -163,53 +163,53 @@ impl Series {
 #[derive(Debug)]
 pub(super) struct Phases<const P: usize> {
     first: i32,
-    turns: Vec<[[f64; P]; 2]>,
+    values: Vec<[[f64; P]; 2]>,
 }
 
 /// Phases so far apart are computed; those between are products of two.
-const APART: i32 = 16;
+const PHASE_BLOCK: i32 = 16;
 
 impl<const P: usize> Phases<P> {
     fn new([first, end]: [i32; 2], places: [f64; P]) -> Self {
-        let short: Vec<[[f64; P]; 2]> = (0..APART.min(end - first)).map(|k| turned(k, places)).collect();
+        let short: Vec<[[f64; P]; 2]> = (0..PHASE_BLOCK.min(end - first)).map(|k| phases(k, places)).collect();
         let mut turns = Vec::with_capacity((end - first) as usize);
-        for start in (first..end).step_by(APART as usize) {
-            let [long_re, long_im] = turned(start, places);
+        for start in (first..end).step_by(PHASE_BLOCK as usize) {
+            let [long_re, long_im] = phases(start, places);
             turns.extend(short.iter().take((end - start) as usize).map(|[re, im]| {
                 let real = |p: usize| long_re[p] * re[p] - long_im[p] * im[p];
                 let imaginary = |p: usize| long_re[p] * im[p] + long_im[p] * re[p];
                 [std::array::from_fn(real), std::array::from_fn(imaginary)]
             }));
         }
-        Self { first, turns }
+        Self { first, values: turns }
     }
 
     /// For all κ₁ of some rows, of fractions of a₁.
-    pub fn along(rows: &[Row], places: [f64; P]) -> Self {
+    pub fn along(rows: &[WaveRow], places: [f64; P]) -> Self {
         let first = rows.iter().map(|row| row.first).min().unwrap_or(0);
         let end = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(first);
         Self::new([first, end], places)
     }
 
     /// For the κ₂ of some rows, of fractions of a₂.
-    pub fn across(rows: &[Row], places: [f64; P]) -> Self {
+    pub fn across(rows: &[WaveRow], places: [f64; P]) -> Self {
         let first = rows.first().map_or(0, |row| row.across);
         Self::new([first, rows.last().map_or(first, |row| row.across + 1)], places)
     }
 
     /// That of the κ₂ of a row.
-    pub fn of(&self, row: &Row) -> &[[f64; P]; 2] {
-        &self.turns[(row.across - self.first) as usize]
+    pub fn of(&self, row: &WaveRow) -> &[[f64; P]; 2] {
+        &self.values[(row.across - self.first) as usize]
     }
 
     /// From the first wave of a row on.
-    pub fn from(&self, row: &Row) -> &[[[f64; P]; 2]] {
-        &self.turns[(row.first - self.first) as usize..]
+    pub fn from(&self, row: &WaveRow) -> &[[[f64; P]; 2]] {
+        &self.values[(row.first - self.first) as usize..]
     }
 }
 
 /// cos 2πks and sin 2πks of some s.
-fn turned<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
+fn phases<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
     let turns = places.map(|s| {
         // Whole turns are none.
         let part = (f64::from(k) * (s - s.round())).fract();

@@ -5,14 +5,14 @@
 //! multiple m₁κ₁ + m₂κ₂ of one wavenumber: they are first collapsed onto a few N multiples, −κ being the conjugate of κ.
 
 use super::series::{Phases, Response, Series};
-use crate::lattice::waves::Row;
+use crate::lattice::waves::WaveRow;
 use crate::numeric::fourier::Nonuniform;
 use rustfft::num_complex::Complex64;
 
 /// Multiples m₁, m₂ up to which a direction is one of the lattice.
-const LATTICE: i32 = 32;
+const MAX_MULTIPLE: i32 = 32;
 /// How near whole ones they are: a phase error of 1e-11 over a period.
-const WHOLE: f64 = 1e-12;
+const WHOLE_TOLERANCE: f64 = 1e-12;
 
 /// The waves of a series along a line.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl<'a> Trace<'a> {
         let mut waves = Nonuniform::new(points);
         match self.lattice {
             Some(([m1, m2], unit)) => {
-                let multiple = |row: &Row, k: usize| m1 * (row.first + k as i32) + m2 * row.across;
+                let multiple = |row: &WaveRow, k: usize| m1 * (row.first + k as i32) + m2 * row.across;
                 let ends = rows.iter().flat_map(|row| [multiple(row, 0), multiple(row, row.len - 1)]);
                 let most = ends.map(i32::abs).max().unwrap_or(0) as usize;
                 let mut sums = vec![[Complex64::default(); K]; most + 1];
@@ -77,7 +77,7 @@ impl<'a> Trace<'a> {
     /// What the waves of a row give at a place, by the phases of its fractions of a₁ and a₂.
     fn terms<'b, const K: usize, R: Response<K>>(
         &'b self,
-        row: &'b Row,
+        row: &'b WaveRow,
         along: &'b Phases<1>,
         across: &Phases<1>,
         response: &'b R,
@@ -95,7 +95,7 @@ impl<'a> Trace<'a> {
 /// m₁**a**₁ + m₂**a**₂ along it (of either sign); none for a direction that is incommensurate with the lattice.
 fn lattice_direction([s, t]: [f64; 2]) -> Option<([i32; 2], f64)> {
     let larger = if s.abs() > t.abs() { s } else { t };
-    let near = |x: f64| (x - x.round()).abs() <= WHOLE;
-    let scale = (1..=LATTICE).map(f64::from).find(|m| near(m * s / larger) && near(m * t / larger))?;
+    let near = |x: f64| (x - x.round()).abs() <= WHOLE_TOLERANCE;
+    let scale = (1..=MAX_MULTIPLE).map(f64::from).find(|m| near(m * s / larger) && near(m * t / larger))?;
     Some(([s, t].map(|x| (scale * x / larger).round() as i32), larger / scale))
 }

@@ -27,13 +27,13 @@ pub(super) struct Transform {
 }
 
 /// K fields transformed along their columns: by tiles, then fields, then lines of eight columns.
-pub(super) struct Columns<'a, const K: usize> {
+pub(super) struct FieldColumns<'a, const K: usize> {
     transform: &'a Transform,
     values: Vec<f64>,
 }
 
 /// One column of K fields, in its tile.
-pub(super) struct Column<'a, const K: usize> {
+pub(super) struct FieldColumn<'a, const K: usize> {
     lines: &'a mut [f64],
     lane: usize,
     places: &'a [usize],
@@ -100,18 +100,18 @@ impl Transform {
     }
 
     /// K fields along their columns. `fill` adds the coefficients of column k₂ to zeros; what is not `occupied`, a tile of
-    /// columns, has none. The `room` is that of columns that are needed no more, or empty.
+    /// columns, has none. The `buffer` is that of columns that are needed no more, or empty.
     pub fn columns<const K: usize>(
         &self,
-        room: Vec<f64>,
+        buffer: Vec<f64>,
         occupied: impl Fn(Range<usize>) -> bool + Sync,
-        fill: impl Fn(usize, &mut Column<'_, K>) + Sync,
-    ) -> Columns<'_, K> {
+        fill: impl Fn(usize, &mut FieldColumn<'_, K>) + Sync,
+    ) -> FieldColumns<'_, K> {
         let half = self.half();
         let size = half.div_ceil(LANES) * K * self.tile();
         // Fresh memory is zero, and costs nothing before it is written.
-        let is_fresh = room.is_empty();
-        let mut values = if is_fresh { vec![0.0; size] } else { room };
+        let is_fresh = buffer.is_empty();
+        let mut values = if is_fresh { vec![0.0; size] } else { buffer };
         values.reserve_exact(size.saturating_sub(values.len()));
         values.resize(size, 0.0);
         values.par_chunks_exact_mut(K * self.tile()).enumerate().for_each_init(
@@ -125,18 +125,18 @@ impl Transform {
                 }
                 if any {
                     for (lane, k2) in columns.enumerate() {
-                        fill(k2, &mut Column { lines, lane, places: &self.places });
+                        fill(k2, &mut FieldColumn { lines, lane, places: &self.places });
                     }
                     let fields = lines.chunks_exact_mut(self.tile());
                     fields.for_each(|lines| self.columns.inverse(lines, scratch));
                 }
             },
         );
-        Columns { transform: self, values }
+        FieldColumns { transform: self, values }
     }
 }
 
-impl<const K: usize> Column<'_, K> {
+impl<const K: usize> FieldColumn<'_, K> {
     /// Adds to the coefficients k₁ of the fields.
     #[inline(always)]
     pub fn add(&mut self, k1: usize, coefficients: [Complex64; K]) {
@@ -148,7 +148,7 @@ impl<const K: usize> Column<'_, K> {
     }
 }
 
-impl<const K: usize> Columns<'_, K> {
+impl<const K: usize> FieldColumns<'_, K> {
     /// What groups of rows need, for one thread.
     fn buffers(&self) -> [Buffers<f64>; K] {
         std::array::from_fn(|_| self.transform.rows.buffers())
@@ -167,8 +167,8 @@ impl<const K: usize> Columns<'_, K> {
         count
     }
 
-    /// The room they take, for others.
-    pub fn into_room(self) -> Vec<f64> {
+    /// The buffer they take, for others.
+    pub fn into_buffer(self) -> Vec<f64> {
         self.values
     }
 
@@ -252,12 +252,12 @@ mod tests {
     /// Room of columns of other numbers of fields, tiles without coefficients in it, and lengths left to the library.
     #[test]
     fn room_that_has_served_others_leaves_nothing_behind() {
-        fn waves<const K: usize>(transform: &Transform, room: Vec<f64>, k2: usize) -> Vec<f64> {
+        fn waves<const K: usize>(transform: &Transform, buffer: Vec<f64>, k2: usize) -> Vec<f64> {
             let [n1, n2] = transform.points();
             let columns = transform.columns(
-                room,
+                buffer,
                 |columns| columns.contains(&k2),
-                |column, own: &mut Column<'_, K>| {
+                |column, own: &mut FieldColumn<'_, K>| {
                     if column == k2 {
                         own.add(1, std::array::from_fn(|k| Complex64::from(0.5 * (k + 1) as f64)));
                     }
@@ -270,14 +270,14 @@ mod tests {
                 let expected = (k + 1) as f64 * (TAU * (i as f64 / n1 as f64 + (k2 * j) as f64 / n2 as f64)).cos();
                 assert!((value - expected).abs() < 1e-13, "{n1} × {n2}, {k2}: {value}, {expected}");
             }
-            columns.into_room()
+            columns.into_buffer()
         }
         for points in [[17, 34], [24, 60], [9, 41]] {
             let transform = Transform::new(points);
-            let room = waves::<3>(&transform, Vec::new(), 1);
-            let room = waves::<4>(&transform, room, 9);
-            let room = waves::<2>(&transform, room, 16);
-            waves::<6>(&transform, room, 2);
+            let buffer = waves::<3>(&transform, Vec::new(), 1);
+            let buffer = waves::<4>(&transform, buffer, 9);
+            let buffer = waves::<2>(&transform, buffer, 16);
+            waves::<6>(&transform, buffer, 2);
         }
     }
 
@@ -297,7 +297,7 @@ mod tests {
             let columns = transform.columns(
                 Vec::new(),
                 |_| true,
-                |k2, column: &mut Column<'_, 2>| {
+                |k2, column: &mut FieldColumn<'_, 2>| {
                     (0..n1).for_each(|k1| column.add(k1, [0, 1].map(|field| spectra[field][k2 * n1 + k1])));
                 },
             );

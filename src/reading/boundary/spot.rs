@@ -1,7 +1,7 @@
 //! A contact spot on its grid, seen from an axis.
 
 use super::constants::WEIGHT_RISE;
-use crate::lattice::runs::{Run, annulus, samples};
+use crate::lattice::runs::{SampleRun, annulus, samples};
 use crate::lattice::{Grid, Reduced};
 use crate::reading::edge::Edge;
 use rayon::prelude::*;
@@ -90,7 +90,7 @@ impl<'a> Spot<'a> {
         take: impl Fn(&mut T, usize, [f64; 2], Sample) + Sync,
     ) -> Vec<T> {
         let runs = annulus(self.grid, self.centre, distances);
-        let of_block = |runs: &[Run]| {
+        let of_block = |runs: &[SampleRun]| {
             let mut taken = T::default();
             for (index, offset) in samples(self.grid, runs, self.centre) {
                 take(&mut taken, index, offset, self.what(index, offset));

@@ -1,4 +1,4 @@
-//! The quantities whose largest values are looked for.
+//! The measures whose largest values are looked for.
 
 use super::tensor::State;
 use crate::body::InterfaceStrength;
@@ -6,11 +6,11 @@ use crate::numeric::search::first_largest;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How much rounding there may be in a bound, relatively.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING_MARGIN: f64 = 1e-9;
 
-/// A quantity to be maximised.
+/// A measure to be maximised.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Quantity {
+pub(super) enum StressMeasure {
     /// τ₁.
     Tau1,
     /// σ₁.
@@ -26,9 +26,10 @@ pub(super) enum Quantity {
 }
 
 /// What is looked for in every material.
-pub(super) const OVERALL: [Quantity; 3] = [Quantity::Tau1, Quantity::Tension, Quantity::Mises];
+pub(super) const MATERIAL_MEASURES: [StressMeasure; 3] =
+    [StressMeasure::Tau1, StressMeasure::Tension, StressMeasure::Mises];
 
-impl Quantity {
+impl StressMeasure {
     /// What is looked for on an interface besides.
     pub fn of_interface(strength: InterfaceStrength) -> impl Iterator<Item = Self> {
         let delamination = (!strength.is_empty()).then_some(Self::Delamination(strength));
@@ -75,44 +76,44 @@ impl Quantity {
     }
 }
 
-/// The largest value that has been found of each quantity, by whichever thread. What is surely below need not be known: it is
+/// The largest value that has been found of each measure, by whichever thread. What is surely below need not be known: it is
 /// not the largest of all, and so the threads' order does not reach the result.
 #[derive(Debug)]
-pub(super) struct LargestSoFar<'a> {
-    quantities: &'a [Quantity],
+pub(super) struct RunningMaxima<'a> {
+    measures: &'a [StressMeasure],
     largest: Vec<AtomicU64>,
 }
 
-impl<'a> LargestSoFar<'a> {
+impl<'a> RunningMaxima<'a> {
     /// Nothing yet.
-    pub fn new(quantities: &'a [Quantity]) -> Self {
-        Self { quantities, largest: quantities.iter().map(|_| AtomicU64::new(0)).collect() }
+    pub fn new(measures: &'a [StressMeasure]) -> Self {
+        Self { measures, largest: measures.iter().map(|_| AtomicU64::new(0)).collect() }
     }
 
-    /// Index and value of the largest of each quantity at `count` states, of which there is one at least; a lower value where
+    /// Index and value of the largest of each measure at `count` states, of which there is one at least; a lower value where
     /// another one that was found is larger than all of them.
     pub fn add(&self, count: usize, state: impl Fn(usize) -> State) -> Vec<(usize, f64)> {
-        let mut bounds = vec![0.0; self.quantities.len() * count];
+        let mut bounds = vec![0.0; self.measures.len() * count];
         for j in 0..count {
             let state = state(j);
             let (mean, j2) = state.invariants();
             let root = j2.sqrt();
-            for (k, quantity) in self.quantities.iter().enumerate() {
-                bounds[k * count + j] = quantity.bound(&state, mean, root);
+            for (k, measure) in self.measures.iter().enumerate() {
+                bounds[k * count + j] = measure.bound(&state, mean, root);
             }
         }
-        let own = self.quantities.iter().zip(&self.largest).zip(bounds.chunks_exact(count));
-        own.map(|((quantity, found), bounds)| {
+        let own = self.measures.iter().zip(&self.largest).zip(bounds.chunks_exact(count));
+        own.map(|((measure, found), bounds)| {
             let (promising, bound) = first_largest(bounds.iter().copied()).unwrap_or((0, f64::NEG_INFINITY));
             let known = from_ordered(found.load(Ordering::Relaxed));
-            if bound < known - ROUNDING * known.abs() {
+            if bound < known - ROUNDING_MARGIN * known.abs() {
                 return (promising, f64::NEG_INFINITY);
             }
-            let enough = quantity.of(&state(promising)).max(known);
+            let enough = measure.of(&state(promising)).max(known);
             // What cannot be larger need not be known; what is not a number is larger.
-            let worth = |&j: &usize| bounds[j].is_nan() || bounds[j] >= enough - ROUNDING * enough.abs();
+            let worth = |&j: &usize| bounds[j].is_nan() || bounds[j] >= enough - ROUNDING_MARGIN * enough.abs();
             let numbers: Vec<usize> = (0..count).filter(worth).collect();
-            let largest = first_largest(numbers.iter().map(|&j| quantity.of(&state(j))));
+            let largest = first_largest(numbers.iter().map(|&j| measure.of(&state(j))));
             let Some((k, value)) = largest else { return (promising, f64::NEG_INFINITY) };
             if !value.is_nan() {
                 found.fetch_max(ordered(value), Ordering::Relaxed);
@@ -147,16 +148,17 @@ mod tests {
         };
         let states: Vec<State> = (0..200).map(state).chain((0..200).map(state)).collect();
         let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
-        let quantities: Vec<Quantity> = OVERALL.into_iter().chain(Quantity::of_interface(strength)).collect();
+        let measures: Vec<StressMeasure> =
+            MATERIAL_MEASURES.into_iter().chain(StressMeasure::of_interface(strength)).collect();
         // All at once, and part by part: the largest of all is among what the parts give.
-        let found = LargestSoFar::new(&quantities);
+        let found = RunningMaxima::new(&measures);
         let parts: Vec<_> = states.chunks(50).map(|part| found.add(part.len(), |j| part[j])).collect();
-        let whole = LargestSoFar::new(&quantities).add(states.len(), |j| states[j]);
-        for (k, quantity) in quantities.iter().enumerate() {
-            let values: Vec<f64> = states.iter().map(|state| quantity.of(state)).collect();
+        let whole = RunningMaxima::new(&measures).add(states.len(), |j| states[j]);
+        for (k, measure) in measures.iter().enumerate() {
+            let values: Vec<f64> = states.iter().map(|state| measure.of(state)).collect();
             for (state, value) in states.iter().zip(&values) {
                 let (mean, j2) = state.invariants();
-                assert!(*value <= quantity.bound(state, mean, j2.sqrt()) + 1e-12 * value.abs());
+                assert!(*value <= measure.bound(state, mean, j2.sqrt()) + 1e-12 * value.abs());
             }
             let largest = first_largest(values.into_iter());
             assert_eq!(Some(whole[k]), largest);

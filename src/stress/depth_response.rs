@@ -11,7 +11,7 @@ const ODD: [bool; 9] = [false, false, false, false, true, true, true, true, fals
 
 /// Amplitudes at a depth of the shells whose waves reach it, and the state of the mean pressure.
 #[derive(Debug)]
-pub(super) struct Slice {
+pub(super) struct DepthResponse {
     pub normal: Vec<Amplitudes>,
     pub tangential: Option<Tangential>,
     /// Wavelengths of the shells over 2π.
@@ -31,13 +31,13 @@ pub(super) struct Tangential {
 
 /// Stresses only: xx, yy, zz, xy, xz, yz.
 #[derive(Debug)]
-pub(super) struct Stresses<'a>(pub &'a Slice);
+pub(super) struct StressComponents<'a>(pub &'a DepthResponse);
 
 /// Displacements only: u_x, u_y, u_z.
 #[derive(Debug)]
-pub(super) struct Displacements<'a>(pub &'a Slice);
+pub(super) struct DisplacementComponents<'a>(pub &'a DepthResponse);
 
-impl Slice {
+impl DepthResponse {
     /// At a depth, of shells of these `wavenumbers`, under a pressure and the `traction` that goes with a unit of it.
     pub fn new(
         interiors: &Interiors,
@@ -107,7 +107,7 @@ impl Tangential {
     }
 }
 
-impl Response<9> for Slice {
+impl Response<9> for DepthResponse {
     fn shells(&self) -> usize {
         self.normal.len()
     }
@@ -129,7 +129,7 @@ impl Response<9> for Slice {
         self.mean.components()
     }
 }
-impl Response<6> for Stresses<'_> {
+impl Response<6> for StressComponents<'_> {
     fn shells(&self) -> usize {
         self.0.shells()
     }
@@ -146,7 +146,7 @@ impl Response<6> for Stresses<'_> {
     }
 }
 
-impl Response<3> for Displacements<'_> {
+impl Response<3> for DisplacementComponents<'_> {
     fn shells(&self) -> usize {
         self.0.shells()
     }

@@ -7,7 +7,7 @@
 //!
 //! where σ̂ has no square root any more. So the series is smoothed by a Gaussian, which leaves σ̂ as it is to the fourth
 //! order of its width (each factor is multiplied by 1 + q²w²/2), and the smoothed pressure is put back as the sharp one
-//! that [`super::edge`] finds behind it. At the edge itself the pressure is zero, and outside it stays so.
+//! that [`super::smoothed_edge`] finds behind it. At the edge itself the pressure is zero, and outside it stays so.
 //!
 //! A traction q = μ p **e** is singular on the other side of the edge: where p = A√d inside, at a distance d outside it adds
 //!
@@ -21,34 +21,29 @@
 //! along the radius of the smallest spot on. From one to three widths off the edge all this gives way to the series
 //! itself, smoothed to the fourth order with e^{−OPEN²/2} of the shortest waves.
 
-use super::edge::Edge;
+use super::constants::{BLEND, EDGE_WIDTH, OPEN_WIDTH, WIDTH_GROWTH};
+use super::depth_response::DepthResponse;
 use super::field::StressField;
 use super::series::Response;
-use super::slice::Slice;
+use super::smoothed_edge::SmoothedEdge;
 use super::tensor::State;
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
-/// Width of the Gaussian near an edge, times the least wavenumber that the grid cannot hold.
-const EDGE: f64 = 4.5;
-/// The same away from edges.
-pub(super) const OPEN: f64 = 3.0;
-/// Widths off the edge within which the stress is the sharpened one, and beyond which it is the series itself.
-const BLEND: [f64; 2] = [1.0, 3.0];
 /// What a Gaussian leaves less of is nothing.
-const NOTHING: f64 = 1e-20;
+const NEGLIGIBLE: f64 = 1e-20;
 
 /// The surface of a field, smoothed.
 #[derive(Debug)]
-pub(super) struct Skin {
+pub(super) struct SmoothedSurface {
     /// Pressure and slopes.
-    pub near: Near,
+    pub near: SmoothedPressure,
     /// Stresses and pressure near edges and away from them.
-    pub edge: Flat,
-    pub open: Flat,
+    pub edge: SurfaceStresses,
+    pub open: SurfaceStresses,
     /// Width of the Gaussian near edges, a length.
     width: f64,
-    seen: &'static Edge,
+    seen: &'static SmoothedEdge,
     /// ν of the surface material.
     poisson: f64,
     /// μ **e**.
@@ -60,7 +55,7 @@ pub(super) struct Skin {
 
 /// p̃, ∂p̃/∂x, ∂p̃/∂y under a Gaussian.
 #[derive(Debug)]
-pub(super) struct Near {
+pub(super) struct SmoothedPressure {
     /// Per shell.
     gaussian: Vec<f64>,
     mean: f64,
@@ -68,21 +63,21 @@ pub(super) struct Near {
 
 /// σ_xx, σ_yy, σ_xy and p on the surface.
 #[derive(Debug)]
-pub(super) struct Flat {
-    surface: Arc<Slice>,
+pub(super) struct SurfaceStresses {
+    surface: Arc<DepthResponse>,
     /// Per shell.
     factors: Vec<f64>,
 }
 
-impl Flat {
+impl SurfaceStresses {
     /// Of the surface, each shell taken times a factor of its wavenumber, which falls to nothing.
-    pub fn new(surface: &Arc<Slice>, factor: impl Fn(f64) -> f64) -> Self {
+    pub fn new(surface: &Arc<DepthResponse>, factor: impl Fn(f64) -> f64) -> Self {
         let factors = surface.lengths.iter().map(|length| factor(1.0 / length));
-        Self { surface: Arc::clone(surface), factors: factors.take_while(|&factor| factor > NOTHING).collect() }
+        Self { surface: Arc::clone(surface), factors: factors.take_while(|&factor| factor > NEGLIGIBLE).collect() }
     }
 }
 
-impl Response<4> for Flat {
+impl Response<4> for SurfaceStresses {
     fn shells(&self) -> usize {
         self.factors.len()
     }
@@ -99,7 +94,7 @@ impl Response<4> for Flat {
     }
 }
 
-impl Response<3> for Near {
+impl Response<3> for SmoothedPressure {
     fn shells(&self) -> usize {
         self.gaussian.len()
     }
@@ -117,12 +112,13 @@ impl Response<3> for Near {
     }
 }
 
-impl Skin {
+impl SmoothedSurface {
     /// Of a field, whose waves `surface` holds, with `scale` times the usual widths.
-    pub fn new(field: &StressField, surface: &Arc<Slice>, scale: f64) -> Self {
+    pub fn new(field: &StressField, surface: &Arc<DepthResponse>, scale: f64) -> Self {
         let most = field.grid().least_aliased();
-        let growth = (field.regions().least_resolution() / 12.0).max(1.0).powf(0.4);
-        let [width, open] = [EDGE * growth, OPEN].map(|c| scale * c / most);
+        let (from, power) = WIDTH_GROWTH;
+        let growth = (field.regions().least_resolution() / from).max(1.0).powf(power);
+        let [width, open] = [EDGE_WIDTH * growth, OPEN_WIDTH].map(|c| scale * c / most);
         let waves = &field.series.waves;
         let wavenumbers = waves.wavenumbers();
         let gaussian = wavenumbers.iter().map(|&q| (-0.5 * q * q * width * width).exp());
@@ -130,11 +126,14 @@ impl Skin {
         let longer = waves.shells_up_to(1.0 / width).saturating_sub(1);
         let unlike = surface.unlike(longer, poisson);
         Self {
-            near: Near { gaussian: gaussian.take_while(|&left| left > NOTHING).collect(), mean: -surface.mean.zz },
-            edge: Flat::new(surface, |q| fourth(q * width)),
-            open: Flat::new(surface, |q| fourth(q * open)),
+            near: SmoothedPressure {
+                gaussian: gaussian.take_while(|&left| left > NEGLIGIBLE).collect(),
+                mean: -surface.mean.zz,
+            },
+            edge: SurfaceStresses::new(surface, |q| fourth(q * width)),
+            open: SurfaceStresses::new(surface, |q| fourth(q * open)),
             width,
-            seen: Edge::shared(),
+            seen: SmoothedEdge::shared(),
             poisson,
             traction: field.traction(),
             unlike,

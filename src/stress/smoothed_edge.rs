@@ -11,28 +11,28 @@
 use std::sync::OnceLock;
 
 /// Distances covered, in widths.
-const SPAN: [f64; 2] = [-4.0, 12.0];
+const TABLE_SPAN: [f64; 2] = [-4.0, 12.0];
 /// Intervals of the table.
-const INTERVALS: usize = 320;
+const TABLE_INTERVALS: usize = 320;
 
 /// P, P/P′ and P − P″/2 as tables.
 #[derive(Debug)]
-pub(super) struct Edge {
+pub(super) struct SmoothedEdge {
     smoothed: Vec<f64>,
     ratio: Vec<f64>,
     fourth: Vec<f64>,
 }
 
-impl Edge {
+impl SmoothedEdge {
     /// The tables, made when they are first asked for.
     pub fn shared() -> &'static Self {
-        static SHARED: OnceLock<Edge> = OnceLock::new();
+        static SHARED: OnceLock<SmoothedEdge> = OnceLock::new();
         SHARED.get_or_init(Self::new)
     }
 
     fn new() -> Self {
-        let place = |k: usize| SPAN[0] + (SPAN[1] - SPAN[0]) * k as f64 / INTERVALS as f64;
-        let responses: Vec<[f64; 3]> = (0..=INTERVALS).map(|k| response(place(k))).collect();
+        let place = |k: usize| TABLE_SPAN[0] + (TABLE_SPAN[1] - TABLE_SPAN[0]) * k as f64 / TABLE_INTERVALS as f64;
+        let responses: Vec<[f64; 3]> = (0..=TABLE_INTERVALS).map(|k| response(place(k))).collect();
         Self {
             smoothed: responses.iter().map(|[p, ..]| *p).collect(),
             ratio: responses.iter().map(|[p, slope, _]| p / slope).collect(),
@@ -43,17 +43,18 @@ impl Edge {
     /// u, positive inside contact, from P/P′; clamped to the table.
     pub fn distance(&self, ratio: f64) -> f64 {
         let above = self.ratio.partition_point(|&r| r < ratio);
-        if above == 0 || above > INTERVALS {
-            return if above == 0 { SPAN[0] } else { SPAN[1] };
+        if above == 0 || above > TABLE_INTERVALS {
+            return if above == 0 { TABLE_SPAN[0] } else { TABLE_SPAN[1] };
         }
         let (low, high) = (self.ratio[above - 1], self.ratio[above]);
         let place = (above - 1) as f64 + (ratio - low) / (high - low);
-        SPAN[0] + (SPAN[1] - SPAN[0]) * place / INTERVALS as f64
+        TABLE_SPAN[0] + (TABLE_SPAN[1] - TABLE_SPAN[0]) * place / TABLE_INTERVALS as f64
     }
 
     /// Whether the distance that belongs to P/P′ is less than `most` either way.
     pub fn is_within(&self, most: f64, ratio: f64) -> bool {
-        let index = |u: f64| ((u - SPAN[0]) / (SPAN[1] - SPAN[0]) * INTERVALS as f64).round() as usize;
+        let index =
+            |u: f64| ((u - TABLE_SPAN[0]) / (TABLE_SPAN[1] - TABLE_SPAN[0]) * TABLE_INTERVALS as f64).round() as usize;
         self.ratio[index(-most)] < ratio && ratio < self.ratio[index(most)]
     }
 
@@ -62,7 +63,7 @@ impl Edge {
         if u <= 0.0 {
             return 0.0;
         }
-        if u >= SPAN[1] {
+        if u >= TABLE_SPAN[1] {
             return 1.0;
         }
         u.sqrt() / between(&self.smoothed, u)
@@ -71,15 +72,15 @@ impl Edge {
     /// What has to be added to a cusp √(−u)₊ A√w that was smoothed to the fourth order, over the smoothed pressure, for it to
     /// be sharp; within four widths of the edge.
     pub fn cusp(&self, u: f64) -> f64 {
-        let u = u.clamp(SPAN[0], -SPAN[0]);
+        let u = u.clamp(TABLE_SPAN[0], -TABLE_SPAN[0]);
         ((-u).max(0.0).sqrt() - between(&self.fourth, -u)) / between(&self.smoothed, u)
     }
 }
 
 /// A table's value at the distance u in its span.
 fn between(table: &[f64], u: f64) -> f64 {
-    let place = (u - SPAN[0]) / (SPAN[1] - SPAN[0]) * INTERVALS as f64;
-    let k = (place as usize).min(INTERVALS - 1);
+    let place = (u - TABLE_SPAN[0]) / (TABLE_SPAN[1] - TABLE_SPAN[0]) * TABLE_INTERVALS as f64;
+    let k = (place as usize).min(TABLE_INTERVALS - 1);
     let rest = place - k as f64;
     (1.0 - rest) * table[k] + rest * table[k + 1]
 }
@@ -108,7 +109,7 @@ mod tests {
 
     #[test]
     fn an_edge_is_found_at_its_distance_and_sharpened_to_its_square_root() {
-        let edge = Edge::new();
+        let edge = SmoothedEdge::new();
         // P(0) = ∫ √t φ dt = 2^{−3/4} Γ(3/4)/√π; linear interpolation in a table of steps 0.05 errs by some 1e-4.
         let [at_edge, ..] = response(0.0);
         assert!((at_edge - 0.411_089_5).abs() < 1e-6, "{at_edge}");
@@ -122,6 +123,6 @@ mod tests {
             let cusp = (-u).max(0.0).sqrt() - (q - 0.5 * curvature);
             assert!((p * edge.cusp(u) - cusp).abs() < 2e-3, "{u}: {} for {cusp}", p * edge.cusp(u));
         }
-        assert_eq!((edge.distance(0.0), edge.distance(f64::INFINITY)), (SPAN[0], SPAN[1]));
+        assert_eq!((edge.distance(0.0), edge.distance(f64::INFINITY)), (TABLE_SPAN[0], TABLE_SPAN[1]));
     }
 }
