@@ -10,13 +10,13 @@ mod answer;
 mod task;
 
 pub use answer::{Answer, Deviation};
-pub use task::{ComparisonError, Task};
+pub use task::{ComparisonError, ComparisonTask};
 
 use crate::body::Depth;
 use crate::localized::{CircleRadius, Stop};
 use crate::reading::FEW_SAMPLES;
 use crate::run::StepRecord;
-use crate::stress::State;
+use crate::stress::StressState;
 
 /// One circle held against the spectral solution.
 #[derive(Debug, Clone)]
@@ -45,9 +45,9 @@ pub struct StressPair {
     /// Depth and material.
     pub depth: Depth,
     /// Spectral state.
-    pub spectral: State,
+    pub spectral: StressState,
     /// Localized state; without displacements.
-    pub localized: State,
+    pub localized: StressState,
 }
 
 impl StressPair {
@@ -62,7 +62,7 @@ impl StressPair {
 #[derive(Debug)]
 pub struct Comparison {
     /// What was asked for.
-    pub task: Task,
+    pub task: ComparisonTask,
     /// The spectral solution with its estimated discretisation errors, as a run records it.
     pub spectral: StepRecord,
     /// Change from half the points.

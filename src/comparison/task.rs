@@ -40,7 +40,7 @@ pub enum ComparisonError {
 
 /// One load step to be solved by both methods.
 #[derive(Debug, Clone)]
-pub struct Task {
+pub struct ComparisonTask {
     /// Indenters on a half-space.
     pub problem: Arc<Problem>,
     /// The load step.
@@ -69,7 +69,7 @@ struct Circles {
 
 /// Circles of one number of indenters, on the elements of the task and on half as many.
 struct TwoMeshes<'a> {
-    task: &'a Task,
+    task: &'a ComparisonTask,
     localized: &'a Localized,
     /// Least number of indenters inside.
     indenters: usize,
@@ -79,7 +79,7 @@ struct TwoMeshes<'a> {
 }
 
 impl<'a> TwoMeshes<'a> {
-    fn new(task: &'a Task, localized: &'a Localized, indenters: usize, mesh: Mesh) -> Self {
+    fn new(task: &'a ComparisonTask, localized: &'a Localized, indenters: usize, mesh: Mesh) -> Self {
         let [fine, coarse] =
             [mesh, mesh.halved()].map(|mesh| Coupled::new(localized.system(), mesh, indenters, task.mutual_effect));
         Self { task, localized, indenters, mesh, fine, coarse }
@@ -127,7 +127,7 @@ impl<'a> TwoMeshes<'a> {
     }
 }
 
-impl Task {
+impl ComparisonTask {
     /// Whether both methods can solve the problem.
     ///
     /// # Errors

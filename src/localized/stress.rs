@@ -24,7 +24,7 @@ use super::solution::Solution;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interior, MeanStress, TransferFunction};
 use crate::friction::Friction;
 use crate::numeric::chebyshev::{self, Chebyshev};
-use crate::stress::State;
+use crate::stress::StressState;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -81,7 +81,7 @@ impl<'a> LocalizedField<'a> {
 
     /// Stresses (no displacements) at one depth and at points (x, y) measured from the axis of the spot `centre` of
     /// the solution; `None` above two element sizes.
-    pub fn points(&self, centre: usize, depth: Depth, points: &[[f64; 2]]) -> Option<Vec<State>> {
+    pub fn points(&self, centre: usize, depth: Depth, points: &[[f64; 2]]) -> Option<Vec<StressState>> {
         if !self.reaches(depth.z) {
             return None;
         }
@@ -96,7 +96,7 @@ impl<'a> LocalizedField<'a> {
         let mean_pressure = self.solution.mean_pressure;
         let residual = self.residual[depth.material - 1];
         let states = points.par_iter().map(|&[x, y]| {
-            let mut state = State { xx: residual, yy: residual, ..State::default() };
+            let mut state = StressState { xx: residual, yy: residual, ..StressState::default() };
             for &([u, v], force) in &forces {
                 let (distance, away) = ((x - u).hypot(y - v), [x - u, y - v]);
                 add(&mut state, pressed.at(distance), away, force);
@@ -257,7 +257,7 @@ fn second_ratio(x: f64) -> f64 {
 }
 
 /// Adds `factor` times stresses in cylindrical components around an axis that lies at −`[x, y]`.
-fn add(state: &mut State, [rr, tt, zz, rz]: Pressed, [x, y]: [f64; 2], factor: f64) {
+fn add(state: &mut StressState, [rr, tt, zz, rz]: Pressed, [x, y]: [f64; 2], factor: f64) {
     let r = x.hypot(y);
     let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
     state.xx += factor * (rr * c * c + tt * s * s);
@@ -269,7 +269,7 @@ fn add(state: &mut State, [rr, tt, zz, rz]: Pressed, [x, y]: [f64; 2], factor: f
 }
 
 /// Adds stresses under a unit shear force, around an axis that lies at −`[x, y]`, times the `force` [Q_x, Q_y].
-fn add_sheared(state: &mut State, [zz, rr, tt, rz, rt, tz]: Sheared, [x, y]: [f64; 2], force: [f64; 2]) {
+fn add_sheared(state: &mut StressState, [zz, rr, tt, rz, rt, tz]: Sheared, [x, y]: [f64; 2], force: [f64; 2]) {
     let r = x.hypot(y);
     let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
     // Q cos φ and Q sin φ.

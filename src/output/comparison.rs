@@ -5,7 +5,7 @@ use crate::case::Case;
 use crate::comparison::{CircleComparison, Comparison, StressPair};
 use crate::localized::Stop;
 use crate::reading::LevelReading;
-use crate::stress::State;
+use crate::stress::StressState;
 use serde_json::{Value, json};
 
 /// A comparison of the load step `step` (from 1) of a case, as indented JSON. What is infinite is null.
@@ -59,7 +59,7 @@ fn circle(circle: &CircleComparison) -> Value {
 /// Stresses of both methods at a point.
 fn pair(pair: &StressPair) -> Value {
     let ([x, y], depth) = (pair.place, pair.depth);
-    let tensor = |State { xx, yy, zz, xy, xz, yz, .. }: &State| json!({ "xx": xx, "yy": yy, "zz": zz, "xy": xy, "xz": xz, "yz": yz });
+    let tensor = |StressState { xx, yy, zz, xy, xz, yz, .. }: &StressState| json!({ "xx": xx, "yy": yy, "zz": zz, "xy": xy, "xz": xz, "yz": yz });
     json!({
         "x": x,
         "y": y,

@@ -13,7 +13,7 @@ use super::expansion::Expansion;
 use super::field::StressField;
 use super::measure::StressMeasure;
 use super::search::Candidate;
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::Depth;
 
 /// How often the stresses are expanded at most.
@@ -54,8 +54,8 @@ impl TrustRegion {
 
 impl StressField {
     /// Stresses at places (x, y) of a depth.
-    pub(super) fn stresses_at(&self, response: &DepthResponse, places: &[[f64; 2]]) -> Vec<State> {
-        self.at(places, &StressComponents(response)).into_iter().map(State::from_stresses).collect()
+    pub(super) fn stresses_at(&self, response: &DepthResponse, places: &[[f64; 2]]) -> Vec<StressState> {
+        self.at(places, &StressComponents(response)).into_iter().map(StressState::from_stresses).collect()
     }
 
     /// The local maximum from a candidate on and the state there, at depths within [low, high], with `rise` the first step in
@@ -66,7 +66,7 @@ impl StressField {
         rise: f64,
         [low, high]: [f64; 2],
         measure: StressMeasure,
-    ) -> (Candidate, State) {
+    ) -> (Candidate, StressState) {
         let material = from.depth.material;
         let mut here = self.expanded(Depth { z: from.depth.z.clamp(low, high), material }, from.place);
         let mut value = measure.of(&here.state());

@@ -12,7 +12,7 @@ use super::crest::Crest;
 use super::field::StressField;
 use super::measure::StressMeasure;
 use super::peak::{Peak, Rival};
-use super::tensor::State;
+use super::tensor::StressState;
 
 /// All that contends, each with its measure.
 pub(super) type Contenders = Vec<(StressMeasure, Contender)>;
@@ -25,7 +25,7 @@ pub(super) struct Contender {
     /// Where it is the crest of the surface.
     pub crest: Option<Crest>,
     /// The state there, for interfaces.
-    pub state: State,
+    pub state: StressState,
     /// √(Σσᵢⱼ²) of what the waves cause there, without the mean and residual stresses.
     pub size: f64,
 }

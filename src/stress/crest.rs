@@ -14,7 +14,7 @@ use super::field::{REACH, StressField};
 use super::measure::{MATERIAL_MEASURES, RunningMaxima, StressMeasure};
 use super::peak::Peak;
 use super::smoothed_surface::SmoothedSurface;
-use super::tensor::State;
+use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::Depth;
 use crate::numeric::search::{first_largest, largest};
@@ -56,7 +56,7 @@ struct EdgePoint {
     near: [f64; 3],
     /// That of the less resolved of the spot and the open place beside it.
     resolution: f64,
-    state: State,
+    state: StressState,
 }
 
 /// The samples near edges, row by row: their columns, and what is known there.
@@ -77,7 +77,7 @@ struct CubicInterpolation {
 struct SurfacePoint {
     kind: Location,
     place: [f64; 2],
-    state: State,
+    state: StressState,
     /// The pressure there, smoothed for edges.
     smoothed_pressure: f64,
 }
@@ -211,7 +211,7 @@ impl StressField {
                 let between = CubicInterpolation::new(grid.points(), cell.fractions(place));
                 near = [0, 1, 2].map(|k| between.value(&fields[k * len..(k + 1) * len], n2));
             }
-            (u.abs() < 0.5).then_some(EdgePoint { place, near, resolution, state: State::default() })
+            (u.abs() < 0.5).then_some(EdgePoint { place, near, resolution, state: StressState::default() })
         });
         let band = |i: usize| {
             let samples = (0..n2).map(|j| (j, near(i * n2 + j)));
@@ -275,7 +275,7 @@ impl StressField {
         let found = RunningMaxima::new(measures);
         let rows = self.series.on_plane(transform, buffer, &smoothed.open).map(|i, row| {
             let at = |j: usize| row.map(|component| component[j]);
-            let mut states: Vec<State> =
+            let mut states: Vec<StressState> =
                 (0..row[0].len()).map(|j| smoothed.toward_open([0.0; 4], at(j), 1.0)).collect();
             for &(j, (sharp, part)) in &band[i] {
                 states[j] = smoothed.toward_open(sharp, at(j), part);

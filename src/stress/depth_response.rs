@@ -1,7 +1,7 @@
 //! What the waves of the pressure, and of the traction that goes with it, cause at one depth.
 
 use super::series::Response;
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interiors};
 use rustfft::num_complex::Complex64;
 
@@ -16,7 +16,7 @@ pub(super) struct DepthResponse {
     pub tangential: Option<Tangential>,
     /// Wavelengths of the shells over 2π.
     pub lengths: Vec<f64>,
-    pub mean: State,
+    pub mean: StressState,
 }
 
 /// Amplitudes of the shear traction.
@@ -44,7 +44,7 @@ impl DepthResponse {
         depth: Depth,
         wavenumbers: &[f64],
         traction: Option<[f64; 2]>,
-        mean: State,
+        mean: StressState,
     ) -> Self {
         let tangential = traction.map(|traction| Tangential {
             traction,

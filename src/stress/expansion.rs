@@ -9,7 +9,7 @@
 use super::field::StressField;
 use super::search::SEARCH_REACH;
 use super::series::{PARALLEL_WAVES, Phases};
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::{Depth, InPlane};
 use crate::lattice::waves::WaveRow;
 use crate::numeric::lanes::{LANES, splat, total, vectorised};
@@ -34,12 +34,12 @@ pub(super) struct Expansion {
 
 impl Expansion {
     /// The state in its middle, displacements left out.
-    pub fn state(&self) -> State {
-        State::from_stresses(self.terms[0])
+    pub fn state(&self) -> StressState {
+        StressState::from_stresses(self.terms[0])
     }
 
     /// The state at the distance **d** = (x, y, z) from the middle, lengths; displacements left out.
-    pub fn at(&self, [x, y, z]: [f64; 3]) -> State {
+    pub fn at(&self, [x, y, z]: [f64; 3]) -> StressState {
         let powers = [1.0, x, y, x * x, x * y, y * y, z, x * z, y * z, z * z];
         let mut stresses = [0.0; STRESSES];
         for (power, term) in powers.iter().zip(&self.terms) {
@@ -47,7 +47,7 @@ impl Expansion {
                 stresses[k] += power * term[k];
             }
         }
-        State::from_stresses(stresses)
+        StressState::from_stresses(stresses)
     }
 }
 

@@ -4,7 +4,7 @@ use super::depth_response::DepthResponse;
 use super::regions::Regions;
 use super::series::{Response, Series};
 use super::tables::Tables;
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::{Depth, HalfSpace, Interface, Interiors, Layer, MeanStress};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
@@ -25,7 +25,7 @@ pub struct StressField {
     interiors: Arc<Interiors>,
     tables: Arc<Tables>,
     /// State under the mean pressure at the upper face of each material, and the slope of its displacement there.
-    mean: Vec<(State, [f64; 3])>,
+    mean: Vec<(StressState, [f64; 3])>,
     mean_stress: MeanStress,
     regions: Regions,
     /// μ **e** of a counterbody that slides.
@@ -164,7 +164,7 @@ impl StressField {
     }
 
     /// The state that the mean pressure causes at a depth.
-    pub(super) fn mean(&self, depth: Depth) -> State {
+    pub(super) fn mean(&self, depth: Depth) -> StressState {
         let (mut state, slope) = self.mean[depth.material - 1];
         let below = depth.z - self.half_space.faces(depth.material).0;
         state.displacement.iter_mut().zip(slope).for_each(|(u, slope)| *u += slope * below);
@@ -175,9 +175,9 @@ impl StressField {
     ///
     /// # Panics
     /// When the depth is in a material that is not there.
-    pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<State> {
+    pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<StressState> {
         let states = self.at(points, &self.depth_response(depth, REACH));
-        states.into_iter().map(State::from_components).collect()
+        states.into_iter().map(StressState::from_components).collect()
     }
 
     /// Components at places (x, y), lengths.
@@ -204,7 +204,12 @@ impl fmt::Display for StressField {
 /// displacement in it. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
 ///
 /// Displacements are measured from the mean plane of the deformed surface; those under a lateral mean strain are left out.
-fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64, traction: [f64; 2]) -> Vec<(State, [f64; 3])> {
+fn mean_states(
+    half_space: &HalfSpace,
+    mean: MeanStress,
+    pressure: f64,
+    traction: [f64; 2],
+) -> Vec<(StressState, [f64; 3])> {
     let shear = traction.map(|t| -pressure * t);
     let mut displacement = [0.0; 3];
     let mut states = Vec::new();
@@ -215,7 +220,7 @@ fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64, traction
         let slope = [shear[0] / material.shear(), shear[1] / material.shear(), closing];
         let [xx, yy] = [lateral + residual; 2];
         states.push((
-            State { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..State::default() },
+            StressState { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..StressState::default() },
             slope,
         ));
         if let Some(layer) = half_space.layers().get(index) {

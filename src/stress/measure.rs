@@ -1,6 +1,6 @@
 //! The measures whose largest values are looked for.
 
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::InterfaceStrength;
 use crate::numeric::search::first_largest;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -42,7 +42,7 @@ impl StressMeasure {
     }
 
     /// By how much it grows where the stresses of a state grow by so much.
-    pub fn rise(self, state: &State, by: f64) -> f64 {
+    pub fn rise(self, state: &StressState, by: f64) -> f64 {
         match self {
             Self::Delamination(strength) => {
                 let (normal, shear) = (state.zz, state.interface_shear());
@@ -53,7 +53,7 @@ impl StressMeasure {
     }
 
     /// Its value.
-    pub fn of(self, state: &State) -> f64 {
+    pub fn of(self, state: &StressState) -> f64 {
         match self {
             Self::Tau1 => state.tau1(),
             Self::Tension => state.s1(),
@@ -66,7 +66,7 @@ impl StressMeasure {
 
     /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); of the others the value itself, but for
     /// rounding. `mean` is σ_kk/3, `root` √J₂.
-    fn bound(self, state: &State, mean: f64, root: f64) -> f64 {
+    fn bound(self, state: &StressState, mean: f64, root: f64) -> f64 {
         match self {
             Self::Tau1 => root,
             Self::Tension => mean + 2.0 / 3f64.sqrt() * root,
@@ -92,7 +92,7 @@ impl<'a> RunningMaxima<'a> {
 
     /// Index and value of the largest of each measure at `count` states, of which there is one at least; a lower value where
     /// another one that was found is larger than all of them.
-    pub fn add(&self, count: usize, state: impl Fn(usize) -> State) -> Vec<(usize, f64)> {
+    pub fn add(&self, count: usize, state: impl Fn(usize) -> StressState) -> Vec<(usize, f64)> {
         let mut bounds = vec![0.0; self.measures.len() * count];
         for j in 0..count {
             let state = state(j);
@@ -144,9 +144,9 @@ mod tests {
     #[test]
     fn bounds_hold_and_the_largest_is_the_first_of_equals() {
         let state = |k: usize| {
-            State::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
+            StressState::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
         };
-        let states: Vec<State> = (0..200).map(state).chain((0..200).map(state)).collect();
+        let states: Vec<StressState> = (0..200).map(state).chain((0..200).map(state)).collect();
         let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
         let measures: Vec<StressMeasure> =
             MATERIAL_MEASURES.into_iter().chain(StressMeasure::of_interface(strength)).collect();

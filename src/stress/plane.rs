@@ -2,21 +2,21 @@
 
 use super::depth_response::{DisplacementComponents, StressComponents};
 use super::field::{REACH, StressField};
-use super::tensor::State;
+use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::Depth;
 use ndarray::{Array2, Array3, ArrayView3};
 
 /// The states on a plane of constant depth.
 #[derive(Debug, Clone)]
-pub struct Plane {
+pub struct DepthPlane {
     /// Where.
     pub depth: Depth,
     /// Axis 0: xx, yy, zz, xy, xz, yz, then u_x, u_y, u_z; axes 1 and 2 along a₁ and a₂.
     pub components: Array3<f64>,
 }
 
-impl Plane {
+impl DepthPlane {
     /// Samples [n₁, n₂] along a₁ and a₂.
     pub fn points(&self) -> [usize; 2] {
         let (_, n1, n2) = self.components.dim();
@@ -24,12 +24,12 @@ impl Plane {
     }
 
     /// The state at the sample [i, j].
-    pub fn state(&self, [i, j]: [usize; 2]) -> State {
-        State::from_components(std::array::from_fn(|c| self.components[[c, i, j]]))
+    pub fn state(&self, [i, j]: [usize; 2]) -> StressState {
+        StressState::from_components(std::array::from_fn(|c| self.components[[c, i, j]]))
     }
 
     /// The states of all samples, axes along a₁ and a₂.
-    pub fn states(&self) -> Array2<State> {
+    pub fn states(&self) -> Array2<StressState> {
         Array2::from_shape_fn(self.points(), |(i, j)| self.state([i, j]))
     }
 }
@@ -39,7 +39,7 @@ impl StressField {
     ///
     /// # Panics
     /// When a number of points is zero, or the depth in a material that is not there.
-    pub fn plane(&self, depth: Depth, points: [usize; 2]) -> Plane {
+    pub fn plane(&self, depth: Depth, points: [usize; 2]) -> DepthPlane {
         let (transform, response, [n1, n2]) = (Transform::new(points), self.depth_response(depth, REACH), points);
         let mut components = vec![0.0; 9 * n1 * n2];
         let (stresses, displacements) = components.split_at_mut(6 * n1 * n2);
@@ -49,7 +49,7 @@ impl StressField {
             .on_plane(&transform, columns.into_buffer(), &DisplacementComponents(&response))
             .write(displacements);
         let components = Array3::from_shape_vec([9, n1, n2], components);
-        Plane { depth, components: components.expect("nine fields") }
+        DepthPlane { depth, components: components.expect("nine fields") }
     }
 
     /// Stresses on the whole plane, as [`Self::plane`] has them, handed on by some rows at a time, from the first to the
@@ -70,7 +70,7 @@ impl StressField {
         let (transform, response) = (Transform::new(points), self.depth_response(depth, REACH));
         let columns = self.series.on_plane(&transform, Vec::new(), &StressComponents(&response));
         let read = |stresses @ [xx, yy, zz, xy, xz, yz]: [f64; 6]| {
-            let [tau1, mises, s1] = State::from_stresses(stresses).derived();
+            let [tau1, mises, s1] = StressState::from_stresses(stresses).derived();
             [xx, yy, zz, xy, xz, yz, tau1, mises, s1]
         };
         columns.hand_on(read, sink)

@@ -18,7 +18,7 @@ use super::maxima::{ContenderLists, Maxima};
 use super::measure::{MATERIAL_MEASURES, RunningMaxima, StressMeasure};
 use super::peak::Peak;
 use super::smoothed_surface::SurfaceStresses;
-use super::tensor::State;
+use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::{Depth, Layer};
 use crate::numeric::fourier::fast_points;
@@ -285,16 +285,16 @@ impl StressField {
             let columns =
                 self.series.on_plane(transform, Vec::new(), &SurfaceStresses::new(&Arc::new(response), |_| 1.0));
             return columns.map(|_, row| {
-                found.add(row[0].len(), |j| State::on_surface(row.map(|component| component[j]), traction))
+                found.add(row[0].len(), |j| StressState::on_surface(row.map(|component| component[j]), traction))
             });
         }
         let columns = self.series.on_plane(transform, Vec::new(), &StressComponents(&response));
-        columns.map(|_, row| found.add(row[0].len(), |j| State::from_stresses(row.map(|component| component[j]))))
+        columns.map(|_, row| found.add(row[0].len(), |j| StressState::from_stresses(row.map(|component| component[j]))))
     }
 
     /// The best place on a face and the state there: between the samples of the plane by the exact sum, or, where that converges
     /// slowly, the sample itself.
-    fn on_face(&self, candidate: &Candidate, measure: StressMeasure) -> (Candidate, State) {
+    fn on_face(&self, candidate: &Candidate, measure: StressMeasure) -> (Candidate, StressState) {
         let z = candidate.depth.z;
         if z < SHALLOW * self.grid().spacing() {
             (*candidate, self.state_at(candidate))
@@ -304,12 +304,12 @@ impl StressField {
     }
 
     /// The state at a candidate.
-    fn state_at(&self, candidate: &Candidate) -> State {
+    fn state_at(&self, candidate: &Candidate) -> StressState {
         self.stresses_at(&self.depth_response(candidate.depth, SEARCH_REACH), &[candidate.place])[0]
     }
 
     /// What contends at a candidate, where there is this state.
-    fn contender(&self, candidate: &Candidate, state: State) -> Contender {
+    fn contender(&self, candidate: &Candidate, state: StressState) -> Contender {
         let Candidate { value, depth, place: [x, y], .. } = *candidate;
         let peak = Peak {
             value,
@@ -330,9 +330,9 @@ impl StressField {
     }
 
     /// The size of what the waves cause in a state at a depth: without the mean and residual stresses.
-    fn size_of_waves(&self, depth: Depth, state: &State) -> f64 {
+    fn size_of_waves(&self, depth: Depth, state: &StressState) -> f64 {
         let mean = self.mean(depth);
-        let own = State {
+        let own = StressState {
             xx: state.xx - mean.xx,
             yy: state.yy - mean.yy,
             zz: state.zz - mean.zz,

@@ -6,7 +6,7 @@
 use super::constants::OPEN_WIDTH;
 use super::field::{REACH, StressField};
 use super::smoothed_surface::SmoothedSurface;
-use super::tensor::State;
+use super::tensor::StressState;
 use super::trace::Trace;
 use crate::body::Depth;
 use crate::numeric::array::field;
@@ -20,7 +20,7 @@ const REFINEMENT: usize = 512;
 
 /// Equally spaced points on a straight line along the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct SurfaceLine {
     /// Where s = 0, lengths.
     pub origin: [f64; 2],
     /// Direction along which s grows; any length, s is a length.
@@ -31,7 +31,7 @@ pub struct Line {
     pub points: usize,
 }
 
-impl Line {
+impl SurfaceLine {
     /// Values of s.
     pub fn distances(&self) -> Vec<f64> {
         (0..self.points).map(|i| self.span[0] + i as f64 * self.step()).collect()
@@ -61,13 +61,13 @@ impl Line {
 
 /// The states on a vertical section.
 #[derive(Debug, Clone)]
-pub struct Section {
+pub struct VerticalSection {
     /// The line on the surface.
-    pub line: Line,
+    pub line: SurfaceLine,
     /// Depths of its rows; one on an interface stands twice, once for each side.
     pub depths: Vec<Depth>,
     /// Axis 0: rows, as `depths`; axis 1: points of the line.
-    pub states: Array2<State>,
+    pub states: Array2<StressState>,
     /// s on the surface where the normal stress along the line is largest, between the points, and that stress; `None`
     /// unless the first row is the surface.
     pub highest: Option<[f64; 2]>,
@@ -77,7 +77,7 @@ pub struct Section {
 #[derive(Debug)]
 struct LineField<'a> {
     field: &'a StressField,
-    line: Line,
+    line: SurfaceLine,
     trace: Trace<'a>,
     /// The surface, where contact has edges.
     smoothed: Option<SmoothedSurface>,
@@ -88,12 +88,12 @@ impl StressField {
     ///
     /// # Panics
     /// When a depth is in a material that is not there.
-    pub fn section(&self, line: &Line, depths: &[Depth]) -> Section {
+    pub fn section(&self, line: &SurfaceLine, depths: &[Depth]) -> VerticalSection {
         let below = LineField::new(self, *line);
         let rows = below.rows(depths);
         let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| below.highest(surface));
         let states = field([depths.len(), line.points], rows.into_iter().flatten().collect());
-        Section { line: *line, depths: depths.to_vec(), states, highest }
+        VerticalSection { line: *line, depths: depths.to_vec(), states, highest }
     }
 
     /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
@@ -106,7 +106,7 @@ impl StressField {
 }
 
 impl<'a> LineField<'a> {
-    fn new(field: &'a StressField, line: Line) -> Self {
+    fn new(field: &'a StressField, line: SurfaceLine) -> Self {
         let cell = field.grid().cell();
         let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
         let smoothed = field
@@ -117,7 +117,7 @@ impl<'a> LineField<'a> {
     }
 
     /// States on the vertical section below the line: for each depth those at its points.
-    fn rows(&self, depths: &[Depth]) -> Vec<Vec<State>> {
+    fn rows(&self, depths: &[Depth]) -> Vec<Vec<StressState>> {
         let shallow = self.field.shallow();
         let between = |depth: &Depth| depth.material == 1 && depth.z > 0.0 && depth.z < shallow;
         let at = |z: f64| self.row(&self.line, Depth { z, material: 1 });
@@ -127,7 +127,7 @@ impl<'a> LineField<'a> {
             Some((surface, below)) if between(depth) => {
                 let part = depth.z / shallow;
                 let pairs = surface.iter().zip(below).zip(self.row(&self.line, *depth));
-                pairs.map(|((a, b), own)| State { displacement: own.displacement, ..a.toward(b, part) }).collect()
+                pairs.map(|((a, b), own)| StressState { displacement: own.displacement, ..a.toward(b, part) }).collect()
             }
             _ => self.row(&self.line, *depth),
         };
@@ -136,9 +136,9 @@ impl<'a> LineField<'a> {
 
     /// Where on the surface the normal stress along the line is largest, between its points: s and the stress.
     /// `surface` holds the states at the points.
-    fn highest(&self, surface: &[State]) -> Option<[f64; 2]> {
+    fn highest(&self, surface: &[StressState]) -> Option<[f64; 2]> {
         let line = self.line;
-        let highest = |states: &[State], line: Line| {
+        let highest = |states: &[StressState], line: SurfaceLine| {
             let (best, stress) = first_largest(states.iter().map(|state| state.along(line.direction)))?;
             Some([line.distances()[best], stress])
         };
@@ -147,22 +147,23 @@ impl<'a> LineField<'a> {
         // The stress drops at once at an edge: as many points between two as say where.
         let [first, last] = line.span;
         let span = [s - line.step(), s + line.step()].map(|s| s.clamp(first.min(last), first.max(last)));
-        let finer = Line { span, points: 2 * REFINEMENT + 1, ..line };
+        let finer = SurfaceLine { span, points: 2 * REFINEMENT + 1, ..line };
         highest(&self.sharp(smoothed, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
     }
 
     /// States at a depth, at the points of `line`: of its own or a part of it.
-    fn row(&self, line: &Line, depth: Depth) -> Vec<State> {
+    fn row(&self, line: &SurfaceLine, depth: Depth) -> Vec<StressState> {
         let (first, step) = (line.span[0], line.step());
         let response = self.field.depth_response(depth, REACH);
-        let states = self.trace.sums(&response, [first, step], line.points).into_iter().map(State::from_components);
+        let states =
+            self.trace.sums(&response, [first, step], line.points).into_iter().map(StressState::from_components);
         let Some(smoothed) = self.smoothed.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
         let sharp = self.sharp(smoothed, line).into_iter().zip(states);
-        sharp.map(|(sharp, state)| State { displacement: state.displacement, ..sharp }).collect()
+        sharp.map(|(sharp, state)| StressState { displacement: state.displacement, ..sharp }).collect()
     }
 
     /// States on the surface, displacements left out, at the points of `line`.
-    fn sharp(&self, smoothed: &SmoothedSurface, line: &Line) -> Vec<State> {
+    fn sharp(&self, smoothed: &SmoothedSurface, line: &SurfaceLine) -> Vec<StressState> {
         let places = [line.span[0], line.step()];
         let near = self.trace.sums(&smoothed.near, places, line.points);
         let [edge, open] = [&smoothed.edge, &smoothed.open].map(|flat| self.trace.sums(flat, places, line.points));

@@ -26,7 +26,7 @@ use super::depth_response::DepthResponse;
 use super::field::StressField;
 use super::series::Response;
 use super::smoothed_edge::SmoothedEdge;
-use super::tensor::State;
+use super::tensor::StressState;
 use rustfft::num_complex::Complex64;
 use std::sync::Arc;
 
@@ -89,7 +89,7 @@ impl Response<4> for SurfaceStresses {
     }
 
     fn mean(&self) -> [f64; 4] {
-        let State { xx, yy, zz, .. } = self.surface.mean;
+        let StressState { xx, yy, zz, .. } = self.surface.mean;
         [xx, yy, 0.0, -zz]
     }
 }
@@ -175,15 +175,15 @@ impl SmoothedSurface {
     }
 
     /// The state, its displacement left out, from what [`Self::near`], [`Self::edge`] and [`Self::open`] give.
-    pub fn state(&self, near: [f64; 3], edge: [f64; 4], open: [f64; 4]) -> State {
+    pub fn state(&self, near: [f64; 3], edge: [f64; 4], open: [f64; 4]) -> StressState {
         let (sharp, part) = self.sharp(near, edge);
         self.toward_open(sharp, open, part)
     }
 
     /// Between the state near an edge and that away from it, σ_xx, σ_yy, σ_xy and p of each.
-    pub fn toward_open(&self, near: [f64; 4], open: [f64; 4], part: f64) -> State {
+    pub fn toward_open(&self, near: [f64; 4], open: [f64; 4], part: f64) -> StressState {
         let four = std::array::from_fn(|k| (1.0 - part) * near[k] + part * open[k]);
-        State::on_surface(four, self.traction)
+        StressState::on_surface(four, self.traction)
     }
 
     /// σ_xx, σ_yy, σ_xy and p as they are near an edge, and which part of the state away from edges there is in it.
@@ -197,10 +197,10 @@ impl SmoothedSurface {
     }
 
     /// The state at the edge, seen from a place on it.
-    pub fn state_on_edge(&self, near: [f64; 3], edge: [f64; 4]) -> State {
+    pub fn state_on_edge(&self, near: [f64; 3], edge: [f64; 4]) -> StressState {
         let (_, normal) = self.edge_seen(near);
         let [xx, yy, xy] = self.sharpened(edge, near[0], (0.0, 0.0), normal);
-        State::on_surface([xx, yy, xy, 0.0], self.traction)
+        StressState::on_surface([xx, yy, xy, 0.0], self.traction)
     }
 
     /// The place moved to the edge beside it, by what is seen there, and how far that was in widths.

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Stress (positive in tension, a pressure) and displacement (a length; u_z into the body) at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct State {
+pub struct StressState {
     /// σ_xx.
     pub xx: f64,
     /// σ_yy.
@@ -21,7 +21,7 @@ pub struct State {
     pub displacement: [f64; 3],
 }
 
-impl State {
+impl StressState {
     /// From xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn from_components([xx, yy, zz, xy, xz, yz, ux, uy, uz]: [f64; 9]) -> Self {
         Self { xx, yy, zz, xy, xz, yz, displacement: [ux, uy, uz] }
@@ -144,7 +144,7 @@ impl State {
     }
 }
 
-impl fmt::Display for State {
+impl fmt::Display for StressState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -172,21 +172,21 @@ mod tests {
         let frame = [[c, s, 0.0], [-s * c, c * c, s], [s * s, -s * c, c]];
         let values = [3.0, 1.0, -2.0];
         let entry = |i: usize, j: usize| (0..3).map(|k| values[k] * frame[k][i] * frame[k][j]).sum::<f64>();
-        let state = State {
+        let state = StressState {
             xx: entry(0, 0),
             yy: entry(1, 1),
             zz: entry(2, 2),
             xy: entry(0, 1),
             xz: entry(0, 2),
             yz: entry(1, 2),
-            ..State::default()
+            ..StressState::default()
         };
         for (found, expected) in state.principal().iter().zip(values) {
             assert!((found - expected).abs() < 1e-14);
         }
         assert!((state.tau1() - 2.5).abs() < 1e-14);
         // The cube of so small a stress is zero.
-        let tiny = State::from_components(state.components().map(|s| 1e-120 * s));
+        let tiny = StressState::from_components(state.components().map(|s| 1e-120 * s));
         assert!((tiny.tau1() / 2.5e-120 - 1.0).abs() < 1e-13, "{tiny}");
         assert!((state.mises() - 19f64.sqrt()).abs() < 1e-13);
         let direction = state.s1_direction();
@@ -195,10 +195,10 @@ mod tests {
 
     #[test]
     fn double_and_triple_principal_stresses_have_directions_of_length_one() {
-        let double = State { xx: 2.0, yy: 2.0, zz: -1.0, ..State::default() };
+        let double = StressState { xx: 2.0, yy: 2.0, zz: -1.0, ..StressState::default() };
         let d = double.s1_direction();
         assert!(d[2].abs() < 1e-14 && (d[0].hypot(d[1]) - 1.0).abs() < 1e-14);
-        let triple = State { xx: -1.0, yy: -1.0, zz: -1.0, ..State::default() };
+        let triple = StressState { xx: -1.0, yy: -1.0, zz: -1.0, ..StressState::default() };
         assert_eq!(triple.principal(), [-1.0; 3]);
         assert_eq!(triple.s1_direction(), [1.0, 0.0, 0.0]);
     }
