@@ -9,7 +9,7 @@ use super::mesh::Mesh;
 use super::patterns::Patterns;
 use super::solution::Stop;
 use super::system::System;
-use super::tables::Tables;
+use super::tables::InfluenceTables;
 use crate::load::Load;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
@@ -27,9 +27,9 @@ pub struct Coupled {
     /// The nearest shells of indenters around each site, whatever the circle.
     neighbours: Vec<Circle>,
     /// Influence of the indenters inside the circles, computed at first use.
-    inside: OnceLock<Tables>,
+    inside: OnceLock<InfluenceTables>,
     /// Influence of all indenters of the lattice, computed at first use.
-    whole: OnceLock<Tables>,
+    whole: OnceLock<InfluenceTables>,
     /// Profile plus drop at each element, one list per site, lengths.
     pub(super) shapes: Vec<Vec<f64>>,
     mutual_effect: bool,
@@ -60,16 +60,16 @@ impl Coupled {
     }
 
     /// Influence tables of the indenters that act under a rule.
-    pub(super) fn tables(&self, rule: CircleRadius) -> &Tables {
+    pub(super) fn tables(&self, rule: CircleRadius) -> &InfluenceTables {
         if self.mutual_effect && rule == CircleRadius::LatticeSum {
-            self.whole.get_or_init(|| Tables::whole(&self.system, self.mesh, self.circles[0].indenters()))
+            self.whole.get_or_init(|| InfluenceTables::whole(&self.system, self.mesh, self.circles[0].indenters()))
         } else {
-            self.inside.get_or_init(|| Tables::inside(&self.system, self.mesh, &self.circles))
+            self.inside.get_or_init(|| InfluenceTables::inside(&self.system, self.mesh, &self.circles))
         }
     }
 
     /// Displacement of the spot m by each other site's indenters, one value per element, lengths; `None` for sites without load.
-    pub(super) fn others(&self, tables: &Tables, m: usize, patterns: &Patterns) -> Vec<Option<Vec<f64>>> {
+    pub(super) fn others(&self, tables: &InfluenceTables, m: usize, patterns: &Patterns) -> Vec<Option<Vec<f64>>> {
         let by = |c: usize| {
             let table = tables.of(m, c).filter(|_| c != m && patterns.loads[c] > 0.0)?;
             let mut displacement = vec![0.0; self.mesh.elements()];
@@ -131,7 +131,7 @@ impl Coupled {
         }
     }
 
-    /// What converged patterns are worth: whether contacts have merged or reach the rim of their mesh.
+    /// How a converged iteration ends: contacts may have merged, or reach the rim of their mesh.
     pub(super) fn reached(&self, patterns: &Patterns, merged: &[bool]) -> Stop {
         let on_rim = |pressure: &Vec<f64>| (0..pressure.len()).any(|i| pressure[i] > 0.0 && self.mesh.on_rim(i));
         if merged.contains(&true) {

@@ -1,22 +1,22 @@
-//! The outline of a spot of elements, between them.
+//! The outline of a contact spot, located between the elements.
 //!
-//! Near its edge p² falls evenly inside and g^{2/3} rises evenly outside, on a bare body. Layers that are thin against
-//! the way over which they do so bend both, by the factors Φ(d) of pressures and Γ(d) of gaps (`edge.rs`), which are
-//! taken out. How steep each side is is read off the elements, not off a modulus. Both sides over their slopes measure
-//! the distance d from the edge,
+//! On a bare body p² decreases linearly towards the edge inside, and g^{2/3} increases linearly outside. Layers that are thin
+//! against the range of the fit change both, by the ratios Φ(d) of pressures and Γ(d) of gaps (`edge_ratios.rs`), by which they
+//! are divided. The slopes a and b of both sides are fitted to the elements, not computed from a modulus. Both sides over their
+//! slopes give the distance d from the edge,
 //!
 //! ψ = −(p/Φ)²/a inside,  ψ = (g/Γ)^{2/3}/b outside,
 //!
-//! whose root, the edge, lies between elements of both. With d, also of Φ and Γ, from the present outline ρ(θ), a and b, which vary
-//! around the spot, and then
+//! whose root is the edge. With d, also in Φ and Γ, from the present outline ρ(θ), first a and b, which vary around the spot, and
+//! then
 //!
 //! ψ ≈ Σ_k [(α_k + β_k d) cos kθ + (α′_k + β′_k d) sin kθ] + γ d² + γ′ d|d|
 //!
-//! are fitted by least squares, and ρ moves to the root until it stands. Elements next to the edge, which cut it, weigh
-//! little.
+//! are fitted by least squares, and ρ moves to the root until it converges. Elements next to the edge, which it cuts, have little
+//! weight.
 //!
-//! The open elements that a spot encloses are the hole of a ring; its rim is an outline seen from the other side. Φ and Γ are 1
-//! for a ring, whose two edges bend the coating together.
+//! The open elements that a spot encloses are the hole of a ring; its rim is located with inside and outside exchanged. Φ and Γ
+//! are 1 for a ring, where they are not known: the two edges bend the coating together.
 
 use super::edge_ratios::EdgeRatios;
 use super::mesh::Mesh;
@@ -27,7 +27,7 @@ use crate::reading::boundary::constants::{
 };
 use std::f64::consts::PI;
 
-/// The line around a spot, and around the hole of a ring.
+/// Outline of a spot, with the hole of a ring.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
     /// Distances from the axis at equally spaced angles from θ = 0, lengths.
@@ -44,14 +44,14 @@ const MAX_RELATIVE_SHIFT: f64 = 0.3;
 struct RimElement {
     r: f64,
     theta: f64,
-    /// p² in contact, g^{2/3} beside it.
+    /// p² in contact, g^{2/3} outside.
     height: f64,
     open: bool,
 }
 
 impl Outline {
-    /// The outline of what is pressed, from the pressure on each element and the gap over it; `None` for spots of too
-    /// few elements or not around the axis.
+    /// Outline of a contact from the pressure on each element and the gap over it; `None` for spots of too few elements or not
+    /// around the axis.
     pub fn new(mesh: &Mesh, edge: &EdgeRatios, pressure: &[f64], gap: &[f64]) -> Option<Self> {
         let enclosed = enclosed(mesh, pressure);
         let element = |index: usize| {
@@ -70,23 +70,23 @@ impl Outline {
         };
         let whole = counted(&|index| pressure[index] > 0.0 || enclosed[index]);
         let open = counted(&|index| enclosed[index]);
-        // The law is that of an edge alone, and a ring has two.
+        // The ratios are those of a single edge, and a ring has two.
         let bare = EdgeRatios::bare();
         let edge = if open > 0.0 { &bare } else { edge };
-        // Each edge of a ring has its own half of it, a disc as much as the fit reaches.
+        // Each edge of a ring has half of the contact, that of a disc all within the reach of the fit.
         let deep = if open > 0.0 { 0.5 * (whole - open) } else { whole };
         let radii = rim(&elements(false), edge, mesh.size, [whole, deep], 1.0)?;
         let hole = if open > 0.0 { rim(&elements(true), edge, mesh.size, [open, deep], -1.0) } else { None };
         Some(Self { radii, hole: hole.map_or(open, |radii| mean_radius(&radii)) })
     }
 
-    /// Area in contact.
+    /// Area in contact, a length squared.
     pub fn area(&self) -> f64 {
         PI * (mean_radius(&self.radii).powi(2) - self.hole * self.hole)
     }
 }
 
-/// Which open elements no way over open elements leads to from the sides of the mesh.
+/// Whether each element is open and enclosed by contact: not connected over open elements with the sides of the mesh.
 fn enclosed(mesh: &Mesh, pressure: &[f64]) -> Vec<bool> {
     let width = mesh.width;
     let mut enclosed: Vec<bool> = pressure.iter().map(|p| *p <= 0.0).collect();
@@ -124,8 +124,8 @@ struct RimFit<'a> {
 /// the reach, positive where open.
 type Near = (RimElement, f64);
 
-/// The rim between contact, `deep` as far as it is this rim's, and what is open beside it, outwards (`sign` 1) or
-/// inwards (−1), from the circle of the `counted` radius; lengths.
+/// Rim of a contact that is open outside (`sign` 1) or inside (−1), fitted from the circle of the `counted` radius; contact
+/// deeper than `deep` belongs to another rim; lengths. `None` where the fit fails or departs from the counted radius.
 fn rim(
     elements: &[RimElement],
     edge: &EdgeRatios,
@@ -170,7 +170,7 @@ impl RimFit<'_> {
         }
         let (c, count) = (fit.solve()?, 1 + 2 * harmonics);
         let [values, slopes] = [&c[..count], &c[count..2 * count]].map(series_line);
-        // ψ rises about as d.
+        // ψ increases about as d.
         if !slopes.iter().all(|slope| *slope > 0.2) {
             return None;
         }
@@ -199,7 +199,7 @@ impl RimFit<'_> {
     }
 }
 
-/// The series a, in contact, or b, in the open, of height ≈ slope |d| (1 + κ|d|).
+/// Fourier series of the slope a, in contact, or b, where `open`, of height ≈ slope |d| (1 + κ|d|).
 fn slopes(near: &[Near], harmonics: usize, open: bool) -> Option<Vec<f64>> {
     let mut fit = SeriesFit::new(vec![harmonics, 0]);
     for (element, d) in near.iter().filter(|(element, d)| element.open == open && (*d > 0.0) == open) {

@@ -18,7 +18,7 @@ use super::patterns::Patterns;
 use super::press::{SpotEnd, press, punch};
 use super::solution::{Solution, Stop};
 use super::spot::Spot;
-use super::tables::Tables;
+use super::tables::InfluenceTables;
 use crate::load::Load;
 use crate::numeric::array::field;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ const STIFFNESS_TOLERANCE: f64 = 1e-4;
 /// The iteration of one load step.
 struct Passes<'a> {
     coupled: &'a Coupled,
-    tables: &'a Tables,
+    tables: &'a InfluenceTables,
     load: Load,
     rule: CircleRadius,
     patterns: Patterns,
