@@ -1,12 +1,12 @@
-//! From a place inside a material to the local maximum above it.
+//! Local maximum of a stress measure inside a material, by a trust-region method.
 //!
-//! The stresses are [expanded](super::expansion) at a place, and the highest value of the expansion within a box around it says
-//! where to expand them next: at its border the box is moved, otherwise it becomes smaller. The search ends where the expansion
-//! promises no more; what stands is the sum at its middle, not what an expansion tells. Steps in depth end at the faces of the
-//! material.
+//! The stresses are [expanded](super::expansion) to second order at a point, and the highest value of the expansion within a
+//! trust region around it gives the next point. The region keeps its size after a step to its border, and shrinks otherwise. The
+//! search ends where the expansion predicts no further rise; the value stated is the exact sum at the last point. Steps in depth
+//! end at the faces of the material.
 //!
-//! Within the box 3 × 3 points at three depths are compared: while one of them is higher, it is the next middle. Otherwise the
-//! next one is the top of the paraboloid through them, and their distances become smaller.
+//! Within the region 3 × 3 points at three depths are compared: while one of them is higher, it is the next middle. Otherwise the
+//! next middle is the top of the paraboloid through them, and their distances shrink.
 
 use super::depth_response::{DepthResponse, StressComponents};
 use super::expansion::Expansion;
@@ -16,23 +16,24 @@ use super::search::Candidate;
 use super::tensor::StressState;
 use crate::body::Depth;
 
-/// How often the stresses are expanded at most.
+/// Largest number of expansions of one search.
 const MAX_EXPANSIONS: usize = 24;
-/// How often the distances become smaller in a box, and how many steps there are at most.
+/// Largest number of times that the distances shrink within a trust region.
 const MAX_REFINEMENTS: usize = 3;
+/// Largest number of steps within a trust region.
 const MAX_MOVES: usize = 12;
-/// Smaller distances over the ones before.
+/// Factor by which distances and trust regions shrink.
 const SHRINKAGE: f64 = 0.3;
-/// What an expansion has to promise, relatively, for it to be followed: what is left is less.
+/// Least predicted rise, relative to the value, for which a search goes on.
 const MIN_PREDICTED_RISE: f64 = 1e-11;
-/// The points around the middle of a plane: first those along x and y, then the corners.
+/// Offsets from the middle of a plane to the points around it: first along x and y, then the corners.
 const NEIGHBOURS: [[f64; 2]; 8] =
     [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
 
-/// Values in the middle of a plane and at [`NEIGHBOURS`] of it.
+/// Values in the middle of a plane and at [`NEIGHBOURS`] around it.
 type NinePoints = [f64; 9];
 
-/// Offsets from the middle of an expansion: sideways no more than `step`, in depth within `depths`, lengths.
+/// Offsets from the middle of an expansion: at most `step` along x and y, within `depths` in depth; lengths.
 #[derive(Debug, Clone, Copy)]
 struct TrustRegion {
     step: f64,
@@ -45,7 +46,7 @@ impl TrustRegion {
         [x, y, z.clamp(self.depths[0], self.depths[1])]
     }
 
-    /// Whether an offset is on its border, sideways or in depth.
+    /// Whether an offset lies on the border of the region.
     fn ends_at(&self, [x, y, z]: [f64; 3]) -> bool {
         let near = |d: f64, end: f64| end != 0.0 && (d - end).abs() <= 1e-9 * end.abs();
         near(x.abs(), self.step) || near(y.abs(), self.step) || self.depths.iter().any(|&end| near(z, end))
@@ -53,13 +54,13 @@ impl TrustRegion {
 }
 
 impl StressField {
-    /// Stresses at places (x, y) of a depth.
+    /// Stresses at the points (x, y) of a depth, displacements left out.
     pub(super) fn stresses_at(&self, response: &DepthResponse, places: &[[f64; 2]]) -> Vec<StressState> {
         self.at(places, &StressComponents(response)).into_iter().map(StressState::from_stresses).collect()
     }
 
-    /// The local maximum from a candidate on and the state there, at depths within [low, high], with `rise` the first step in
-    /// depth; 0 for none.
+    /// The local maximum of a measure near a candidate, and the state there, at depths within [low, high]; `rise` is the first
+    /// step in depth, a length, 0 for a search at one depth.
     pub(super) fn local_maximum(
         &self,
         from: &Candidate,
@@ -75,7 +76,7 @@ impl StressField {
             let (z, [x, y]) = (here.depth.z, here.place);
             let within = TrustRegion { step, depths: [(low - z).max(-rise), (high - z).min(rise)] };
             let (moved, promised) = highest(&here, within, value, measure);
-            // What is not a number promises nothing.
+            // A value that is not a number predicts no rise.
             if promised.is_nan() || value.is_nan() || promised <= value + MIN_PREDICTED_RISE * value.abs() {
                 break;
             }
@@ -95,8 +96,8 @@ impl StressField {
     }
 }
 
-/// The highest place of an expansion within a box, as an offset from its middle, and the measure there; `value` is that in the
-/// middle.
+/// Offset from the middle of an expansion to its highest point within a trust region, and the measure there; `value` is the
+/// measure in the middle.
 fn highest(expansion: &Expansion, within: TrustRegion, value: f64, measure: StressMeasure) -> ([f64; 3], f64) {
     let at = |offset: [f64; 3]| measure.of(&expansion.at(offset));
     let (mut best, mut value) = ([0.0; 3], value);
@@ -124,8 +125,8 @@ fn highest(expansion: &Expansion, within: TrustRegion, value: f64, measure: Stre
         let all = values.iter().zip(&levels).flat_map(|((_, values), (_, places))| values.iter().zip(places));
         let Some((&higher, &place)) = all.reduce(|a, b| if b.0 > a.0 { b } else { a }) else { break };
         if higher > value {
-            // At its border too: where the measure is the same along one direction, what the expansion errs there would hide
-            // where it is highest along the others.
+            // At the border too: where the measure is constant along one direction, the error of the expansion along it would
+            // hide the maximum along the others.
             (best, value) = (place, higher);
             continue;
         }
@@ -146,7 +147,8 @@ fn highest(expansion: &Expansion, within: TrustRegion, value: f64, measure: Stre
     (best, value)
 }
 
-/// Where the paraboloid is highest, in steps from the middle, no farther than one; its axes alone where it is no hill.
+/// Top of the paraboloid through the points, in steps from the middle, at most one along each axis; axis by axis where the
+/// paraboloid has no top.
 fn top(levels: &[(f64, NinePoints)], is_centred: bool) -> [f64; 3] {
     let own = &levels[0].1;
     let (gx, gy) = (0.5 * (own[2] - own[1]), 0.5 * (own[4] - own[3]));
@@ -160,7 +162,7 @@ fn top(levels: &[(f64, NinePoints)], is_centred: bool) -> [f64; 3] {
         xz = 0.25 * (down[2] - down[1] - up[2] + up[1]);
         yz = 0.25 * (down[4] - down[3] - up[4] + up[3]);
     }
-    // −H d = g by Cramer's rule; −H is positive definite on a hill.
+    // −H d = g by Cramer's rule; −H is positive definite where there is a top.
     let [a, b, c, d, e, f] = [-xx, -yy, -zz, -xy, -xz, -yz];
     let minor = a * b - d * d;
     let all = a * (b * c - f * f) - d * (d * c - f * e) + e * (d * f - b * e);

@@ -1,11 +1,11 @@
-//! The largest tension, τ₁ and von Mises on the surface: at an edge of contact, or in the open.
+//! The largest tension, τ₁ and von Mises on the surface: at an edge of contact, or away from edges.
 //!
-//! 1. **Edges** beside the samples where contact ends are found between the samples of the smoothed pressure, and the
-//!    tension there is read between those of the smoothed stresses.
-//! 2. **Everywhere** the tension is that of the [`SmoothedSurface`]: of the series itself but for a band along the edges.
-//! 3. The highest edges and the highest sample are read again by the exact sums, with three widths.
+//! 1. **Edges** are located between the samples of the smoothed pressure, beside the samples where contact ends, and the
+//!    stresses there are interpolated between those of the smoothed stresses.
+//! 2. **Everywhere** the stresses are those of the [`SmoothedSurface`]: of the series itself but for a band along the edges.
+//! 3. The highest edges and the highest sample are evaluated again by the exact sums, with three widths of smoothing.
 //!
-//! Fields that are used up row by row are not kept: of the smoothed stresses near edges no more than the band.
+//! Fields are processed row by row and not kept, except for the band of samples near edges.
 
 use super::constants::{
     CHANGE_OVER_ERROR, CREST_SAFETY, CUSP_ERROR, EDGE_ERROR, EXACT_EDGES, EXPONENT_ERROR, OTHER_WIDTHS, USUAL_TENSION,
@@ -21,93 +21,94 @@ use crate::numeric::search::{first_largest, largest};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// The largest of a stress on the surface.
+/// The largest value of a stress measure on the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crest {
-    /// Where and how large.
+    /// Value and position.
     pub peak: Peak,
-    /// How uncertain its value is by what this grid alone tells, a pressure.
+    /// Uncertainty of the value as estimated from this grid alone, a pressure.
     pub uncertainty: f64,
-    /// What errors are relative to: the stress itself, or the usual tension under the largest pressure, 0.13 of it, where
-    /// that is more (as on incompressible materials, which have no tension at the edge).
+    /// Scale of relative errors, a pressure: the value itself, or the usual tension at an edge, 0.13 of the largest pressure, where
+    /// that is more (incompressible materials have no tension at the edge).
     pub scale: f64,
 }
 
 impl Crest {
-    /// Estimated relative error, also from the largest value of the same stress on the surface of the next `coarser` grid.
+    /// Estimated relative error; `coarser` is the largest value of the measure on the surface of the next coarser grid.
     pub fn error(&self, coarser: Option<f64>) -> f64 {
         let change = coarser.map_or(0.0, |value| (value - self.peak.value).abs());
         CREST_SAFETY * (self.uncertainty + change / CHANGE_OVER_ERROR) / self.scale
     }
 }
 
-/// What stands at a place.
+/// Whether a point of the surface lies at an edge of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Location {
     Open,
     Edge,
 }
 
-/// An edge between the samples.
+/// A point of an edge, between the samples.
 #[derive(Debug, Clone, Copy)]
 struct EdgePoint {
+    /// x, y; lengths.
     place: [f64; 2],
     /// p̃ and its slopes.
     near: [f64; 3],
-    /// That of the less resolved of the spot and the open place beside it.
+    /// Samples along the radius of the spot or of the open region beside it, whichever has fewer.
     resolution: f64,
     state: StressState,
 }
 
-/// The samples near edges, row by row: their columns, and what is known there.
+/// Samples near edges, row by row: their columns, and a value at each.
 type EdgeBand<T> = Vec<Vec<(usize, T)>>;
 
-/// σ_xx, σ_yy, σ_xy and p as they are near an edge, and the part that the series itself has.
+/// σ_xx, σ_yy, σ_xy and p near an edge, sharpened, and the weight of the series itself beside them.
 type Sharp = ([f64; 4], f64);
 
-/// A place between the samples, read by cubics in each direction: rows and columns around it, and their weights.
+/// Cubic interpolation at a point between the samples: indices and weights of the four rows and columns around it.
 #[derive(Debug)]
 struct CubicInterpolation {
     rows: [(usize, f64); 4],
     columns: [(usize, f64); 4],
 }
 
-/// What stands at a place on the surface.
+/// State at a point of the surface.
 #[derive(Debug, Clone, Copy)]
 struct SurfacePoint {
     kind: Location,
     place: [f64; 2],
     state: StressState,
-    /// The pressure there, smoothed for edges.
+    /// Pressure of the series smoothed near edges.
     smoothed_pressure: f64,
 }
 
-/// What is read off the surface once for all crests.
+/// Readings of the surface that the crests of all measures share.
 #[derive(Debug)]
 struct SurfaceReading {
     smoothed: SmoothedSurface,
-    /// The same with other widths.
+    /// The surface smoothed with other widths.
     others: [SmoothedSurface; OTHER_WIDTHS.len()],
     edges: Vec<EdgePoint>,
-    /// Place of the largest sample of each measure.
+    /// Position of the largest sample of each measure, lengths.
     samples: Vec<[f64; 2]>,
-    /// The largest smoothed pressure.
+    /// Largest smoothed pressure.
     pressed: f64,
 }
 
 impl StressField {
-    /// The largest tension, τ₁ and von Mises on the surface; none where there is no edge: contact is complete, or nowhere.
+    /// The largest tension, τ₁ and von Mises on the surface; none where contact has no edge: it is complete, or absent.
     pub(super) fn crests(&self) -> Vec<(StressMeasure, Crest)> {
         self.crests_of(&MATERIAL_MEASURES)
     }
 
-    /// Those of some measures.
+    /// The largest values of some measures on the surface; none where contact has no edge.
     pub(super) fn crests_of(&self, measures: &[StressMeasure]) -> Vec<(StressMeasure, Crest)> {
         if !self.regions().have_edges() {
             return Vec::new();
         }
         let surface = self.read_surface(measures);
-        // The places where a measure may be largest, as indices into `places`: most measures share theirs.
+        // Points where a measure may be largest, as indices into `places`: most measures share theirs.
         let mut places: Vec<(Location, [f64; 2])> = Vec::new();
         let finalists: Vec<Vec<usize>> = measures
             .iter()
@@ -135,7 +136,7 @@ impl StressField {
         measures.iter().zip(&finalists).filter_map(of).collect()
     }
 
-    /// The largest tension on the surface; `None` where there is no edge: contact is complete, or nowhere.
+    /// The largest tension on the surface; `None` where contact has no edge: it is complete, or absent.
     pub fn crest(&self) -> Option<Crest> {
         self.crests_of(&[StressMeasure::Tension]).first().map(|(_, crest)| *crest)
     }
@@ -156,7 +157,7 @@ impl StressField {
         }
     }
 
-    /// The crest that stands at the highest place, with what `others`, the highest ones with other widths, tell of its error.
+    /// The crest at the highest point, its uncertainty estimated from `others`, the highest points with other widths.
     fn crest_of(
         &self,
         surface: &SurfaceReading,
@@ -168,7 +169,7 @@ impl StressField {
         let value_of = |edge: &EdgePoint| measure.of(&edge.state);
         let SurfacePoint { kind, place, state, smoothed_pressure } = highest;
         let value = measure.of(&state);
-        // How far the stress at an edge that few samples see may reach above the largest one; at least so far at it all.
+        // By how much the stress at an edge of few samples may exceed the largest one.
         let usual = if measure == StressMeasure::Tension { USUAL_TENSION * pressed } else { 0.0 };
         let spread: f64 = others.map(|other| (measure.of(&other.state) - value).abs()).sum();
         let unlike = if kind == Location::Edge { smoothed_pressure.abs() * smoothed.unlike } else { 0.0 };
@@ -187,8 +188,8 @@ impl StressField {
         Crest { peak, uncertainty: spread + unlike + few, scale: usual.max(value.abs()) }
     }
 
-    /// Edges beside the samples where contact ends, their stress not known yet; and row by row the samples near edges,
-    /// with p̃ and its slopes.
+    /// Points of edges beside the samples where contact ends, without their stresses; and the samples near edges, with p̃
+    /// and its slopes.
     fn edges(
         &self,
         smoothed: &SmoothedSurface,
@@ -220,8 +221,7 @@ impl StressField {
         (found.collect(), (0..grid.points()[0]).into_par_iter().map(band).collect())
     }
 
-    /// The edges with their stress, and the band with σ_xx, σ_yy, σ_xy, p as they are near edges and
-    /// the part that the series itself has.
+    /// The points of edges with their stresses, and the samples near edges with their sharpened stresses.
     fn along_edges(
         &self,
         smoothed: &SmoothedSurface,
@@ -231,7 +231,7 @@ impl StressField {
         band: EdgeBand<[f64; 3]>,
     ) -> (Vec<EdgePoint>, EdgeBand<Sharp>) {
         let (points, cell) = (self.grid().points(), self.grid().cell());
-        // What each row adds to which edge.
+        // Weights with which each row adds to the edges.
         let places: Vec<CubicInterpolation> =
             edges.iter().map(|edge| CubicInterpolation::new(points, cell.fractions(edge.place))).collect();
         let mut beside: Vec<Vec<(usize, f64)>> = vec![Vec::new(); points[0]];
@@ -263,7 +263,7 @@ impl StressField {
         (edges, sharp)
     }
 
-    /// Place of the largest sample of each measure, and the largest smoothed pressure of all.
+    /// Position of the largest sample of each measure, lengths, and the largest smoothed pressure.
     fn highest_samples(
         &self,
         smoothed: &SmoothedSurface,
@@ -290,7 +290,7 @@ impl StressField {
         ((0..measures.len()).map(place).collect(), largest(rows.iter().map(|&(_, pressed)| pressed)))
     }
 
-    /// What stands at places of which some are at edges, by the exact sums.
+    /// States at points of the surface, by the exact sums; points at edges are moved onto the edge first.
     fn read_places(&self, smoothed: &SmoothedSurface, places: &[(Location, [f64; 2])]) -> Vec<SurfacePoint> {
         let of = |kind: Location| places.iter().filter(move |(own, _)| *own == kind).map(|(_, place)| *place);
         let (open, mut edges): (Vec<_>, Vec<_>) = (of(Location::Open).collect(), of(Location::Edge).collect());
@@ -323,7 +323,7 @@ impl StressField {
 }
 
 impl SurfaceReading {
-    /// The highest sample and the highest edges.
+    /// The largest sample of a measure and the points of edges where it is largest.
     fn finalists(&self, measure: StressMeasure, sample: [f64; 2]) -> Vec<(Location, [f64; 2])> {
         let mut ordered: Vec<(f64, &EdgePoint)> =
             self.edges.iter().map(|edge| (measure.of(&edge.state), edge)).collect();
@@ -334,7 +334,7 @@ impl SurfaceReading {
 }
 
 impl CubicInterpolation {
-    /// At the fractions s, t of the cell.
+    /// At the fractions s, t of a₁ and a₂.
     fn new([n1, n2]: [usize; 2], [s, t]: [f64; 2]) -> Self {
         let around = |x: f64, n: usize| {
             let f = x - x.floor();
@@ -350,12 +350,12 @@ impl CubicInterpolation {
         Self { rows: around(s * n1 as f64, n1), columns: around(t * n2 as f64, n2) }
     }
 
-    /// What a row of a field is at the place across it.
+    /// Value of a row of a field at the point's place along the row.
     fn across(&self, row: &[f64]) -> f64 {
         self.columns.iter().map(|&(j, weight)| weight * row[j]).sum()
     }
 
-    /// A field of rows of n₂ samples.
+    /// Value of a field, rows of n₂ samples, at the point.
     fn value(&self, field: &[f64], n2: usize) -> f64 {
         self.rows.iter().map(|&(i, weight)| weight * self.across(&field[i * n2..(i + 1) * n2])).sum()
     }

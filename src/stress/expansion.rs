@@ -1,10 +1,10 @@
-//! The stresses around a place inside a material, to the second order of the distance **d** = (d_x, d_y, d_z):
+//! Taylor expansion of the stresses around a point inside a material, to the second order of the distance **d** = (d_x, d_y, d_z):
 //!
 //! σ(**x** + **d**) ≈ σ + **d**·∇σ + ½ **d**·∇∇σ·**d**.
 //!
-//! All derivatives are sums over the waves themselves: of c e^{i**q**·**x**} those along the surface are i q_α times it, those
-//! in depth follow from F of [`crate::body::Interior`], dF/dz = qF′ and F⁗ = 2F″ − F. The stress
-//! components are smooth; a measure made of them (a principal stress) need not be, so that they are expanded and it is not.
+//! All derivatives are exact sums over the waves: of c e^{i**q**·**x**} those along the surface are i q_α times it, those
+//! in depth follow from F of [`crate::body::Interior`], dF/dz = qF′ and F⁗ = 2F″ − F. The stress components are
+//! expanded because they are smooth; a measure of them, as a principal stress, need not be.
 
 use super::field::StressField;
 use super::search::SEARCH_REACH;
@@ -16,14 +16,14 @@ use crate::numeric::lanes::{LANES, splat, total, vectorised};
 use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
 
-/// Components of the stress: xx, yy, zz, xy, xz, yz.
+/// Number of stress components: xx, yy, zz, xy, xz, yz.
 const STRESSES: usize = 6;
 /// Number of terms 1, d_x, d_y, d_x², d_x d_y, d_y² of an expansion at one depth, then d_z, d_x d_z, d_y d_z, d_z².
 const TERMS: usize = 10;
 
 type TaylorTerms = [[f64; STRESSES]; TERMS];
 
-/// The stresses around a place.
+/// Stresses around a point, to second order.
 #[derive(Debug, Clone)]
 pub(super) struct Expansion {
     pub depth: Depth,
@@ -33,7 +33,7 @@ pub(super) struct Expansion {
 }
 
 impl Expansion {
-    /// The state in its middle, displacements left out.
+    /// The state in the middle, displacements left out.
     pub fn state(&self) -> StressState {
         StressState::from_stresses(self.terms[0])
     }
@@ -65,10 +65,10 @@ struct DepthFunctions<'a> {
 }
 
 impl StressField {
-    /// The stresses around the place (x, y) at a depth.
+    /// Expansion of the stresses around the point (x, y) at a depth.
     ///
     /// # Panics
-    /// When the depth is in a material that is not there.
+    /// When the depth names a material that does not exist.
     pub(super) fn expanded(&self, depth: Depth, place: [f64; 2]) -> Expansion {
         let waves = &self.series.waves;
         let wavenumbers = self.wavenumbers_within(depth, SEARCH_REACH);
@@ -113,7 +113,8 @@ impl StressField {
 }
 
 impl DepthFunctions<'_> {
-    /// The terms of a row's waves: `along` are the phases of their fractions of a₁, `across` that of a₂.
+    /// Terms of the expansion by the waves of a row; `along` are the phases of the point's fraction of a₁, one per wave, `across` that
+    /// of its fraction of a₂.
     #[inline(always)]
     fn row<S: Simd, const SLIDES: bool>(
         &self,
@@ -134,7 +135,7 @@ impl DepthFunctions<'_> {
         let mut terms = [[0.0; STRESSES]; TERMS];
         for term in 0..TERMS {
             for k in 0..STRESSES {
-                // ½ of the squares.
+                // Squares have the factor ½.
                 let part = if matches!(term, 3 | 5 | 9) { 0.5 } else { 1.0 };
                 terms[term][k] = part * total(sums[term][k]);
             }
@@ -142,7 +143,7 @@ impl DepthFunctions<'_> {
         terms
     }
 
-    /// The waves of a row from number `first` on.
+    /// Eight waves of a row from the number `first` on.
     #[inline(always)]
     fn eight_waves<S: Simd, const SLIDES: bool>(
         &self,
@@ -213,7 +214,7 @@ impl DepthFunctions<'_> {
     }
 }
 
-/// Numbers of eight waves as vectors.
+/// N quantities of eight waves as vectors.
 #[inline(always)]
 fn loaded<S: Simd, const N: usize>(simd: S, all: &[[f64; LANES]; N]) -> [f64x8<S>; N] {
     let mut vectors = [splat(simd, 0.0); N];
@@ -223,7 +224,7 @@ fn loaded<S: Simd, const N: usize>(simd: S, all: &[[f64; LANES]; N]) -> [f64x8<S
     vectors
 }
 
-/// Puts numbers of one wave beside those of others.
+/// Stores N quantities of one wave in its lane.
 #[inline(always)]
 fn put<const N: usize>(all: &mut [[f64; LANES]; N], lane: usize, own: &[f64; N]) {
     for k in 0..N {

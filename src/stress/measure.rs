@@ -1,47 +1,47 @@
-//! The measures whose largest values are looked for.
+//! Stress measures whose largest values are searched.
 
 use super::tensor::StressState;
 use crate::body::InterfaceStrength;
 use crate::numeric::search::first_largest;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How much rounding there may be in a bound, relatively.
+/// Largest relative rounding error of a bound.
 const ROUNDING_MARGIN: f64 = 1e-9;
 
-/// A measure to be maximised.
+/// A scalar measure of the stresses at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum StressMeasure {
-    /// τ₁.
+    /// Principal shear stress τ₁.
     Tau1,
-    /// σ₁.
+    /// Largest principal stress σ₁.
     Tension,
-    /// The stress of von Mises.
+    /// Stress of von Mises.
     Mises,
-    /// σ_zz on an interface.
+    /// Opening stress σ_zz on an interface.
     Opening,
-    /// √(σ_xz² + σ_yz²) on an interface.
+    /// Shear stress √(σ_xz² + σ_yz²) on an interface.
     Shear,
-    /// What an interface of this strength bears, of what it can.
+    /// Utilisation of the strength of an interface, dimensionless.
     Delamination(InterfaceStrength),
 }
 
-/// What is looked for in every material.
+/// Measures that are maximised in every material.
 pub(super) const MATERIAL_MEASURES: [StressMeasure; 3] =
     [StressMeasure::Tau1, StressMeasure::Tension, StressMeasure::Mises];
 
 impl StressMeasure {
-    /// What is looked for on an interface besides.
+    /// Further measures that are maximised on an interface of the given strength.
     pub fn of_interface(strength: InterfaceStrength) -> impl Iterator<Item = Self> {
         let delamination = (!strength.is_empty()).then_some(Self::Delamination(strength));
         [Self::Opening, Self::Shear].into_iter().chain(delamination)
     }
 
-    /// Whether it is what an interface bears of its strength.
+    /// Whether the measure is the utilisation of an interface.
     pub fn is_delamination(&self) -> bool {
         matches!(self, Self::Delamination(_))
     }
 
-    /// By how much it grows where the stresses of a state grow by so much.
+    /// Rise of the measure of a state when its stresses rise by `by`, a pressure.
     pub fn rise(self, state: &StressState, by: f64) -> f64 {
         match self {
             Self::Delamination(strength) => {
@@ -52,7 +52,7 @@ impl StressMeasure {
         }
     }
 
-    /// Its value.
+    /// Value of the measure.
     pub fn of(self, state: &StressState) -> f64 {
         match self {
             Self::Tau1 => state.tau1(),
@@ -64,8 +64,8 @@ impl StressMeasure {
         }
     }
 
-    /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); of the others the value itself, but for
-    /// rounding. `mean` is σ_kk/3, `root` √J₂.
+    /// Upper bound of the measure without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); for the other measures the value
+    /// itself, up to rounding. `mean` is σ_kk/3, `root` is √J₂.
     fn bound(self, state: &StressState, mean: f64, root: f64) -> f64 {
         match self {
             Self::Tau1 => root,
@@ -76,8 +76,8 @@ impl StressMeasure {
     }
 }
 
-/// The largest value that has been found of each measure, by whichever thread. What is surely below need not be known: it is
-/// not the largest of all, and so the threads' order does not reach the result.
+/// Running maximum of each measure over all threads. States whose bound lies below it are not evaluated: none of them is the
+/// largest, so that the result does not depend on the order of the threads.
 #[derive(Debug)]
 pub(super) struct RunningMaxima<'a> {
     measures: &'a [StressMeasure],
@@ -85,13 +85,13 @@ pub(super) struct RunningMaxima<'a> {
 }
 
 impl<'a> RunningMaxima<'a> {
-    /// Nothing yet.
+    /// Without any value yet.
     pub fn new(measures: &'a [StressMeasure]) -> Self {
         Self { measures, largest: measures.iter().map(|_| AtomicU64::new(0)).collect() }
     }
 
-    /// Index and value of the largest of each measure at `count` states, of which there is one at least; a lower value where
-    /// another one that was found is larger than all of them.
+    /// Index and value of the largest of `count` ≥ 1 states by each measure; a lower value where the running maximum exceeds all of
+    /// them.
     pub fn add(&self, count: usize, state: impl Fn(usize) -> StressState) -> Vec<(usize, f64)> {
         let mut bounds = vec![0.0; self.measures.len() * count];
         for j in 0..count {
@@ -110,7 +110,7 @@ impl<'a> RunningMaxima<'a> {
                 return (promising, f64::NEG_INFINITY);
             }
             let enough = measure.of(&state(promising)).max(known);
-            // What cannot be larger need not be known; what is not a number is larger.
+            // States that cannot be larger are skipped; values that are not numbers are kept.
             let worth = |&j: &usize| bounds[j].is_nan() || bounds[j] >= enough - ROUNDING_MARGIN * enough.abs();
             let numbers: Vec<usize> = (0..count).filter(worth).collect();
             let largest = first_largest(numbers.iter().map(|&j| measure.of(&state(j))));
@@ -124,7 +124,7 @@ impl<'a> RunningMaxima<'a> {
     }
 }
 
-/// A whole number that grows with a number; 0 is below all.
+/// Order-preserving map of a number to an integer; 0 is below all numbers.
 fn ordered(value: f64) -> u64 {
     let bits = value.to_bits();
     if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }

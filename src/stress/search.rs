@@ -1,13 +1,13 @@
 //! The search for the largest stresses of each material and each face.
 //!
-//! 1. **Planes** at depths that thicken towards the faces of each material: the largest sample of each is a candidate.
-//!    A plane holds as many points as the waves that reach its depth need, and is used up row by row.
-//! 2. **Faces** have their peaks between the samples of their planes; on a face the depth stays.
-//! 3. **Inside** a material each local maximum over the depths, faces among them, is a start if it comes near the best plane.
-//!    From there the exact sum over waves is [climbed](super::climb). What ends on a face is that face's.
+//! 1. **Planes** at depths that are denser towards the faces of each material: the largest sample of each is a candidate.
+//!    A plane has as many points as the waves that reach its depth need, and is processed row by row.
+//! 2. **Faces**: the maximum is searched between the samples of the plane, at constant depth.
+//! 3. **Inside** a material each local maximum over the depths, faces included, that comes near the best plane is the start of
+//!    a search by the exact sum over the waves ([`super::climb`]). A search that ends on a face belongs to that face.
 //!
-//! Within two samples of the surface, where the series converges slowly, the samples of the pressure's own grid are taken as
-//! they are.
+//! Within two samples of the surface, where the series converges slowly, the largest sample of the pressure's own grid is taken
+//! without a search.
 
 use super::constants::{EQUAL_BY_SYMMETRY, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW};
 use super::contender::{Contender, Contenders};
@@ -27,27 +27,27 @@ use std::sync::Arc;
 
 /// Ratio of successive distances from a face.
 const DEPTH_RATIO: f64 = 1.35;
-/// Waves with qz beyond this are left out of the search: e^{−25} of the pressure.
+/// qz beyond which waves are neglected in the search: they have e^{−25} of their pressure.
 pub(super) const SEARCH_REACH: f64 = 25.0;
-/// The same on planes, whose largest samples the search starts from.
+/// qz beyond which waves are neglected on planes, whose largest samples the search starts from.
 const PLANE_REACH: f64 = 10.0;
 
-/// The best sample of a plane.
+/// The sample of a plane where a measure is largest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
     pub value: f64,
     pub depth: Depth,
     pub place: [f64; 2],
-    /// Half the distance to neighbouring samples.
+    /// Half the distance to the neighbouring samples, a length.
     pub step: f64,
 }
 
-/// A plane that was searched.
+/// The largest samples of a plane.
 #[derive(Debug)]
 struct SearchedPlane {
-    /// The best sample for each measure that was looked for.
+    /// The largest sample by each measure.
     best: Vec<(StressMeasure, Candidate)>,
-    /// What contends on it, where the plane is a face.
+    /// Contenders on the plane, where it is a face; none inside a material.
     on_face: Contenders,
 }
 
@@ -68,7 +68,8 @@ impl StressField {
         self.maxima_while(radii, &|| true).expect("a search that nothing interrupts ends")
     }
 
-    /// The same, unless `goes_on`, called between planes and between starts of a climb, says no.
+    /// Maxima over all materials, faces and interfaces; `None` when `goes_on`, called between planes and between searches,
+    /// returns false. `radii` as in [`Self::maxima`].
     pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
         let mut all = ContenderLists::default();
         let crests = self.crests();
@@ -93,7 +94,7 @@ impl StressField {
                 let own = self.inside(&planes, &depths, measure, goes_on)?;
                 inside.extend(own.into_iter().map(|inside| (measure, inside)));
             }
-            // What ends on a face from inside, higher than what was found along the face, is the face's too.
+            // A search from inside that ends on a face, higher than the values along the face, contends on the face too.
             let faces = planes.iter().zip(&depths).filter(|(plane, _)| !plane.on_face.is_empty());
             all.faces.extend(faces.map(|(plane, &depth)| {
                 let is_there = |(_, other): &&(StressMeasure, Contender)| {
@@ -113,7 +114,7 @@ impl StressField {
         Some(Maxima::new(all, crest, self.regions().least_resolution(), self.grid().spacing()))
     }
 
-    /// The best samples of a plane, and what contends on a face; the surface has `crests` of its own.
+    /// The largest samples of a plane, and the contenders on a face; on the surface they are the `crests`.
     fn search_plane(
         &self,
         depth: Depth,
@@ -137,7 +138,8 @@ impl StressField {
         SearchedPlane { best, on_face }
     }
 
-    /// What contends inside a material: the best sample near the surface, and the local maxima below.
+    /// Contenders inside a material: the largest sample near the surface, and the local maxima below; `None` when `goes_on` returns
+    /// false.
     fn inside(
         &self,
         planes: &[SearchedPlane],
@@ -162,7 +164,7 @@ impl StressField {
             value(i) + RISE_BETWEEN_PLANES * drop + MISSED_BY_SAMPLES * best.abs() >= best
         };
         let is_start = |&i: &usize| {
-            // A neighbour that is higher on the same hill, and a start itself, is the better one.
+            // Of neighbouring depths beside the same maximum the higher one is the start.
             let is_better = |j: usize| value(j) > value(i) && is_near(j) && self.are_beside(candidate(i), candidate(j));
             is_near(i) && !beside(i).any(is_better)
         };
@@ -194,7 +196,7 @@ impl StressField {
         Some(all)
     }
 
-    /// Whether the candidates of two planes stand on one hill, as far as their samples tell.
+    /// Whether the candidates of two planes lie beside the same local maximum, judged by the distance of their samples.
     fn are_beside(&self, one: &Candidate, other: &Candidate) -> bool {
         let cell = self.grid().cell();
         let [s, t] = [one, other].map(|own| cell.fractions(own.place));
@@ -202,8 +204,8 @@ impl StressField {
         x.hypot(y) <= 4.0 * one.step.max(other.step)
     }
 
-    /// The value of a measure on this grid where a contender of a finer one stands; `near`: the depth down to which the
-    /// finer one's series converges slowly.
+    /// Value of a measure on this grid at the position of a contender of a finer grid, whose series converges slowly above the
+    /// depth `near`.
     pub(super) fn value_beside(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
         let Peak { position: [x, y, z], material, .. } = contender.peak;
         let (depth, step) = (Depth { z, material }, self.grid().spacing());
@@ -215,7 +217,7 @@ impl StressField {
         self.local_maximum(&start, 0.0, [z, z], measure).0.value
     }
 
-    /// The 4 × 4 samples around a place.
+    /// The 4 × 4 samples around a point, lengths.
     fn samples_around(&self, place: [f64; 2]) -> Vec<[f64; 2]> {
         let (cell, points) = (self.grid().cell(), self.grid().points());
         let [s, t] = cell.fractions(place);
@@ -231,7 +233,7 @@ impl StressField {
     fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
         let (top, bottom) = self.half_space().faces(material);
         let least = 0.1 * if small > 0.0 { small } else { self.grid().spacing() };
-        // Below some six radii, or the cell, and a few coating thicknesses stresses only fall.
+        // Stresses decrease below some six radii, or the cell, and a few coating thicknesses.
         let reach = 6.0 * large.min(self.grid().cell().reduced().longer_side()) + 3.0 * top;
         let most = if bottom.is_finite() { 0.5 * (bottom - top) } else { reach };
         let mut depths = vec![top];
@@ -251,7 +253,7 @@ impl StressField {
         depths
     }
 
-    /// The best samples of the plane at a depth.
+    /// The largest sample of a plane by each measure.
     fn candidates(&self, depth: Depth, radius: f64, measures: &[StressMeasure]) -> Vec<(StressMeasure, Candidate)> {
         let grid = self.grid();
         let lengths = grid.cell().vectors().map(|[x, y]| x.hypot(y));
@@ -292,8 +294,8 @@ impl StressField {
         columns.map(|_, row| found.add(row[0].len(), |j| StressState::from_stresses(row.map(|component| component[j]))))
     }
 
-    /// The best place on a face and the state there: between the samples of the plane by the exact sum, or, where that converges
-    /// slowly, the sample itself.
+    /// The maximum on a face near a candidate, and the state there: by the exact sum between the samples, or the sample itself
+    /// where the series converges slowly.
     fn on_face(&self, candidate: &Candidate, measure: StressMeasure) -> (Candidate, StressState) {
         let z = candidate.depth.z;
         if z < SHALLOW * self.grid().spacing() {
@@ -308,7 +310,7 @@ impl StressField {
         self.stresses_at(&self.depth_response(candidate.depth, SEARCH_REACH), &[candidate.place])[0]
     }
 
-    /// What contends at a candidate, where there is this state.
+    /// The contender at a candidate with its state.
     fn contender(&self, candidate: &Candidate, state: StressState) -> Contender {
         let Candidate { value, depth, place: [x, y], .. } = *candidate;
         let peak = Peak {
@@ -322,14 +324,14 @@ impl StressField {
         Contender { peak, crest: None, state, size: self.size_of_waves(depth, &state) }
     }
 
-    /// The crest of the surface as what contends there.
+    /// The contender of a crest of the surface.
     fn crest_contender(&self, depth: Depth, crest: Crest) -> Contender {
         let Peak { position: [x, y, _], .. } = crest.peak;
         let state = self.stresses_at(&self.depth_response(depth, SEARCH_REACH), &[[x, y]])[0];
         Contender { peak: crest.peak, crest: Some(crest), state, size: self.size_of_waves(depth, &state) }
     }
 
-    /// The size of what the waves cause in a state at a depth: without the mean and residual stresses.
+    /// √(Σσᵢⱼ²) of a state without its mean and residual stresses, a pressure.
     fn size_of_waves(&self, depth: Depth, state: &StressState) -> f64 {
         let mean = self.mean(depth);
         let own = StressState {

@@ -1,21 +1,21 @@
-//! The edge of contact seen through a Gaussian.
+//! An edge of contact smoothed by a Gaussian.
 //!
 //! A pressure that ends like p = A√d, smoothed by a Gaussian of width w, becomes p̃ = A√w P(u), u = d/w, with
 //!
 //! P(u) = ∫₀^∞ √t φ(u − t) dt,  φ the normal density.
 //!
-//! p̃/(w|∇p̃|) = P/P′ grows with u on both sides of the edge: it tells the distance from the edge without A, and whatever
-//! lies below the surface. √u/P(u) is then what the pressure itself is of the smoothed one. A cusp A√d on the other side of
-//! the edge is smoothed alike, by the smoothing of the fourth order P − P″/2.
+//! p̃/(w|∇p̃|) = P/P′ increases with u on both sides of the edge: it gives the distance from the edge without A, and
+//! whatever lies below the surface. √u/P(u) is then the ratio of the pressure to the smoothed one. A cusp A√d on the other side of
+//! the edge becomes P − P″/2 under the smoothing of fourth order.
 
 use std::sync::OnceLock;
 
-/// Distances covered, in widths.
+/// Distances covered by the table, in widths.
 const TABLE_SPAN: [f64; 2] = [-4.0, 12.0];
-/// Intervals of the table.
+/// Number of intervals of the table.
 const TABLE_INTERVALS: usize = 320;
 
-/// P, P/P′ and P − P″/2 as tables.
+/// Tables of P, P/P′ and P − P″/2.
 #[derive(Debug)]
 pub(super) struct SmoothedEdge {
     smoothed: Vec<f64>,
@@ -24,7 +24,7 @@ pub(super) struct SmoothedEdge {
 }
 
 impl SmoothedEdge {
-    /// The tables, made when they are first asked for.
+    /// The tables, computed at first use.
     pub fn shared() -> &'static Self {
         static SHARED: OnceLock<SmoothedEdge> = OnceLock::new();
         SHARED.get_or_init(Self::new)
@@ -40,7 +40,7 @@ impl SmoothedEdge {
         }
     }
 
-    /// u, positive inside contact, from P/P′; clamped to the table.
+    /// Distance u from the ratio P/P′, in widths, positive inside contact; clamped to the table.
     pub fn distance(&self, ratio: f64) -> f64 {
         let above = self.ratio.partition_point(|&r| r < ratio);
         if above == 0 || above > TABLE_INTERVALS {
@@ -51,14 +51,14 @@ impl SmoothedEdge {
         TABLE_SPAN[0] + (TABLE_SPAN[1] - TABLE_SPAN[0]) * place / TABLE_INTERVALS as f64
     }
 
-    /// Whether the distance that belongs to P/P′ is less than `most` either way.
+    /// Whether |u| of the ratio P/P′ is less than `most`.
     pub fn is_within(&self, most: f64, ratio: f64) -> bool {
         let index =
             |u: f64| ((u - TABLE_SPAN[0]) / (TABLE_SPAN[1] - TABLE_SPAN[0]) * TABLE_INTERVALS as f64).round() as usize;
         self.ratio[index(-most)] < ratio && ratio < self.ratio[index(most)]
     }
 
-    /// The pressure over the smoothed one at the distance u: √u/P(u), and 0 outside.
+    /// Ratio √u/P(u) of the pressure to the smoothed one at the distance u; 0 outside contact.
     pub fn sharp(&self, u: f64) -> f64 {
         if u <= 0.0 {
             return 0.0;
@@ -69,15 +69,15 @@ impl SmoothedEdge {
         u.sqrt() / between(&self.smoothed, u)
     }
 
-    /// What has to be added to a cusp √(−u)₊ A√w that was smoothed to the fourth order, over the smoothed pressure, for it to
-    /// be sharp; within four widths of the edge.
+    /// Difference of a cusp √(−u)₊ A√w and the cusp under the smoothing of fourth order, over the smoothed pressure; within four
+    /// widths of the edge.
     pub fn cusp(&self, u: f64) -> f64 {
         let u = u.clamp(TABLE_SPAN[0], -TABLE_SPAN[0]);
         ((-u).max(0.0).sqrt() - between(&self.fourth, -u)) / between(&self.smoothed, u)
     }
 }
 
-/// A table's value at the distance u in its span.
+/// Value of a table at the distance u, linear between its entries.
 fn between(table: &[f64], u: f64) -> f64 {
     let place = (u - TABLE_SPAN[0]) / (TABLE_SPAN[1] - TABLE_SPAN[0]) * TABLE_INTERVALS as f64;
     let k = (place as usize).min(TABLE_INTERVALS - 1);

@@ -1,50 +1,50 @@
-//! The state at one point: stress tensor and displacement, and what is derived from them.
+//! The state at one point: stress tensor and displacement, principal stresses and equivalent stresses.
 
 use std::fmt;
 
 /// Stress (positive in tension, a pressure) and displacement (a length; u_z into the body) at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StressState {
-    /// σ_xx.
+    /// Stress σ_xx, in the unit of Young's modulus.
     pub xx: f64,
-    /// σ_yy.
+    /// Stress σ_yy, in the unit of Young's modulus.
     pub yy: f64,
-    /// σ_zz.
+    /// Stress σ_zz, in the unit of Young's modulus.
     pub zz: f64,
-    /// σ_xy.
+    /// Stress σ_xy, in the unit of Young's modulus.
     pub xy: f64,
-    /// σ_xz.
+    /// Stress σ_xz, in the unit of Young's modulus.
     pub xz: f64,
-    /// σ_yz.
+    /// Stress σ_yz, in the unit of Young's modulus.
     pub yz: f64,
-    /// u_x, u_y, u_z.
+    /// Displacement u_x, u_y, u_z, lengths.
     pub displacement: [f64; 3],
 }
 
 impl StressState {
-    /// From xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
+    /// State from xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn from_components([xx, yy, zz, xy, xz, yz, ux, uy, uz]: [f64; 9]) -> Self {
         Self { xx, yy, zz, xy, xz, yz, displacement: [ux, uy, uz] }
     }
 
-    /// From xx, yy, zz, xy, xz, yz; the displacement is left out.
+    /// State from xx, yy, zz, xy, xz, yz; the displacement is left out.
     pub(super) fn from_stresses([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Self {
         Self { xx, yy, zz, xy, xz, yz, ..Self::default() }
     }
 
-    /// On the surface under the pressure p, from xx, yy, xy, p and the `traction` over the pressure: σ_zz = −p, σ_αz = −q_α; the
+    /// State on the surface under the pressure p from xx, yy, xy, p and the `traction` over the pressure: σ_zz = −p, σ_αz = −q_α; the
     /// displacement is left out.
     pub(super) fn on_surface([xx, yy, xy, p]: [f64; 4], [tx, ty]: [f64; 2]) -> Self {
         Self { xx, yy, zz: -p, xy, xz: -tx * p, yz: -ty * p, ..Self::default() }
     }
 
-    /// xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
+    /// Components xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn components(&self) -> [f64; 9] {
         let [ux, uy, uz] = self.displacement;
         [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz, ux, uy, uz]
     }
 
-    /// The state a `part` of the way toward another.
+    /// Linear interpolation towards another state; `part` is its weight.
     pub fn toward(&self, other: &Self, part: f64) -> Self {
         let (here, there) = (self.components(), other.components());
         Self::from_components(std::array::from_fn(|c| (1.0 - part) * here[c] + part * there[c]))
@@ -83,7 +83,7 @@ impl StressState {
         (mean, 0.5 * (a * a + b * b + c * c) + self.xy * self.xy + self.xz * self.xz + self.yz * self.yz)
     }
 
-    /// √(Σσᵢⱼ²), a pressure.
+    /// Size √(Σσᵢⱼ²) of the stress tensor, a pressure.
     pub(super) fn size(&self) -> f64 {
         let shear = self.xy * self.xy + self.xz * self.xz + self.yz * self.yz;
         (self.xx * self.xx + self.yy * self.yy + self.zz * self.zz + 2.0 * shear).sqrt()
@@ -100,17 +100,17 @@ impl StressState {
         self.principal()[0]
     }
 
-    /// τ₁, the stress of von Mises and σ₁.
+    /// Principal shear stress τ₁, stress of von Mises and largest principal stress σ₁.
     pub fn derived(&self) -> [f64; 3] {
         let [first, _, last] = self.principal();
         [0.5 * (first - last), self.mises(), first]
     }
 
-    /// Unit vector along which σ₁ acts, its first non-zero component positive.
+    /// Direction of σ₁, a unit vector whose first non-zero component is positive.
     pub fn s1_direction(&self) -> [f64; 3] {
         let s = self.s1();
         let rows = [[self.xx - s, self.xy, self.xz], [self.xy, self.yy - s, self.yz], [self.xz, self.yz, self.zz - s]];
-        // The direction is normal to all rows; the longest cross product of two of them is the safest.
+        // The direction is normal to all rows; the longest cross product of two of them is the most accurate.
         let cross = |u: [f64; 3], v: [f64; 3]| {
             [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
         };

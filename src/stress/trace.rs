@@ -9,9 +9,9 @@ use crate::lattice::waves::WaveRow;
 use crate::numeric::fourier::Nonuniform;
 use rustfft::num_complex::Complex64;
 
-/// Multiples m₁, m₂ up to which a direction is one of the lattice.
+/// Largest multiples m₁, m₂ of a lattice direction.
 const MAX_MULTIPLE: i32 = 32;
-/// How near whole ones they are: a phase error of 1e-11 over a period.
+/// Tolerance of whole multiples: a phase error of 1e-11 over a period.
 const WHOLE_TOLERANCE: f64 = 1e-12;
 
 /// The waves of a series along a line.
@@ -21,17 +21,17 @@ pub(super) struct Trace<'a> {
     /// Fractions of a₁ and a₂ of the origin **x**₀, and of the unit vector **d**.
     origin: [f64; 2],
     unit: [f64; 2],
-    /// m₁, m₂, and 1/s of m₁**a**₁ + m₂**a**₂.
+    /// m₁, m₂ and 1/s of m₁**a**₁ + m₂**a**₂; `None` for a direction that is incommensurate with the lattice.
     lattice: Option<([i32; 2], f64)>,
 }
 
 impl<'a> Trace<'a> {
-    /// Along the line from `origin` in the direction of the `unit` vector, both as fractions of a₁ and a₂.
+    /// Trace along the line from `origin` in the direction of the `unit` vector, both as fractions of a₁ and a₂.
     pub fn new(series: &'a Series, origin: [f64; 2], unit: [f64; 2]) -> Self {
         Self { series, origin, unit, lattice: lattice_direction(unit) }
     }
 
-    /// Components at s = first + i step, 0 ≤ i < `points`, lengths.
+    /// Components of a response at s = first + i step, 0 ≤ i < `points`; s, first and step are lengths.
     pub fn sums<const K: usize, R: Response<K>>(
         &self,
         response: &R,
@@ -74,7 +74,7 @@ impl<'a> Trace<'a> {
         waves.real_parts().into_iter().map(|sums| std::array::from_fn(|k| mean[k] + sums[k])).collect()
     }
 
-    /// What the waves of a row give at a place, by the phases of its fractions of a₁ and a₂.
+    /// Terms of the waves of a row at a point, by the phases of its fractions of a₁ and a₂.
     fn terms<'b, const K: usize, R: Response<K>>(
         &'b self,
         row: &'b WaveRow,
@@ -92,7 +92,7 @@ impl<'a> Trace<'a> {
 }
 
 /// m₁, m₂ without a common factor along a unit vector of these fractions of a₁ and a₂, and one over the distance s of
-/// m₁**a**₁ + m₂**a**₂ along it (of either sign); none for a direction that is incommensurate with the lattice.
+/// m₁**a**₁ + m₂**a**₂ along it (of either sign); `None` for a direction that is incommensurate with the lattice.
 fn lattice_direction([s, t]: [f64; 2]) -> Option<([i32; 2], f64)> {
     let larger = if s.abs() > t.abs() { s } else { t };
     let near = |x: f64| (x - x.round()).abs() <= WHOLE_TOLERANCE;
