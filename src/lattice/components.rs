@@ -60,11 +60,11 @@ pub fn open_regions(grid: &Grid, pressure: &[f64]) -> Vec<Component> {
     components(grid, Connectivity::Edges, |index| pressure[index] <= 0.0)
 }
 
-/// The connected sets of the samples that are `members`, by their first samples.
+/// Connected components of the samples that are `members`, in the order of their first samples.
 pub fn components(grid: &Grid, connectivity: Connectivity, members: impl Fn(usize) -> bool + Sync) -> Vec<Component> {
     let [n1, n2] = grid.points();
     let mut offsets = grid.neighbour_offsets(connectivity);
-    // Where the next sample of a row is not joined to it, each is a run of its own.
+    // Where consecutive samples of a row are not joined, each sample is a run of its own.
     let along = offsets.iter().position(|&offset| offset == [0, 1] || offset == [0, -1]);
     if let Some(along) = along {
         offsets.swap_remove(along);
@@ -138,7 +138,7 @@ fn collected(rows: &[Vec<[i32; 2]>], sets: &mut DisjointSets, [n1, n2]: [usize; 
     let mut components: Vec<Component> = Vec::new();
     let runs = rows.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |run| (i as i32, *run)));
     for (number, (row, [first, end])) in runs.enumerate() {
-        // A root stands before all others of its set.
+        // The root is the first run of its set.
         let (root, [down, right]) = sets.root(number);
         if component_of[root] == NONE {
             component_of[root] = components.len() as u32;

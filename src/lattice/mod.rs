@@ -11,7 +11,7 @@ mod sites;
 pub(crate) mod waves;
 mod zone;
 
-pub use cell::{Cell, Reduced};
+pub use cell::{Cell, ReducedBasis};
 pub use error::LatticeError;
 pub use grid::{Grid, NotOnGrid};
 pub(crate) use interpolation::{Interpolation, resampled};

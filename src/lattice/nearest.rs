@@ -94,8 +94,8 @@ impl Grid {
         let vector = |[i, j]: [i32; 2]| [0, 1].map(|k| f64::from(i) * e1[k] + f64::from(j) * e2[k]);
         let length = |step: [i32; 2]| norm(vector(step));
         let reduced = self.samples_cell().map_or([[1, 0], [0, 1]], |cell| cell.reduced().matrix());
-        // Followed through a whole spot, rows and columns are kept in 32 bits: a cell askew beyond that on a fine grid is
-        // read along its own vectors.
+        // Rows and columns continued through a whole spot are kept in 32 bits: on a more skewed cell the directions are those
+        // of its own vectors.
         let most = reduced.iter().flatten().map(|m| i64::from(m.abs())).max().unwrap_or(1);
         let [mut r1, mut r2] = if most * self.len() as i64 <= i64::from(i32::MAX) { reduced } else { [[1, 0], [0, 1]] };
         if length(r2) < length(r1) {

@@ -22,7 +22,7 @@ impl SampleRun {
         self.row.rem_euclid(n1 as i32) as usize * n2 + self.first.rem_euclid(n2 as i32) as usize
     }
 
-    /// Places of the first and of the last sample, lengths.
+    /// Positions of the first and of the last sample, lengths.
     pub fn ends(&self, grid: &Grid) -> [[f64; 2]; 2] {
         [self.first, self.end - 1].map(|column| place(grid, [self.row, column]))
     }
@@ -34,7 +34,7 @@ fn place(grid: &Grid, [row, column]: [i32; 2]) -> [f64; 2] {
     grid.cell().point([f64::from(row) / n1 as f64, f64::from(column) / n2 as f64])
 }
 
-/// The samples of the plane at distances from `centre` of at least `from` and less than `to` (lengths).
+/// Runs of the samples of the plane at distances from `centre` of at least `from` and less than `to`; lengths.
 pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<SampleRun> {
     let [down, along] = grid.steps();
     let length = along[0].hypot(along[1]);
@@ -46,7 +46,7 @@ pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Sampl
     for row in (middle - rows).ceil() as i32..=(middle + rows).floor() as i32 {
         let start = [0, 1].map(|k| f64::from(row) * down[k] - centre[k]);
         let (beside, before) = (cross(start), start[0] * unit[0] + start[1] * unit[1]);
-        // Columns of the row nearer than a distance: first and end.
+        // First and end column of the row's samples nearer than a distance.
         let nearer = |distance: f64| {
             let half = (distance * distance - beside * beside).sqrt();
             let [first, end] = [-half, half].map(|t| ((t - before) / length).ceil());
@@ -66,7 +66,7 @@ pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Sampl
     runs
 }
 
-/// The samples of runs: flat index of the one in the cell, and the place from `centre`, a length.
+/// Samples of runs: flat index within the cell, and position from `centre`, lengths.
 pub fn samples(grid: &Grid, runs: &[SampleRun], centre: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
     let [n1, n2] = grid.points();
     let along = grid.steps()[1];

@@ -2,7 +2,7 @@
 
 use super::constants::WEIGHT_RISE;
 use crate::lattice::runs::{SampleRun, annulus, samples};
-use crate::lattice::{Grid, Reduced};
+use crate::lattice::{Grid, ReducedBasis};
 use crate::reading::edge::Edge;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -29,7 +29,7 @@ pub enum Sample {
 /// A contact spot and what is around it.
 pub struct Spot<'a> {
     grid: &'a Grid,
-    reduced: Reduced,
+    reduced: ReducedBasis,
     /// Half the length of the shortest lattice vector: a sample nearer than that to the axis is farther from all images of it.
     alone: f64,
     /// The axis, lengths.
