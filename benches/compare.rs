@@ -3,7 +3,7 @@
 mod shared;
 
 use divan::Bencher;
-use percoat::comparison::Task;
+use percoat::comparison::ComparisonTask;
 use percoat::localized::CircleRadius;
 use percoat::{MeanStress, Settings};
 use shared::{THREE_LEVELS, three_levels};
@@ -17,7 +17,7 @@ fn main() {
 /// As many elements across the largest contact as `percoat compare` takes unless told otherwise: 48.
 #[divan::bench(args = [12, 24, 48], sample_size = 1, max_time = 20)]
 fn elements(bencher: Bencher, elements: usize) {
-    let task = Task {
+    let task = ComparisonTask {
         problem: Arc::new(three_levels()),
         load: THREE_LEVELS,
         settings: Settings::default(),

@@ -3,7 +3,7 @@
 mod shared;
 
 use divan::{Bencher, black_box};
-use percoat::{Depth, Line, MeanStress, Step, StressField, StressReading};
+use percoat::{Depth, MeanStress, Step, StressField, StressReading, SurfaceLine};
 use shared::{THREE_LEVELS, solver, three_levels};
 
 fn main() {
@@ -26,7 +26,7 @@ fn under(step: &Step) -> StressField {
 fn section(bencher: Bencher, n: usize) {
     let field = under(&solved(n));
     let depths = field.half_space().rows(DEPTH, 200);
-    let line = Line { origin: [0.0; 2], direction: [1.0, 0.0], span: [0.0, 1.0], points: 401 };
+    let line = SurfaceLine { origin: [0.0; 2], direction: [1.0, 0.0], span: [0.0, 1.0], points: 401 };
     bencher.bench_local(|| field.section(&line, &depths));
 }
 

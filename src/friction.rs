@@ -1,26 +1,26 @@
-//! Sliding: the counterbody moves over the body and drags at it.
+//! Sliding friction by Coulomb's law.
 //!
-//! Under Coulomb's law with the coefficient μ the body feels the shear traction q = μ p **e** wherever it is pressed, **e**
-//! the direction in which the counterbody slides. The traction displaces the surface vertically too
-//! ([`SurfaceResponse`](crate::body::SurfaceResponse)): **coupled**, the pressure follows that displacement; uncoupled, it is
-//! that of frictionless contact, as in the school of the paper, and stresses superpose.
+//! With the coefficient μ the shear traction q = μ p **e** acts on the body in contact, **e** the direction in which the
+//! counterbody slides. The traction displaces the surface vertically too
+//! ([`SurfaceResponse`](crate::body::SurfaceResponse)): with **coupled** friction the pressure depends on that displacement;
+//! uncoupled, the pressure is that of frictionless contact, as in the school of the paper, and stresses superpose.
 
 use crate::body::Material;
 use crate::numeric::number::number;
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Why there is no such friction.
+/// Why friction cannot be built from its values.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrictionError {
-    /// The coefficient is negative or no finite number.
+    /// A coefficient that is negative or not finite.
     #[error("a coefficient of friction must be finite and not negative, not {0}")]
     Coefficient(f64),
-    /// The direction has no length, or no finite one.
+    /// A direction whose length is zero or not finite.
     #[error("a direction of sliding needs a finite length greater than 0, not that of [{}, {}]", .0[0], .0[1])]
     Direction([f64; 2]),
-    /// A layer on a frictionless interface has nothing that holds it against the mean traction.
+    /// A layer on a frictionless interface, which cannot carry the mean traction.
     #[error(
         "layer {0} lies on a frictionless interface, and nothing holds it against the mean traction of friction: make the \
          interface bonded or a spring"
@@ -55,40 +55,40 @@ impl Friction {
         Ok(Self { coefficient, direction: [x / length, y / length], coupled: true })
     }
 
-    /// The same without influence on the pressure.
+    /// Friction without influence on the pressure.
     #[must_use]
     pub fn uncoupled(self) -> Self {
         Self { coupled: false, ..self }
     }
 
-    /// μ.
+    /// Coefficient of friction μ.
     pub fn coefficient(&self) -> f64 {
         self.coefficient
     }
 
-    /// **e**, a unit vector: where the counterbody slides to, and the traction on the body points.
+    /// Direction **e** of sliding and of the traction on the body, a unit vector.
     pub fn direction(&self) -> [f64; 2] {
         self.direction
     }
 
-    /// Whether the pressure follows the displacement that the traction causes.
+    /// Whether the pressure depends on the vertical displacement by the traction.
     pub fn is_coupled(&self) -> bool {
         self.coupled
     }
 
-    /// Whether the pressure is another one than without friction.
+    /// Whether the pressure differs from that without friction: coupled, with μ > 0.
     pub fn couples(&self) -> bool {
         self.coupled && self.coefficient > 0.0
     }
 
-    /// η = −atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): the pressure ends like d^{½+η} behind a contact with the `surface` and like
-    /// d^{½−η} before it; 0 without coupling.
+    /// Exponent η = −atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)), of the edges of contact with the `surface` material: the pressure vanishes
+    /// like d^{½+η} at the trailing edge and like d^{½−η} at the leading one; 0 without coupling.
     pub fn edge_exponent(&self, surface: Material) -> f64 {
         let beta = (1.0 - 2.0 * surface.poisson()) / (2.0 * (1.0 - surface.poisson()));
         if self.coupled { -(self.coefficient * beta).atan() / PI } else { 0.0 }
     }
 
-    /// μ **e**: the traction on the body over the pressure.
+    /// Traction on the body over the pressure, μ **e**.
     pub fn traction(&self) -> [f64; 2] {
         self.direction.map(|e| self.coefficient * e)
     }

@@ -98,4 +98,4 @@ pub use problem::Problem;
 pub use reading::{LevelReading, Reading, StressReading};
 pub use run::{Run, Sampling};
 pub use spectral::{Certificate, Contact, Method, Progress, Report, Route, Settings, Solver, Step, Stop};
-pub use stress::{Line, Plane, Section, State, StressField};
+pub use stress::{DepthPlane, StressField, StressState, SurfaceLine, VerticalSection};

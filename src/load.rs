@@ -1,4 +1,4 @@
-//! What is prescribed in a load step.
+//! The prescribed quantity of a load step: mean pressure or penetration.
 
 use crate::numeric::number::number;
 use std::fmt;

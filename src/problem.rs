@@ -6,7 +6,7 @@ use crate::friction::{Friction, FrictionError};
 use crate::lattice::Cell;
 use std::fmt;
 
-/// What is pressed into what. Both parts were checked when they were built: every problem is valid.
+/// A counterbody above a half-space, with or without friction. Both parts are checked at construction: every problem is valid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     counterbody: Counterbody,
@@ -15,13 +15,13 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// The counterbody ([`Indenters`](crate::counterbody::Indenters) or a
-    /// [`Topography`](crate::counterbody::Topography)) above the half-space, in one unit of length.
+    /// Frictionless contact of the counterbody ([`Indenters`](crate::counterbody::Indenters) or a
+    /// [`Topography`](crate::counterbody::Topography)) with the half-space, in one unit of length.
     pub fn new(counterbody: impl Into<Counterbody>, half_space: HalfSpace) -> Self {
         Self { counterbody: counterbody.into(), half_space, friction: None }
     }
 
-    /// The same with friction.
+    /// The problem with friction.
     ///
     /// # Errors
     /// [`FrictionError::Unheld`] when a layer lies on a frictionless interface, unless the coefficient is zero.
@@ -38,12 +38,12 @@ impl Problem {
         &self.counterbody
     }
 
-    /// The layers on the substrate.
+    /// The layered half-space.
     pub fn half_space(&self) -> &HalfSpace {
         &self.half_space
     }
 
-    /// The friction of a counterbody that slides.
+    /// The friction of a sliding counterbody; `None` at rest.
     pub fn friction(&self) -> Option<&Friction> {
         self.friction.as_ref()
     }

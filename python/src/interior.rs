@@ -7,7 +7,7 @@ use ndarray::{Array2, Array3, ArrayView2, Axis, s};
 use percoat::case::resources::bytes;
 use percoat::case::{Case, Source, available_memory};
 use percoat::run::StressRequest;
-use percoat::{Depth, HalfSpace, Line};
+use percoat::{Depth, HalfSpace, SurfaceLine};
 use toml::Value;
 
 /// The depth z ≥ 0 in the material of this number; on an interface, where none is said, in the upper one.
@@ -111,7 +111,7 @@ pub fn plane(
 }
 
 /// The same on a vertical section: (12, rows, points).
-pub fn section(kept: &Kept, line: &Line, depths: &[Depth]) -> Array3<f64> {
+pub fn section(kept: &Kept, line: &SurfaceLine, depths: &[Depth]) -> Array3<f64> {
     let states = kept.field().section(line, depths).states;
     let (rows, points) = states.dim();
     let mut all = Array3::zeros([12, rows, points]);

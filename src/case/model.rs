@@ -13,7 +13,7 @@ use super::{
 };
 use super::{grid, keys, lattice, layers, magnitude, overrides, solver};
 use crate::body::{HalfSpace, MeanStress};
-use crate::comparison::Task;
+use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
 use crate::plain;
 use crate::problem::Problem;
@@ -107,10 +107,10 @@ impl Case {
     }
 
     /// What `percoat compare` does: the last load by both methods.
-    pub fn comparison(&self) -> Task {
+    pub fn comparison(&self) -> ComparisonTask {
         let LocalizedSection { indenters, elements, radius, mutual_effect } = &self.localized;
         let loads = self.load.loads();
-        Task {
+        ComparisonTask {
             problem: Arc::clone(&self.problem),
             load: loads[loads.len() - 1],
             settings: self.solver,

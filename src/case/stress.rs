@@ -13,7 +13,7 @@ use crate::counterbody::{Counterbody, Indenters};
 use crate::lattice::Lattice;
 use crate::run::places::SECTION;
 use crate::run::{self, StressRequest, Volume};
-use crate::stress::Line;
+use crate::stress::SurfaceLine;
 
 /// The section `[stress]`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -107,7 +107,7 @@ fn volume(value: &ValueAt<'_>) -> Result<Volume, Refusal> {
 
 impl Cut {
     /// Its line; `None` for levels without indenters.
-    fn line(&self, lattice: Option<&Lattice>) -> Option<Line> {
+    fn line(&self, lattice: Option<&Lattice>) -> Option<SurfaceLine> {
         let first = |level: usize| Some(lattice?.sites()[level - 1][0]);
         let origin = match self.from {
             Origin::Level(level) => lattice?.cell().point(first(level)?),
@@ -118,7 +118,7 @@ impl Cut {
             Toward::Direction(direction) => direction,
         };
         let [_, points] = SECTION;
-        Some(Line { origin, direction, span: [-self.behind, self.length - self.behind], points })
+        Some(SurfaceLine { origin, direction, span: [-self.behind, self.length - self.behind], points })
     }
 
     fn read(value: &ValueAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {

@@ -1,7 +1,7 @@
 //! The pictures of a run, drawn without being asked.
 
 use super::ending::Failure;
-use crate::Section;
+use crate::VerticalSection;
 use crate::localized::isolated;
 use crate::picture::{self, Canvas, Format, Snapshot};
 use crate::run::StepRecord;
@@ -48,7 +48,7 @@ impl PictureOptions {
         &self,
         folder: &Path,
         last: &Snapshot,
-        section: Option<&Section>,
+        section: Option<&VerticalSection>,
         steps: &[StepRecord],
     ) -> Result<(), Failure> {
         if !self.wanted() {

@@ -8,7 +8,7 @@ use super::terminal;
 use crate::output::{Clock, OutputError, Recording, RunFolder};
 use crate::run::{Finished, Recorder, Run, StepRecord};
 use crate::spectral::Checkpoint;
-use crate::{Load, Section, Solver, Step, StressField};
+use crate::{Load, Solver, Step, StressField, VerticalSection};
 
 /// Records a run and shows how far it is.
 pub struct Shown<'a> {
@@ -35,7 +35,7 @@ impl<'a> Shown<'a> {
     }
 
     /// As [`Recording::finish`].
-    pub fn finish(self) -> Result<(Option<Section>, Clock), OutputError> {
+    pub fn finish(self) -> Result<(Option<VerticalSection>, Clock), OutputError> {
         self.progress.say("writing fields");
         let finished = self.recording.finish();
         self.progress.finish();

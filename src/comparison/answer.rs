@@ -1,4 +1,4 @@
-//! What a method says of a load step, and how far it is from what another says.
+//! Result of a load step by either method, and its deviation from another result.
 
 use crate::localized;
 use crate::numeric::search::largest;
@@ -6,38 +6,38 @@ use crate::numeric::search::largest;
 use crate::numeric::serialised;
 use crate::reading::{LevelReading, Reading};
 
-/// Largest deviation of any level in contact from a reference; relative but for the share.
+/// Largest deviation of any level in contact from a reference, relative except for the load share.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Deviation {
-    /// Of the penetration, relative.
+    /// Deviation of the penetration, relative.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub penetration: f64,
-    /// Of the load on one indenter, relative.
+    /// Deviation of the load on one indenter, relative.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub load: f64,
-    /// Of the share of the whole load, absolute.
+    /// Deviation of the share of the whole load, absolute.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub load_share: f64,
-    /// Of the peak pressure, relative; not a number where it is infinite.
+    /// Deviation of the peak pressure, relative; not a number where it is infinite.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub max_pressure: f64,
-    /// Of the contact radius, relative.
+    /// Deviation of the contact radius, relative.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub contact_radius: f64,
 }
 
-/// What any method says of a load step.
+/// Penetration and levels of a load step, by either method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Answer {
     /// Penetration δ, a length.
     pub penetration: f64,
-    /// From the highest level down.
+    /// Readings of the levels, from the highest down.
     pub levels: Vec<LevelReading>,
 }
 
 impl Answer {
-    /// Deviation of this answer from `reference`. A level that touches in one of them only deviates by all of it; the
+    /// Deviation of this answer from `reference`. A level in contact in one of them only has the deviation 1; the
     /// radius of merged contacts and the infinite peak under a tip are not numbers.
     pub fn deviation(&self, reference: &Self) -> Deviation {
         let relative = |a: f64, b: f64| match (a, b) {

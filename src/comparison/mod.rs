@@ -1,35 +1,34 @@
-//! Spectral and localized solution of one case side by side.
+//! Comparison of the spectral and the localized solution of one load step.
 //!
-//! Three things differ between them: the grid of the one, the elements of the other, and what the circle leaves out.
-//! Each method is therefore solved at two resolutions, half and full; what a quantity changes between them bounds its
-//! discretisation error, since both converge at first order or faster. What remains of the difference is the error of
-//! localization. The circles have both radius rules, on the same elements, and the smallest also the lattice sum of what
-//! is outside it.
+//! The two differ by the grid of the one, the elements of the other, and the truncation by the circle. Each method is therefore
+//! solved at two resolutions, half and full; the change of a quantity between them bounds its discretisation error, since both
+//! converge at first order or faster. The rest of the difference is the error of localization. The circles are solved under both
+//! radius rules, on the same elements, and the smallest one also with the lattice sum outside it.
 
 mod answer;
 mod task;
 
 pub use answer::{Answer, Deviation};
-pub use task::{ComparisonError, Task};
+pub use task::{ComparisonError, ComparisonTask};
 
 use crate::body::Depth;
 use crate::localized::{CircleRadius, Stop};
 use crate::reading::FEW_SAMPLES;
 use crate::run::StepRecord;
-use crate::stress::State;
+use crate::stress::StressState;
 
-/// One circle held against the spectral solution.
+/// Localized solution with one circle, compared with the spectral solution.
 #[derive(Debug, Clone)]
 pub struct CircleComparison {
-    /// Indenters inside, whole shells.
+    /// Number of indenters inside, in whole shells.
     pub indenters: usize,
-    /// How the solution ended.
+    /// How the localized solution ended.
     pub stop: Stop,
-    /// What it says.
+    /// Penetration and levels of the localized solution.
     pub answer: Answer,
-    /// Radius R of the circle, level by level, a length; infinite without mutual effect.
+    /// Radius R of the circle of each level, lengths; infinite without mutual effect.
     pub radii: Vec<f64>,
-    /// Additional displacement w_a, Eq. (8).
+    /// Additional displacement w_a, Eq. (8), a length.
     pub additional_displacement: f64,
     /// Deviation from the spectral solution.
     pub difference: Deviation,
@@ -37,17 +36,17 @@ pub struct CircleComparison {
     pub mesh_error: Deviation,
 }
 
-/// Stresses of both methods at one point under the first indenter of the highest level.
+/// Stresses of both methods at one point below the first indenter of the highest level.
 #[derive(Debug, Clone, Copy)]
 pub struct StressPair {
-    /// Place from the indenter's axis, lengths.
+    /// Position (x, y) from the indenter's axis, lengths.
     pub place: [f64; 2],
     /// Depth and material.
     pub depth: Depth,
-    /// Spectral state.
-    pub spectral: State,
-    /// Localized state; without displacements.
-    pub localized: State,
+    /// State of the spectral solution.
+    pub spectral: StressState,
+    /// State of the localized solution, displacements left out.
+    pub localized: StressState,
 }
 
 impl StressPair {
@@ -61,30 +60,30 @@ impl StressPair {
 /// Both solutions of a load step.
 #[derive(Debug)]
 pub struct Comparison {
-    /// What was asked for.
-    pub task: Task,
+    /// The load step that was compared.
+    pub task: ComparisonTask,
     /// The spectral solution with its estimated discretisation errors, as a run records it.
     pub spectral: StepRecord,
-    /// Change from half the points.
+    /// Change of the spectral solution from half the points.
     pub grid_error: Deviation,
-    /// Circles under the rule asked for.
+    /// Circles under the rule of the task.
     pub circles: Vec<CircleComparison>,
     /// The same circles under the other rule.
     pub other_rule: Vec<CircleComparison>,
-    /// The first circle with the lattice sum outside; `None` without mutual effect or where all have it.
+    /// The first circle with the lattice sum outside; `None` without mutual effect, or where all circles have it.
     pub lattice_sum: Option<CircleComparison>,
-    /// Stresses with the last circle under the rule asked for; under the lattice sum p̄ acts outside the load-balanced
-    /// radius instead.
+    /// Stresses with the last circle under the rule of the task; under the lattice sum they are those with p̄ outside the
+    /// load-balanced radius.
     pub stresses: Vec<StressPair>,
 }
 
 impl Comparison {
-    /// Whether the spectral solution and all circles under the rule asked for have converged.
+    /// Whether the spectral solution and all circles under the rule of the task have converged.
     pub fn converged(&self) -> bool {
         self.spectral.converged() && self.circles.iter().all(|circle| circle.stop == Stop::Converged)
     }
 
-    /// The circles under each rule: the one asked for, the other one, the lattice sum.
+    /// The circles under each rule: that of the task, the other one, the lattice sum.
     pub fn rules(&self) -> [(CircleRadius, &[CircleComparison]); 3] {
         [
             (self.task.rule, &self.circles),
@@ -93,7 +92,7 @@ impl Comparison {
         ]
     }
 
-    /// What makes the comparison doubtful, a sentence each.
+    /// Reasons to doubt the comparison, one sentence each.
     pub fn warnings(&self) -> Vec<String> {
         let rules = self.rules();
         let circles = rules.iter().flat_map(|(rule, circles)| circles.iter().map(move |circle| (rule, circle)));

@@ -6,6 +6,7 @@ use crate::counterbody::Indenters;
 use crate::friction::Friction;
 use crate::lattice::LatticeError;
 use crate::load::Load;
+use crate::localized::mesh::Mesh;
 use crate::localized::stress::LocalizedField;
 use crate::localized::{self, CircleRadius, Coupled, Localized, NoIndenters, Setup, Stop};
 use crate::problem::Problem;
@@ -20,26 +21,26 @@ use std::sync::Arc;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ComparisonError {
-    /// The localized method knows indenters only.
+    /// A topography, which the localized method cannot solve.
     #[error(transparent)]
     NoIndenters(#[from] NoIndenters),
-    /// The localized method solves frictionless contact.
+    /// Coupled friction, which the localized method cannot solve.
     #[error(
         "the localized method knows the pressure of frictionless contact only, to which uncoupled friction adds its stresses: \
          compare with friction.coupling = false"
     )]
     CoupledFriction,
-    /// There is no such grid.
+    /// A grid that cannot be built.
     #[error(transparent)]
     Grid(#[from] LatticeError),
-    /// Whoever heard of it wanted no more.
+    /// `progress` ended the comparison.
     #[error("stopped before its end")]
     Interrupted,
 }
 
-/// What is compared.
+/// One load step to be solved by both methods.
 #[derive(Debug, Clone)]
-pub struct Task {
+pub struct ComparisonTask {
     /// Indenters on a half-space.
     pub problem: Arc<Problem>,
     /// The load step.
@@ -50,16 +51,84 @@ pub struct Task {
     pub indenters: Vec<usize>,
     /// Elements across the largest contact.
     pub elements: usize,
-    /// How large the circles are.
+    /// Rule for the radius of the circles, or for what acts outside them.
     pub rule: CircleRadius,
-    /// Whether the indenters around the one looked at act on it; if not, each is alone on the half-space.
+    /// Whether indenters act on each other; if not, each is alone on the half-space.
     pub mutual_effect: bool,
-    /// Mean lateral stress.
+    /// Mean lateral stress of the stress field.
     pub mean: MeanStress,
 }
 
-impl Task {
-    /// Whether both methods know the problem.
+/// The circles under each rule, and the last solution under the rule of the task.
+struct Circles {
+    chosen: Vec<CircleComparison>,
+    other_rule: Vec<CircleComparison>,
+    lattice_sum: Option<CircleComparison>,
+    last: localized::Solution,
+}
+
+/// Circles of one number of indenters, on the elements of the task and on half as many.
+struct TwoMeshes<'a> {
+    task: &'a ComparisonTask,
+    localized: &'a Localized,
+    /// Least number of indenters inside.
+    indenters: usize,
+    mesh: Mesh,
+    fine: Coupled,
+    coarse: Coupled,
+}
+
+impl<'a> TwoMeshes<'a> {
+    fn new(task: &'a ComparisonTask, localized: &'a Localized, indenters: usize, mesh: Mesh) -> Self {
+        let [fine, coarse] =
+            [mesh, mesh.halved()].map(|mesh| Coupled::new(localized.system(), mesh, indenters, task.mutual_effect));
+        Self { task, localized, indenters, mesh, fine, coarse }
+    }
+
+    /// The solution under a rule, and its comparison with the `reference` and with half the elements.
+    fn compared(
+        &self,
+        rule: CircleRadius,
+        start: &localized::Solution,
+        reference: &Answer,
+    ) -> (CircleComparison, localized::Solution) {
+        let found = self.solved(rule, start);
+        let rough = self.on_half_the_elements(rule, &found);
+        let answer = Answer::from(&found);
+        let comparison = CircleComparison {
+            indenters: self.fine.indenters(),
+            stop: found.stop,
+            additional_displacement: found.additional_displacement(),
+            difference: answer.deviation(reference),
+            mesh_error: answer.deviation(&Answer::from(&rough)),
+            radii: found.circle_radii(),
+            answer,
+        };
+        (comparison, found)
+    }
+
+    /// The solution on the mesh of the task, or on a wider one where a contact reaches its rim.
+    fn solved(&self, rule: CircleRadius, start: &localized::Solution) -> localized::Solution {
+        let solution = self.fine.solve(self.task.load, rule, Some(start));
+        if solution.stop != Stop::Rim {
+            return solution;
+        }
+        self.localized.solve(self.task.load, &self.task.setup(self.indenters, rule))
+    }
+
+    /// The solution on half the elements of a solution that was `found`.
+    fn on_half_the_elements(&self, rule: CircleRadius, found: &localized::Solution) -> localized::Solution {
+        let own = found.spots[0].mesh;
+        if own == self.mesh {
+            return self.coarse.solve(self.task.load, rule, Some(found));
+        }
+        let coarse = Coupled::new(self.localized.system(), own.halved(), self.indenters, self.task.mutual_effect);
+        coarse.solve(self.task.load, rule, Some(found))
+    }
+}
+
+impl ComparisonTask {
+    /// Whether both methods can solve the problem.
     ///
     /// # Errors
     /// [`ComparisonError::NoIndenters`] for a topography, [`ComparisonError::CoupledFriction`] for coupled friction.
@@ -67,25 +136,25 @@ impl Task {
         self.indenters().map(|_| ())
     }
 
-    /// The indenters of a problem that both methods know.
+    /// The indenters of a problem that both methods can solve.
     fn indenters(&self) -> Result<&Indenters, ComparisonError> {
         let couples = self.problem.friction().is_some_and(Friction::couples);
         let indenters = self.problem.counterbody().indenters().ok_or(NoIndenters)?;
         if couples { Err(ComparisonError::CoupledFriction) } else { Ok(indenters) }
     }
 
-    /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` hears what is to begin, and
-    /// says whether it shall.
+    /// Compares both methods, the spectral one on grids of `points` and half of them. `progress` is called with the name of each
+    /// stage before it begins.
     ///
     /// # Errors
-    /// [`ComparisonError`]: see [`Self::check`], when a number of points is zero, or `progress` wants no more.
+    /// [`ComparisonError`]: see [`Self::check`], when a number of points is zero, or `progress` returns a break.
     pub fn compare(
         &self,
         points: [usize; 2],
         progress: &mut dyn FnMut(&str) -> ControlFlow<()>,
     ) -> Result<Comparison, ComparisonError> {
         let indenters = self.indenters()?;
-        let mut begin = |what: &str| match progress(what) {
+        let mut begin = |stage: &str| match progress(stage) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(ComparisonError::Interrupted),
         };
@@ -98,64 +167,50 @@ impl Task {
         let reading = step.reading();
         let reference = Answer::from(&reading);
         let grid_error = reference.deviation(&Answer::from(&coarse));
-        let most = self.indenters.iter().copied().max().unwrap_or(1);
-        let localized = Localized::new(&self.problem, most)?;
-        let (mesh, start) = localized.mesh(self.load, &self.setup(most, self.rule));
-        let half = mesh.halved();
-        let (mut circles, mut other_rule, mut lattice_sum) = (Vec::new(), Vec::new(), None);
-        let mut last = start;
-        let counts: &[usize] = if self.mutual_effect { &self.indenters } else { &[1] };
-        for &inside in counts {
-            let what = format!("localized solution, {inside} indenters in the circle");
-            begin(&what)?;
-            let coupled = |mesh| Coupled::new(localized.system(), mesh, inside, self.mutual_effect);
-            let [fine, coarse] = [mesh, half].map(coupled);
-            let compared = |rule: CircleRadius| {
-                let widened = |coupled: &Coupled, start| {
-                    let solution = coupled.solve(self.load, rule, Some(start));
-                    if solution.stop != Stop::Rim {
-                        return solution;
-                    }
-                    localized.solve(self.load, &self.setup(inside, rule))
-                };
-                let found = widened(&fine, &last);
-                let own = found.spots[0].mesh;
-                let rough = if own == mesh {
-                    coarse.solve(self.load, rule, Some(&found))
-                } else {
-                    coupled(own.halved()).solve(self.load, rule, Some(&found))
-                };
-                let answer = Answer::from(&found);
-                let comparison = CircleComparison {
-                    indenters: fine.indenters(),
-                    stop: found.stop,
-                    additional_displacement: found.additional_displacement(),
-                    difference: answer.deviation(&reference),
-                    mesh_error: answer.deviation(&Answer::from(&rough)),
-                    radii: found.circle_radii(),
-                    answer,
-                };
-                (comparison, found)
-            };
-            let (chosen, found) = compared(self.rule);
-            circles.push(chosen);
-            if self.mutual_effect {
-                begin(&format!("{what}, {}", self.rule.other().name()))?;
-                other_rule.push(compared(self.rule.other()).0);
-            }
-            if self.mutual_effect && self.rule != CircleRadius::LatticeSum && lattice_sum.is_none() {
-                begin(&format!("{what}, {}", CircleRadius::LatticeSum.name()))?;
-                lattice_sum = Some(compared(CircleRadius::LatticeSum).0);
-            }
-            last = found;
-        }
+        let localized = Localized::new(&self.problem, self.most_indenters())?;
+        let circles = self.circles(&localized, &reference, &mut begin)?;
         begin("stresses")?;
-        let stresses = self.stresses(indenters, &last, &step);
+        let stresses = self.stresses(indenters, &circles.last, &step);
+        let Circles { chosen: circles, other_rule, lattice_sum, .. } = circles;
         let (task, spectral) = (self.clone(), StepRecord::new(&step, reading));
         Ok(Comparison { task, spectral, grid_error, circles, other_rule, lattice_sum, stresses })
     }
 
-    /// What the localized method is asked for with so many indenters inside the circles.
+    /// Largest number of indenters inside a circle.
+    fn most_indenters(&self) -> usize {
+        self.indenters.iter().copied().max().unwrap_or(1)
+    }
+
+    /// The circles under each rule.
+    fn circles(
+        &self,
+        localized: &Localized,
+        reference: &Answer,
+        begin: &mut dyn FnMut(&str) -> Result<(), ComparisonError>,
+    ) -> Result<Circles, ComparisonError> {
+        let (mesh, start) = localized.mesh(self.load, &self.setup(self.most_indenters(), self.rule));
+        let mut circles = Circles { chosen: Vec::new(), other_rule: Vec::new(), lattice_sum: None, last: start };
+        let counts: &[usize] = if self.mutual_effect { &self.indenters } else { &[1] };
+        for &inside in counts {
+            let what = format!("localized solution, {inside} indenters in the circle");
+            begin(&what)?;
+            let circle = TwoMeshes::new(self, localized, inside, mesh);
+            let (chosen, found) = circle.compared(self.rule, &circles.last, reference);
+            circles.chosen.push(chosen);
+            if self.mutual_effect {
+                begin(&format!("{what}, {}", self.rule.other().name()))?;
+                circles.other_rule.push(circle.compared(self.rule.other(), &circles.last, reference).0);
+            }
+            if self.mutual_effect && self.rule != CircleRadius::LatticeSum && circles.lattice_sum.is_none() {
+                begin(&format!("{what}, {}", CircleRadius::LatticeSum.name()))?;
+                circles.lattice_sum = Some(circle.compared(CircleRadius::LatticeSum, &circles.last, reference).0);
+            }
+            circles.last = found;
+        }
+        Ok(circles)
+    }
+
+    /// Setup of the localized method with so many `indenters` inside the circles.
     fn setup(&self, indenters: usize, rule: CircleRadius) -> Setup {
         Setup { indenters, elements: self.elements, rule, mutual_effect: self.mutual_effect }
     }

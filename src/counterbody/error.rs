@@ -4,12 +4,12 @@
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CounterbodyError {
-    /// Another number of levels than the lattice has.
+    /// A number of levels that differs from the lattice's.
     #[error("the lattice has sites for {sites} levels, not {levels}: give one level for each")]
     Levels {
-        /// Levels of the lattice.
+        /// Number of levels of the lattice.
         sites: usize,
-        /// Levels received.
+        /// Number of levels given.
         levels: usize,
     },
     /// A topography without samples.
@@ -18,9 +18,9 @@ pub enum CounterbodyError {
     /// A height that is not finite.
     #[error("the height at [{}, {}] of a topography must be finite, not {value}", .place[0], .place[1])]
     Height {
-        /// Its indices along a₁ and a₂.
+        /// Indices of the height along a₁ and a₂.
         place: [usize; 2],
-        /// The value received.
+        /// The value given.
         value: f64,
     },
 }

@@ -1,8 +1,8 @@
 //! Shapes of rigid indenters and the levels they form, Eq. (1) of Goryacheva & Torskaya (2019).
 //!
 //! An indenter of level m has the profile f_m(r): the distance of its surface above its apex at
-//! the radius r from its axis. The level's drop d_m = h₁ − h_m ≥ 0 is how far its apex lies behind that
-//! of the highest level, which touches first.
+//! the radius r from its axis. The drop d_m = h₁ − h_m ≥ 0 of the level is the distance of its apex behind that of the highest
+//! level, which touches first.
 
 use crate::numeric::number::number;
 use std::fmt;
@@ -14,11 +14,11 @@ pub enum IndenterError {
     /// A size that is zero, negative or not finite.
     #[error("the {name} of a {shape} must be positive and finite, not {value}")]
     NotPositive {
-        /// Which shape.
+        /// Name of the shape.
         shape: &'static str,
-        /// Which of its sizes.
+        /// Name of the size.
         name: &'static str,
-        /// The value received.
+        /// The value given.
         value: f64,
     },
     /// A height that is not finite.
@@ -30,22 +30,22 @@ pub enum IndenterError {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
-    /// f = r²/(2R), R the radius of curvature at the apex.
+    /// Paraboloid f = r²/(2R), R the radius of curvature at the apex.
     Paraboloid {
         /// Radius of curvature R, a length.
         radius: f64,
     },
-    /// f = R − √(R² − r²) up to the equator, where a flat plate begins: f = R for r ≥ R.
+    /// Sphere f = R − √(R² − r²) up to the equator, and a flat plate beyond: f = R for r ≥ R.
     Sphere {
         /// Radius R, a length.
         radius: f64,
     },
-    /// f = s r.
+    /// Cone f = s r.
     Cone {
         /// Slope s of the flank against the surface, dimensionless.
         slope: f64,
     },
-    /// f = c rⁿ.
+    /// Power law f = c rⁿ.
     Power {
         /// Coefficient c, a length to the power 1 − n.
         coefficient: f64,
@@ -77,7 +77,7 @@ impl Shape {
         }
     }
 
-    /// Puts the profiles (lengths) at the radii whose squares are given in the place of these.
+    /// Replaces squared radii by the profiles at these radii, lengths.
     pub(crate) fn profiles(&self, squares: &mut [f64]) {
         match *self {
             Self::Paraboloid { radius } => squares.iter_mut().for_each(|square| *square /= 2.0 * radius),
@@ -85,7 +85,7 @@ impl Shape {
         }
     }
 
-    /// Slope f′ of the flank at the radius `r` ≥ 0; infinite from the equator of a sphere on.
+    /// Slope f′ of the flank at the radius `r` ≥ 0, dimensionless; infinite at and beyond the equator of a sphere.
     pub fn slope(&self, r: f64) -> f64 {
         match *self {
             Self::Paraboloid { radius } => r / radius,
@@ -98,7 +98,7 @@ impl Shape {
 
     /// Whether the pressure is infinite on the axis once the apex is in contact.
     ///
-    /// Under f = c rⁿ it goes as r^{n−1}: infinite for n < 1, as ln 1/r for n = 1, a finite cusp for 1 < n < 2.
+    /// Under f = c rⁿ it varies as r^{n−1}: infinite for n < 1, as ln 1/r for n = 1, a finite cusp for 1 < n < 2.
     pub fn singular_peak(&self) -> bool {
         self.exponent() <= 1.0
     }
@@ -158,7 +158,7 @@ impl Level {
         self.shape
     }
 
-    /// Protrusion h_m of the level's apices, a length.
+    /// Height h_m of the level's apices, a length.
     pub fn height(&self) -> f64 {
         self.height
     }

@@ -5,16 +5,16 @@ use crate::lattice::Lattice;
 use crate::numeric::number::number;
 use std::fmt;
 
-/// One site of an indenter.
+/// Site of an indenter in the cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Site {
     /// Level of the indenter, from 1.
     pub level: usize,
-    /// Place in fractions of a₁, a₂.
+    /// Position in fractions of a₁, a₂.
     pub place: [f64; 2],
     /// Shape of the indenter.
     pub shape: Shape,
-    /// Drop of its apex below the highest one, a length ≥ 0.
+    /// Drop of the apex below the highest one, a length ≥ 0.
     pub drop: f64,
 }
 
@@ -24,7 +24,7 @@ impl Site {
         self.shape.profile(r) + self.drop
     }
 
-    /// Puts the [depths](Self::profile) at the distances whose squares are given in the place of these.
+    /// Replaces squared distances from the axis by the [depths](Self::profile) at these distances, lengths.
     pub(crate) fn profiles(&self, squares: &mut [f64]) {
         self.shape.profiles(squares);
         squares.iter_mut().for_each(|depth| *depth += self.drop);
@@ -51,12 +51,12 @@ impl Indenters {
         Ok(Self { lattice, levels })
     }
 
-    /// Cell and sites.
+    /// Lattice of the indenters: cell and sites.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The levels, as many as the lattice has.
+    /// Levels of the indenters, one for each level of the lattice.
     pub fn levels(&self) -> &[Level] {
         &self.levels
     }
@@ -67,7 +67,7 @@ impl Indenters {
         self.levels.iter().map(|level| highest - level.height()).collect()
     }
 
-    /// The sites of the cell, level by level.
+    /// Sites of the cell, level by level.
     pub fn sites(&self) -> Vec<Site> {
         let drops = self.drops();
         let of_level = |(index, places): (usize, &Vec<[f64; 2]>)| -> Vec<Site> {

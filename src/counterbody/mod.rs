@@ -16,7 +16,7 @@ pub use topography::Topography;
 use crate::lattice::Cell;
 use std::fmt;
 
-/// The rigid counterbody: what its surface is, before any grid.
+/// The rigid counterbody, independent of any grid.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Counterbody {
@@ -27,7 +27,7 @@ pub enum Counterbody {
 }
 
 impl Counterbody {
-    /// The cell.
+    /// The unit cell.
     pub fn cell(&self) -> Cell {
         match self {
             Self::Indenters(indenters) => indenters.lattice().cell(),

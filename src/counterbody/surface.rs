@@ -1,12 +1,12 @@
 //! The undeformed surface of the rigid counterbody on a grid.
 //!
 //! f(**x**) = min over all indenters of [f_m(|**x** − **x**ᵢ|) + d_m]: the initial gap, the distance of the counterbody's
-//! surface above its highest apex. The indenter that gives the minimum owns the sample. Every profile grows with the
-//! radius, so of the periodic images of an indenter only the nearest one counts.
+//! surface above its highest apex. The indenter of the minimum owns the sample. Every profile increases with the
+//! radius, so that only the nearest periodic image of an indenter contributes.
 
 use super::roughness::Spectrum;
 use super::{Counterbody, Indenters, Site};
-use crate::lattice::{Grid, LatticeError, Reduced};
+use crate::lattice::{Grid, LatticeError, ReducedBasis};
 use crate::numeric::array::{field, samples};
 use crate::numeric::sums;
 use ndarray::{Array2, ArrayView2};
@@ -14,20 +14,19 @@ use rayon::prelude::*;
 use std::fmt;
 use std::sync::Arc;
 
-/// The counterbody's surface on a grid.
+/// The undeformed surface of the counterbody on a grid.
 #[derive(Debug, Clone)]
 pub struct Surface {
     grid: Arc<Grid>,
     initial_gap: Array2<f64>,
     owner: Option<Array2<u32>>,
-    /// Samples that face the surfaces of several sites at once (to rounding), each with all of them, by ascending
-    /// sample.
+    /// Samples owned by several sites, to rounding, each with all of these sites; in ascending order.
     ties: Vec<(usize, Vec<u32>)>,
     sites: Vec<Site>,
 }
 
 impl Surface {
-    /// The counterbody on a grid of its cell with `points` = [N₁, N₂]: exact for indenters, [resampled](super::Topography::depths)
+    /// Surface of the counterbody on a grid of its cell with `points` = [N₁, N₂]: exact for indenters, [resampled](super::Topography::depths)
     /// for a topography.
     ///
     /// # Errors
@@ -43,8 +42,8 @@ impl Surface {
         })
     }
 
-    /// The same counterbody on a coarser grid, from which a solution starts: every k-th sample of this one where the grid has a
-    /// whole fraction of them along either direction, so that heights stay what they are; else the waves that it holds.
+    /// Surface on a coarser grid, for the start of a solution: every k-th sample where the numbers of samples are multiples along both
+    /// directions, so that heights are unchanged; otherwise the waves that the coarser grid holds.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
@@ -67,12 +66,12 @@ impl Surface {
         &self.grid
     }
 
-    /// f, lengths ≥ 0 measured from the highest apex; axes along a₁ and a₂.
+    /// Initial gap f, lengths ≥ 0 measured from the highest apex; axes along a₁ and a₂.
     pub fn initial_gap(&self) -> ArrayView2<'_, f64> {
         self.initial_gap.view()
     }
 
-    /// f sample by sample, a₂ fastest.
+    /// Initial gap f sample by sample, lengths, a₂ fastest.
     pub(crate) fn gaps(&self) -> &[f64] {
         samples(&self.initial_gap)
     }
@@ -83,7 +82,7 @@ impl Surface {
         self.owner.as_ref().map(|owner| owner.view())
     }
 
-    /// The same sample by sample, a₂ fastest; empty for a topography.
+    /// Index into [`Surface::sites`] of the owner of each sample, a₂ fastest; empty for a topography.
     pub(crate) fn owners(&self) -> &[u32] {
         self.owner.as_ref().map_or(&[], samples)
     }
@@ -93,7 +92,7 @@ impl Surface {
         self.owners().get(sample).map_or(0, |&owner| self.sites[owner as usize].level)
     }
 
-    /// Samples that face several sites at once, each with all of them.
+    /// Samples owned by several sites, each with all of these sites.
     pub(crate) fn ties(&self) -> &[(usize, Vec<u32>)] {
         &self.ties
     }
@@ -109,7 +108,7 @@ impl Surface {
     }
 
     /// The vector from the axis of the nearest image of the site `site` to a sample, a length.
-    pub(crate) fn offset(&self, reduced: &Reduced, site: u32, sample: usize) -> [f64; 2] {
+    pub(crate) fn offset(&self, reduced: &ReducedBasis, site: u32, sample: usize) -> [f64; 2] {
         let (here, place) = (self.grid.fractions(sample), self.sites[site as usize].place);
         reduced.nearest([here[0] - place[0], here[1] - place[1]])
     }
@@ -126,7 +125,7 @@ impl Surface {
         -sums::least(gaps.len(), |i| -gaps[i])
     }
 
-    /// Mean of the initial gap over the cell: the penetration at which contact is complete, a length.
+    /// Mean initial gap, the penetration at which contact is complete, a length.
     pub fn mean(&self) -> f64 {
         sums::mean(self.gaps())
     }
@@ -138,8 +137,8 @@ impl fmt::Display for Surface {
     }
 }
 
-/// Surfaces closer to a sample than this, relatively, face it together.
-const TIE: f64 = 1e-12;
+/// Largest relative difference of the depths of indenters that own a sample together.
+const TIE_TOLERANCE: f64 = 1e-12;
 
 fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
     let lattice = indenters.lattice();
@@ -152,7 +151,7 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
         site.profile((x * x + y * y).sqrt())
     };
     let all_facing = |index: usize, nearest: f64| {
-        let facing = (0..).zip(&sites).filter(|(_, site)| depth(index, site) <= nearest * (1.0 + TIE));
+        let facing = (0..).zip(&sites).filter(|(_, site)| depth(index, site) <= nearest * (1.0 + TIE_TOLERANCE));
         (index, facing.map(|(number, _)| number).collect())
     };
     let points = grid.points();
@@ -165,15 +164,15 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
             site.profiles(depths);
         };
         let (mut depths, mut tied) = (vec![0.0; points[1]], vec![false; points[1]]);
-        // The first one, number 0, owns every sample until another is nearer.
+        // Site 0 owns every sample until another one is nearer.
         fill(first, gap);
         for (number, site) in (1..).zip(others) {
             fill(site, &mut depths);
             for (((nearest, owner), tied), &depth) in gap.iter_mut().zip(&mut *owner).zip(&mut tied).zip(&depths) {
-                if depth < *nearest * (1.0 - TIE) {
+                if depth < *nearest * (1.0 - TIE_TOLERANCE) {
                     (*nearest, *owner, *tied) = (depth, number, false);
                 } else {
-                    *tied |= depth <= *nearest * (1.0 + TIE);
+                    *tied |= depth <= *nearest * (1.0 + TIE_TOLERANCE);
                 }
             }
         }

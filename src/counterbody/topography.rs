@@ -1,4 +1,4 @@
-//! One period of a measured or generated surface.
+//! One period of a measured or generated topography.
 
 use super::CounterbodyError;
 use super::roughness::{RunOut, Spectrum, apex};
@@ -11,7 +11,7 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Topography {
     cell: Cell,
-    /// In standard layout.
+    /// Lengths, in standard layout.
     heights: Array2<f64>,
     run_out: Option<RunOut>,
 }
@@ -34,19 +34,18 @@ impl Topography {
         Ok(Self { cell, heights, run_out: None })
     }
 
-    /// The same whose heights were [tapered](super::roughness::tapered) at the border of the cell.
+    /// The topography, whose heights were [tapered](super::roughness::tapered), with the run-out at the border of the cell.
     #[must_use]
     pub fn with_run_out(self, run_out: RunOut) -> Self {
         Self { run_out: Some(run_out), ..self }
     }
 
-    /// How it runs out at the border of the cell, if it does.
+    /// Run-out at the border of the cell; `None` without a taper.
     pub fn run_out(&self) -> Option<&RunOut> {
         self.run_out.as_ref()
     }
 
-    /// Heights of which statistics and spectrum are those of a surface: tapered, where they are, but not run out below it. Lengths,
-    /// axes along a₁ and a₂.
+    /// Heights for statistics and spectrum: tapered, but without the run-out below the surface; lengths, axes along a₁ and a₂.
     pub fn own_heights(&self) -> Cow<'_, Array2<f64>> {
         match &self.run_out {
             Some(run_out) => Cow::Owned(run_out.undone(self.heights.clone())),
@@ -54,7 +53,7 @@ impl Topography {
         }
     }
 
-    /// The cell.
+    /// The unit cell.
     pub fn cell(&self) -> Cell {
         self.cell
     }
@@ -64,14 +63,14 @@ impl Topography {
         self.heights.view()
     }
 
-    /// Samples [n₁, n₂] along a₁ and a₂.
+    /// Number of samples [n₁, n₂] along a₁ and a₂.
     pub fn points(&self) -> [usize; 2] {
         self.heights.dim().into()
     }
 
-    /// Depths on a grid of `points` = [N₁, N₂] below its apex, lengths ≥ 0: of the [sum of waves](Spectrum::resampled) through
-    /// all samples, without those that the grid cannot hold. The apex is the highest point of that sum, between the samples
-    /// too: grids that hold all waves measure from the same point.
+    /// Depths below the apex on a grid of `points` = [N₁, N₂], lengths ≥ 0: of the [sum of waves](Spectrum::resampled) through all
+    /// samples, without those that the grid cannot hold. The apex is the highest point of that sum, also between the samples: all
+    /// grids that hold all waves measure from the same point.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.

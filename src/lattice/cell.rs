@@ -14,25 +14,25 @@ pub struct Cell {
     a2: [f64; 2],
 }
 
-/// No vector of a cell reaches along the other one so many times as far as that is long: multiples are kept in 32 bits.
-const FARTHEST: f64 = 1e9;
+/// Largest projection of one cell vector on the other, over the length of the other: multiples are kept in 32 bits.
+const MAX_SKEW: f64 = 1e9;
 
 impl Cell {
     /// Cell spanned by `a1` and `a2` (lengths in the case's unit).
     ///
     /// # Errors
-    /// [`LatticeError::FlatCell`] when the vectors span no area or are not finite, or one reaches along the other more than
-    /// 10⁹ times as far as that is long.
+    /// [`LatticeError::FlatCell`] when the vectors span no area or are not finite, or the projection of one on the other is more
+    /// than 10⁹ times as long as the other.
     pub fn new(a1: [f64; 2], a2: [f64; 2]) -> Result<Self, LatticeError> {
         let sine = cross(a1, a2) / (norm(a1) * norm(a2));
         let along = dot(a1, a2).abs() / dot(a1, a1).min(dot(a2, a2));
-        if !(sine.is_finite() && sine.abs() > 1e-6 && along < FARTHEST) {
+        if !(sine.is_finite() && sine.abs() > 1e-6 && along < MAX_SKEW) {
             return Err(LatticeError::FlatCell(a1, a2));
         }
         Ok(Self { a1, a2 })
     }
 
-    /// The 60° rhombus of side `side`.
+    /// The 60° rhombus of the side `side`, a length.
     ///
     /// # Errors
     /// When `side` is zero or not finite.
@@ -40,7 +40,7 @@ impl Cell {
         Self::new([side, 0.0], [0.5 * side, 0.75f64.sqrt() * side])
     }
 
-    /// The square of side `side`.
+    /// The square of the side `side`, a length.
     ///
     /// # Errors
     /// When `side` is zero or not finite.
@@ -48,12 +48,12 @@ impl Cell {
         Self::new([side, 0.0], [0.0, side])
     }
 
-    /// The cell vectors a₁, a₂.
+    /// The cell vectors a₁, a₂, lengths.
     pub fn vectors(&self) -> [[f64; 2]; 2] {
         [self.a1, self.a2]
     }
 
-    /// The reciprocal vectors b₁, b₂ with aᵢ·bⱼ = 2π δᵢⱼ.
+    /// The reciprocal vectors b₁, b₂ with aᵢ·bⱼ = 2π δᵢⱼ, 1/length.
     pub fn reciprocal(&self) -> [[f64; 2]; 2] {
         let scale = TAU / cross(self.a1, self.a2);
         [[scale * self.a2[1], -scale * self.a2[0]], [-scale * self.a1[1], scale * self.a1[0]]]
@@ -72,17 +72,17 @@ impl Cell {
         dot(a1, a2) == 0.0
     }
 
-    /// Area |a₁ × a₂|.
+    /// Area |a₁ × a₂|, a length squared.
     pub fn area(&self) -> f64 {
         cross(self.a1, self.a2).abs()
     }
 
-    /// The point s₁ a₁ + s₂ a₂.
+    /// The point s₁ a₁ + s₂ a₂, lengths.
     pub fn point(&self, [s1, s2]: [f64; 2]) -> [f64; 2] {
         [s1 * self.a1[0] + s2 * self.a2[0], s1 * self.a1[1] + s2 * self.a2[1]]
     }
 
-    /// Fractions s₁, s₂ of a₁, a₂ that make up the vector `x`.
+    /// Fractions s₁, s₂ with s₁ a₁ + s₂ a₂ = `x`.
     pub fn fractions(&self, x: [f64; 2]) -> [f64; 2] {
         let determinant = cross(self.a1, self.a2);
         [cross(x, self.a2) / determinant, cross(self.a1, x) / determinant]
@@ -90,7 +90,7 @@ impl Cell {
 
     /// The reduced basis of the same lattice (Lagrange–Gauss): its shortest vector, and the shortest one that
     /// completes it.
-    pub fn reduced(&self) -> Reduced {
+    pub fn reduced(&self) -> ReducedBasis {
         let (mut short, mut long) = ((self.a1, [1, 0]), (self.a2, [0, 1]));
         loop {
             if dot(long.0, long.0) < dot(short.0, short.0) {
@@ -107,50 +107,50 @@ impl Cell {
                 break;
             }
         }
-        Reduced { cell: Self { a1: short.0, a2: long.0 }, matrix: [short.1, long.1] }
+        ReducedBasis { cell: Self { a1: short.0, a2: long.0 }, matrix: [short.1, long.1] }
     }
 }
 
-/// A reduced basis r₁, r₂ of a cell's lattice, in which the shortest of all equivalent vectors is found at once.
+/// A reduced basis r₁, r₂ of a cell's lattice, in which the shortest equivalent vector is one of few candidates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reduced {
-    /// Cell spanned by r₁ and r₂.
+pub struct ReducedBasis {
+    /// The cell spanned by r₁ and r₂.
     cell: Cell,
-    /// rᵢ = Σⱼ `matrix[i][j]` aⱼ.
+    /// Integers with rᵢ = Σⱼ `matrix[i][j]` aⱼ.
     matrix: [[i32; 2]; 2],
 }
 
-impl Reduced {
+impl ReducedBasis {
     /// The cell spanned by r₁ and r₂.
     pub fn cell(&self) -> Cell {
         self.cell
     }
 
-    /// A shortest lattice vector.
+    /// A shortest lattice vector, lengths.
     pub fn short(&self) -> [f64; 2] {
         if norm(self.cell.a1) <= norm(self.cell.a2) { self.cell.a1 } else { self.cell.a2 }
     }
 
-    /// rᵢ = Σⱼ `matrix[i][j]` aⱼ.
+    /// Integers with rᵢ = Σⱼ `matrix[i][j]` aⱼ.
     pub(super) fn matrix(&self) -> [[i32; 2]; 2] {
         self.matrix
     }
 
-    /// Length of the longer one of r₁ and r₂.
+    /// Length of the longer of r₁ and r₂.
     pub fn longer_side(&self) -> f64 {
         norm(self.cell.a1).max(norm(self.cell.a2))
     }
 
-    /// The lattice vectors, one of each pair ±r, whose perpendicular bisectors bound what is nearest to the origin: r₁, r₂
-    /// and the shorter diagonal.
+    /// The lattice vectors, one of each pair ±r, whose perpendicular bisectors bound the Wigner–Seitz cell: r₁, r₂ and the shorter
+    /// diagonal.
     pub fn facets(&self) -> [[f64; 2]; 3] {
         let Cell { a1, a2 } = self.cell;
         let sign = if dot(a1, a2) > 0.0 { -1.0 } else { 1.0 };
         [a1, a2, [a1[0] + sign * a2[0], a1[1] + sign * a2[1]]]
     }
 
-    /// The shortest vectors equivalent to s₁a₁ + s₂a₂ (all whose lengths agree to the relative `tolerance`), each with
-    /// the whole multiples of a₁, a₂ that were taken off.
+    /// The shortest vectors equivalent to s₁a₁ + s₂a₂ (all whose lengths agree to the relative `tolerance`), each with the multiples
+    /// of a₁, a₂ that were subtracted.
     pub fn shortest(&self, [s1, s2]: [f64; 2], tolerance: f64) -> Vec<([f64; 2], [i32; 2])> {
         let candidates = self.candidates([s1, s2]);
         let least = candidates.iter().map(|&(x, _)| norm(x)).fold(f64::INFINITY, f64::min);
@@ -194,7 +194,7 @@ impl Reduced {
         }
     }
 
-    /// All lattice vectors of at most the length `reach`, and some a little longer.
+    /// All lattice vectors up to the length `reach`, with a tolerance of 10⁻⁹.
     pub fn vectors_within(&self, reach: f64) -> Vec<[f64; 2]> {
         // In a reduced basis |m₁r₁ + m₂r₂|² ≥ ½ (m₁²|r₁|² + m₂²|r₂|²).
         let most = [self.cell.a1, self.cell.a2].map(|r| (reach * 2f64.sqrt() / norm(r)).ceil() as i32);
@@ -209,7 +209,7 @@ impl Reduced {
         [(m22 * s1 - m21 * s2) * determinant, (m11 * s2 - m12 * s1) * determinant]
     }
 
-    /// The vector and its eight neighbours nearest to the origin: among them are all shortest ones.
+    /// Nine equivalent vectors among which are all shortest ones, each with the multiples of a₁, a₂ that were subtracted.
     fn candidates(&self, s: [f64; 2]) -> [([f64; 2], [i32; 2]); 9] {
         let t = self.fractions(s);
         let whole = t.map(f64::round);

@@ -1,26 +1,27 @@
-//! Connected sets of samples of a periodic grid: contact spots, and what is open between or inside them.
+//! Connected components of the samples of a periodic grid: contact spots, and the open regions between and inside them.
 //!
-//! Of every row the runs of samples that follow each other are found, then runs that touch are joined. A set keeps how many
-//! cells each of its runs stands away from its first one: two ways to a run that disagree lead to an image of the set.
+//! Consecutive samples of each row form runs, and runs that touch are joined (union–find). Each run keeps the number of cells
+//! between it and the first run of its component; where two paths to a run disagree in it, the component is connected to an
+//! image of itself.
 
-use super::runs::Run;
-use super::{Grid, Joined};
+use super::runs::SampleRun;
+use super::{Connectivity, Grid};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Samples that hang together.
+/// A connected component of samples.
 #[derive(Debug, Clone)]
 pub struct Component {
-    /// Runs of the samples, followed through the set over the borders of the cell; each within one cell.
-    pub runs: Vec<Run>,
-    /// Whether it meets an image of itself.
+    /// Runs of the samples, continued over the borders of the cell; each within one cell.
+    pub runs: Vec<SampleRun>,
+    /// Whether it is connected to an image of itself.
     pub wraps: bool,
 }
 
 impl Component {
     /// Number of samples.
     pub fn size(&self) -> usize {
-        self.runs.iter().map(Run::len).sum()
+        self.runs.iter().map(SampleRun::len).sum()
     }
 
     /// Flat indices of the samples, run by run.
@@ -32,7 +33,7 @@ impl Component {
         })
     }
 
-    /// Mean of the places, lengths.
+    /// Centre of area, lengths.
     pub fn centre(&self, grid: &Grid) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for run in &self.runs {
@@ -42,21 +43,31 @@ impl Component {
         sum.map(|x| x / self.size() as f64)
     }
 
-    /// Distance of the farthest sample from a place: of a run it is one of its ends.
+    /// Distance of the farthest sample from a point, a length: of each run one of its ends is the farthest.
     pub fn farthest(&self, grid: &Grid, [x, y]: [f64; 2]) -> f64 {
         let ends = self.runs.iter().flat_map(|run| run.ends(grid));
         ends.map(|[own_x, own_y]| (own_x - x).hypot(own_y - y)).fold(0.0, f64::max)
     }
 }
 
-/// The connected sets of the samples that are `members`, by their first samples.
-pub fn components(grid: &Grid, joined: Joined, members: impl Fn(usize) -> bool + Sync) -> Vec<Component> {
+/// The contact spots of a `pressure`: samples in contact whose cells share an edge or a corner; merged contacts are one.
+pub fn contact_spots(grid: &Grid, pressure: &[f64]) -> Vec<Component> {
+    components(grid, Connectivity::EdgesAndCorners, |index| pressure[index] > 0.0)
+}
+
+/// The open regions between and inside the contact spots of a `pressure`: open samples whose cells share an edge.
+pub fn open_regions(grid: &Grid, pressure: &[f64]) -> Vec<Component> {
+    components(grid, Connectivity::Edges, |index| pressure[index] <= 0.0)
+}
+
+/// Connected components of the samples that are `members`, in the order of their first samples.
+pub fn components(grid: &Grid, connectivity: Connectivity, members: impl Fn(usize) -> bool + Sync) -> Vec<Component> {
     let [n1, n2] = grid.points();
-    let mut ways = grid.ways(joined);
-    // Where the next sample of a row is not joined to it, each is a run of its own.
-    let along = ways.iter().position(|&way| way == [0, 1] || way == [0, -1]);
+    let mut offsets = grid.neighbour_offsets(connectivity);
+    // Where consecutive samples of a row are not joined, each sample is a run of its own.
+    let along = offsets.iter().position(|&offset| offset == [0, 1] || offset == [0, -1]);
     if let Some(along) = along {
-        ways.swap_remove(along);
+        offsets.swap_remove(along);
     }
     let rows: Vec<Vec<[i32; 2]>> =
         (0..n1).into_par_iter().map(|row| runs_of_row(n2, along.is_some(), |j| members(row * n2 + j))).collect();
@@ -66,7 +77,7 @@ pub fn components(grid: &Grid, joined: Joined, members: impl Fn(usize) -> bool +
             Some(*sum)
         }))
         .collect();
-    let mut sets = Sets::new(starts[n1]);
+    let mut sets = DisjointSets::new(starts[n1]);
     for (i, row) in rows.iter().enumerate() {
         if let ([first, ..], [.., last]) = (&row[..], &row[..])
             && along.is_some()
@@ -75,25 +86,38 @@ pub fn components(grid: &Grid, joined: Joined, members: impl Fn(usize) -> bool +
         {
             sets.join(starts[i] + row.len() - 1, starts[i], [0, 1]);
         }
-        for &[down, right] in &ways {
-            let below = i as i32 + down;
-            let (cell, there) = (below.div_euclid(n1 as i32), below.rem_euclid(n1 as i32) as usize);
-            for (own, &[first, end]) in (starts[i]..).zip(row) {
-                let (first, last) = (first + right, end - 1 + right);
-                for across in first.div_euclid(n2 as i32)..=last.div_euclid(n2 as i32) {
-                    let offset = across * n2 as i32;
-                    let touching = rows[there].partition_point(|run| run[1] + offset <= first)..;
-                    for (k, run) in touching.clone().zip(&rows[there][touching]) {
-                        if run[0] + offset > last {
-                            break;
-                        }
-                        sets.join(own, starts[there] + k, [cell, across]);
-                    }
-                }
-            }
+        for &offset in &offsets {
+            join_rows(&mut sets, &rows, &starts, i, offset, n2);
         }
     }
     collected(&rows, &mut sets, [n1, n2])
+}
+
+/// Joins the runs of the row `i` to those that they touch in the row `down` below, shifted by `right` columns.
+fn join_rows(
+    sets: &mut DisjointSets,
+    rows: &[Vec<[i32; 2]>],
+    starts: &[usize],
+    i: usize,
+    [down, right]: [i32; 2],
+    columns: usize,
+) {
+    let (n1, n2) = (rows.len() as i32, columns as i32);
+    let below = i as i32 + down;
+    let (cell, there) = (below.div_euclid(n1), below.rem_euclid(n1) as usize);
+    for (own, &[first, end]) in (starts[i]..).zip(&rows[i]) {
+        let (first, last) = (first + right, end - 1 + right);
+        for across in first.div_euclid(n2)..=last.div_euclid(n2) {
+            let offset = across * n2;
+            let touching = rows[there].partition_point(|run| run[1] + offset <= first)..;
+            for (k, run) in touching.clone().zip(&rows[there][touching]) {
+                if run[0] + offset > last {
+                    break;
+                }
+                sets.join(own, starts[there] + k, [cell, across]);
+            }
+        }
+    }
 }
 
 /// Runs [first, end) of members among the `count` samples of a row.
@@ -108,47 +132,47 @@ fn runs_of_row(count: usize, joined: bool, member: impl Fn(usize) -> bool) -> Ve
     runs
 }
 
-fn collected(rows: &[Vec<[i32; 2]>], sets: &mut Sets, [n1, n2]: [usize; 2]) -> Vec<Component> {
+fn collected(rows: &[Vec<[i32; 2]>], sets: &mut DisjointSets, [n1, n2]: [usize; 2]) -> Vec<Component> {
     const NONE: u32 = u32::MAX;
     let mut component_of = vec![NONE; sets.parents.len()];
     let mut components: Vec<Component> = Vec::new();
     let runs = rows.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |run| (i as i32, *run)));
     for (number, (row, [first, end])) in runs.enumerate() {
-        // A root stands before all others of its set.
+        // The root is the first run of its set.
         let (root, [down, right]) = sets.root(number);
         if component_of[root] == NONE {
             component_of[root] = components.len() as u32;
             components.push(Component { runs: Vec::new(), wraps: sets.wraps[root] });
         }
         let (rows, columns) = (down * n1 as i32, right * n2 as i32);
-        let run = Run { row: row + rows, first: first + columns, end: end + columns };
+        let run = SampleRun { row: row + rows, first: first + columns, end: end + columns };
         components[component_of[root] as usize].runs.push(run);
     }
     components
 }
 
-/// Disjoint sets of runs, each with the cells it stands away from the first of its set.
-struct Sets {
+/// Disjoint sets of runs, each with the number of cells between it and the first run of its set.
+struct DisjointSets {
     parents: Vec<u32>,
-    /// Cells from the parent along either vector.
+    /// Number of cells from the parent along a₁ and a₂.
     shifts: Vec<[i32; 2]>,
-    /// Of a root: whether the set meets an image of itself.
+    /// Of a root: whether the set is connected to an image of itself.
     wraps: Vec<bool>,
 }
 
-impl Sets {
+impl DisjointSets {
     fn new(count: usize) -> Self {
         Self { parents: (0..count as u32).collect(), shifts: vec![[0; 2]; count], wraps: vec![false; count] }
     }
 
-    /// The first run of the set, and the cells that `run` stands away from it.
+    /// The first run of the set of `run`, and the number of cells from it to `run` along a₁ and a₂.
     fn root(&mut self, run: usize) -> (usize, [i32; 2]) {
         let (mut root, mut shift) = (run, [0; 2]);
         while self.parents[root] as usize != root {
             shift = sum(shift, self.shifts[root]);
             root = self.parents[root] as usize;
         }
-        // All on the way lead there at once.
+        // Path compression.
         let (mut at, mut rest) = (run, shift);
         while self.parents[at] as usize != root && at != root {
             let (next, own) = (self.parents[at] as usize, self.shifts[at]);
@@ -158,10 +182,10 @@ impl Sets {
         (root, shift)
     }
 
-    /// Joins a run to the image of `other` so many `cells` away from the cell of the first one.
+    /// Joins a run to the image of `other` that lies `cells` cells along a₁ and a₂ away.
     fn join(&mut self, run: usize, other: usize, cells: [i32; 2]) {
         let ((a, own), (b, others)) = (self.root(run), self.root(other));
-        // The root b stands so many cells away from the root a.
+        // Cells from the root a to the root b.
         let apart = difference(sum(own, cells), others);
         if a == b {
             self.wraps[a] |= apart != [0; 2];
@@ -181,17 +205,17 @@ fn difference(a: [i32; 2], b: [i32; 2]) -> [i32; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// What is counted of the contact spots of a pressure.
+/// Sizes and loads of the contact spots of a pressure.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Counts {
-    /// Samples and sum of the pressure of each spot; those of few samples first.
+pub struct SpotCounts {
+    /// Number of samples and sum of the pressure of each spot, in ascending number of samples.
     pub sizes: Vec<(usize, f64)>,
-    /// Whether one meets an image of itself.
+    /// Whether a spot is connected to an image of itself.
     pub wraps: bool,
 }
 
-impl Counts {
-    /// Of spots of a pressure.
+impl SpotCounts {
+    /// Counts of the `spots` of a `pressure`.
     pub fn of(spots: &[Component], grid: &Grid, pressure: &[f64]) -> Self {
         let size = |spot: &Component| {
             let load = spot.indices(grid).map(|run| pressure[run].iter().sum::<f64>()).sum();
@@ -225,13 +249,13 @@ mod tests {
     fn a_spot_across_the_border_is_one_and_a_stripe_wraps() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
         let corner = |index: usize| [0, 7].contains(&(index / 8)) && [0, 7].contains(&(index % 8));
-        let found = components(&grid, Joined::AtEdges, corner);
+        let found = components(&grid, Connectivity::Edges, corner);
         assert!(found.len() == 1 && found[0].size() == 4 && !found[0].wraps);
         let centre = found[0].centre(&grid);
         let [x, y] = centre.map(|x| (x + 0.5).rem_euclid(1.0) - 0.5);
         assert!((x + 0.0625).abs() < 1e-12 && (y + 0.0625).abs() < 1e-12, "{x} {y}");
         assert!((found[0].farthest(&grid, centre) - 0.0625 * 2f64.sqrt()).abs() < 1e-12);
-        assert!(components(&grid, Joined::AtEdges, |index| index / 8 == 3)[0].wraps);
+        assert!(components(&grid, Connectivity::Edges, |index| index / 8 == 3)[0].wraps);
     }
 
     /// Cells of a square or oblique grid share corners with four more than the four at their edges, hexagons with none; the
@@ -241,8 +265,8 @@ mod tests {
         let joined = |a2: [f64; 2], set: &[[usize; 2]]| {
             let grid = Grid::new(Cell::new([1.0, 0.0], a2).unwrap(), [8, 8]).unwrap();
             let members: Vec<usize> = set.iter().map(|sample| index(*sample)).collect();
-            [Joined::AtEdges, Joined::AtCorners]
-                .map(|joined| components(&grid, joined, |index| members.contains(&index)).len())
+            [Connectivity::Edges, Connectivity::EdgesAndCorners]
+                .map(|connectivity| components(&grid, connectivity, |index| members.contains(&index)).len())
         };
         let [up, down] = [[[2, 2], [3, 3]], [[2, 3], [3, 2]]];
         for a2 in [[0.0, 1.0], [0.2, 0.9]] {
@@ -262,8 +286,8 @@ mod tests {
     fn a_ring_closed_at_corners_keeps_its_hole() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
         let ring = [[3, 4], [5, 4], [4, 3], [4, 5]].map(index);
-        let spots = components(&grid, Joined::AtCorners, |index| ring.contains(&index));
-        let open = components(&grid, Joined::AtEdges, |index| !ring.contains(&index));
+        let spots = components(&grid, Connectivity::EdgesAndCorners, |index| ring.contains(&index));
+        let open = components(&grid, Connectivity::Edges, |index| !ring.contains(&index));
         let sizes = |found: &[Component]| found.iter().map(|set| (set.size(), set.wraps)).collect::<Vec<_>>();
         assert_eq!((sizes(&spots), sizes(&open)), (vec![(4, false)], vec![(59, true), (1, false)]));
     }
@@ -272,10 +296,8 @@ mod tests {
     fn half_of_the_load_decides_which_spot_counts() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 8]).unwrap();
         let mut pressure = [0.0; 64];
-        let counts = |pressure: &[f64]| {
-            Counts::of(&components(&grid, Joined::AtCorners, |index| pressure[index] > 0.0), &grid, pressure)
-        };
-        assert_eq!((counts(&pressure), counts(&pressure).half_load()), (Counts::default(), None));
+        let counts = |pressure: &[f64]| SpotCounts::of(&contact_spots(&grid, pressure), &grid, pressure);
+        assert_eq!((counts(&pressure), counts(&pressure).half_load()), (SpotCounts::default(), None));
         // One sample of load 1, two of 1 each, four of 2 each.
         pressure[0] = 1.0;
         pressure[16..18].fill(1.0);
@@ -299,25 +321,26 @@ mod tests {
         {
             let grid = Grid::new(Cell::new([1.0, 0.0], a2).unwrap(), points).unwrap();
             for part in [0.2, 0.4, 0.55, 0.7, 1.0] {
-                for joined in [Joined::AtEdges, Joined::AtCorners] {
+                for connectivity in [Connectivity::Edges, Connectivity::EdgesAndCorners] {
                     let set: Vec<bool> = (0..grid.len()).map(|_| chance(part)).collect();
-                    let found = components(&grid, joined, |index| set[index]);
+                    let found = components(&grid, connectivity, |index| set[index]);
                     let mut described: Vec<(Vec<usize>, bool)> = Vec::new();
                     for component in &found {
                         let mut indices: Vec<usize> = component.indices(&grid).flatten().collect();
                         indices.sort_unstable();
                         described.push((indices, component.wraps));
                     }
-                    assert_eq!(described, flooded(&grid, joined, &set), "{a2:?} {part} {joined:?}");
+                    assert_eq!(described, flooded(&grid, connectivity, &set), "{a2:?} {part} {connectivity:?}");
                 }
             }
         }
     }
 
     /// Connected sets by following every sample to its neighbours.
-    fn flooded(grid: &Grid, joined: Joined, set: &[bool]) -> Vec<(Vec<usize>, bool)> {
+    fn flooded(grid: &Grid, connectivity: Connectivity, set: &[bool]) -> Vec<(Vec<usize>, bool)> {
         let points = grid.points().map(|n| n as i32);
-        let ways: Vec<[i32; 2]> = grid.ways(joined).into_iter().flat_map(|way| [way, way.map(|k| -k)]).collect();
+        let offsets: Vec<[i32; 2]> =
+            grid.neighbour_offsets(connectivity).into_iter().flat_map(|offset| [offset, offset.map(|k| -k)]).collect();
         let index = |[i, j]: [i32; 2]| (i.rem_euclid(points[0]) * points[1] + j.rem_euclid(points[1])) as usize;
         let mut seen: Vec<Option<[i32; 2]>> = vec![None; set.len()];
         let mut found = Vec::new();
@@ -331,7 +354,7 @@ mod tests {
             while looked < samples.len() {
                 let [i, j] = samples[looked];
                 looked += 1;
-                for there in ways.iter().map(|[rows, columns]| [i + rows, j + columns]) {
+                for there in offsets.iter().map(|[rows, columns]| [i + rows, j + columns]) {
                     match seen[index(there)] {
                         None if set[index(there)] => {
                             seen[index(there)] = Some(there);

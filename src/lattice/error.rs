@@ -13,20 +13,20 @@ pub enum LatticeError {
     /// The number of levels has no standard arrangement on this lattice.
     #[error("a {lattice} lattice has no standard arrangement of {levels} levels (it has one for {standard})")]
     NoStandardSites {
-        /// Which lattice.
+        /// Name of the lattice.
         lattice: &'static str,
-        /// Levels asked for.
+        /// Number of levels given.
         levels: usize,
-        /// Levels that have an arrangement.
+        /// Numbers of levels that have an arrangement.
         standard: &'static str,
     },
     /// A level without any site.
     #[error("level {0} has no site: give at least one, in fractions of the cell vectors")]
     NoSite(usize),
-    /// A site of a level that is nowhere.
+    /// A site of a level that is not finite.
     #[error("a site of level {0} is not finite: give fractions of the cell vectors")]
     Site(usize),
-    /// Two indenters at one place.
+    /// Two levels with an indenter at the same place.
     #[error("levels {0} and {1} have an indenter at the same place: move one, or leave it out")]
     SharedSite(usize, usize),
 }

@@ -7,30 +7,30 @@
 //! zone of the sampling lattice) keeps it.
 
 use super::cell::norm;
-use super::waves::{BORDER, TIE, Waves};
-use super::zone::Zone;
+use super::waves::{BORDER_TOLERANCE, WAVENUMBER_TOLERANCE, Waves};
+use super::zone::BrillouinZone;
 use super::{Cell, LatticeError};
 use crate::numeric::number::number;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
-/// A field that does not belong to a grid.
+/// A field whose shape is not that of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "a field of {} × {} values does not belong to a grid of {} × {} samples: give one value for each",
     .field[0], .field[1], .points[0], .points[1]
 )]
 pub struct NotOnGrid {
-    /// Shape of the field.
+    /// Shape of the field, along a₁ and a₂.
     pub field: [usize; 2],
-    /// Samples of the grid.
+    /// Number of samples of the grid along a₁ and a₂.
     pub points: [usize; 2],
 }
 
 /// A grid of N₁ × N₂ samples on a cell.
 #[derive(Debug, Clone)]
 pub struct Grid {
-    zone: Zone,
+    zone: BrillouinZone,
     waves: OnceLock<Arc<Waves>>,
 }
 
@@ -43,15 +43,15 @@ impl Grid {
         if points.contains(&0) {
             return Err(LatticeError::NoPoints(points[0], points[1]));
         }
-        Ok(Self { zone: Zone::new(cell, points)?, waves: OnceLock::new() })
+        Ok(Self { zone: BrillouinZone::new(cell, points)?, waves: OnceLock::new() })
     }
 
-    /// The cell the grid lies on.
+    /// The unit cell.
     pub fn cell(&self) -> Cell {
         self.zone.cell()
     }
 
-    /// [N₁, N₂].
+    /// Number of samples [N₁, N₂] along a₁ and a₂.
     pub fn points(&self) -> [usize; 2] {
         self.zone.points()
     }
@@ -70,18 +70,18 @@ impl Grid {
         self.points()[0] * self.points()[1]
     }
 
-    /// Area of the cell per sample.
+    /// Area of the cell per sample, a length squared.
     pub fn sample_area(&self) -> f64 {
         self.cell().area() / self.len() as f64
     }
 
-    /// Fractions of a₁, a₂ at which the sample with the flat index `index` stands.
+    /// Fractions of a₁, a₂ of the sample with the flat index `index`.
     pub fn fractions(&self, index: usize) -> [f64; 2] {
         let [n1, n2] = self.points();
         [(index / n2) as f64 / n1 as f64, (index % n2) as f64 / n2 as f64]
     }
 
-    /// Flat indices of the samples next to one along a₁ and a₂: the next ones, then those before.
+    /// Flat indices of the four samples adjacent to one along a₁ and a₂: the next ones, then those before.
     pub fn adjacent(&self, index: usize) -> [usize; 4] {
         let [n1, n2] = self.points();
         let (row, column) = (index / n2, index % n2);
@@ -96,7 +96,7 @@ impl Grid {
         (0..9).filter(|&k| k != 4).map(move |k| (row + n1 + k / 3 - 1) % n1 * n2 + (column + n2 + k % 3 - 1) % n2)
     }
 
-    /// The vectors from a sample to the next one along a₁ and along a₂.
+    /// The vectors from a sample to the next one along a₁ and along a₂, lengths.
     pub fn steps(&self) -> [[f64; 2]; 2] {
         let [a1, a2] = self.cell().vectors();
         let [n1, n2] = self.points().map(|n| n as f64);
@@ -108,7 +108,7 @@ impl Grid {
         self.samples_cell().map_or(0.0, |cell| cell.reduced().longer_side())
     }
 
-    /// The cell of one sample. It is a cell as the grid's is.
+    /// The cell of one sample.
     pub(super) fn samples_cell(&self) -> Option<Cell> {
         let [e1, e2] = self.steps();
         Cell::new(e1, e2).ok()
@@ -127,41 +127,40 @@ impl Grid {
         self.zone.tied_wavevectors(component, tolerance)
     }
 
-    /// The waves that the component (k₁, k₂) stands for, each an equal part of it: its shortest aliases, as multiples of
-    /// b₁, b₂.
+    /// The shortest aliases of the component (k₁, k₂), as multiples of b₁, b₂: waves that share it in equal parts.
     pub(crate) fn aliases(&self, component: [usize; 2]) -> Vec<[i32; 2]> {
         let [n1, n2] = self.points();
         let [k1, k2] = component;
-        // Where no two are tied in a rectangular cell, they are those of each axis.
+        // In a rectangular cell aliases that are not tied are those of each axis.
         if self.cell().is_rectangular() && 2 * k1 != n1 && 2 * k2 != n2 {
             let signed = |k: usize, n: usize| if 2 * k < n { k as i32 } else { k as i32 - n as i32 };
             return vec![[signed(k1, n1), signed(k2, n2)]];
         }
-        self.tied_wavevectors(component, TIE).into_iter().map(|(index, _)| index).collect()
+        self.tied_wavevectors(component, WAVENUMBER_TOLERANCE).into_iter().map(|(index, _)| index).collect()
     }
 
-    /// How many waves the component (k₁, k₂) stands for: its shortest aliases.
+    /// Number of the shortest aliases of the component (k₁, k₂).
     pub(crate) fn tied(&self, component: [usize; 2]) -> usize {
         if self.resolves(self.wavevector(component)) { 1 } else { self.aliases(component).len() }
     }
 
-    /// Whether no alias of a wave is shorter.
+    /// Whether a wavevector, 1/length, has no shorter alias.
     pub(crate) fn holds(&self, wavevector: [f64; 2]) -> bool {
-        !self.zone.on_border(wavevector, -BORDER)
+        !self.zone.on_border(wavevector, -BORDER_TOLERANCE)
     }
 
-    /// Whether all aliases of a wave are longer, so that the grid tells it from all others.
+    /// Whether all aliases of a wavevector, 1/length, are longer, so that the grid distinguishes it from all others.
     pub(crate) fn resolves(&self, wavevector: [f64; 2]) -> bool {
-        !self.zone.on_border(wavevector, BORDER)
+        !self.zone.on_border(wavevector, BORDER_TOLERANCE)
     }
 
-    /// The plane waves it holds; found when they are first asked for, and kept.
+    /// The plane waves of the grid, computed at first use and kept.
     pub(crate) fn waves(&self) -> &Arc<Waves> {
         self.waves.get_or_init(|| Arc::new(Waves::new(&self.zone)))
     }
 
-    /// Mean unit vector of the shortest aliases of the component (k₁, k₂), of length one but where several are tied; zero for
-    /// a component that is its own conjugate.
+    /// Mean unit vector of the shortest aliases of the component (k₁, k₂), of length 1 unless several are tied; zero for a component
+    /// that is its own conjugate.
     pub fn mean_direction(&self, component: [usize; 2]) -> [f64; 2] {
         let unit = |[x, y]: [f64; 2]| {
             let length = norm([x, y]);
@@ -172,15 +171,15 @@ impl Grid {
             return [0.0; 2];
         }
         let q = self.wavevector(component);
-        if !self.zone.on_border(q, BORDER) {
+        if !self.zone.on_border(q, BORDER_TOLERANCE) {
             return unit(q);
         }
-        let tied = self.tied_wavevectors(component, TIE);
+        let tied = self.tied_wavevectors(component, WAVENUMBER_TOLERANCE);
         let sum = tied.iter().fold([0.0; 2], |sum, &(_, q)| [sum[0] + unit(q)[0], sum[1] + unit(q)[1]]);
         sum.map(|x| x / tied.len() as f64)
     }
 
-    /// Length |q| of [`Grid::wavevector`].
+    /// Length |q| of [`Grid::wavevector`], 1/length.
     pub fn wavenumber(&self, component: [usize; 2]) -> f64 {
         let [x, y] = self.wavevector(component);
         (x * x + y * y).sqrt()
@@ -204,7 +203,7 @@ impl Grid {
         0.5 * (a + b + c - a.max(b).max(c))
     }
 
-    /// Least wavenumber that the grid cannot hold in all directions, 1/length.
+    /// Least wavenumber at which a direction is aliased, 1/length.
     pub fn least_aliased(&self) -> f64 {
         0.5 * norm(self.zone.shortest_facet())
     }

@@ -1,11 +1,11 @@
-//! Fields between the samples of a grid, in the way that keeps the symmetry of the cell.
+//! Interpolation of fields between the samples of a grid that keeps the symmetry of the cell.
 
 use super::Cell;
 use crate::numeric::rows;
 use crate::numeric::sums::BLOCK;
 use rayon::prelude::*;
 
-/// How a field is interpolated between four neighbouring samples of a grid.
+/// Interpolation of a field between four neighbouring samples of a grid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
     /// Bilinear: keeps the symmetry of rectangular cells.
@@ -13,12 +13,12 @@ pub enum Interpolation {
     /// Linear on the two triangles that the diagonal between the ends of a₁ and a₂ makes: keeps the symmetry of a 60°
     /// rhombus.
     AcrossDiagonal,
-    /// Linear on the two triangles that the diagonal along a₁ + a₂ makes: the same for a 120° rhombus.
+    /// Linear on the two triangles that the diagonal along a₁ + a₂ makes: keeps the symmetry of a 120° rhombus.
     AlongDiagonal,
 }
 
 impl Interpolation {
-    /// The one that keeps the symmetry of the cell: triangles along the shorter diagonal, if there is a shorter one.
+    /// Interpolation that keeps the symmetry of the cell: triangles along the shorter diagonal, if there is a shorter one.
     pub fn on(cell: Cell) -> Self {
         let [[x1, y1], [x2, y2]] = cell.vectors();
         let cosine = (x1 * x2 + y1 * y2) / (x1.hypot(y1) * x2.hypot(y2));
@@ -41,8 +41,8 @@ impl Interpolation {
     }
 }
 
-/// Periodic interpolation of a field from one grid of a cell to another, and a function of every positive value, 0
-/// elsewhere; exact where samples coincide.
+/// Periodic interpolation of a field from one grid of a cell to another, followed by the function `value` of each positive value and
+/// 0 of others; exact where samples coincide.
 pub(crate) fn resampled(
     field: &[f64],
     from: [usize; 2],

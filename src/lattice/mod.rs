@@ -1,4 +1,4 @@
-//! The periodic plane: cells, the places of the indenters in them, grids of samples, and what is read between them.
+//! The periodic plane: cells, lattices of indenters, grids of samples with their waves, and connected components of samples.
 
 mod cell;
 pub(crate) mod components;
@@ -11,9 +11,9 @@ mod sites;
 pub(crate) mod waves;
 mod zone;
 
-pub use cell::{Cell, Reduced};
+pub use cell::{Cell, ReducedBasis};
 pub use error::LatticeError;
 pub use grid::{Grid, NotOnGrid};
 pub(crate) use interpolation::{Interpolation, resampled};
-pub(crate) use nearest::Joined;
+pub(crate) use nearest::Connectivity;
 pub use sites::Lattice;

@@ -1,37 +1,37 @@
-//! The samples next to one, and the lines through them.
+//! Nearest neighbours of the samples of a grid, and the lines of samples through them.
 //!
-//! They stand along the reduced basis r₁, r₂ of the samples' own lattice **a**₁/N₁, **a**₂/N₂, whichever vectors describe it.
-//! Where r₂ and its shorter diagonal with r₁ are equally long, as in a rhombic lattice, there are several such bases, and what
-//! is read along their vectors is the mean of all.
+//! Nearest neighbours lie along the reduced basis r₁, r₂ of the lattice **a**₁/N₁, **a**₂/N₂ of the samples, whichever vectors
+//! describe it. Where r₂ and its shorter diagonal with r₁ are equally long, as in a rhombic lattice, there are several reduced
+//! bases, and readings along their vectors are averaged over all of them.
 
 use super::Grid;
 use super::cell::norm;
 use std::iter;
 
-/// Lengths whose squares differ by less, relatively, are one.
-const TIE: f64 = 1e-9;
+/// Largest relative difference of the squares of equal lengths.
+const LENGTH_TOLERANCE: f64 = 1e-9;
 
-/// A direction in which the nearest samples follow each other.
+/// A direction from each sample to one of its nearest neighbours.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Direction {
-    /// The way to the next sample, in rows and columns.
+pub(crate) struct NeighbourDirection {
+    /// Offset to the next sample, in rows and columns.
     pub step: [i32; 2],
-    /// In how many of the reduced bases it is, over their number.
+    /// Number of the reduced bases that contain the direction, over the number of all.
     pub weight: f64,
-    /// Length of the other vector of the basis.
+    /// Length of the other vector of the basis, a length.
     pub beside: f64,
 }
 
-impl Direction {
-    /// The sample `count` steps from one; both flat indices.
+impl NeighbourDirection {
+    /// Flat index of the sample `count` steps from the sample `index`.
     pub fn sample(&self, [n1, n2]: [usize; 2], index: usize, count: i64) -> usize {
         let along = |k: usize, n: usize, step: i32| (k as i64 + count * i64::from(step)).rem_euclid(n as i64) as usize;
         along(index / n2, n1, self.step[0]) * n2 + along(index % n2, n2, self.step[1])
     }
 
-    /// Of the closed lines of samples along it, all equally long, the first sample of each: flat indices.
+    /// Flat index of the first sample of each closed line along the direction; all lines are equally long.
     pub fn lines(&self, points: [usize; 2]) -> Vec<usize> {
-        // Along a row or a column they begin where that does.
+        // Rows and columns begin at their first samples.
         match self.step.map(i32::abs) {
             [0, 1] => return (0..points[0]).map(|row| row * points[1]).collect(),
             [1, 0] => return (0..points[1]).collect(),
@@ -48,7 +48,7 @@ impl Direction {
         starts
     }
 
-    /// The line through a sample, from there on.
+    /// Flat indices of the closed line through the sample `start`, from there on.
     pub fn line(&self, [n1, n2]: [usize; 2], start: usize) -> impl Iterator<Item = usize> + use<> {
         let [down, right] =
             [(self.step[0], n1), (self.step[1], n2)].map(|(step, n)| step.rem_euclid(n as i32) as usize);
@@ -61,40 +61,41 @@ impl Direction {
     }
 }
 
-/// Which samples of a set hang together.
+/// Neighbours that a sample is connected to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Joined {
-    /// Those whose cells share an edge: what is open.
-    AtEdges,
-    /// Those whose cells share an edge or a corner: contact. A ring of samples that meet at corners encloses what is open in it.
-    AtCorners,
+pub(crate) enum Connectivity {
+    /// Samples whose cells share an edge: the connectivity of open samples.
+    Edges,
+    /// Samples whose cells share an edge or a corner: the connectivity of contact. A ring of samples that meet at corners
+    /// encloses the open samples inside it.
+    EdgesAndCorners,
 }
 
 impl Grid {
-    /// Ways to the samples that are joined to one, in rows and columns, one of each pair ±.
-    pub(crate) fn ways(&self, joined: Joined) -> Vec<[i32; 2]> {
-        let mut ways: Vec<[i32; 2]> = self.directions().iter().map(|direction| direction.step).collect();
-        if let (&[[i1, j1], [i2, j2]], Joined::AtCorners) = (&ways[..], joined) {
-            ways.extend([[i1 + i2, j1 + j2], [i1 - i2, j1 - j2]]);
+    /// Offsets in rows and columns from a sample to those connected to it, one of each pair ±.
+    pub(crate) fn neighbour_offsets(&self, connectivity: Connectivity) -> Vec<[i32; 2]> {
+        let mut offsets: Vec<[i32; 2]> = self.directions().iter().map(|direction| direction.step).collect();
+        if let (&[[i1, j1], [i2, j2]], Connectivity::EdgesAndCorners) = (&offsets[..], connectivity) {
+            offsets.extend([[i1 + i2, j1 + j2], [i1 - i2, j1 - j2]]);
         }
-        ways
+        offsets
     }
 
-    /// The sample a way from one; both flat indices.
-    pub(crate) fn along(&self, [rows, columns]: [i32; 2], index: usize) -> usize {
+    /// Flat index of the sample at an offset in rows and columns from the sample `index`.
+    pub(crate) fn at_offset(&self, [rows, columns]: [i32; 2], index: usize) -> usize {
         let [n1, n2] = self.points();
-        let moved = |k: usize, n: usize, way: i32| (k as i64 + i64::from(way)).rem_euclid(n as i64) as usize;
+        let moved = |k: usize, n: usize, by: i32| (k as i64 + i64::from(by)).rem_euclid(n as i64) as usize;
         moved(index / n2, n1, rows) * n2 + moved(index % n2, n2, columns)
     }
 
-    /// The directions of the nearest samples, one of each pair ±: two, or three where they are tied. Their weights add to two.
-    pub(crate) fn directions(&self) -> Vec<Direction> {
+    /// Directions to the nearest neighbours, one of each pair ±: two, or three of equal length. Their weights add to two.
+    pub(crate) fn directions(&self) -> Vec<NeighbourDirection> {
         let [e1, e2] = self.steps();
         let vector = |[i, j]: [i32; 2]| [0, 1].map(|k| f64::from(i) * e1[k] + f64::from(j) * e2[k]);
         let length = |step: [i32; 2]| norm(vector(step));
         let reduced = self.samples_cell().map_or([[1, 0], [0, 1]], |cell| cell.reduced().matrix());
-        // Followed through a whole spot, rows and columns are kept in 32 bits: a cell askew beyond that on a fine grid is
-        // read along its own vectors.
+        // Rows and columns continued through a whole spot are kept in 32 bits: on a more skewed cell the directions are those
+        // of its own vectors.
         let most = reduced.iter().flatten().map(|m| i64::from(m.abs())).max().unwrap_or(1);
         let [mut r1, mut r2] = if most * self.len() as i64 <= i64::from(i32::MAX) { reduced } else { [[1, 0], [0, 1]] };
         if length(r2) < length(r1) {
@@ -103,9 +104,9 @@ impl Grid {
         let ([x1, y1], [x2, y2]) = (vector(r1), vector(r2));
         let sign = if x1 * x2 + y1 * y2 > 0.0 { -1 } else { 1 };
         let diagonal = [r2[0] + sign * r1[0], r2[1] + sign * r1[1]];
-        let is_tied = |a: f64, b: f64| (a * a - b * b).abs() <= TIE * b * b;
+        let is_tied = |a: f64, b: f64| (a * a - b * b).abs() <= LENGTH_TOLERANCE * b * b;
         let (short, long) = (length(r1), length(r2));
-        let direction = |step, weight, beside| Direction { step, weight, beside };
+        let direction = |step, weight, beside| NeighbourDirection { step, weight, beside };
         if !is_tied(length(diagonal), long) {
             return vec![direction(r1, 1.0, long), direction(r2, 1.0, short)];
         }
@@ -164,13 +165,13 @@ mod tests {
     #[test]
     fn lines_hold_every_sample_once() {
         for step in [[1, 0], [0, 1], [1, 1], [-1, 2], [3, -2]] {
-            let direction = Direction { step, weight: 1.0, beside: 1.0 };
+            let direction = NeighbourDirection { step, weight: 1.0, beside: 1.0 };
             let starts = direction.lines([6, 8]);
             let mut all: Vec<usize> = starts.into_iter().flat_map(|start| direction.line([6, 8], start)).collect();
             all.sort_unstable();
             assert_eq!(all, (0..48).collect::<Vec<_>>(), "{step:?}");
         }
-        let along = Direction { step: [0, 1], weight: 1.0, beside: 1.0 };
+        let along = NeighbourDirection { step: [0, 1], weight: 1.0, beside: 1.0 };
         assert_eq!((along.lines([2, 3]), along.line([2, 3], 3).collect()), (vec![0, 3], vec![3, 4, 5]));
     }
 

@@ -1,41 +1,41 @@
-//! Runs: samples that follow each other in a row of the periodic plane.
+//! Runs of consecutive samples in a row of the periodic plane.
 
 use super::Grid;
 
-/// Samples of one row from the column `first` up to `end`, which is not one of them; rows and columns go on beyond the
-/// borders of the cell.
+/// Samples of one row from the column `first` up to, but not including, the column `end`; rows and columns continue beyond
+/// the borders of the cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Run {
+pub struct SampleRun {
     pub row: i32,
     pub first: i32,
     pub end: i32,
 }
 
-impl Run {
+impl SampleRun {
     /// Number of samples.
     pub fn len(&self) -> usize {
         (self.end - self.first) as usize
     }
 
-    /// Flat index of the sample of the cell that the first one repeats.
+    /// Flat index, within the cell, of the sample whose image is the first one.
     pub fn index(&self, [n1, n2]: [usize; 2]) -> usize {
         self.row.rem_euclid(n1 as i32) as usize * n2 + self.first.rem_euclid(n2 as i32) as usize
     }
 
-    /// Places of the first and of the last sample, lengths.
+    /// Positions of the first and of the last sample, lengths.
     pub fn ends(&self, grid: &Grid) -> [[f64; 2]; 2] {
         [self.first, self.end - 1].map(|column| place(grid, [self.row, column]))
     }
 }
 
-/// Where a sample stands, lengths.
+/// Position of a sample, lengths.
 fn place(grid: &Grid, [row, column]: [i32; 2]) -> [f64; 2] {
     let [n1, n2] = grid.points();
     grid.cell().point([f64::from(row) / n1 as f64, f64::from(column) / n2 as f64])
 }
 
-/// The samples of the plane at distances from `centre` of at least `from` and less than `to` (lengths).
-pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Run> {
+/// Runs of the samples of the plane at distances from `centre` of at least `from` and less than `to`; lengths.
+pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<SampleRun> {
     let [down, along] = grid.steps();
     let length = along[0].hypot(along[1]);
     let unit = along.map(|x| x / length);
@@ -46,7 +46,7 @@ pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Run> 
     for row in (middle - rows).ceil() as i32..=(middle + rows).floor() as i32 {
         let start = [0, 1].map(|k| f64::from(row) * down[k] - centre[k]);
         let (beside, before) = (cross(start), start[0] * unit[0] + start[1] * unit[1]);
-        // Columns of the row nearer than a distance: first and end.
+        // First and end column of the row's samples nearer than a distance.
         let nearer = |distance: f64| {
             let half = (distance * distance - beside * beside).sqrt();
             let [first, end] = [-half, half].map(|t| ((t - before) / length).ceil());
@@ -57,13 +57,17 @@ pub fn annulus(grid: &Grid, centre: [f64; 2], [from, to]: [f64; 2]) -> Vec<Run> 
             Some([from, to]) => [[first, from], [to, end]],
             None => [[first, end], [end, end]],
         };
-        runs.extend(parts.into_iter().filter(|[first, end]| first < end).map(|[first, end]| Run { row, first, end }));
+        runs.extend(parts.into_iter().filter(|[first, end]| first < end).map(|[first, end]| SampleRun {
+            row,
+            first,
+            end,
+        }));
     }
     runs
 }
 
-/// The samples of runs: flat index of the one in the cell, and the place from `centre`, a length.
-pub fn samples(grid: &Grid, runs: &[Run], centre: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
+/// Samples of runs: flat index within the cell, and position from `centre`, lengths.
+pub fn samples(grid: &Grid, runs: &[SampleRun], centre: [f64; 2]) -> impl Iterator<Item = (usize, [f64; 2])> {
     let [n1, n2] = grid.points();
     let along = grid.steps()[1];
     runs.iter().flat_map(move |run| {

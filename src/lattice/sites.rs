@@ -1,6 +1,6 @@
-//! Where the indenters of each level stand in the cell.
+//! Sites of the indenters of each level in the cell.
 //!
-//! With the lattice period l (distance of neighbouring indenters whatever their level):
+//! With the lattice period l, the distance of neighbouring indenters of any level:
 //!
 //! | lattice | levels | cell | sites of levels 1, 2, … in fractions of a₁, a₂ |
 //! |---|---|---|---|
@@ -16,7 +16,7 @@ use super::cell::{Cell, norm};
 use super::error::LatticeError;
 use std::fmt;
 
-/// A cell and the sites of each level in it.
+/// A cell with the sites of each level.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lattice {
     cell: Cell,
@@ -27,7 +27,7 @@ impl Lattice {
     /// Hexagonal lattice of the given period with one indenter of each of 1, 3 or 4 levels in its cell.
     ///
     /// # Errors
-    /// [`LatticeError::NoStandardSites`] for another number of levels, [`LatticeError::FlatCell`] for a bad period.
+    /// [`LatticeError::NoStandardSites`] for another number of levels, [`LatticeError::FlatCell`] for a period that is zero or not finite.
     pub fn hexagonal(period: f64, levels: usize) -> Result<Self, LatticeError> {
         let third = 1.0 / 3.0;
         let (scale, sites) = match levels {
@@ -58,7 +58,7 @@ impl Lattice {
     }
 
     /// Any cell with explicit sites: `sites[m]` holds those of level m + 1 in fractions of a₁, a₂
-    /// (any real values; they are brought into [0, 1)).
+    /// (any real values; they are reduced to [0, 1)).
     ///
     /// # Errors
     /// [`LatticeError::NoSite`] for a level without site, [`LatticeError::Site`] for a place that is not finite,
@@ -95,8 +95,7 @@ impl Lattice {
         self.cell
     }
 
-    /// The vector from the place `from` (fractions of a₁, a₂) to the nearest indenter of `level` (from 1) that is not
-    /// there, a length.
+    /// The vector from the point `from` (fractions of a₁, a₂) to the nearest indenter of `level` (from 1) elsewhere, lengths.
     ///
     /// # Panics
     /// When there is no such level.
@@ -104,7 +103,7 @@ impl Lattice {
         let reduced = self.cell.reduced();
         let other = |site: &[f64; 2]| {
             let vector = reduced.nearest([site[0] - from[0], site[1] - from[1]]);
-            // The nearest image of the place itself is a shortest lattice vector away.
+            // The nearest image of an indenter at the point itself is a shortest lattice vector away.
             if norm(vector) > 1e-9 * reduced.longer_side() { vector } else { reduced.short() }
         };
         let vectors = self.sites[level - 1].iter().map(other);

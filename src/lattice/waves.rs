@@ -1,70 +1,71 @@
-//! The plane waves that a grid holds, row by row through the first Brillouin zone of its samples.
+//! The plane waves of a grid, in rows of the first Brillouin zone of its samples.
 //!
 //! A real field is its mean and Re Σ c e^{i**q**·**x**} over waves **q** = κ₁**b**₁ + κ₂**b**₂, one of each pair ±**q**:
 //! κ₂ > 0, or κ₂ = 0 and κ₁ > 0. The zone is convex, so that each κ₂ has one interval of κ₁, a **row**. On its border a
 //! Fourier component has several shortest aliases: each is a wave with an equal part of the coefficient, so that factors
 //! that depend on the direction are averaged over them and keep the symmetry of the lattice.
 //!
-//! Waves of equal wavenumber form a **shell**: what a layered half-space makes of a wave depends on its shell alone.
+//! Waves of equal wavenumber form a **shell**: the response of a layered half-space to a wave depends on its shell alone.
 
 use super::cell::norm;
-use super::zone::Zone;
+use super::zone::BrillouinZone;
 use std::f64::consts::TAU;
 
-/// Wavenumbers closer than this, relatively, are one shell; aliases closer than this are tied.
-pub(super) const TIE: f64 = 1e-11;
-/// How near the border of the zone, relatively, ties are looked for.
-pub(super) const BORDER: f64 = 1e-9;
-/// Beyond this many rows per sample along the sides, most rows of a skewed cell are empty.
-const MANY: f64 = 4.0;
+/// Largest relative difference of wavenumbers within one shell, and of the lengths of tied aliases.
+pub(super) const WAVENUMBER_TOLERANCE: f64 = 1e-11;
+/// Relative distance from the border of the zone within which aliases may be tied.
+pub(super) const BORDER_TOLERANCE: f64 = 1e-9;
+/// Largest number of rows per sample along the sides: beyond it most rows of a skewed cell are empty.
+const MAX_ROWS_PER_SAMPLE: f64 = 4.0;
 
-/// All waves of a grid but the mean.
+/// All waves of a grid except the mean.
 #[derive(Debug)]
 pub(crate) struct Waves {
-    /// By ascending κ₂.
-    rows: Vec<Row>,
+    /// Rows, in ascending κ₂.
+    rows: Vec<WaveRow>,
     /// **b**₁, from a wave to the next one of its row, 1/length.
     step: [f64; 2],
-    /// Waves that are not the whole of a Fourier component, by their number: the part they are, 0 for what lies just
-    /// outside the zone.
+    /// Numbers of the waves that share a Fourier component with tied aliases, each with its part; 0 for waves just outside the zone.
     parts: Vec<(usize, f64)>,
-    /// Per wave: index of its shell.
+    /// Index of the shell of each wave.
     shells: Vec<u32>,
     /// Wavenumbers of the shells, ascending, 1/length.
     wavenumbers: Vec<f64>,
 }
 
-/// Waves of one κ₂ and ascending κ₁.
+/// Waves of one κ₂, in ascending κ₁.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Row {
+pub(crate) struct WaveRow {
     /// κ₂.
     pub across: i32,
     /// κ₁ of the first wave.
     pub first: i32,
     /// Wavevector of the first wave, 1/length.
     pub origin: [f64; 2],
-    /// Number of the first wave among all, and of waves in the row.
+    /// Number of the first wave among all waves.
     pub start: usize,
+    /// Number of waves in the row.
     pub len: usize,
 }
 
 impl Waves {
-    /// Of the samples with this zone.
-    pub fn new(zone: &Zone) -> Self {
+    /// Waves of the samples with this zone.
+    pub fn new(zone: &BrillouinZone) -> Self {
         let [step, _] = zone.cell().reciprocal();
         let (mut rows, mut parts, mut count) = (Vec::new(), Vec::new(), 0);
         for (across, [first, last]) in intervals(zone) {
             let len = (last - first + 1) as usize;
-            // A middle one is a shortest alias, of which the zone knows the wavevector to round-off.
+            // The middle wave is a shortest alias, whose wavevector from the zone is exact to rounding.
             let middle = first + (last - first) / 2;
-            let tied = zone.tied_wavevectors(component(zone, [middle, across]), TIE);
+            let tied = zone.tied_wavevectors(component(zone, [middle, across]), WAVENUMBER_TOLERANCE);
             let Some((_, q)) = tied.into_iter().find(|(index, _)| *index == [middle, across]) else { continue };
             let back = f64::from(middle - first);
-            let row = Row { across, first, origin: [q[0] - back * step[0], q[1] - back * step[1]], start: count, len };
+            let row =
+                WaveRow { across, first, origin: [q[0] - back * step[0], q[1] - back * step[1]], start: count, len };
             for k in 0..len {
                 let index = [first + k as i32, across];
-                if zone.on_border(row.at(k, step), BORDER) {
-                    let tied = zone.tied_wavevectors(component(zone, index), TIE);
+                if zone.on_border(row.at(k, step), BORDER_TOLERANCE) {
+                    let tied = zone.tied_wavevectors(component(zone, index), WAVENUMBER_TOLERANCE);
                     let part =
                         if tied.iter().any(|(alias, _)| *alias == index) { 1.0 / tied.len() as f64 } else { 0.0 };
                     parts.push((count + k, part));
@@ -97,13 +98,13 @@ impl Waves {
         &self.shells
     }
 
-    /// The rows cut down to waves of the first `count` shells: by convexity an interval again.
-    pub fn rows_within(&self, count: usize) -> Vec<Row> {
+    /// The rows restricted to waves of the first `count` shells: intervals again, by convexity.
+    pub fn rows_within(&self, count: usize) -> Vec<WaveRow> {
         let [x, y] = self.step;
-        let cut = |row: &Row| {
+        let cut = |row: &WaveRow| {
             let shells = &self.shells[row.start..row.start + row.len];
             let within = |shell: &u32| (*shell as usize) < count;
-            // Wavenumbers grow to both sides of the one nearest to the origin.
+            // Wavenumbers increase on both sides of the wave nearest to the origin.
             let nearest = -(row.origin[0] * x + row.origin[1] * y) / (x * x + y * y);
             let nearest = (nearest.round().max(0.0) as usize).min(row.len - 1);
             if !within(&shells[nearest]) {
@@ -111,7 +112,7 @@ impl Waves {
             }
             let skipped = shells[..nearest].partition_point(|shell| !within(shell));
             let last = nearest + shells[nearest..].partition_point(within) - 1;
-            Some(Row {
+            Some(WaveRow {
                 first: row.first + skipped as i32,
                 origin: row.at(skipped, self.step),
                 start: row.start + skipped,
@@ -122,7 +123,7 @@ impl Waves {
         self.rows.iter().filter_map(cut).collect()
     }
 
-    /// What each wave has of its Fourier component; `coefficient` gives that of the component (k₁, k₂), any integers.
+    /// Coefficient of each wave: its part of the `coefficient` of the Fourier component (k₁, k₂), any integers.
     pub fn coefficients<T: Copy + std::ops::Mul<f64, Output = T>>(
         &self,
         coefficient: impl Fn([i32; 2]) -> T,
@@ -136,26 +137,26 @@ impl Waves {
     }
 }
 
-impl Row {
-    /// Wavevector of its wave number k, one `step` from the one before.
+impl WaveRow {
+    /// Wavevector of the row's wave number k, 1/length; `step` is that from a wave to the next.
     pub fn at(&self, k: usize, step: [f64; 2]) -> [f64; 2] {
         [self.origin[0] + k as f64 * step[0], self.origin[1] + k as f64 * step[1]]
     }
 }
 
-/// The Fourier component that a wave belongs to.
-fn component(zone: &Zone, index: [i32; 2]) -> [usize; 2] {
+/// The Fourier component of a wave.
+fn component(zone: &BrillouinZone, index: [i32; 2]) -> [usize; 2] {
     [0, 1].map(|axis| index[axis].rem_euclid(zone.points()[axis] as i32) as usize)
 }
 
 /// First and last κ₁ in the zone, its border included, for each κ₂ ≥ 0 that has any.
-fn intervals(zone: &Zone) -> Vec<(i32, [i32; 2])> {
+fn intervals(zone: &BrillouinZone) -> Vec<(i32, [i32; 2])> {
     let [b1, b2] = zone.cell().reciprocal();
     let facets = zone.facets();
     let [r1, r2, _] = facets;
     let most = 0.5 * (norm(r1) + norm(r2)) * norm(zone.cell().vectors()[1]) / TAU;
     let [n1, n2] = zone.points();
-    if most > MANY * (n1 + n2 + 16) as f64 {
+    if most > MAX_ROWS_PER_SAMPLE * (n1 + n2 + 16) as f64 {
         return skewed(zone);
     }
     let interval = |across: i32| {
@@ -163,7 +164,7 @@ fn intervals(zone: &Zone) -> Vec<(i32, [i32; 2])> {
         for g in facets {
             let along = b1[0] * g[0] + b1[1] * g[1];
             let offset = f64::from(across) * (b2[0] * g[0] + b2[1] * g[1]);
-            let reach = 0.5 * (1.0 + BORDER) * (g[0] * g[0] + g[1] * g[1]);
+            let reach = 0.5 * (1.0 + BORDER_TOLERANCE) * (g[0] * g[0] + g[1] * g[1]);
             if along.abs() > 1e-12 * norm(b1) * norm(g) {
                 let (one, other) = ((-reach - offset) / along, (reach - offset) / along);
                 (low, high) = (low.max(one.min(other)), high.min(one.max(other)));
@@ -177,11 +178,11 @@ fn intervals(zone: &Zone) -> Vec<(i32, [i32; 2])> {
     (0..=most.ceil() as i32).filter_map(interval).collect()
 }
 
-/// The same for a cell on which few κ₂ have any: from all components.
-fn skewed(zone: &Zone) -> Vec<(i32, [i32; 2])> {
+/// First and last κ₁ for each κ₂ ≥ 0, collected from all components: for skewed cells, where few κ₂ have any.
+fn skewed(zone: &BrillouinZone) -> Vec<(i32, [i32; 2])> {
     let [n1, n2] = zone.points();
     let components = (0..n1).flat_map(|k1| (0..n2).map(move |k2| [k1, k2]));
-    let aliases = components.flat_map(|component| zone.tied_wavevectors(component, TIE));
+    let aliases = components.flat_map(|component| zone.tied_wavevectors(component, WAVENUMBER_TOLERANCE));
     let mut indices: Vec<[i32; 2]> =
         aliases.map(|([along, across], _)| [across, along]).filter(|&index| index > [0, 0]).collect();
     indices.sort_unstable();
@@ -189,10 +190,10 @@ fn skewed(zone: &Zone) -> Vec<(i32, [i32; 2])> {
     rows.map(|row| (row[0][0], [row[0][1], row[row.len() - 1][1]])).collect()
 }
 
-/// The shell of each wave, and the wavenumbers of the shells.
-fn shells(rows: &[Row], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>) {
+/// Index of the shell of each wave, and the wavenumbers of the shells.
+fn shells(rows: &[WaveRow], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>) {
     let lengths: Vec<f64> = rows.iter().flat_map(|row| (0..row.len).map(|k| norm(row.at(k, step)))).collect();
-    // Waves lie evenly in the plane: as many buckets of equal area are nearly sorted.
+    // Waves are uniform in the plane: buckets of equal area hold nearly equal numbers.
     let most = lengths.iter().copied().fold(0.0, f64::max);
     let buckets = count / 4 + 1;
     let bucket = |q: f64| (((q / most) * (q / most) * buckets as f64) as usize).min(buckets - 1);
@@ -212,7 +213,7 @@ fn shells(rows: &[Row], step: [f64; 2], count: usize) -> (Vec<u32>, Vec<f64>) {
         own.sort_unstable_by(|&a, &b| lengths[a as usize].total_cmp(&lengths[b as usize]));
         for &mut number in own {
             let q = lengths[number as usize];
-            if wavenumbers.last().is_none_or(|last| q > last * (1.0 + TIE)) {
+            if wavenumbers.last().is_none_or(|last| q > last * (1.0 + WAVENUMBER_TOLERANCE)) {
                 wavenumbers.push(q);
             }
             shells[number as usize] = wavenumbers.len() as u32 - 1;
@@ -238,7 +239,7 @@ mod tests {
             (Cell::square(1.0), [1, 6]),
         ];
         for (cell, [n1, n2]) in cells {
-            let zone = Zone::new(cell.unwrap(), [n1, n2]).unwrap();
+            let zone = BrillouinZone::new(cell.unwrap(), [n1, n2]).unwrap();
             let waves = Waves::new(&zone);
             let parts = waves.coefficients(|_| 1.0);
             let mut whole = vec![0.0; n1 * n2];
@@ -252,7 +253,7 @@ mod tests {
                         let least = norm(zone.wavevector([k1, k2]));
                         assert!(parts[row.start + k] == 0.0 || (norm(q) / least - 1.0).abs() < 1e-11);
                         let shell = waves.wavenumbers()[waves.shells()[row.start + k] as usize];
-                        assert!((norm(q) / shell - 1.0).abs() < 1.1 * TIE);
+                        assert!((norm(q) / shell - 1.0).abs() < 1.1 * WAVENUMBER_TOLERANCE);
                     }
                 }
             }
@@ -262,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_hexagonal_lattice_has_few_shells_and_a_disc_cuts_rows() {
-        let waves = Waves::new(&Zone::new(Cell::hexagonal(1.0).unwrap(), [48, 48]).unwrap());
+        let waves = Waves::new(&BrillouinZone::new(Cell::hexagonal(1.0).unwrap(), [48, 48]).unwrap());
         assert!(waves.wavenumbers().len() < 48 * 48 / 8, "{} shells", waves.wavenumbers().len());
         let count = waves.shells_up_to(60.0);
         let within: usize = waves.rows_within(count).iter().map(|row| row.len).sum();

@@ -1,22 +1,22 @@
-//! The first Brillouin zone of a grid's samples: the wavevectors it can tell apart.
+//! The first Brillouin zone of a grid's samples: the wavevectors that the grid distinguishes.
 //!
 //! The index (k₁, k₂) of a Fourier component means the wavevector k₁**b**₁ + k₂**b**₂ up to multiples of N₁**b**₁ and
 //! N₂**b**₂ (its aliases). Those of least length fill the zone |**q**·**g**| ≤ ½g², for all reciprocal vectors **g** of the
 //! samples.
 
-use super::{Cell, LatticeError, Reduced};
+use super::{Cell, LatticeError, ReducedBasis};
 
-/// The zone of N₁ × N₂ samples on a cell.
+/// The first Brillouin zone of N₁ × N₂ samples on a cell.
 #[derive(Debug, Clone)]
-pub(crate) struct Zone {
+pub(crate) struct BrillouinZone {
     cell: Cell,
     points: [usize; 2],
-    /// The lattice of N₁**b**₁, N₂**b**₂, which aliases differ by.
-    sampling: Reduced,
+    /// Reduced basis of the lattice of N₁**b**₁, N₂**b**₂, by whose vectors aliases differ.
+    sampling: ReducedBasis,
 }
 
-impl Zone {
-    /// Of `points` = [N₁, N₂] samples along a₁ and a₂, none of them zero.
+impl BrillouinZone {
+    /// Zone of `points` = [N₁, N₂] samples along a₁ and a₂, neither of them zero.
     pub fn new(cell: Cell, points: [usize; 2]) -> Result<Self, LatticeError> {
         let [b1, b2] = cell.reciprocal();
         let [n1, n2] = points.map(|n| n as f64);
@@ -25,12 +25,12 @@ impl Zone {
         Ok(Self { cell, points, sampling })
     }
 
-    /// The cell.
+    /// The unit cell.
     pub fn cell(&self) -> Cell {
         self.cell
     }
 
-    /// [N₁, N₂].
+    /// Number of samples [N₁, N₂] along a₁ and a₂.
     pub fn points(&self) -> [usize; 2] {
         self.points
     }
@@ -46,7 +46,7 @@ impl Zone {
         self.sampling.nearest_squares(self.fractions_of(first), self.points[1], squares);
     }
 
-    /// Fractions of N₁b₁ and N₂b₂ that a component stands for.
+    /// A component as fractions of N₁b₁ and N₂b₂.
     fn fractions_of(&self, component: [usize; 2]) -> [f64; 2] {
         [0, 1].map(|axis| component[axis] as f64 / self.points[axis] as f64)
     }
@@ -64,12 +64,12 @@ impl Zone {
         self.sampling.facets()
     }
 
-    /// The shortest of them.
+    /// The shortest of the [facets](Self::facets), 1/length.
     pub fn shortest_facet(&self) -> [f64; 2] {
         self.sampling.short()
     }
 
-    /// Whether a wavevector is on the border up to a relative tolerance, or outside.
+    /// Whether a wavevector lies on the border, to the relative `tolerance`, or outside the zone.
     pub fn on_border(&self, [x, y]: [f64; 2], tolerance: f64) -> bool {
         let outside = |[gx, gy]: [f64; 2]| (x * gx + y * gy).abs() > 0.5 * (1.0 - tolerance) * (gx * gx + gy * gy);
         self.facets().into_iter().any(outside)

@@ -1,12 +1,12 @@
-//! The circle around an indenter: who stands inside, and how large it is.
+//! The circle around an indenter: the indenters inside, and its radius.
 //!
 //! Whole shells of indenters at equal distance are taken, so that the circle has the lattice's symmetry. Outside the
-//! radius R the nominal pressure p̄ acts. Eq. (4) gives R for one level only; two readings hold for any number:
+//! radius R the nominal pressure p̄ acts. Eq. (4) gives R for one level only; two rules hold for any number:
 //!
 //! - **area-balanced**: π R² = N A₁, N indenters inside with the cell area A₁ of one;
 //! - **load-balanced**: π R² p̄ = Σ_c N_c P_c, equilibrium inside the circle. It reduces to Eq. (4) for one level.
 //!
-//! A third rule has no radius: outside the circle stand the indenters themselves, all of them
+//! A third rule has no radius: all indenters outside the circle act themselves, as a lattice sum
 //! ([`exterior`](super::exterior)).
 
 use crate::lattice::Lattice;
@@ -26,7 +26,7 @@ pub enum CircleRadius {
 }
 
 impl CircleRadius {
-    /// The name in case files.
+    /// Name in case files.
     pub fn name(self) -> &'static str {
         match self {
             Self::LoadBalanced => "load-balanced",
@@ -35,7 +35,7 @@ impl CircleRadius {
         }
     }
 
-    /// The rule to hold it against.
+    /// The rule that a comparison shows beside this one.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -45,14 +45,14 @@ impl CircleRadius {
     }
 }
 
-/// Distances closer than this, relatively, belong to one shell.
-const TIE: f64 = 1e-9;
+/// Largest relative difference of the distances within one shell.
+const SHELL_TOLERANCE: f64 = 1e-9;
 
 /// The indenters inside the circle around one site.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Circle {
-    /// For each site of the cell, from the circle's centre to its images inside; the centre itself comes first in its
-    /// own list. Lengths.
+    /// Vectors from the centre to the images of each site inside the circle, lengths; the centre itself comes first in its own
+    /// list.
     pub images: Vec<Vec<[f64; 2]>>,
 }
 
@@ -61,7 +61,7 @@ impl Circle {
     /// inside, in whole shells.
     pub fn new(lattice: &Lattice, sites: &[[f64; 2]], centre: usize, indenters: usize) -> Self {
         let area = lattice.cell().area() / sites.len() as f64;
-        // A circle of this radius surely holds enough.
+        // A circle of this radius contains at least as many.
         let reach = (indenters as f64 * area / PI).sqrt() + 2.0 * lattice.cell().reduced().longer_side();
         let circle = Self::within(lattice, sites, centre, reach);
         let mut distances: Vec<f64> = circle.images.iter().flatten().map(|[x, y]| x.hypot(*y)).collect();
@@ -83,24 +83,24 @@ impl Circle {
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut images = vec![Vec::new(); sites.len()];
         for (r, site, offset) in all {
-            if r <= distance * (1.0 + TIE) {
+            if r <= distance * (1.0 + SHELL_TOLERANCE) {
                 images[site].push(offset);
             }
         }
         Self { images }
     }
 
-    /// Number of indenters inside.
+    /// Number of indenters inside, the centre included.
     pub fn indenters(&self) -> usize {
         self.images.iter().map(Vec::len).sum()
     }
 
-    /// Radius R for the cell area `area` of one indenter.
+    /// Area-balanced radius R, a length, for the cell area `area` of one indenter.
     pub fn area_balanced(&self, area: f64) -> f64 {
         (self.indenters() as f64 * area / PI).sqrt()
     }
 
-    /// Radius R for the `loads` on one indenter of each site under the mean pressure.
+    /// Load-balanced radius R, a length, for the `loads` on one indenter of each site under the mean pressure.
     pub fn load_balanced(&self, loads: &[f64], mean_pressure: f64) -> f64 {
         let inside: f64 = self.images.iter().zip(loads).map(|(images, load)| images.len() as f64 * load).sum();
         if mean_pressure > 0.0 { (inside / (PI * mean_pressure)).max(0.0).sqrt() } else { 0.0 }
@@ -138,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn a_skewed_cell_misses_nobody() {
+    fn a_skewed_cell_misses_no_indenter() {
         let cell = crate::lattice::Cell::new([1.0, 0.0], [7.3, 0.9]).unwrap();
         let lattice = Lattice::new(cell, vec![vec![[0.1, 0.2]], vec![[0.6, 0.3]]]).unwrap();
         let sites: Vec<[f64; 2]> = lattice.sites().concat();

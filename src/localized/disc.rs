@@ -23,12 +23,12 @@ pub fn displacement(kernel: &PointKernel, radius: f64, s: f64) -> f64 {
     homogeneous(kernel, radius, s) + correction(kernel, radius, s)
 }
 
-/// D without layers, the half-space being of the surface material.
+/// D on a bare half-space of the surface material, a length per pressure.
 pub fn homogeneous(kernel: &PointKernel, radius: f64, s: f64) -> f64 {
     // c/(2π) times 4 is 2c/π.
     let factor = 4.0 * kernel.factor();
     if radius == 0.0 {
-        // A circle without load yet; s/R has no value in its centre.
+        // A circle without load: s/R is not defined in its centre.
         return 0.0;
     }
     if s <= radius {
@@ -39,14 +39,14 @@ pub fn homogeneous(kernel: &PointKernel, radius: f64, s: f64) -> f64 {
     factor * s * (second - (1.0 - k) * (1.0 + k) * first)
 }
 
-/// What the layers add to D.
+/// Difference of D on the layered half-space and on the bare one, a length per pressure.
 pub fn correction(kernel: &PointKernel, radius: f64, s: f64) -> f64 {
     if kernel.thickness().is_none() || radius == 0.0 {
         return 0.0;
     }
     let compliance = 2.0 * PI * kernel.factor();
     let part = |oscillating: Bessel, distance: f64, f: &dyn Fn(f64) -> f64| {
-        hankel(oscillating, distance, kernel.extinction(), QUADRATURE, |q| kernel.excess(q) / q * f(q)).value
+        hankel(oscillating, distance, kernel.layer_cutoff(), QUADRATURE, |q| kernel.excess(q) / q * f(q)).value
     };
     // The faster oscillation sets the zeros.
     let integral = if s <= radius {
@@ -57,7 +57,7 @@ pub fn correction(kernel: &PointKernel, radius: f64, s: f64) -> f64 {
     compliance * radius * integral
 }
 
-/// D of one disc, ready for many points near its centre.
+/// D of one disc, as a Chebyshev series for many points near its centre.
 #[derive(Debug, Clone)]
 pub struct FarField<'a> {
     kernel: &'a PointKernel,
@@ -68,11 +68,11 @@ pub struct FarField<'a> {
     series: Chebyshev<TERMS>,
 }
 
-/// Terms of the series: the layers' part is smooth and even in the distance.
+/// Number of terms of the series: the layers' part is smooth and even in the distance.
 const TERMS: usize = 14;
 
 impl<'a> FarField<'a> {
-    /// Disc of `radius`, for distances up to `reach` from its centre.
+    /// Disc of `radius`, for distances up to `reach` from its centre; lengths.
     pub fn new(kernel: &'a PointKernel, radius: f64, reach: f64) -> Self {
         let nodes = Chebyshev::<TERMS>::nodes();
         let distance = |x: f64| reach * (0.5 * (1.0 + x)).sqrt();

@@ -1,43 +1,49 @@
-//! How the levels share the load, once their patterns are known.
+//! How the levels share the load, once the shapes of their pressures are known.
 //!
-//! Every level in contact answers with its stiffness S to what its surface is moved by, and loads on one level move
-//! the surface under another by J, so that the loads P that a sweep has found change to
+//! With the contact stiffness S = dP/dδ of each level alone and the displacement J of the surface under one level by a unit
+//! load on another, the loads P° that a pass over the levels has found change to P:
 //!
 //! P_m + S_m Σ_c J_mc P_c − S_m Δδ = P_m° + S_m Σ_c J_mc P_c*,  Σ_m P_m = p̄ A (Eq. 5),
 //!
-//! P* the loads the sweep had for the others. The last equation falls away under displacement control, with Δδ = 0.
+//! P* the loads that the pass assumed for the other levels. Under displacement control Δδ = 0, without the last equation.
 
 use crate::numeric::linear;
 use crate::numeric::search::largest;
 
-/// What a sweep has found of the levels, one entry per site.
+/// Loads before and after a pass over the levels, with stiffnesses and couplings; one entry per site of the cell.
 #[derive(Debug, Clone)]
-pub(super) struct Sweep {
-    /// Loads P* that acted on the others.
-    pub used: Vec<f64>,
-    /// Loads P° found.
+pub(super) struct LoadExchange {
+    /// Loads P* that acted on the other levels, forces.
+    pub assumed: Vec<f64>,
+    /// Loads P° found, forces.
     pub found: Vec<f64>,
-    /// dP/dδ of each spot alone, 0 out of contact.
+    /// Contact stiffness dP/dδ of each spot alone, a force per length; 0 out of contact.
     pub stiffness: Vec<f64>,
-    /// J: displacement of m under a unit load on c.
+    /// J: displacement of m under a unit load on c, a length per force.
     pub coupling: Vec<Vec<f64>>,
 }
 
-impl Sweep {
-    pub fn new(used: Vec<f64>) -> Self {
-        let count = used.len();
-        Self { used, found: vec![0.0; count], stiffness: vec![0.0; count], coupling: vec![vec![0.0; count]; count] }
+impl LoadExchange {
+    /// Before a pass that assumes these loads.
+    pub fn new(assumed: Vec<f64>) -> Self {
+        let count = assumed.len();
+        Self { assumed, found: vec![0.0; count], stiffness: vec![0.0; count], coupling: vec![vec![0.0; count]; count] }
     }
 
-    /// Largest deviation of the loads found from those used, and of their sum from the wanted one.
-    pub fn unrest(&self, wanted: f64) -> f64 {
-        let moved = self.found.iter().zip(&self.used).map(|(found, used)| (found - used).abs());
-        largest(moved.chain([(self.found.iter().sum::<f64>() - wanted).abs()]))
+    /// Sum of the loads found, a force.
+    pub fn whole(&self) -> f64 {
+        self.found.iter().sum()
     }
 
-    /// New loads and the change of the penetration; `wanted` is the whole load, `None` under displacement control.
-    /// Levels that would be pulled are left out; loads that are not determined stay as found.
-    pub fn exchanged(&self, wanted: Option<f64>) -> (Vec<f64>, f64) {
+    /// Largest deviation of a load found from the assumed one, or of the sum of the loads found from the wanted one, a force.
+    pub fn imbalance(&self, wanted: f64) -> f64 {
+        let moved = self.found.iter().zip(&self.assumed).map(|(found, assumed)| (found - assumed).abs());
+        largest(moved.chain([(self.whole() - wanted).abs()]))
+    }
+
+    /// Loads P of the next pass and the change Δδ of the penetration; `wanted` is the whole load, `None` under displacement
+    /// control. Levels whose load would be tensile are left out; loads that the equations do not determine stay as found.
+    pub fn new_loads(&self, wanted: Option<f64>) -> (Vec<f64>, f64) {
         let mut active: Vec<usize> = (0..self.found.len()).filter(|&m| self.found[m] > 0.0).collect();
         loop {
             let Some((loads, rise)) = self.solved(&active, wanted) else { return (self.found.clone(), 0.0) };
@@ -49,7 +55,7 @@ impl Sweep {
         }
     }
 
-    /// `None` when the equations do not determine the loads.
+    /// Loads P and Δδ with the `active` levels in contact; `None` when the equations do not determine them.
     fn solved(&self, active: &[usize], wanted: Option<f64>) -> Option<(Vec<f64>, f64)> {
         let n = active.len();
         let unknowns = n + usize::from(wanted.is_some());
@@ -61,8 +67,8 @@ impl Sweep {
             for (j, &c) in active.iter().enumerate() {
                 rows[i][j] = stiffness * coupling[c] + if i == j { 1.0 } else { 0.0 };
             }
-            let used: f64 = coupling.iter().zip(&self.used).map(|(coupling, load)| coupling * load).sum();
-            right[i] = self.found[m] + stiffness * used;
+            let assumed: f64 = coupling.iter().zip(&self.assumed).map(|(coupling, load)| coupling * load).sum();
+            right[i] = self.found[m] + stiffness * assumed;
             if let Some(wanted) = wanted {
                 rows[i][n] = -stiffness / stiffest;
                 rows[n][i] = 1.0;
@@ -84,8 +90,8 @@ mod tests {
     fn springs_under_one_plate_share_its_load_whatever_the_units() {
         for unit in [1e-30, 1.0, 1e30] {
             let stiffness = vec![2.0 * unit, unit];
-            let (loads, rise) =
-                Sweep { stiffness, found: vec![1.0, 0.2], ..Sweep::new(vec![1.0, 0.2]) }.exchanged(Some(1.5));
+            let (loads, rise) = LoadExchange { stiffness, found: vec![1.0, 0.2], ..LoadExchange::new(vec![1.0, 0.2]) }
+                .new_loads(Some(1.5));
             assert!((loads[0] - 1.2).abs() < 1e-15 && (loads[1] - 0.3).abs() < 1e-15, "{loads:?}");
             assert!((rise * unit - 0.1).abs() < 1e-15, "{rise}");
         }
@@ -93,8 +99,9 @@ mod tests {
 
     #[test]
     fn a_level_that_would_be_pulled_is_left_out() {
-        let sweep = Sweep { stiffness: vec![1.0, 1.0], found: vec![1.0, 0.1], ..Sweep::new(vec![1.0, 0.1]) };
-        let (loads, rise) = sweep.exchanged(Some(0.5));
+        let exchange =
+            LoadExchange { stiffness: vec![1.0, 1.0], found: vec![1.0, 0.1], ..LoadExchange::new(vec![1.0, 0.1]) };
+        let (loads, rise) = exchange.new_loads(Some(0.5));
         assert!((loads[0] - 0.5).abs() < 1e-15 && loads[1] == 0.0 && (rise + 0.5).abs() < 1e-15);
     }
 }

@@ -1,26 +1,26 @@
-//! The lattice sum of what stands outside a circle, in the place of a uniform pressure.
+//! Lattice sum of the indenters outside a circle, in the place of a uniform pressure.
 //!
 //! Unit forces on the axes of one site and of all its images displace the surface, measured from its mean plane, by
 //!
 //! G(**x**) = (c/A) Σ_{**q**≠0} T(q)/q · cos **q**·**x**,
 //!
 //! **q** over the reciprocal lattice, A the area of the cell. At the forces the sum does not converge. Far from a force
-//! nobody can tell it from a blurred one: the factor
+//! its displacement is that of a smoothed force: the factor
 //!
 //! g(q) = e^{−s} Σ_{k<n} sᵏ/k!,  s = (q/κ)²,
 //!
-//! belongs to a bell of unit weight without moments below the order 2n, which displaces the surface by
-//! K_g(r) = (c/2π) ∫₀^∞ T g J₀(qr) dq and differs from K by 1e-13/r at κr = 16, n = 14. Outside the circle, with
-//! images **r**_i inside, stands therefore
+//! is the transform of a bell-shaped pressure of unit weight without moments below the order 2n, which displaces the surface by
+//! K_g(r) = (c/2π) ∫₀^∞ T g J₀(qr) dq and differs from K by 1e-13/r at κr = 16, n = 14. The indenters outside the
+//! circle, with images **r**_i inside, therefore displace the surface by
 //!
 //! E(**x**) = (c/A) Σ_{**q**≠0} T g/q · cos **q**·**x** − Σ_i K_g(|**x** − **r**_i|).
 //!
-//! It is Ewald's summation with a bell so flat in q that the part which he sums in real space has died out at the first
-//! image outside. Layers enter by T alone, whatever their thickness. No moment of the pressure is neglected: each
-//! element is a force of its own.
+//! This is Ewald's summation with a bell so flat in q that the part summed in real space is negligible at the first image
+//! outside. Layers enter by T alone, whatever their thickness. No moment of the pressure is neglected: each element is a force
+//! of its own.
 
 use super::circle::Circle;
-use super::mesh::{FAR, Mesh};
+use super::mesh::{Mesh, SERIES_DISTANCE};
 use super::point::QUADRATURE;
 use super::quadrature::{Bessel, hankel};
 use super::system::System;
@@ -29,24 +29,24 @@ use rayon::prelude::*;
 use std::f64::consts::{PI, SQRT_2};
 
 /// Order n of the bell.
-const ORDER: u32 = 14;
-/// κ times the distance from which forces may be blurred.
-const BLUR: f64 = 16.0;
-/// q/κ at which g has died out.
-const EXTINCT: f64 = 8.2;
+const BELL_ORDER: u32 = 14;
+/// κ times the distance beyond which a force may be replaced by its bell.
+const BELL_REACH: f64 = 16.0;
+/// q/κ beyond which g is negligible.
+const BELL_CUTOFF: f64 = 8.2;
 /// Nodes of a Chebyshev series of K_g on an interval of the length 1/κ: it errs by 1e-14.
 const NODES: usize = 16;
-/// Images are summed one by one within this multiple of √A at least, so that some hundred waves carry the rest.
-const CELLS: f64 = 1.5;
+/// Least distance up to which images are summed one by one, over √A: some hundred waves remain for the others.
+const MIN_REACH: f64 = 1.5;
 
-/// What stands outside the circles of a system, for points and forces on the spots' meshes.
+/// Lattice sums of the indenters outside the circles of a system, for points and forces on the spots' meshes.
 #[derive(Debug)]
 pub struct Exterior {
-    /// Images summed one by one: those of the circles asked for, and all that are near the meshes.
+    /// Images summed one by one: those inside the circles, and all that are near the meshes.
     circles: Vec<Circle>,
-    /// From each site to each other one, lengths.
+    /// Vectors from each site to each other one of the cell, lengths.
     offsets: Vec<Vec<[f64; 2]>>,
-    /// Half of the vectors **q** ≠ 0 and their amplitudes; −**q** is counted with **q**.
+    /// Vectors **q** ≠ 0, one of each pair ±**q**, with the amplitudes of both.
     waves: Vec<([f64; 2], f64)>,
     /// Series of K_g on intervals of equal length.
     blurred: Vec<Chebyshev<NODES>>,
@@ -62,16 +62,16 @@ impl Exterior {
         let length = |[x, y]: &[f64; 2]| x.hypot(*y);
         let asked = system.circles(indenters);
         let farthest = asked.iter().flat_map(|circle| circle.images.iter().flatten()).map(length).fold(0.0, f64::max);
-        let wanted = farthest.max(FAR * half).max(CELLS * area.sqrt());
-        // Only meshes of contacts that have merged are so large that the kernel's table ends before.
+        let wanted = farthest.max(SERIES_DISTANCE * half).max(MIN_REACH * area.sqrt());
+        // The kernel's table ends before only for the meshes of merged contacts.
         let reach = wanted.min(kernel.reach() - SQRT_2 * (half + mesh.size)).max(farthest);
         let clear = (reach - SQRT_2 * half).max(0.25 * reach);
-        let kappa = BLUR / clear;
+        let kappa = BELL_REACH / clear;
         let spectrum = |q: f64| {
             let spread = 1.0 - (q * mesh.size).powi(2) / 24.0;
             (1.0 + kernel.excess(q)) * bell((q / kappa).powi(2)) * spread
         };
-        let end = EXTINCT * kappa;
+        let end = BELL_CUTOFF * kappa;
         let vectors = system.cell().dual().reduced().vectors_within(end);
         let half_plane = vectors.into_par_iter().filter(|&[x, y]| x > 0.0 || (x == 0.0 && y > 0.0));
         let scale = 2.0 * 2.0 * PI * kernel.factor() / area;
@@ -90,7 +90,7 @@ impl Exterior {
         }
     }
 
-    /// The images that are not outside, for each site as centre.
+    /// Circles around each site, with the images that are summed one by one.
     pub fn circles(&self) -> &[Circle] {
         &self.circles
     }
@@ -116,7 +116,7 @@ impl Exterior {
 /// g as a function of s.
 fn bell(s: f64) -> f64 {
     let (mut term, mut sum) = (1.0, 1.0);
-    for k in 1..ORDER {
+    for k in 1..BELL_ORDER {
         term *= s / f64::from(k);
         sum += term;
     }

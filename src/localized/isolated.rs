@@ -1,4 +1,4 @@
-//! Indenters without mutual effect, as the paper draws them dashed: each alone on the layered half-space.
+//! Indenters without mutual effect, each alone on the layered half-space: the dashed curves of the paper.
 
 use super::circle::CircleRadius;
 use super::solution::{Solution, Stop};
@@ -11,37 +11,38 @@ use crate::load::Load;
 use crate::problem::Problem;
 use crate::reading::{LevelReading, Reading};
 
-/// Elements across the largest contact, for pictures: radii and pressures to 1e-3, radii to half an element where the
-/// pressure is heaped at the edge.
+/// Number of elements across the largest contact: radii and pressures err by 1e-3, radii by half an element where the pressure is
+/// concentrated at the edge.
 const ELEMENTS: usize = 24;
-/// Period, in those of the system, at which indenters are taken for alone: only their cells have to hold the contacts.
-const APART: f64 = 6.0;
+/// Period of the lattice of an isolated indenter, over the size of the system's cell: only the cells have to hold the contacts.
+const ISOLATING_PERIOD: f64 = 6.0;
 
-const ALONE: Setup = Setup { indenters: 1, elements: ELEMENTS, rule: CircleRadius::LoadBalanced, mutual_effect: false };
+const ISOLATED: Setup =
+    Setup { indenters: 1, elements: ELEMENTS, rule: CircleRadius::LoadBalanced, mutual_effect: false };
 
-/// Largest fraction in contact at which indenters are still compared with one alone: beyond it the contacts alone would
-/// reach far into each other's cells, which says nothing and takes minutes to find.
-const MOST_CONTACT: f64 = 0.5;
+/// Largest fraction in contact at which indenters are compared with isolated ones: beyond it the isolated contacts would reach far
+/// into each other's cells, which has no meaning and takes minutes.
+const MAX_CONTACT_FRACTION: f64 = 0.5;
 
-/// Whether the contacts of a step stand apart, so that each can be compared with one alone.
+/// Whether the contacts of a step are separate, so that each can be compared with an isolated one.
 fn stand_apart(reading: &Reading) -> bool {
-    reading.contact_fraction < MOST_CONTACT && !reading.levels.iter().any(|level| level.merged)
+    reading.contact_fraction < MAX_CONTACT_FRACTION && !reading.levels.iter().any(|level| level.merged)
 }
 
-/// Outer contact radius of each level (0: it does not touch), a length, when all have one penetration and carry the mean
-/// pressure of a solved step together but do not feel each other (Figs 2b, 4b and Table 1). `None` where contacts do not
-/// stand apart, or for a topography.
+/// Outer contact radius of each level without mutual effect (0 without contact), a length, when all have one penetration and carry
+/// the mean pressure of a solved step together (Figs 2b, 4b and Table 1). `None` where contacts are not separate, or for a
+/// topography.
 pub fn radii(problem: &Problem, reading: &Reading) -> Option<Vec<f64>> {
     let localized = Localized::new(problem, 1).ok().filter(|_| stand_apart(reading))?;
-    let solution = localized.solve(Load::MeanPressure(reading.mean_pressure), &ALONE);
-    // All indenters of a level are alike.
+    let solution = localized.solve(Load::MeanPressure(reading.mean_pressure), &ISOLATED);
+    // All indenters of a level have the same contact.
     let own = |level: usize| solution.spots.iter().find(|spot| spot.level == level && spot.touches());
     let radii = (1..=reading.levels.len()).map(|level| own(level).map_or(0.0, Spot::outer_radius)).collect();
     (solution.stop == Stop::Converged).then_some(radii)
 }
 
-/// Pressure of each level's indenter alone under the load it carries in a solved step: points (distance from the axis,
-/// pressure) from the axis to the edge (Fig. 3), none where it carries nothing; `None` where contacts do not stand apart.
+/// Pressure of each level's isolated indenter under the load it carries in a solved step: points (distance from the axis,
+/// pressure) from the axis to the edge (Fig. 3), empty without load; `None` where contacts are not separate.
 pub fn profiles(problem: &Problem, reading: &Reading) -> Option<Vec<Vec<[f64; 2]>>> {
     let size = problem.cell().reduced().longer_side();
     let levels = problem.counterbody().levels().iter().zip(&reading.levels);
@@ -49,14 +50,14 @@ pub fn profiles(problem: &Problem, reading: &Reading) -> Option<Vec<Vec<[f64; 2]
     stand_apart(reading).then(|| levels.map(|level| own(level).unwrap_or_default()).collect())
 }
 
-/// Pressure of a single indenter of `level` under a `force`. `size`: a length of the order of the contact's or larger.
-/// `None` without force or solution.
+/// Pressure of a single indenter of `level` under a `force`, as in [`profiles`]; `size` is a length of the order of the contact's
+/// or larger. `None` without force or solution.
 fn profile(level: Level, half_space: &HalfSpace, force: f64, size: f64) -> Option<Vec<[f64; 2]>> {
-    let lattice = Lattice::square(APART * size, 1).ok()?;
+    let lattice = Lattice::square(ISOLATING_PERIOD * size, 1).ok()?;
     let mean_pressure = Load::MeanPressure(force / lattice.cell().area());
     let alone = Indenters::new(lattice, vec![level]).ok().filter(|_| force > 0.0)?;
     let alone = Localized::new(&Problem::new(alone, half_space.clone()), 1).ok()?;
-    let Solution { spots, stop, .. } = alone.solve(mean_pressure, &ALONE);
+    let Solution { spots, stop, .. } = alone.solve(mean_pressure, &ISOLATED);
     let spot = &spots[0];
     let middle = spot.mesh.width / 2;
     let edge = spot.outer_radius();

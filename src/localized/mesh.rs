@@ -1,4 +1,4 @@
-//! Square elements around an indenter's axis, and what a pattern of pressures on one such mesh does on another.
+//! Meshes of square elements around the indenters' axes, and the influence of the pressures on one mesh on another.
 //!
 //! All spots of a solution have meshes of one element size e, centred on their axes, so that the displacement of the
 //! spot m under the indenters of site c inside its circle is a sum over differences of element numbers,
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// A square mesh of `width` × `width` elements, the central one on the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mesh {
-    /// Elements along a side, odd.
+    /// Number of elements along a side, odd.
     pub width: usize,
     /// Side of an element, a length.
     pub size: f64,
@@ -27,7 +27,7 @@ impl Mesh {
         self.width * self.width
     }
 
-    /// The mesh of elements twice as large on about the same square.
+    /// The mesh with half as many elements along a side, on about the same square.
     #[must_use]
     pub fn halved(&self) -> Self {
         Self { width: self.width.div_ceil(2) / 2 * 2 + 1, size: 2.0 * self.size }
@@ -38,7 +38,7 @@ impl Mesh {
         0.5 * self.width as f64 * self.size
     }
 
-    /// Largest difference of two elements' places along a side, a length.
+    /// Largest distance of two elements' centres along a side, a length.
     pub fn span(&self) -> f64 {
         (self.width as f64 - 1.0).max(1.0) * self.size
     }
@@ -49,12 +49,12 @@ impl Mesh {
         [(index / self.width) as f64, (index % self.width) as f64].map(|k| (k - middle) * self.size)
     }
 
-    /// Whether an element lies on the rim.
+    /// Whether an element lies on the rim of the mesh.
     pub fn on_rim(&self, index: usize) -> bool {
         [index / self.width, index % self.width].into_iter().any(|k| k == 0 || k == self.width - 1)
     }
 
-    /// A field between the centres of its elements, bilinear; 0 beyond them.
+    /// Bilinear interpolation of a field between the centres of the elements; 0 outside the mesh.
     pub fn interpolated(&self, field: &[f64], place: [f64; 2]) -> f64 {
         let [u, v] = place.map(|x| x / self.size + (self.width / 2) as f64);
         let value = |i: f64, j: f64| {
@@ -68,15 +68,15 @@ impl Mesh {
     }
 }
 
-/// Terms of the Chebyshev series in each direction.
-const TERMS: usize = 14;
-/// Distance, in half-sides of the table, from which images are summed in the series: it then errs by 1e-11.
-pub(super) const FAR: f64 = 3.5;
+/// Number of terms of the Chebyshev series in each direction.
+const SERIES_TERMS: usize = 14;
+/// Distance beyond which images enter the Chebyshev series, in half-sides of the table: the series then errs by 1e-11.
+pub(super) const SERIES_DISTANCE: f64 = 3.5;
 
-/// A smooth displacement at (x, y).
+/// A smooth displacement as a function of (x, y).
 pub(super) type Smooth<'a> = dyn Fn(f64, f64) -> f64 + Sync + 'a;
 
-/// A_mc of two spots.
+/// Influence table A_mc of one site's indenters on a spot.
 #[derive(Debug, Clone)]
 pub struct Influence {
     width: usize,
@@ -85,18 +85,19 @@ pub struct Influence {
 }
 
 impl Influence {
-    /// Influence on a spot of the indenters at the places `images` relative to it, and of others `outside`: the
-    /// displacement at (x, y) from an element by unit pressure on all its images that stand far away.
+    /// Influence on a spot of the indenters at the vectors `images` from it, and of those `outside`: the displacement at (x, y) from
+    /// an element by unit pressure on all its images outside the circle.
     pub fn new(squares: &Squares<'_>, mesh: Mesh, images: &[[f64; 2]], outside: Option<&Smooth<'_>>) -> Self {
         let (side, last) = (2 * mesh.width - 1, mesh.width as f64 - 1.0);
         let half = mesh.span();
-        let (far, near): (Vec<[f64; 2]>, Vec<[f64; 2]>) = images.iter().partition(|[x, y]| x.hypot(*y) > FAR * half);
+        let (far, near): (Vec<[f64; 2]>, Vec<[f64; 2]>) =
+            images.iter().partition(|[x, y]| x.hypot(*y) > SERIES_DISTANCE * half);
         let under = |images: &[[f64; 2]], x: f64, y: f64| -> f64 {
             images.iter().map(|[u, v]| squares.coefficient(x - u, y - v)).sum()
         };
         let distant = |x, y| under(&far, x, y) + outside.map_or(0.0, |outside| outside(x, y));
         let nowhere = far.is_empty() && outside.is_none();
-        let series = (!nowhere).then(|| Smooth2::new(half, distant));
+        let series = (!nowhere).then(|| ChebyshevProduct::new(half, distant));
         let offset = |k: usize| (k as f64 - last) * mesh.size;
         let mut table = vec![0.0; side * side];
         table.par_chunks_mut(side).enumerate().for_each(|(i, row)| {
@@ -136,18 +137,19 @@ impl Influence {
     }
 }
 
-/// A smooth function on the square |x|, |y| ≤ half: series in x of each coefficient of the series in y.
-struct Smooth2([Chebyshev<TERMS>; TERMS]);
+/// Chebyshev series of a smooth function on the square |x|, |y| ≤ half: one in x for each coefficient of the series in y.
+struct ChebyshevProduct([Chebyshev<SERIES_TERMS>; SERIES_TERMS]);
 
-impl Smooth2 {
+impl ChebyshevProduct {
     fn new(half: f64, f: impl Fn(f64, f64) -> f64 + Sync) -> Self {
-        let nodes = Chebyshev::<TERMS>::nodes();
-        let lines: Vec<Chebyshev<TERMS>> = nodes.par_iter().map(|x| Chebyshev::of(|y| f(half * x, half * y))).collect();
+        let nodes = Chebyshev::<SERIES_TERMS>::nodes();
+        let lines: Vec<Chebyshev<SERIES_TERMS>> =
+            nodes.par_iter().map(|x| Chebyshev::of(|y| f(half * x, half * y))).collect();
         Self(std::array::from_fn(|l| Chebyshev::through(&std::array::from_fn(|k| lines[k].coefficients()[l]))))
     }
 
-    /// The series in y at an x, both over half.
-    fn at(&self, x: f64) -> Chebyshev<TERMS> {
+    /// The series in y/half at x/half.
+    fn at(&self, x: f64) -> Chebyshev<SERIES_TERMS> {
         Chebyshev::with(self.0.each_ref().map(|series| series.at(x)))
     }
 }

@@ -1,21 +1,21 @@
-//! Patterns of pressure between two sweeps.
+//! Penetration, loads and pressures between two passes over the levels.
 
 use super::mesh::Mesh;
 use super::solution::Solution;
 
-/// What the sweeps carry on.
+/// Penetration, loads and pressures that the next pass over the levels starts from.
 #[derive(Clone)]
 pub(super) struct Patterns {
     /// Penetration δ, a length.
     pub penetration: f64,
-    /// Load on each spot.
+    /// Load on each spot, a force.
     pub loads: Vec<f64>,
-    /// Pressure on the elements of each spot.
+    /// Pressure on the elements of each spot, in the unit of Young's modulus.
     pub pressures: Vec<Vec<f64>>,
 }
 
 impl Patterns {
-    /// Those of an earlier solution on the present mesh, or none.
+    /// Interpolated from an earlier solution onto the `mesh`; without contact where there is none.
     pub fn new(mesh: Mesh, sites: usize, start: Option<&Solution>) -> Self {
         let mut patterns = Self {
             penetration: start.map_or(0.0, |start| start.penetration),
@@ -31,7 +31,7 @@ impl Patterns {
         patterns
     }
 
-    /// Scales the pressure of the spot m to its new load.
+    /// Multiplies the pressure of the spot m by the `factor` that brings it to its new `load`.
     pub fn scale(&mut self, m: usize, factor: f64, load: f64) {
         self.pressures[m].iter_mut().for_each(|p| *p *= factor);
         self.loads[m] = if factor > 0.0 { load } else { 0.0 };

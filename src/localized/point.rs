@@ -14,27 +14,27 @@ use crate::numeric::search::largest;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Nodes of one Chebyshev series.
-const NODES: usize = 16;
-/// Error of a series, relative to K, at which its interval is not halved any more.
-const TOLERANCE: f64 = 2e-11;
+/// Number of nodes of one Chebyshev series.
+const SERIES_NODES: usize = 16;
+/// Largest error of a series, relative to K: intervals of larger errors are halved.
+const SERIES_TOLERANCE: f64 = 2e-11;
 /// Relative tolerance of the integrals over the layer correction, which is exact to 1e-15.
 pub(super) const QUADRATURE: f64 = 1e-13;
-/// qh at which T − 1 ~ (qh)² e^{−2qh} has died out.
-const EXTINCT: f64 = 24.0;
-/// Halvings of an interval at most.
-const DEPTH: usize = 8;
+/// qh beyond which T − 1 ~ (qh)² e^{−2qh} is negligible.
+const LAYER_CUTOFF: f64 = 24.0;
+/// Largest number of halvings of an interval.
+const MAX_HALVINGS: usize = 8;
 
 /// Point kernel of a layered half-space, tabulated up to a distance.
 #[derive(Debug, Clone)]
 pub struct PointKernel {
     transfer: TransferFunction,
-    /// c = (1−ν₁)/G₁.
+    /// c = (1−ν₁)/G₁, 1/pressure.
     compliance: f64,
     /// Thickness of the first layer; `None` without layers.
     thickness: Option<f64>,
     /// Upper ends of the intervals, ascending, and their series of C.
-    intervals: Vec<(f64, Chebyshev<NODES>)>,
+    intervals: Vec<(f64, Chebyshev<SERIES_NODES>)>,
     reach: f64,
     error: f64,
 }
@@ -56,7 +56,8 @@ impl PointKernel {
             while let Some(&last) = bounds.last().filter(|&&last| last < reach) {
                 bounds.push((2.0 * last).min(reach));
             }
-            let pieces: Vec<_> = bounds.par_windows(2).map(|ends| kernel.fitted(ends[0], ends[1], DEPTH)).collect();
+            let pieces: Vec<_> =
+                bounds.par_windows(2).map(|ends| kernel.fitted(ends[0], ends[1], MAX_HALVINGS)).collect();
             kernel.error = largest(pieces.iter().map(|(_, error)| *error));
             kernel.intervals = pieces.into_iter().flat_map(|(intervals, _)| intervals).collect();
         }
@@ -68,7 +69,7 @@ impl PointKernel {
         self.reach
     }
 
-    /// Largest relative error of K found between the nodes of the table, with that of the integrals.
+    /// Largest relative error of K between the nodes of the table, with the error of the integrals.
     pub fn error(&self) -> f64 {
         self.error
     }
@@ -83,9 +84,9 @@ impl PointKernel {
         self.thickness
     }
 
-    /// Wavenumber beyond which the layers are not felt at the surface; 0 without layers.
-    pub(super) fn extinction(&self) -> f64 {
-        self.thickness.map_or(0.0, |thickness| EXTINCT / thickness)
+    /// Wavenumber beyond which the layers do not change the displacement of the surface, 1/length; 0 without layers.
+    pub(super) fn layer_cutoff(&self) -> f64 {
+        self.thickness.map_or(0.0, |thickness| LAYER_CUTOFF / thickness)
     }
 
     /// T(q) − 1.
@@ -96,7 +97,7 @@ impl PointKernel {
     /// C(r) by quadrature, 1/length.
     pub fn correction_by_quadrature(&self, r: f64) -> Estimate {
         match self.thickness {
-            Some(_) => hankel(Bessel::Zero, r, self.extinction(), QUADRATURE, |q| self.excess(q)),
+            Some(_) => hankel(Bessel::Zero, r, self.layer_cutoff(), QUADRATURE, |q| self.excess(q)),
             None => Estimate::default(),
         }
     }
@@ -120,19 +121,19 @@ impl PointKernel {
         self.factor() * (1.0 / r + self.correction(r))
     }
 
-    /// Series on [a, b] and, where one is not enough, on its halves; with the largest relative error found.
-    fn fitted(&self, a: f64, b: f64, depth: usize) -> (Vec<(f64, Chebyshev<NODES>)>, f64) {
+    /// Series on [a, b], or on its halves where one is not accurate enough; with the largest relative error.
+    fn fitted(&self, a: f64, b: f64, depth: usize) -> (Vec<(f64, Chebyshev<SERIES_NODES>)>, f64) {
         let place = |x: f64| chebyshev::place([a, b], x);
         let series = Chebyshev::of(|x| self.correction_by_quadrature(place(x)).value);
         let error = [-0.995, -0.47, 0.098, 0.61, 0.995].into_iter().map(|x| {
             let r = place(x);
             let exact = self.correction_by_quadrature(r);
-            // Nearly incompressible layers on stiff ground heave: K itself has zeros.
+            // On nearly incompressible layers on stiff substrates the surface heaves: K has zeros.
             let size = (1.0 / r + exact.value).abs().max(1e-3 / r);
             ((series.at(x) - exact.value).abs() + exact.error) / size
         });
         let error = largest(error);
-        if error < TOLERANCE || depth == 0 {
+        if error < SERIES_TOLERANCE || depth == 0 {
             return (vec![(b, series)], error);
         }
         let middle = 0.5 * (a + b);
@@ -154,7 +155,7 @@ mod tests {
         let (short, long) = (PointKernel::new(&half_space, 1.0), PointKernel::new(&half_space, 8.0));
         for r in [0.9, 1.0, 1.001, 1.5, 3.0, 7.9] {
             let (one, other) = (short.at(r), long.at(r));
-            assert!((one / other - 1.0).abs() < 2.0 * TOLERANCE, "r = {r}: {one} {other}");
+            assert!((one / other - 1.0).abs() < 2.0 * SERIES_TOLERANCE, "r = {r}: {one} {other}");
         }
     }
 }

@@ -1,46 +1,46 @@
 //! Contact of one spot whose surface is pressed to given displacements.
 //!
-//! A p ≥ b, p ≥ 0, p (A p − b) = 0: b = δ − f − u is what the spot's own pressures (with their images in the circle)
-//! must displace. A is symmetric; Polonsky & Keer's (1999) conjugate gradients without their constraint on the load.
+//! A p ≥ b, p ≥ 0, p (A p − b) = 0: b = δ − f − u is the displacement required of the spot's own pressures (with their images in
+//! the circle). A is symmetric; Polonsky & Keer's (1999) conjugate gradients without their constraint on the load.
 //!
-//! A of the lattice sum displaces from the mean plane, so that pressures even over the whole cell displace nothing: A is
-//! positive only where the contact leaves a part of the cell open. A spot pressed deeper than complete contact
-//! reaches has no solution. The conjugate gradients then meet a direction along which tᵀA t ≤ 0, and end.
+//! With the lattice sum A measures displacements from the mean plane, so that a uniform pressure over the whole cell displaces
+//! nothing: A is positive definite only where a part of the cell is open. A spot pressed beyond complete contact has no
+//! solution. The conjugate gradients then find a direction along which tᵀA t ≤ 0, and end.
 
 use super::mesh::Influence;
 use crate::numeric::search::largest;
 
-/// Iterations at most.
-const ITERATIONS: usize = 400;
+/// Largest number of iterations.
+const MAX_ITERATIONS: usize = 400;
 
 /// How the iteration of one spot ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum End {
-    /// The surface is met.
+pub enum SpotEnd {
+    /// The gap vanishes in contact, to the tolerance.
     Met,
-    /// It is not, after the iterations allowed.
+    /// The gap does not vanish after the largest number of iterations.
     Unmet,
-    /// A direction without stiffness: the surface is pressed beyond complete contact, where no pressure displaces it.
+    /// A direction without stiffness was found: the surface is pressed beyond complete contact.
     Unbounded,
 }
 
-/// A spot after its iteration.
+/// The gap of a spot after its iteration.
 #[derive(Debug, Clone)]
-pub struct Pressed {
-    /// A p − b, a length, one value per element.
+pub struct SpotSolution {
+    /// Gap A p − b, a length, one value per element.
     pub gap: Vec<f64>,
     /// How the iteration ended.
-    pub end: End,
-    /// Products with A.
+    pub end: SpotEnd,
+    /// Number of products with A.
     pub iterations: usize,
 }
 
-/// Conjugate directions on the elements that may change.
+/// Conjugate directions on the active elements.
 struct Conjugate {
     direction: Vec<f64>,
-    /// A t of the direction t.
+    /// A t of the direction t, lengths.
     image: Vec<f64>,
-    /// Gap of the last step, and its square.
+    /// Gap of the last step, and the sum of its squares.
     before: Option<(Vec<f64>, f64)>,
 }
 
@@ -49,8 +49,8 @@ impl Conjugate {
         Self { direction: vec![0.0; len], image: vec![0.0; len], before: None }
     }
 
-    /// Step along the next direction against `gap` on the `active` elements (Polak–Ribière β ≥ 0); `afresh` after they
-    /// have grown. `None` along a direction without stiffness.
+    /// Length of the step along the next direction against `gap` on the `active` elements (Polak–Ribière β ≥ 0, β = 0 where
+    /// `afresh`). `None` along a direction without stiffness.
     fn step(&mut self, influence: &Influence, gap: &[f64], active: &[usize], afresh: bool) -> Option<f64> {
         let square: f64 = active.iter().map(|&i| gap[i] * gap[i]).sum();
         let beta = match &self.before {
@@ -71,15 +71,15 @@ impl Conjugate {
     }
 }
 
-/// Brings `pressure` to the solution for the wanted displacements b = `wanted`; `tolerance` is relative to the largest
-/// of them.
-pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> Pressed {
+/// Solves for the `pressure` that displaces the elements by b = `wanted`, from the pressure given; `tolerance` of the gap is
+/// relative to the largest displacement.
+pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &mut [f64]) -> SpotSolution {
     let len = wanted.len();
     let scale = largest(wanted.iter().copied());
     if scale == 0.0 {
-        // Nothing is displaced far enough to touch.
+        // No displacement is required: nothing touches.
         pressure.fill(0.0);
-        return Pressed { gap: wanted.iter().map(|b| -b).collect(), end: End::Met, iterations: 0 };
+        return SpotSolution { gap: wanted.iter().map(|b| -b).collect(), end: SpotEnd::Met, iterations: 0 };
     }
     let residual = |pressure: &[f64]| {
         let mut gap: Vec<f64> = wanted.iter().map(|b| -b).collect();
@@ -88,19 +88,19 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
     };
     let mut gap = residual(pressure);
     let mut conjugate = Conjugate::new(len);
-    for iterations in 0..ITERATIONS {
-        // What is not a number is not reached.
+    for iterations in 0..MAX_ITERATIONS {
+        // Gaps that are not numbers do not count as closed.
         let moves = |&i: &usize| pressure[i] > 0.0 || gap[i] < 0.0 || gap[i].is_nan();
         let active: Vec<usize> = (0..len).filter(moves).collect();
         let counts = |&&i: &&usize| pressure[i] > 0.0 || gap[i] < -tolerance * scale || gap[i].is_nan();
         let worst = largest(active.iter().filter(counts).map(|&i| gap[i].abs()));
         if worst <= tolerance * scale {
-            return Pressed { gap, end: End::Met, iterations };
+            return SpotSolution { gap, end: SpotEnd::Met, iterations };
         }
-        // An element that is penetrated but carries nothing yet joins the contact: a new start.
+        // A penetrated element without pressure joins the contact: a new start.
         let grown = active.iter().any(|&i| pressure[i] == 0.0);
         let Some(step) = conjugate.step(influence, &gap, &active, grown) else {
-            return Pressed { gap, end: End::Unbounded, iterations: iterations + 1 };
+            return SpotSolution { gap, end: SpotEnd::Unbounded, iterations: iterations + 1 };
         };
         let mut clipped = false;
         for &i in &active {
@@ -116,11 +116,11 @@ pub fn press(influence: &Influence, wanted: &[f64], tolerance: f64, pressure: &m
             gap.iter_mut().zip(&conjugate.image).for_each(|(g, u)| *g -= step * u);
         }
     }
-    Pressed { gap, end: End::Unmet, iterations: ITERATIONS }
+    SpotSolution { gap, end: SpotEnd::Unmet, iterations: MAX_ITERATIONS }
 }
 
-/// Pressures on the elements in contact that displace all of them by one unit: their sum times the area of an element
-/// is the stiffness dP/dδ. `start` is a first guess.
+/// Pressures on the elements in contact that displace all of them by one unit, as a flat punch does: their sum times the area of
+/// an element is the contact stiffness dP/dδ. `start` is the initial guess.
 pub fn punch(influence: &Influence, pressure: &[f64], tolerance: f64, mut start: Vec<f64>) -> Vec<f64> {
     let len = pressure.len();
     let active: Vec<usize> = (0..len).filter(|&i| pressure[i] > 0.0).collect();
@@ -128,7 +128,7 @@ pub fn punch(influence: &Influence, pressure: &[f64], tolerance: f64, mut start:
     let mut rest = vec![-1.0; len];
     influence.add(&start, &mut rest);
     let mut conjugate = Conjugate::new(len);
-    for _ in 0..ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         let square: f64 = active.iter().map(|&i| rest[i] * rest[i]).sum();
         if square <= tolerance * tolerance * active.len() as f64 {
             break;

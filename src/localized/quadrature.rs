@@ -1,19 +1,19 @@
 //! Adaptive quadrature, and integrals with a Bessel function under the integral sign.
 //!
-//! An interval is given its Gauss–Kronrod estimate (7, 15 points) and halved where both rules differ. An integral
+//! Each interval has its Gauss–Kronrod estimate (7, 15 points) and is halved where both rules differ. An integral
 //!
 //! ∫₀^∞ f(q) J(qr) dq,  J = J₀, J₁ or J₂,
 //!
-//! of a function that has died out at a known q is cut geometrically up to the first zero of J and at its zeros from
-//! there on. Where there are many of them the partial sums alternate about the integral, and Wynn's ε-algorithm finds
+//! of a function that is negligible beyond a known q is divided geometrically up to the first zero of J and at its zeros
+//! beyond. Where there are many of them the partial sums alternate about the integral, and Wynn's ε-algorithm finds
 //! the limit from a few (Lucas & Stone, J. Comput. Appl. Math. 64 (1995) 217–231).
 
 use std::f64::consts::PI;
 
-/// A value and how far it may be off.
+/// A value with its estimated error.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
-    /// The value.
+    /// Value of the integral.
     pub value: f64,
     /// Estimated absolute error.
     pub error: f64,
@@ -25,7 +25,7 @@ impl Estimate {
     }
 }
 
-/// Abscissae of the 15-point Kronrod rule from the outermost to the centre; every second one is Gauss'.
+/// Abscissae of the 15-point Kronrod rule from the outermost to the centre; every second one belongs to Gauss' rule.
 const ABSCISSAE: [f64; 8] = [
     0.991_455_371_120_812_6,
     0.949_107_912_342_758_5,
@@ -36,6 +36,7 @@ const ABSCISSAE: [f64; 8] = [
     0.207_784_955_007_898_47,
     0.0,
 ];
+/// Weights of the Kronrod rule.
 const KRONROD: [f64; 8] = [
     0.022_935_322_010_529_224,
     0.063_092_092_629_978_56,
@@ -46,15 +47,16 @@ const KRONROD: [f64; 8] = [
     0.204_432_940_075_298_9,
     0.209_482_141_084_727_82,
 ];
+/// Weights of the Gauss rule.
 const GAUSS: [f64; 4] =
     [0.129_484_966_168_869_7, 0.279_705_391_489_276_64, 0.381_830_050_505_118_9, 0.417_959_183_673_469_4];
 
-/// Halvings of one interval at most.
-const DEPTH: u32 = 16;
+/// Largest number of halvings of an interval.
+const MAX_HALVINGS: u32 = 16;
 
 /// ∫ f from a to b, its error held below `tolerance` times the integral of |f| or `scale`, whichever is larger.
 pub fn integrate(f: &impl Fn(f64) -> f64, [a, b]: [f64; 2], scale: f64, tolerance: f64) -> Estimate {
-    halved(f, [a, b], scale, tolerance, DEPTH)
+    halved(f, [a, b], scale, tolerance, MAX_HALVINGS)
 }
 
 fn halved(f: &impl Fn(f64) -> f64, [a, b]: [f64; 2], scale: f64, tolerance: f64, depth: u32) -> Estimate {
@@ -69,7 +71,7 @@ fn halved(f: &impl Fn(f64) -> f64, [a, b]: [f64; 2], scale: f64, tolerance: f64,
             gauss += GAUSS[i / 2] * sum;
         }
     }
-    // The Kronrod rule is far better than the difference of both; Piessens' estimate says so.
+    // Piessens' estimate: the Kronrod rule is far more accurate than the difference of both rules.
     let difference = (kronrod - gauss).abs();
     let ratio = 200.0 * difference / size.max(f64::MIN_POSITIVE);
     let error = half * if ratio < 1.0 { difference.min(size * ratio.powf(1.5)) } else { difference };
@@ -81,7 +83,7 @@ fn halved(f: &impl Fn(f64) -> f64, [a, b]: [f64; 2], scale: f64, tolerance: f64,
     part([a, centre]).plus(part([centre, b]))
 }
 
-/// Which Bessel function oscillates under an integral.
+/// Bessel function under an integral.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bessel {
     /// J₀.
@@ -102,7 +104,7 @@ impl Bessel {
         }
     }
 
-    /// About the k-th positive zero (McMahon), k ≥ 1.
+    /// Approximate k-th positive zero, k ≥ 1 (McMahon).
     fn zero(self, k: usize) -> f64 {
         let beta = match self {
             Self::Zero => k as f64 - 0.25,
@@ -113,20 +115,23 @@ impl Bessel {
     }
 }
 
-/// Geometric ratio of the intervals from q = 0, and how many of them.
-const RATIO: f64 = 0.25;
+/// Ratio of successive intervals from q = 0.
+const INTERVAL_RATIO: f64 = 0.25;
+/// Number of intervals from q = 0 to the first zero.
 const INTERVALS: i32 = 18;
-/// With fewer zeros than this below the end all of them are summed.
-const FEW: usize = 40;
-/// How often successive extrapolations must agree to a third of the tolerance, relative to the largest partial sum.
-const REPEATS: usize = 3;
+/// Least number of zeros below the end for which the sum is extrapolated.
+const MIN_EXTRAPOLATED_ZEROS: usize = 40;
+/// Number of successive extrapolations that must agree to a third of the tolerance, relative to the largest partial sum.
+const MIN_AGREEMENTS: usize = 3;
 
-/// ∫₀^`end` f(q) J(qr) dq, where f has died out at `end`, to the relative `tolerance`: no smaller than the noise of f.
+/// ∫₀^`end` f(q) J(qr) dq, f negligible beyond `end`, to the relative `tolerance`, which must exceed the rounding noise of f.
 pub fn hankel(bessel: Bessel, r: f64, end: f64, tolerance: f64, f: impl Fn(f64) -> f64) -> Estimate {
     let integrand = |q: f64| f(q) * bessel.at(q * r);
     let first = if r > 0.0 { end.min(bessel.zero(1) / r) } else { end };
-    let ends = |k: i32| [if k == INTERVALS { 0.0 } else { first * RATIO.powi(k) }, first * RATIO.powi(k - 1)];
-    // Where f is nearly zero it is rounding noise, which only the size of the whole tells from a signal.
+    let ends = |k: i32| {
+        [if k == INTERVALS { 0.0 } else { first * INTERVAL_RATIO.powi(k) }, first * INTERVAL_RATIO.powi(k - 1)]
+    };
+    // Where f is nearly zero it is rounding noise, which has to be judged by the size of the whole integral.
     let scale = (1..=INTERVALS).map(|k| integrate(&integrand, ends(k), f64::INFINITY, tolerance).value.abs());
     let scale = scale.fold(0.0, f64::max);
     let mut sum = Estimate::default();
@@ -136,7 +141,7 @@ pub fn hankel(bessel: Bessel, r: f64, end: f64, tolerance: f64, f: impl Fn(f64) 
     if first == end {
         return sum;
     }
-    let few = bessel.zero(FEW) / r >= end;
+    let few = bessel.zero(MIN_EXTRAPOLATED_ZEROS) / r >= end;
     let mut partial = Wynn::default();
     partial.add(sum.value);
     let (mut last, mut agreed, mut k) = (f64::NAN, 0, 1);
@@ -152,7 +157,7 @@ pub fn hankel(bessel: Bessel, r: f64, end: f64, tolerance: f64, f: impl Fn(f64) 
             let change = (limit - last).abs();
             largest = largest.max(sum.value.abs());
             agreed = if change <= 0.3 * tolerance * largest { agreed + 1 } else { 0 };
-            if agreed == REPEATS {
+            if agreed == MIN_AGREEMENTS {
                 return Estimate { value: limit, error: sum.error + change.max(0.3 * tolerance * largest) };
             }
             last = limit;
@@ -164,18 +169,18 @@ pub fn hankel(bessel: Bessel, r: f64, end: f64, tolerance: f64, f: impl Fn(f64) 
 /// Wynn's ε-algorithm over the latest partial sums.
 #[derive(Debug, Default)]
 struct Wynn {
-    /// The latest rising diagonal of the ε-table.
+    /// Latest ascending diagonal of the ε-table.
     diagonal: Vec<f64>,
 }
 
-/// Columns of the ε-table.
-const COLUMNS: usize = 24;
+/// Largest number of columns of the ε-table.
+const WYNN_COLUMNS: usize = 24;
 
 impl Wynn {
-    /// Adds a partial sum and gives the extrapolated limit.
+    /// Adds a partial sum; returns the extrapolated limit.
     fn add(&mut self, sum: f64) -> f64 {
         let mut diagonal = vec![sum];
-        for (k, &before) in self.diagonal.iter().take(COLUMNS).enumerate() {
+        for (k, &before) in self.diagonal.iter().take(WYNN_COLUMNS).enumerate() {
             let difference = diagonal[k] - before;
             if difference == 0.0 {
                 break;

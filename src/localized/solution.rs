@@ -1,4 +1,4 @@
-//! A load step as the localized method has solved it, and what is read off it.
+//! A load step solved by the localized method, and its readings.
 
 use super::circle::CircleRadius;
 use super::disc;
@@ -18,14 +18,14 @@ use std::sync::Arc;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Stop {
-    /// Loads stand still to 1e-8 of the whole one, surfaces are met to 1e-9 of the deepest displacement.
+    /// Loads change by less than 1e-8 of the whole load, and gaps in contact are less than 1e-9 of the largest displacement.
     Converged,
-    /// Not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot; or the
+    /// Not converged: loads still changed, or a gap in contact had not vanished, after 60 passes over the levels or 2000 iterations per spot; or the
     /// prescribed penetration lies beyond complete contact.
     Stalled,
     /// A contact reaches the rim of its mesh.
     Rim,
-    /// A contact reaches where a neighbour's surface is nearer: the method needs spots that stand apart.
+    /// A contact reaches where a neighbour's surface is nearer: the method needs separate spots.
     Merged,
 }
 
@@ -33,7 +33,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Converged => "converged: loads moved by less than 1e-8 of the whole one",
-            Self::Stalled => "not converged: loads still moved, or a surface was not met, after 60 sweeps or 2000 iterations per spot, or the \
+            Self::Stalled => "not converged: loads still moved, or a surface was not met, after 60 passes over the levels or 2000 iterations per spot, or the \
                  penetration lies beyond complete contact",
             Self::Rim => "a contact reaches the rim of its mesh",
             Self::Merged => "merged: a contact reaches under its neighbour",
@@ -41,7 +41,7 @@ impl fmt::Display for Stop {
     }
 }
 
-/// A localized solution.
+/// Solution of one load step by the localized method.
 #[derive(Debug, Clone)]
 pub struct Solution {
     pub(super) system: Arc<System>,
@@ -49,24 +49,24 @@ pub struct Solution {
     pub mean_pressure: f64,
     /// Penetration δ, common to all levels, a length.
     pub penetration: f64,
-    /// What acted outside the circles.
+    /// Rule for what acts outside the circles.
     pub rule: CircleRadius,
-    /// The spots, one per site of the cell.
+    /// Contact spots, one per site of the cell.
     pub spots: Vec<Spot>,
     /// How the iteration ended.
     pub stop: Stop,
-    /// Sweeps over the levels.
-    pub sweeps: usize,
+    /// Number of passes over the levels.
+    pub passes: usize,
 }
 
 impl Solution {
-    /// The indenters and what they press into.
+    /// The indenters and the half-space.
     pub fn system(&self) -> &Arc<System> {
         &self.system
     }
 
     /// Additional displacement w_a by Eq. (8): displacement at the highest apex by the pressures inside its circle,
-    /// minus that by p̄ on the circle, or with the lattice sum of what is outside: a length. Summed anew, element by
+    /// minus that by p̄ on the circle, or plus that by the lattice sum outside it: a length. Summed directly, element by
     /// element.
     ///
     /// It equals the penetration where the highest level touches.
@@ -92,7 +92,7 @@ impl Solution {
         sum
     }
 
-    /// What a tribologist reads off the solution, level by level.
+    /// Readings of each level, from the highest down.
     pub fn levels(&self) -> Vec<LevelReading> {
         let whole: f64 = self.spots.iter().map(Spot::load).sum();
         (1..=self.system.levels().len()).map(|level| self.level(level, whole)).collect()
@@ -107,7 +107,7 @@ impl Solution {
         let count = own.len() as f64;
         let merged = own.iter().any(|(spot, _)| spot.merged && spot.touches());
         let load: f64 = own.iter().map(|(spot, _)| spot.load()).sum();
-        // √(area/π) of the spots, or a radius of their outlines: means over the indenters, by area.
+        // Root mean squares over the indenters: of √(area/π) of the spots, or of a radius of their outlines.
         let mean = |squares: f64| (squares / count).sqrt();
         let radius = |(spot, outline): &(&Spot, Option<Outline>)| {
             outline.as_ref().map_or(spot.counted_radius(), |outline| (outline.area() / PI).sqrt())
@@ -154,6 +154,6 @@ impl Solution {
 
 impl fmt::Display for Solution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "localized solution of {} spots, {}; {} sweeps", self.spots.len(), self.stop, self.sweeps)
+        write!(f, "localized solution of {} spots, {}; {} passes", self.spots.len(), self.stop, self.passes)
     }
 }

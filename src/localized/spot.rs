@@ -1,7 +1,7 @@
-//! One contact spot of a localized solution, and what is read off it.
+//! One contact spot of a localized solution, and its readings.
 
 use super::circle::Circle;
-use super::edge::Edge;
+use super::edge_ratios::EdgeRatios;
 use super::mesh::Mesh;
 use super::outline::Outline;
 use crate::numeric::array::samples;
@@ -11,41 +11,41 @@ use ndarray::Array2;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// The contact of one site's indenter.
+/// Contact of the indenter of one site.
 #[derive(Debug, Clone)]
 pub struct Spot {
     /// Level of the indenter, from 1.
     pub level: usize,
-    /// Its place in fractions of the cell vectors.
+    /// Position of the indenter, in fractions of the cell vectors.
     pub place: [f64; 2],
-    /// Elements around its axis.
+    /// Mesh around the indenter's axis.
     pub mesh: Mesh,
     /// Pressure on each element, in the unit of Young's modulus; axes along x and y.
     pub pressure: Array2<f64>,
     /// Gap w + f − δ over each element, a length; axes along x and y.
     pub gap: Array2<f64>,
-    /// Indenters inside the circle around it.
+    /// Circle around the indenter, with the indenters inside.
     pub circle: Circle,
-    /// Radius of that circle, a length; infinite without mutual effect.
+    /// Radius of the circle, a length; infinite without mutual effect.
     pub radius: f64,
-    /// Whether its contact reaches under a neighbour's surface, or a neighbour's contact under its own.
+    /// Whether the contact reaches under a neighbour's surface, or a neighbour's contact under this indenter's surface.
     pub merged: bool,
-    /// How pressure and gap leave the edge of a contact on this half-space.
-    pub(super) edge: Arc<Edge>,
+    /// Ratios of pressure and gap at an edge on this half-space to those on a bare one.
+    pub(super) edge: Arc<EdgeRatios>,
 }
 
 impl Spot {
-    /// The pressure element by element, row by row.
+    /// Pressure of each element, row by row.
     pub(super) fn pressures(&self) -> &[f64] {
         samples(&self.pressure)
     }
 
-    /// Force on the indenter: a pressure times an area.
+    /// Load on the indenter, a force: a pressure times an area.
     pub fn load(&self) -> f64 {
         self.pressures().iter().sum::<f64>() * self.element_area()
     }
 
-    /// Whether the indenter touches.
+    /// Whether the indenter is in contact.
     pub fn touches(&self) -> bool {
         self.pressures().iter().any(|&p| p > 0.0)
     }
@@ -55,8 +55,8 @@ impl Spot {
     }
 
     /// Peak pressure: that of the most loaded element, raised to the top of the paraboloid through the 5 × 5 elements
-    /// around it. Where displacements are prescribed at the centres of elements, so are the pressures nearly: at the
-    /// top of Hertz' contact they err by 7e-5 with 48 elements across.
+    /// around it. The pressure of an element is nearly that at its centre, where the displacement is prescribed: at the
+    /// top of Hertz' contact it errs by 7e-5 with 48 elements across.
     pub fn peak(&self) -> f64 {
         let (pressures, width) = (self.pressures(), self.mesh.width as i32);
         let Some(index) = (0..pressures.len()).max_by(|&a, &b| pressures[a].total_cmp(&pressures[b])) else {
@@ -75,17 +75,17 @@ impl Spot {
         Outline::new(&self.mesh, &self.edge, self.pressures(), samples(&self.gap))
     }
 
-    /// Contact radius √(A/π), from the outline, or from the number of elements where it is not found.
+    /// Contact radius √(A/π), a length, from the outline, or from the number of elements where there is no outline.
     pub fn contact_radius(&self) -> f64 {
         self.outline().map_or(self.counted_radius(), |outline| (outline.area() / PI).sqrt())
     }
 
-    /// √(area within the outer line/π): larger than the contact radius where the spot is a ring.
+    /// Outer radius √(area within the outer rim/π), a length: larger than the contact radius where the spot is a ring.
     pub fn outer_radius(&self) -> f64 {
         self.outline().map_or(self.counted_radius(), |outline| mean_radius(&outline.radii))
     }
 
-    /// √(A/π) of the elements in contact.
+    /// Radius √(A/π) of the area of the elements in contact, a length.
     pub fn counted_radius(&self) -> f64 {
         let count = self.pressures().iter().filter(|&&p| p > 0.0).count() as f64;
         (count * self.element_area() / PI).sqrt()

@@ -12,12 +12,12 @@
 use super::point::PointKernel;
 use crate::numeric::quadrature::gauss;
 
-/// Distance in half-widths from which all of K is integrated.
-const FAR: f64 = 10.0;
-/// Error of a Gauss rule allowed, relative.
+/// Distance beyond which all of K is integrated by Gauss' rule, in half-widths.
+const GAUSS_DISTANCE: f64 = 10.0;
+/// Largest relative error of a Gauss rule.
 const RULE_ERROR: f64 = 1e-11;
-/// Points of a rule at most; beyond, the square is divided.
-const MOST_POINTS: usize = 10;
+/// Largest number of points of a rule; where more are needed, the square is divided.
+const MAX_POINTS: usize = 10;
 
 /// Influence coefficients of squares of one size.
 #[derive(Debug, Clone)]
@@ -34,21 +34,21 @@ impl<'a> Squares<'a> {
     /// Squares of the half-width a = `half`, a length.
     pub fn new(kernel: &'a PointKernel, half: f64) -> Self {
         let image = kernel.thickness().map_or(f64::INFINITY, |thickness| 2.0 * thickness / half);
-        Self { kernel, half, image, rules: (0..=MOST_POINTS).map(gauss).collect() }
+        Self { kernel, half, image, rules: (0..=MAX_POINTS).map(gauss).collect() }
     }
 
     /// Displacement at (x, y) from the centre of a square under unit pressure: a length per pressure.
     pub fn coefficient(&self, x: f64, y: f64) -> f64 {
         let distance = x.hypot(y) / self.half;
-        if distance > FAR {
-            // The singularity of 1/r stands on the square's own plane.
-            let points = points(distance).min(MOST_POINTS);
+        if distance > GAUSS_DISTANCE {
+            // The singularity of 1/r lies in the plane of the square.
+            let points = points(distance).min(MAX_POINTS);
             return self.mean(x, y, self.half, points, |r| self.kernel.at(r)) * 4.0 * self.half * self.half;
         }
         self.kernel.factor() * self.love(x, y) + self.correction(x, y)
     }
 
-    /// Love's part for unit c/(2π).
+    /// Love's part for c/(2π) = 1, a length.
     fn love(&self, x: f64, y: f64) -> f64 {
         let a = self.half;
         let corner = |u: f64, v: f64| term(u, v) + term(v, u);
@@ -62,7 +62,7 @@ impl<'a> Squares<'a> {
         }
         let singularity = self.image.hypot(x.hypot(y) / self.half);
         let mut parts = 1;
-        while points(singularity * f64::from(parts)) > MOST_POINTS {
+        while points(singularity * f64::from(parts)) > MAX_POINTS {
             parts += 1;
         }
         let half = self.half / f64::from(parts);
@@ -88,12 +88,12 @@ impl<'a> Squares<'a> {
     }
 }
 
-/// u asinh(v/u), 0 at u = 0.
+/// Term u asinh(v/u) of F, 0 at u = 0.
 fn term(u: f64, v: f64) -> f64 {
     if u == 0.0 { 0.0 } else { u * (v / u.abs()).asinh() }
 }
 
-/// Points of a Gauss rule when the nearest singularity is `distance` half-widths away.
+/// Number of points of a Gauss rule whose nearest singularity is `distance` half-widths away.
 fn points(distance: f64) -> usize {
     let ellipse = distance + (distance * distance - 1.0).max(0.0).sqrt();
     (-0.5 * RULE_ERROR.ln() / ellipse.ln().max(1e-9)).ceil().max(1.0) as usize

@@ -17,46 +17,46 @@
 //!
 //! Elements of the spot itself act as forces at the 2 × 2 points of Gauss' rule, which errs by 1e-4 of an element's
 //! stress from a depth of two elements on; those of its neighbours as forces at their centres. The pressure outside the
-//! circle is p̄ everywhere, whose lateral stress is named by [`MeanStress`], minus p̄ on the disc: the same integrals with R J₁(qR) in the place of q/2π.
+//! circle is p̄ everywhere, whose lateral stress is that of [`MeanStress`], minus p̄ on the disc: the same integrals with R J₁(qR) in the place of q/2π.
 
 use super::quadrature::{Bessel, hankel};
 use super::solution::Solution;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interior, MeanStress, TransferFunction};
 use crate::friction::Friction;
 use crate::numeric::chebyshev::{self, Chebyshev};
-use crate::stress::State;
+use crate::stress::StressState;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Least depth at which stresses are offered, in elements.
+/// Least depth at which stresses are computed, in elements.
 pub const LEAST_DEPTH: f64 = 2.0;
-/// qz at which all amplitudes have died out.
-const EXTINCT: f64 = 45.0;
+/// qz beyond which all amplitudes are negligible.
+const DEPTH_CUTOFF: f64 = 45.0;
 /// Relative tolerance of the integrals: amplitudes are exact to some 1e-11 of the pressure.
 const QUADRATURE: f64 = 1e-9;
-/// Terms of one Chebyshev series of a radial function.
-const TERMS: usize = 20;
+/// Number of terms of one Chebyshev series of a radial function.
+const SERIES_TERMS: usize = 20;
 
-/// Of a normal load, around its axis: σ_rr, σ_tt, σ_zz, σ_rz.
-type Pressed = [f64; 4];
-/// Of a shear load along **e**: σ_zz, σ_rr, σ_tt, σ_rz over cos φ, and σ_rt, σ_tz over −sin φ.
-type Sheared = [f64; 6];
+/// Stresses of a normal load around its axis: σ_rr, σ_tt, σ_zz, σ_rz.
+type NormalComponents = [f64; 4];
+/// Stresses of a shear load along **e**: σ_zz, σ_rr, σ_tt, σ_rz over cos φ, and σ_rt, σ_tz over −sin φ.
+type ShearComponents = [f64; 6];
 
-/// The half-space's stresses at one depth under a unit force, up to a distance.
+/// Stresses of the half-space at one depth under a unit force, as series in the distance.
 #[derive(Debug, Clone)]
 struct ForceStress<const K: usize> {
-    /// Upper ends of the intervals of r, and the series of the components over each.
-    intervals: Vec<(f64, [Chebyshev<TERMS>; K])>,
+    /// Upper ends of the intervals of r, lengths, and the series of the components over each.
+    intervals: Vec<(f64, [Chebyshev<SERIES_TERMS>; K])>,
 }
 
-/// The stress field of a localized solution around one spot.
+/// The stress field of a localized solution.
 #[derive(Debug, Clone)]
 pub struct LocalizedField<'a> {
     solution: &'a Solution,
     transfer: TransferFunction,
     mean: Vec<f64>,
     residual: Vec<f64>,
-    /// μ **e** of a counterbody that slides.
+    /// μ **e** of a sliding counterbody; `None` without traction.
     traction: Option<[f64; 2]>,
 }
 
@@ -73,7 +73,7 @@ impl<'a> LocalizedField<'a> {
         }
     }
 
-    /// Whether `z` is deep enough for the elements to act as points.
+    /// Whether the depth `z` is large enough for elements to act as point forces.
     pub fn reaches(&self, z: f64) -> bool {
         let element = self.solution.spots.iter().map(|spot| spot.mesh.size).fold(0.0, f64::max);
         z >= LEAST_DEPTH * element
@@ -81,7 +81,7 @@ impl<'a> LocalizedField<'a> {
 
     /// Stresses (no displacements) at one depth and at points (x, y) measured from the axis of the spot `centre` of
     /// the solution; `None` above two element sizes.
-    pub fn points(&self, centre: usize, depth: Depth, points: &[[f64; 2]]) -> Option<Vec<State>> {
+    pub fn points(&self, centre: usize, depth: Depth, points: &[[f64; 2]]) -> Option<Vec<StressState>> {
         if !self.reaches(depth.z) {
             return None;
         }
@@ -96,7 +96,7 @@ impl<'a> LocalizedField<'a> {
         let mean_pressure = self.solution.mean_pressure;
         let residual = self.residual[depth.material - 1];
         let states = points.par_iter().map(|&[x, y]| {
-            let mut state = State { xx: residual, yy: residual, ..State::default() };
+            let mut state = StressState { xx: residual, yy: residual, ..StressState::default() };
             for &([u, v], force) in &forces {
                 let (distance, away) = ((x - u).hypot(y - v), [x - u, y - v]);
                 add(&mut state, pressed.at(distance), away, force);
@@ -121,7 +121,7 @@ impl<'a> LocalizedField<'a> {
         Some(states.collect())
     }
 
-    /// All forces inside the circle around a spot, with their places from its axis.
+    /// Points (x, y) from the axis of a spot, lengths, and forces of all elements inside its circle.
     fn forces(&self, centre: usize) -> Vec<([f64; 2], f64)> {
         let spot = &self.solution.spots[centre];
         let mut forces = Vec::new();
@@ -148,9 +148,9 @@ impl<'a> LocalizedField<'a> {
     }
 
     /// Stresses at the distance r from the axis of a unit force.
-    fn under_force(&self, depth: Depth, r: f64) -> Pressed {
+    fn under_force(&self, depth: Depth, r: f64) -> NormalComponents {
         let amplitudes = self.amplitudes(depth);
-        let end = EXTINCT / depth.z;
+        let end = DEPTH_CUTOFF / depth.z;
         let part = |bessel, f: &dyn Fn(&Amplitudes) -> f64| {
             hankel(bessel, r, end, QUADRATURE, |q| f(&amplitudes(q)) * q / (2.0 * PI)).value
         };
@@ -177,9 +177,9 @@ impl<'a> LocalizedField<'a> {
     }
 
     /// Stresses at the distance r from the axis of a unit shear force.
-    fn under_shear_force(&self, depth: Depth, r: f64) -> Sheared {
+    fn under_shear_force(&self, depth: Depth, r: f64) -> ShearComponents {
         let amplitudes = self.shear_amplitudes(depth);
-        let end = EXTINCT / depth.z;
+        let end = DEPTH_CUTOFF / depth.z;
         let integral = |bessel: Bessel, f: &dyn Fn(&Amplitudes, &Antiplane, f64) -> f64| {
             let integrand = |q: f64| {
                 let (along, across) = amplitudes(q);
@@ -207,9 +207,9 @@ impl<'a> LocalizedField<'a> {
     }
 
     /// Stresses at the distance s from the axis of a disc of the given radius under unit pressure.
-    fn under_disc(&self, depth: Depth, radius: f64, s: f64) -> Pressed {
+    fn under_disc(&self, depth: Depth, radius: f64, s: f64) -> NormalComponents {
         let amplitudes = self.amplitudes(depth);
-        let end = EXTINCT / depth.z;
+        let end = DEPTH_CUTOFF / depth.z;
         let part = |f: &dyn Fn(&Amplitudes, f64) -> f64| {
             hankel(Bessel::One, radius, end, QUADRATURE, |q| radius * f(&amplitudes(q), q * s)).value
         };
@@ -222,9 +222,9 @@ impl<'a> LocalizedField<'a> {
     }
 
     /// Stresses at the distance s from the axis of a disc of the given radius under a unit shear traction.
-    fn under_sheared_disc(&self, depth: Depth, radius: f64, s: f64) -> Sheared {
+    fn under_sheared_disc(&self, depth: Depth, radius: f64, s: f64) -> ShearComponents {
         let amplitudes = self.shear_amplitudes(depth);
-        let end = EXTINCT / depth.z;
+        let end = DEPTH_CUTOFF / depth.z;
         let part = |f: &dyn Fn(&Amplitudes, &Antiplane, f64) -> f64| {
             let integrand = |q: f64| {
                 let (along, across) = amplitudes(q);
@@ -246,18 +246,18 @@ impl<'a> LocalizedField<'a> {
     }
 }
 
-/// J₁(x)/x.
+/// J₁(x)/x, ½ at x = 0.
 fn first_ratio(x: f64) -> f64 {
     if x > 1e-4 { Bessel::One.at(x) / x } else { 0.5 - x * x / 16.0 }
 }
 
-/// J₂(x)/x.
+/// J₂(x)/x, 0 at x = 0.
 fn second_ratio(x: f64) -> f64 {
     if x > 1e-4 { Bessel::Two.at(x) / x } else { 0.125 * x }
 }
 
 /// Adds `factor` times stresses in cylindrical components around an axis that lies at −`[x, y]`.
-fn add(state: &mut State, [rr, tt, zz, rz]: Pressed, [x, y]: [f64; 2], factor: f64) {
+fn add(state: &mut StressState, [rr, tt, zz, rz]: NormalComponents, [x, y]: [f64; 2], factor: f64) {
     let r = x.hypot(y);
     let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
     state.xx += factor * (rr * c * c + tt * s * s);
@@ -269,7 +269,7 @@ fn add(state: &mut State, [rr, tt, zz, rz]: Pressed, [x, y]: [f64; 2], factor: f
 }
 
 /// Adds stresses under a unit shear force, around an axis that lies at −`[x, y]`, times the `force` [Q_x, Q_y].
-fn add_sheared(state: &mut State, [zz, rr, tt, rz, rt, tz]: Sheared, [x, y]: [f64; 2], force: [f64; 2]) {
+fn add_sheared(state: &mut StressState, [zz, rr, tt, rz, rt, tz]: ShearComponents, [x, y]: [f64; 2], force: [f64; 2]) {
     let r = x.hypot(y);
     let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
     // Q cos φ and Q sin φ.
@@ -293,7 +293,8 @@ impl<const K: usize> ForceStress<K> {
         }
         let fit = |ends: &[f64]| {
             let values = Chebyshev::nodes().map(|x| exact(chebyshev::place([ends[0], ends[1]], x)));
-            let series = |k: usize| Chebyshev::<TERMS>::through(&values.each_ref().map(|components| components[k]));
+            let series =
+                |k: usize| Chebyshev::<SERIES_TERMS>::through(&values.each_ref().map(|components| components[k]));
             (ends[1], std::array::from_fn(series))
         };
         Self { intervals: bounds.par_windows(2).map(fit).collect() }

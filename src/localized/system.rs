@@ -1,7 +1,7 @@
-//! A system of indenters on a layered half-space, as the localized method sees it.
+//! A system of indenters on a layered half-space, with the kernel of the localized method.
 
 use super::circle::Circle;
-use super::edge::Edge;
+use super::edge_ratios::EdgeRatios;
 use super::point::PointKernel;
 use crate::body::HalfSpace;
 use crate::counterbody::{Indenters, Level, Site};
@@ -9,17 +9,17 @@ use crate::lattice::Cell;
 use std::fmt;
 use std::sync::Arc;
 
-/// Indenters in the circles while the size of the contacts is found.
+/// Number of indenters in the circles while the size of the contacts is found.
 pub(super) const COARSE_INDENTERS: usize = 7;
 
-/// A system of indenters on a layered half-space.
+/// Indenters on a layered half-space, with its point kernel.
 #[derive(Debug, Clone)]
 pub struct System {
     indenters: Indenters,
     sites: Vec<Site>,
     kernel: PointKernel,
     half_space: HalfSpace,
-    edge: Arc<Edge>,
+    edge: Arc<EdgeRatios>,
 }
 
 impl System {
@@ -32,18 +32,18 @@ impl System {
             .flat_map(|centre| Circle::new(lattice, &places, centre, count.max(COARSE_INDENTERS)).images.concat())
             .map(|[x, y]| x.hypot(y))
             .fold(0.0, f64::max);
-        // From the far corner of one mesh to that of another, and room for circles whose radius moves.
+        // From the far corner of one mesh to that of another, with a margin for circles of varying radius.
         let kernel = PointKernel::new(half_space, 2.0 * (farthest.max(lattice.cell().area().sqrt()) + 3.0 * nearest));
         Self {
             sites,
-            edge: Arc::new(Edge::new(&kernel)),
+            edge: Arc::new(EdgeRatios::new(&kernel)),
             kernel,
             indenters: indenters.clone(),
             half_space: half_space.clone(),
         }
     }
 
-    /// What the indenters press into.
+    /// The layered half-space.
     pub fn half_space(&self) -> &HalfSpace {
         &self.half_space
     }
@@ -53,22 +53,22 @@ impl System {
         &self.kernel
     }
 
-    /// How pressure and gap leave the edge of a contact.
-    pub(super) fn edge(&self) -> &Arc<Edge> {
+    /// Ratios of pressure and gap at an edge to those on a bare half-space.
+    pub(super) fn edge(&self) -> &Arc<EdgeRatios> {
         &self.edge
     }
 
-    /// The indenters of the cell.
+    /// Sites of the cell, one per indenter.
     pub fn sites(&self) -> &[Site] {
         &self.sites
     }
 
-    /// The levels.
+    /// Levels of the indenters.
     pub fn levels(&self) -> &[Level] {
         self.indenters.levels()
     }
 
-    /// Index of the site whose apex stands highest.
+    /// Index of the site with the highest apex.
     pub fn highest(&self) -> usize {
         let drop = |site: usize| self.sites[site].drop;
         (0..self.sites.len()).min_by(|&a, &b| drop(a).total_cmp(&drop(b))).unwrap_or(0)
@@ -79,7 +79,7 @@ impl System {
         self.indenters.lattice().cell()
     }
 
-    /// Distance of the nearest two indenters, a length.
+    /// Least distance of two indenters, a length.
     pub fn nearest(&self) -> f64 {
         self.indenters.lattice().period()
     }
@@ -96,7 +96,7 @@ impl System {
         (0..places.len()).map(|centre| Circle::within(self.indenters.lattice(), &places, centre, distance)).collect()
     }
 
-    /// From each site to each other one of the cell, lengths.
+    /// Vectors from each site to each other one of the cell, lengths.
     pub fn offsets(&self) -> Vec<Vec<[f64; 2]>> {
         let places = self.places();
         let offset = |from: [f64; 2], to: [f64; 2]| self.cell().point([to[0] - from[0], to[1] - from[1]]);

@@ -1,4 +1,4 @@
-//! Who displaces whom: influence tables of all pairs of sites.
+//! Influence tables of all pairs of sites.
 
 use super::circle::Circle;
 use super::exterior::Exterior;
@@ -6,17 +6,17 @@ use super::mesh::{Influence, Mesh};
 use super::square::Squares;
 use super::system::System;
 
-/// A_mc of all pairs of sites.
+/// Influence tables A_mc of all pairs of sites m, c.
 #[derive(Debug)]
-pub(super) struct Tables {
-    /// `rows[m][c]`; `None` where no indenter of c acts on m.
+pub(super) struct InfluenceTables {
+    /// Table `rows[m][c]`; `None` where no indenter of c acts on m.
     rows: Vec<Vec<Option<Influence>>>,
-    /// Area of an element.
+    /// Area of an element, a length squared.
     element: f64,
 }
 
-impl Tables {
-    /// Of the indenters inside the circles.
+impl InfluenceTables {
+    /// Influence of the indenters inside the circles.
     pub fn inside(system: &System, mesh: Mesh, circles: &[Circle]) -> Self {
         let squares = Squares::new(system.kernel(), 0.5 * mesh.size);
         let table = |images: &Vec<[f64; 2]>| (!images.is_empty()).then(|| Influence::new(&squares, mesh, images, None));
@@ -24,7 +24,7 @@ impl Tables {
         Self { rows, element: mesh.size * mesh.size }
     }
 
-    /// Of all indenters of the lattice: inside circles of at least `indenters` and outside them.
+    /// Influence of all indenters of the lattice, inside circles of at least `indenters` and outside them.
     pub fn whole(system: &System, mesh: Mesh, indenters: usize) -> Self {
         let squares = Squares::new(system.kernel(), 0.5 * mesh.size);
         let exterior = Exterior::new(system, mesh, indenters);
@@ -38,17 +38,17 @@ impl Tables {
         Self { rows, element }
     }
 
-    /// What the indenters of m's own site do under m.
+    /// Influence of the indenters of the site m under m.
     pub fn own(&self, m: usize) -> &Influence {
         self.rows[m][m].as_ref().expect("the centre stands in its own circle")
     }
 
-    /// What those of c do under m; `None` where none of them acts.
+    /// Influence of the indenters of the site c under m; `None` where none of them acts.
     pub fn of(&self, m: usize, c: usize) -> Option<&Influence> {
         self.rows[m][c].as_ref()
     }
 
-    /// Displacement on m's axis by unit forces on the axes of c's indenters.
+    /// Displacement on the axis of m by unit forces on the axes of the indenters of c, a length per force.
     pub fn between_axes(&self, m: usize, c: usize) -> f64 {
         self.of(m, c).map_or(0.0, |table| table.diagonal() / self.element)
     }

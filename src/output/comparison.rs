@@ -8,7 +8,7 @@ use crate::comparison::{CircleComparison, Comparison, Deviation, StressPair};
 use crate::localized::{CircleRadius, Stop};
 use crate::reading::LevelReading;
 use crate::run::StepRecord;
-use crate::stress::State;
+use crate::stress::StressState;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
@@ -89,9 +89,9 @@ pub struct Stresses {
     /// Material, from 1.
     pub side: usize,
     /// Of the spectral solution.
-    pub spectral: State,
+    pub spectral: StressState,
     /// Of the localized solution.
-    pub localized: State,
+    pub localized: StressState,
 }
 
 impl ComparisonFile {

@@ -9,7 +9,7 @@ use super::{Files, OutputError, RunFolder, disk, write_text};
 use crate::load::Load;
 use crate::run::{Finished, Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Checkpoint, Solver, Step};
-use crate::stress::{Section, StressField};
+use crate::stress::{StressField, VerticalSection};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ struct OnGrid {
     /// None where fields are not kept, or no stresses wanted.
     stresses: Option<Stresses>,
     /// The section of the last step, where stresses are not kept.
-    section: Option<Section>,
+    section: Option<VerticalSection>,
     log: StepsLog,
     /// The grid.
     points: [usize; 2],
@@ -140,7 +140,7 @@ impl<'a> Recording<'a> {
     ///
     /// # Panics
     /// When nothing has been recorded.
-    pub fn finish(mut self) -> Result<(Option<Section>, Clock), OutputError> {
+    pub fn finish(mut self) -> Result<(Option<VerticalSection>, Clock), OutputError> {
         self.clock.turn(Phase::Output);
         let OnGrid { fields, stresses, section, .. } = self.files.expect(BEGUN);
         fields.map_or(Ok(()), Fields::finish)?;

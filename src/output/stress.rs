@@ -7,7 +7,7 @@ use super::volume::added_volume;
 use super::{Files, OutputError};
 use crate::body::{Depth, HalfSpace};
 use crate::run::StressRequest;
-use crate::stress::{Section, State, StressField};
+use crate::stress::{StressField, StressState, VerticalSection};
 use ndarray::{ArrayView3, Axis};
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ pub(super) struct Stresses {
     request: StressRequest,
     half_space: HalfSpace,
     /// What the last step shows of the section.
-    section: Option<Section>,
+    section: Option<VerticalSection>,
 }
 
 impl Stresses {
@@ -61,7 +61,8 @@ impl Stresses {
         let points = request.points_at(half_space);
         if !points.is_empty() {
             clock.turn(Phase::Stress);
-            let states: Vec<State> = points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
+            let states: Vec<StressState> =
+                points.iter().map(|&(place, depth)| field.points(depth, &[place])[0]).collect();
             clock.turn(Phase::Output);
             add_states(arrays, "points", &[states.len()], states.iter())?;
         }
@@ -82,7 +83,7 @@ impl Stresses {
     }
 
     /// Gathers all steps in `stress.npz`, what waits stays if that fails; what the section shows of the last one.
-    pub(super) fn finish(self) -> Result<Option<Section>, OutputError> {
+    pub(super) fn finish(self) -> Result<Option<VerticalSection>, OutputError> {
         let Self { arrays, request, half_space, section, .. } = self;
         let materials = |depths: &[Depth]| depths.iter().map(|depth| depth.material as i32).collect::<Vec<_>>();
         let zs = |depths: &[Depth]| depths.iter().map(|depth| depth.z).collect::<Vec<_>>();
@@ -155,7 +156,7 @@ fn add_states<'a>(
     arrays: &mut StepArrays,
     place: &str,
     shape: &[usize],
-    states: impl Iterator<Item = &'a State> + Clone,
+    states: impl Iterator<Item = &'a StressState> + Clone,
 ) -> Result<(), OutputError> {
     (0..).zip(COMPONENTS).try_for_each(|(c, name)| {
         let values = states.clone().map(|state| component(state, c));
@@ -164,6 +165,6 @@ fn add_states<'a>(
 }
 
 /// A component by its place in [`COMPONENTS`].
-fn component(state: &State, c: usize) -> f64 {
+fn component(state: &StressState, c: usize) -> f64 {
     if c < 9 { state.components()[c] } else { state.derived()[c - 9] }
 }

@@ -4,12 +4,12 @@
 //! since the library at hand, vtkio 0.6, needs parsers that newer compilers reject and four times the file in memory.
 //! VTK itself reads what is written (`tests/library/volume.rs`). VTK's z axis points upwards out of the body, so that depth is
 //! drawn downwards. Everything in the file follows the drawn axes: coordinates are −z, displacements −u_z, and σ_xz, σ_yz
-//! have the opposite sign of [`State`]'s, whose z points into the body.
+//! have the opposite sign of [`StressState`]'s, whose z points into the body.
 
 use super::checksum::Checksum;
 use super::{OutputError, write_file};
 use crate::body::Depth;
-use crate::stress::{State, StressField};
+use crate::stress::{StressField, StressState};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -28,7 +28,7 @@ const SCALARS: [&str; 10] =
 ///   the pressure, positive in tension; `material` ([`Depth::material`]); the vector `displacement` (u_x, u_y, −u_z), a
 ///   length, along the drawn axes.
 ///
-/// `sigma_xz` and `sigma_yz` too are along the drawn axes, the opposite of [`State`]'s, where z points into the body.
+/// `sigma_xz` and `sigma_yz` too are along the drawn axes, the opposite of [`StressState`]'s, where z points into the body.
 /// Values are exact at the points, however few they are. Planes are computed one at a time; the states of all points are kept
 /// until they are written, about the size of the file.
 ///
@@ -54,11 +54,11 @@ pub(super) fn added_volume(
             return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
         }
         let upwards: Vec<Depth> = depths.iter().rev().copied().collect();
-        let states: Vec<State> = upwards.iter().flat_map(|&depth| closed_plane(field, depth, points)).collect();
+        let states: Vec<StressState> = upwards.iter().flat_map(|&depth| closed_plane(field, depth, points)).collect();
         let per_layer = (n1 + 1) * (n2 + 1);
         head(writer, [n1, n2, depths.len() - 1], states.len())?;
         for c in 0..SCALARS.len() {
-            let value = |(index, state): (usize, &State)| values(state, upwards[index / per_layer].material)[c];
+            let value = |(index, state): (usize, &StressState)| values(state, upwards[index / per_layer].material)[c];
             block(writer, states.len(), states.iter().enumerate().map(value))?;
         }
         let displacement = states.iter().flat_map(|state| {
@@ -66,7 +66,7 @@ pub(super) fn added_volume(
             [ux, uy, -uz]
         });
         block(writer, 3 * states.len(), displacement)?;
-        let place = |(index, _): (usize, &State)| {
+        let place = |(index, _): (usize, &StressState)| {
             let (i, j) = (index % (n1 + 1), index / (n1 + 1) % (n2 + 1));
             let [x, y] = field.grid().cell().point([i as f64 / n1 as f64, j as f64 / n2 as f64]);
             [x, y, -upwards[index / per_layer].z]
@@ -78,7 +78,7 @@ pub(super) fn added_volume(
 }
 
 /// States of a plane, a₁ fastest, its border repeated.
-fn closed_plane(field: &StressField, depth: Depth, points: [usize; 2]) -> Vec<State> {
+fn closed_plane(field: &StressField, depth: Depth, points: [usize; 2]) -> Vec<StressState> {
     let ([n1, n2], plane) = (points, field.plane(depth, points));
     (0..=n2).flat_map(|j| (0..=n1).map(move |i| (i, j))).map(|(i, j)| plane.state([i % n1, j % n2])).collect()
 }
@@ -112,7 +112,7 @@ fn block(writer: &mut impl Write, len: usize, values: impl Iterator<Item = f64>)
 }
 
 /// The values of [`SCALARS`] along the drawn axes, z upwards.
-fn values(state: &State, material: usize) -> [f64; SCALARS.len()] {
-    let State { xx, yy, zz, xy, xz, yz, .. } = *state;
+fn values(state: &StressState, material: usize) -> [f64; SCALARS.len()] {
+    let StressState { xx, yy, zz, xy, xz, yz, .. } = *state;
     [xx, yy, zz, xy, -xz, -yz, state.tau1(), state.mises(), state.s1(), material as f64]
 }

@@ -7,13 +7,13 @@ use super::curve::{Curve, Ink, MOST, Style};
 use super::number::degrees;
 use super::rows::Quantity;
 use super::snapshot::Snapshot;
-use crate::stress::Section;
+use crate::stress::VerticalSection;
 
 /// From so many interfaces on colours tell depths, and both sides of an interface have one name.
 const MANY: usize = MOST;
 
 /// The picture.
-pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {
+pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
     let distances = section.line.distances();
     let interfaces = section.interfaces().len();
     // Whether a row lies on the lower side of an interface.

@@ -3,7 +3,7 @@
 use super::contour::zero_lines;
 use crate::body::{Depth, HalfSpace, InterfaceStrength};
 use crate::reading::Criterion;
-use crate::stress::{Section, State};
+use crate::stress::{StressState, VerticalSection};
 use ndarray::Array2;
 
 /// A stress that the pictures show.
@@ -48,7 +48,7 @@ pub struct Largest {
     pub depth: Depth,
 }
 
-impl Section {
+impl VerticalSection {
     /// What brings about failure by a criterion: of an interface, what contributes most where most is taken up.
     pub(super) fn failing(&self, criterion: Criterion, half_space: &HalfSpace) -> Quantity {
         let interface = match criterion {
@@ -59,7 +59,7 @@ impl Section {
         let strength = half_space.layers()[interface - 1].interface_strength();
         let (opening, shear) =
             (InterfaceStrength { shear: None, ..strength }, InterfaceStrength { normal: None, ..strength });
-        let taken = |of: InterfaceStrength, state: &State| of.utilisation(state.zz, state.interface_shear());
+        let taken = |of: InterfaceStrength, state: &StressState| of.utilisation(state.zz, state.interface_shear());
         let below = self.depths.iter().position(|depth| depth.material == interface + 1);
         let states = below.into_iter().flat_map(|row| self.states.row(row));
         let worst = states.max_by(|a, b| taken(strength, a).total_cmp(&taken(strength, b)));
@@ -68,7 +68,7 @@ impl Section {
     }
 
     /// The stress of a state.
-    pub(super) fn stress(&self, quantity: Quantity, state: &State) -> f64 {
+    pub(super) fn stress(&self, quantity: Quantity, state: &StressState) -> f64 {
         match quantity {
             Quantity::Along => state.along(self.line.direction),
             Quantity::Tau1 => state.tau1(),
@@ -149,7 +149,7 @@ impl Section {
 mod tests {
     use super::*;
     use crate::body::{Interface, Layer, Material, Strength};
-    use crate::stress::Line;
+    use crate::stress::SurfaceLine;
 
     #[test]
     fn an_interface_shows_what_contributes_most_to_its_failure() {
@@ -159,14 +159,14 @@ mod tests {
             let layer = Layer::new(material, 1.0, Interface::Bonded).unwrap();
             let layer = layer.with_strengths(Strength::default(), bears).unwrap();
             let depths = [(0.0, 1), (1.0, 1), (1.0, 2)].map(|(z, material)| Depth { z, material }).to_vec();
-            let line = Line { origin: [0.0; 2], direction: [1.0, 0.0], span: [0.0, 1.0], points: 2 };
+            let line = SurfaceLine { origin: [0.0; 2], direction: [1.0, 0.0], span: [0.0, 1.0], points: 2 };
             // Worst at the second point of the interface; the surface does not count.
             let parts = [[9.0, 0.0], [0.1, 0.5], [0.1, 1.0]];
             let states = Array2::from_shape_fn((3, 2), |(row, column)| {
                 let part = parts[row][column];
-                State { zz: part * zz, xz: part * xz, ..State::default() }
+                StressState { zz: part * zz, xz: part * xz, ..StressState::default() }
             });
-            let section = Section { line, depths, states, highest: None };
+            let section = VerticalSection { line, depths, states, highest: None };
             section.failing(Criterion::Delamination { interface: 1 }, &HalfSpace::new(vec![layer], material))
         };
         assert_eq!(shown([1.0, 2.0], bears(Some(1.0), None)), Quantity::Opening);
@@ -179,10 +179,10 @@ mod tests {
     #[test]
     fn values_are_taken_from_the_side_of_the_interface_where_they_are() {
         let depths = [(0.0, 1), (1.0, 1), (1.0, 2), (2.0, 2)].map(|(z, material)| Depth { z, material }).to_vec();
-        let line = Line { origin: [0.0; 2], direction: [2.0, 0.0], span: [0.0, 1.0], points: 3 };
+        let line = SurfaceLine { origin: [0.0; 2], direction: [2.0, 0.0], span: [0.0, 1.0], points: 3 };
         let rows = [1.0, 3.0, -2.0, -1.0];
-        let states = Array2::from_shape_fn((4, 3), |(row, _)| State { xx: rows[row], ..State::default() });
-        let section = Section { line, depths, states, highest: None };
+        let states = Array2::from_shape_fn((4, 3), |(row, _)| StressState { xx: rows[row], ..StressState::default() });
+        let section = VerticalSection { line, depths, states, highest: None };
         let values = section.values(Quantity::Along);
         assert!((section.at(&values, 0.3, 0.5).unwrap() - 2.0).abs() < 1e-12);
         assert_eq!(section.at(&values, 0.3, 0.999).map(f64::round), Some(3.0));
@@ -193,7 +193,7 @@ mod tests {
         assert!(section.zero_lines(&values).is_empty());
         assert_eq!(section.zero_lines(&(&values - 2.0)).len(), 1);
         assert_eq!(section.largest(Quantity::Along).unwrap().value, 3.0);
-        let sharp = Section { highest: Some([0.3, 3.2]), ..section };
+        let sharp = VerticalSection { highest: Some([0.3, 3.2]), ..section };
         assert_eq!(sharp.largest(Quantity::Along).map(|largest| (largest.s, largest.value)), Some((0.3, 3.2)));
         assert!((sharp.largest(Quantity::Tau1).unwrap().value - 1.5).abs() < 1e-12);
     }

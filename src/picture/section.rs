@@ -15,7 +15,7 @@ use super::tiling::images;
 use super::window::Window;
 use crate::friction::Friction;
 use crate::reading::{Criterion, Utilisation, Verdict, tears, tips};
-use crate::stress::{Line, Section};
+use crate::stress::{SurfaceLine, VerticalSection};
 use ndarray::Array2;
 
 /// Height over width of a cut that is not shown to scale, least and largest.
@@ -25,7 +25,7 @@ const ASPECT: [f64; 2] = [0.4, 1.1];
 const FAILS: f64 = 0.998;
 
 /// The picture.
-pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
+pub fn section(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
     // Beside tension and compression stands what brings failure about, or the paper's τ₁.
     let half_space = snapshot.step.problem().half_space();
     let second = snapshot.governing().map_or(Quantity::Tau1, |criterion| section.failing(criterion, half_space));
@@ -111,7 +111,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
         _ => "",
     };
     let caption = snapshot.caption(&format!(
-        "Section along {} from the x axis{sliding}; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
+        "VerticalSection along {} from the x axis{sliding}; dashed: interface; bars on top: contacts; thin line in (a): {}{apart}.{to_scale}{residual} \
          Crosses: the largest values here, {}.{rings}",
         degrees([dx, dy]),
         equals("σₛ", &[0.0]),
@@ -126,9 +126,9 @@ fn titled(letter: char, quantity: Quantity) -> String {
 }
 
 /// What fails in the plane of the cut, and where: s, z.
-fn failures(snapshot: &Snapshot, section: &Section) -> Vec<(Criterion, [f64; 2])> {
+fn failures(snapshot: &Snapshot, section: &VerticalSection) -> Vec<(Criterion, [f64; 2])> {
     let (cell, near) = (snapshot.step.grid().cell(), snapshot.step.grid().spacing());
-    let Line { origin, span: [first, last], .. } = section.line;
+    let SurfaceLine { origin, span: [first, last], .. } = section.line;
     let [dx, dy] = section.line.unit();
     let deepest = section.depths.last().map_or(0.0, |depth| depth.z);
     let window = window_of(section, near);
@@ -145,13 +145,13 @@ fn failures(snapshot: &Snapshot, section: &Section) -> Vec<(Criterion, [f64; 2])
 }
 
 /// A window around the line of a cut, so much wider.
-fn window_of(section: &Section, wider: f64) -> Window {
+fn window_of(section: &VerticalSection, wider: f64) -> Window {
     let ends = section.line.ends();
     [0, 1].map(|k| [ends[0][k].min(ends[1][k]) - wider, ends[0][k].max(ends[1][k]) + wider])
 }
 
 /// Whether the cut reaches the surface at a tip in contact, where τ₁ is infinite whatever the samples show.
-fn passes_tip(snapshot: &Snapshot, section: &Section) -> bool {
+fn passes_tip(snapshot: &Snapshot, section: &VerticalSection) -> bool {
     if section.depths.first().is_none_or(|depth| depth.z > 0.0) {
         return false;
     }
@@ -176,7 +176,7 @@ fn rounded(x: f64) -> f64 {
 }
 
 /// The contacts along the cut, as bars on the surface.
-fn contacts(snapshot: &Snapshot, section: &Section) -> Vec<Over> {
+fn contacts(snapshot: &Snapshot, section: &VerticalSection) -> Vec<Over> {
     let [first, last] = section.line.span;
     let stretches = snapshot.stretches(section.line.ends(), true).into_iter();
     stretches.map(|ends| Over::Roof { from_to: ends.map(|part| first + (last - first) * part) }).collect()
@@ -192,7 +192,7 @@ mod tests {
     use crate::load::Load;
     use crate::problem::Problem;
     use crate::spectral::{Settings, Solver};
-    use crate::stress::{Line, StressField};
+    use crate::stress::{StressField, SurfaceLine};
 
     #[test]
     fn a_cut_through_a_tip_has_no_finite_shear_stress_to_show() {
@@ -204,7 +204,7 @@ mod tests {
         let reading = step.reading();
         let snapshot = Snapshot::new("", step, reading);
         for (aside, singular) in [(0.0, true), (1.0, true), (0.1, false)] {
-            let line = Line { origin: [-0.5, aside], direction: [1.0, 0.0], span: [0.0, 1.0], points: 21 };
+            let line = SurfaceLine { origin: [-0.5, aside], direction: [1.0, 0.0], span: [0.0, 1.0], points: 21 };
             let depths = [0.0, 0.1, 0.2].map(|z| Depth { z, material: 1 });
             let field = StressField::new(snapshot.step.finest(), MeanStress::Confined);
             let canvas = section(&snapshot, &field.section(&line, &depths));

@@ -1,7 +1,7 @@
 //! What is open inside contacts.
 
-use crate::lattice::components::{Component, components};
-use crate::lattice::{Grid, Joined};
+use crate::lattice::components::{Component, open_regions};
+use crate::lattice::{Connectivity, Grid};
 
 /// Label of a sample that lies in no hole.
 const NOBODY: u32 = u32::MAX;
@@ -17,18 +17,18 @@ pub struct Holes {
 impl Holes {
     /// Of a pressure; `label` tells contacts apart by their samples, and may leave some out.
     pub fn of(grid: &Grid, pressure: &[f64], label: impl Fn(usize) -> Option<u32>) -> Self {
-        let ways = grid.ways(Joined::AtEdges);
+        let offsets = grid.neighbour_offsets(Connectivity::Edges);
         let enclosing = |open: &Component| {
             let around = |index: usize| {
-                let both = ways.iter().flat_map(|way| [*way, way.map(|k| -k)]);
-                both.map(move |way| grid.along(way, index))
+                let both = offsets.iter().flat_map(|offset| [*offset, offset.map(|k| -k)]);
+                both.map(move |offset| grid.at_offset(offset, index))
             };
             let mut beside = open.indices(grid).flatten().flat_map(around).filter(|&next| pressure[next] > 0.0);
             let owner = label(beside.next()?)?;
             beside.all(|index| label(index) == Some(owner)).then_some(owner)
         };
         // What lies outside meets its own images, or several contacts.
-        let found: Vec<(u32, Component)> = components(grid, Joined::AtEdges, |index| pressure[index] <= 0.0)
+        let found: Vec<(u32, Component)> = open_regions(grid, pressure)
             .into_iter()
             .filter(|open| !open.wraps)
             .filter_map(|open| Some((enclosing(&open)?, open)))

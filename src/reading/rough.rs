@@ -24,7 +24,7 @@
 use super::fraction::{Corrected, Fraction};
 use super::histogram::Histogram;
 use crate::lattice::Grid;
-use crate::lattice::components::Counts;
+use crate::lattice::components::SpotCounts;
 use crate::numeric::sums;
 use crate::spectral::Contact;
 use rayon::prelude::*;
@@ -156,7 +156,7 @@ fn borders(grid: &Grid, pressure: &[f64]) -> [f64; 2] {
 }
 
 /// Sizes of the spots, and their areas, ascending.
-fn spots(grid: &Grid, counts: &Counts) -> (SpotSizes, Vec<f64>) {
+fn spots(grid: &Grid, counts: &SpotCounts) -> (SpotSizes, Vec<f64>) {
     let areas: Vec<f64> = counts.sizes.iter().map(|(size, _)| *size as f64 * grid.sample_area()).collect();
     let [Some(&largest_area), Some(&median_area)] = [areas.last(), areas.get(areas.len() / 2)] else {
         return (SpotSizes::default(), areas);
@@ -220,8 +220,8 @@ const APART: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::components::components;
-    use crate::lattice::{Cell, Joined};
+    use crate::lattice::Cell;
+    use crate::lattice::components::contact_spots;
 
     /// Discs whose centres lie anywhere between samples. How well the correction does on contacts is shown in
     /// `tests/library/roughness.rs`.
@@ -250,8 +250,8 @@ mod tests {
         let grid = Grid::new(Cell::square(2.0).unwrap(), [8, 8]).unwrap();
         let mut pressure = [0.0; 64];
         let spots = |pressure: &[f64]| {
-            let found = components(&grid, Joined::AtCorners, |index| pressure[index] > 0.0);
-            spots(&grid, &Counts::of(&found, &grid, pressure))
+            let found = contact_spots(&grid, pressure);
+            spots(&grid, &SpotCounts::of(&found, &grid, pressure))
         };
         assert_eq!(spots(&pressure).0, SpotSizes::default());
         pressure[0] = 9.0;

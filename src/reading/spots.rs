@@ -3,7 +3,7 @@
 use super::boundary::{Boundary, Sample, Scale, Spot};
 use super::holes::Holes;
 use crate::lattice::components::Component;
-use crate::lattice::runs::Run;
+use crate::lattice::runs::SampleRun;
 use crate::spectral::Contact;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -50,7 +50,7 @@ pub fn spots(contact: &Contact, components: &[Component]) -> Vec<SpotReading> {
     if surface.owners().is_empty() {
         return spots;
     }
-    let runs: Vec<(u32, Run)> =
+    let runs: Vec<(u32, SampleRun)> =
         (0..).zip(components).flat_map(|(own, component)| component.runs.iter().map(move |run| (own, *run))).collect();
     let parts: Vec<Vec<Part>> = runs.par_chunks(TOGETHER).map(|runs| parts(contact, runs)).collect();
     let (area, higher) =
@@ -99,7 +99,7 @@ fn is_apart(a: [f64; 2], b: [f64; 2], spacing: f64) -> bool {
 }
 
 /// The parts of runs, each of one component.
-fn parts(contact: &Contact, runs: &[(u32, Run)]) -> Vec<Part> {
+fn parts(contact: &Contact, runs: &[(u32, SampleRun)]) -> Vec<Part> {
     let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
     let (points, reduced, along) = (grid.points(), grid.cell().reduced(), grid.steps()[1]);
     let owners = surface.owners();

@@ -1,7 +1,7 @@
 //! Where a run gives stresses.
 
 use crate::body::{Depth, HalfSpace, MeanStress};
-use crate::stress::Line;
+use crate::stress::SurfaceLine;
 
 /// Intervals in depth, and points along the line, of the section along a cut.
 pub(crate) const SECTION: [usize; 2] = [200, 401];
@@ -25,7 +25,7 @@ pub struct StressRequest {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cut {
     /// The line on the surface.
-    pub line: Line,
+    pub line: SurfaceLine,
     /// How deep it reaches, a length.
     pub depth: f64,
 }

@@ -2,8 +2,8 @@
 
 use super::iteration::{Certificate, Unknowns};
 use crate::counterbody::Surface;
-use crate::lattice::components::{Component, Counts, components};
-use crate::lattice::{Grid, Joined};
+use crate::lattice::Grid;
+use crate::lattice::components::{Component, SpotCounts, contact_spots};
 use crate::numeric::array::view;
 use crate::numeric::sums;
 use crate::problem::Problem;
@@ -20,7 +20,7 @@ pub struct Contact {
     gap: Arc<Vec<f64>>,
     penetration: f64,
     /// Counted when they are first asked for, and kept.
-    spots: OnceLock<Counts>,
+    spots: OnceLock<SpotCounts>,
 }
 
 impl Contact {
@@ -96,15 +96,15 @@ impl Contact {
         &self.gap
     }
     /// What is counted of the contact spots; `found`: where they are, if that is known.
-    pub(crate) fn spots(&self, found: Option<&[Component]>) -> &Counts {
+    pub(crate) fn spots(&self, found: Option<&[Component]>) -> &SpotCounts {
         self.spots.get_or_init(|| match found {
-            Some(found) => Counts::of(found, self.grid(), &self.pressure),
-            None => Counts::of(&self.touching(), self.grid(), &self.pressure),
+            Some(found) => SpotCounts::of(found, self.grid(), &self.pressure),
+            None => SpotCounts::of(&self.touching(), self.grid(), &self.pressure),
         })
     }
 
     /// The contact spots: samples in contact whose cells share an edge or a corner; merged contacts are one.
     pub(crate) fn touching(&self) -> Vec<Component> {
-        components(self.grid(), Joined::AtCorners, |index| self.pressure[index] > 0.0)
+        contact_spots(self.grid(), &self.pressure)
     }
 }

@@ -1,51 +1,52 @@
-//! From a place inside a material to the local maximum above it.
+//! Local maximum of a stress measure inside a material, by a trust-region method.
 //!
-//! The stresses are [expanded](super::expansion) at a place, and the highest value of the expansion within a box around it says
-//! where to expand them next: at its border the box is moved, otherwise it becomes smaller. The search ends where the expansion
-//! promises no more; what stands is the sum at its middle, not what an expansion tells. Steps in depth end at the faces of the
-//! material.
+//! The stresses are [expanded](super::expansion) to second order at a point, and the highest value of the expansion within a
+//! trust region around it gives the next point. The region keeps its size after a step to its border, and shrinks otherwise. The
+//! search ends where the expansion predicts no further rise; the value stated is the exact sum at the last point. Steps in depth
+//! end at the faces of the material.
 //!
-//! Within the box 3 × 3 points at three depths are compared: while one of them is higher, it is the next middle. Otherwise the
-//! next one is the top of the paraboloid through them, and their distances become smaller.
+//! Within the region 3 × 3 points at three depths are compared: while one of them is higher, it is the next middle. Otherwise the
+//! next middle is the top of the paraboloid through them, and their distances shrink.
 
+use super::depth_response::{DepthResponse, StressComponents};
 use super::expansion::Expansion;
 use super::field::StressField;
-use super::quantity::Quantity;
+use super::measure::StressMeasure;
 use super::search::Candidate;
-use super::slice::{Slice, Stresses};
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::Depth;
 
-/// How often the stresses are expanded at most.
-const EXPANSIONS: usize = 24;
-/// How often the distances become smaller in a box, and how many steps there are at most.
-const TOPS: usize = 3;
-const MOVES: usize = 12;
-/// Smaller distances over the ones before.
-const SMALLER: f64 = 0.3;
-/// What an expansion has to promise, relatively, for it to be followed: what is left is less.
-const PROMISE: f64 = 1e-11;
-/// The points around the middle of a plane: first those along x and y, then the corners.
-const AROUND: [[f64; 2]; 8] =
+/// Largest number of expansions of one search.
+const MAX_EXPANSIONS: usize = 24;
+/// Largest number of times that the distances shrink within a trust region.
+const MAX_REFINEMENTS: usize = 3;
+/// Largest number of steps within a trust region.
+const MAX_MOVES: usize = 12;
+/// Factor by which distances and trust regions shrink.
+const SHRINKAGE: f64 = 0.3;
+/// Least predicted rise, relative to the value, for which a search goes on.
+const MIN_PREDICTED_RISE: f64 = 1e-11;
+/// Offsets from the middle of a plane to the points around it: first along x and y, then the corners.
+const NEIGHBOURS: [[f64; 2]; 8] =
     [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0], [-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
 
-/// Values in the middle of a plane and at [`AROUND`] of it.
-type Values = [f64; 9];
+/// Values in the middle of a plane and at [`NEIGHBOURS`] around it.
+type NinePoints = [f64; 9];
 
-/// Offsets from the middle of an expansion: sideways no more than `step`, in depth within `depths`, lengths.
+/// Offsets from the middle of an expansion: at most `step` along x and y, within `depths` in depth; lengths.
 #[derive(Debug, Clone, Copy)]
-struct Bounds {
+struct TrustRegion {
     step: f64,
     depths: [f64; 2],
 }
 
-impl Bounds {
+impl TrustRegion {
     fn clamped(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let [x, y] = [x, y].map(|d| d.clamp(-self.step, self.step));
         [x, y, z.clamp(self.depths[0], self.depths[1])]
     }
 
-    /// Whether an offset is on its border, sideways or in depth.
+    /// Whether an offset lies on the border of the region.
     fn ends_at(&self, [x, y, z]: [f64; 3]) -> bool {
         let near = |d: f64, end: f64| end != 0.0 && (d - end).abs() <= 1e-9 * end.abs();
         near(x.abs(), self.step) || near(y.abs(), self.step) || self.depths.iter().any(|&end| near(z, end))
@@ -53,60 +54,60 @@ impl Bounds {
 }
 
 impl StressField {
-    /// Stresses at places (x, y) of a slice.
-    pub(super) fn searched(&self, slice: &Slice, places: &[[f64; 2]]) -> Vec<State> {
-        self.at(places, &Stresses(slice)).into_iter().map(State::from_stresses).collect()
+    /// Stresses at the points (x, y) of a depth, displacements left out.
+    pub(super) fn stresses_at(&self, response: &DepthResponse, places: &[[f64; 2]]) -> Vec<StressState> {
+        self.at(places, &StressComponents(response)).into_iter().map(StressState::from_stresses).collect()
     }
 
-    /// The local maximum from a candidate on and the state there, at depths within [low, high], with `rise` the first step in
-    /// depth; 0 for none.
-    pub(super) fn climbed(
+    /// The local maximum of a measure near a candidate, and the state there, at depths within [low, high]; `rise` is the first
+    /// step in depth, a length, 0 for a search at one depth.
+    pub(super) fn local_maximum(
         &self,
         from: &Candidate,
         rise: f64,
         [low, high]: [f64; 2],
-        quantity: Quantity,
-    ) -> (Candidate, State) {
+        measure: StressMeasure,
+    ) -> (Candidate, StressState) {
         let material = from.depth.material;
         let mut here = self.expanded(Depth { z: from.depth.z.clamp(low, high), material }, from.place);
-        let mut value = quantity.of(&here.state());
+        let mut value = measure.of(&here.state());
         let (mut step, mut rise) = (from.step, rise);
-        for _ in 0..EXPANSIONS {
+        for _ in 0..MAX_EXPANSIONS {
             let (z, [x, y]) = (here.depth.z, here.place);
-            let within = Bounds { step, depths: [(low - z).max(-rise), (high - z).min(rise)] };
-            let (moved, promised) = highest(&here, within, value, quantity);
-            // What is not a number promises nothing.
-            if promised.is_nan() || value.is_nan() || promised <= value + PROMISE * value.abs() {
+            let within = TrustRegion { step, depths: [(low - z).max(-rise), (high - z).min(rise)] };
+            let (moved, promised) = highest(&here, within, value, measure);
+            // A value that is not a number predicts no rise.
+            if promised.is_nan() || value.is_nan() || promised <= value + MIN_PREDICTED_RISE * value.abs() {
                 break;
             }
             let depth = Depth { z: (z + moved[2]).clamp(low, high), material };
             let there = self.expanded(depth, [x + moved[0], y + moved[1]]);
-            let risen = quantity.of(&there.state());
+            let risen = measure.of(&there.state());
             let is_higher = risen > value;
             if is_higher {
                 (here, value) = (there, risen);
             }
             if !(is_higher && within.ends_at(moved)) {
-                step *= SMALLER;
-                rise *= SMALLER;
+                step *= SHRINKAGE;
+                rise *= SHRINKAGE;
             }
         }
         (Candidate { value, depth: here.depth, place: here.place, step }, here.state())
     }
 }
 
-/// The highest place of an expansion within a box, as an offset from its middle, and the quantity there; `value` is that in the
-/// middle.
-fn highest(expansion: &Expansion, within: Bounds, value: f64, quantity: Quantity) -> ([f64; 3], f64) {
-    let at = |offset: [f64; 3]| quantity.of(&expansion.at(offset));
+/// Offset from the middle of an expansion to its highest point within a trust region, and the measure there; `value` is the
+/// measure in the middle.
+fn highest(expansion: &Expansion, within: TrustRegion, value: f64, measure: StressMeasure) -> ([f64; 3], f64) {
+    let at = |offset: [f64; 3]| measure.of(&expansion.at(offset));
     let (mut best, mut value) = ([0.0; 3], value);
     let (mut step, mut rise) = (within.step, within.depths[1].max(-within.depths[0]));
     let mut tops = 0;
-    for _ in 0..MOVES {
+    for _ in 0..MAX_MOVES {
         let [x, y, z] = best;
         let around = |depth: f64| {
             std::array::from_fn::<[f64; 3], 9, _>(|k| {
-                let [u, v] = if k == 0 { [0.0; 2] } else { AROUND[k - 1] };
+                let [u, v] = if k == 0 { [0.0; 2] } else { NEIGHBOURS[k - 1] };
                 within.clamped([x + u * step, y + v * step, depth])
             })
         };
@@ -114,7 +115,7 @@ fn highest(expansion: &Expansion, within: Bounds, value: f64, quantity: Quantity
         let depths = [above, below].into_iter().filter(|depth| *depth != z);
         let levels: Vec<(f64, [[f64; 3]; 9])> = [z].into_iter().chain(depths).map(|z| (z, around(z))).collect();
         let is_middle = |level: usize, k: usize| level == 0 && k == 0;
-        let values: Vec<(f64, Values)> = levels
+        let values: Vec<(f64, NinePoints)> = levels
             .iter()
             .enumerate()
             .map(|(level, (z, places))| {
@@ -124,8 +125,8 @@ fn highest(expansion: &Expansion, within: Bounds, value: f64, quantity: Quantity
         let all = values.iter().zip(&levels).flat_map(|((_, values), (_, places))| values.iter().zip(places));
         let Some((&higher, &place)) = all.reduce(|a, b| if b.0 > a.0 { b } else { a }) else { break };
         if higher > value {
-            // At its border too: where the quantity is the same along one direction, what the expansion errs there would hide
-            // where it is highest along the others.
+            // At the border too: where the measure is constant along one direction, the error of the expansion along it would
+            // hide the maximum along the others.
             (best, value) = (place, higher);
             continue;
         }
@@ -136,18 +137,19 @@ fn highest(expansion: &Expansion, within: Bounds, value: f64, quantity: Quantity
         if there > value {
             (best, value) = (moved, there);
         }
-        step *= SMALLER;
-        rise *= SMALLER;
+        step *= SHRINKAGE;
+        rise *= SHRINKAGE;
         tops += 1;
-        if tops == TOPS {
+        if tops == MAX_REFINEMENTS {
             break;
         }
     }
     (best, value)
 }
 
-/// Where the paraboloid is highest, in steps from the middle, no farther than one; its axes alone where it is no hill.
-fn top(levels: &[(f64, Values)], is_centred: bool) -> [f64; 3] {
+/// Top of the paraboloid through the points, in steps from the middle, at most one along each axis; axis by axis where the
+/// paraboloid has no top.
+fn top(levels: &[(f64, NinePoints)], is_centred: bool) -> [f64; 3] {
     let own = &levels[0].1;
     let (gx, gy) = (0.5 * (own[2] - own[1]), 0.5 * (own[4] - own[3]));
     let (xx, yy) = (own[1] + own[2] - 2.0 * own[0], own[3] + own[4] - 2.0 * own[0]);
@@ -160,7 +162,7 @@ fn top(levels: &[(f64, Values)], is_centred: bool) -> [f64; 3] {
         xz = 0.25 * (down[2] - down[1] - up[2] + up[1]);
         yz = 0.25 * (down[4] - down[3] - up[4] + up[3]);
     }
-    // −H d = g by Cramer's rule; −H is positive definite on a hill.
+    // −H d = g by Cramer's rule; −H is positive definite where there is a top.
     let [a, b, c, d, e, f] = [-xx, -yy, -zz, -xy, -xz, -yz];
     let minor = a * b - d * d;
     let all = a * (b * c - f * f) - d * (d * c - f * e) + e * (d * f - b * e);
@@ -193,7 +195,7 @@ mod tests {
         let field = StressField::under(&grid, wave.view(), &half_space, None, MeanStress::Confined).unwrap();
         for (z, place) in [(0.13, [0.0; 2]), (0.2, [0.13, 0.4])] {
             let start = Candidate { value: f64::NAN, depth: Depth { z, material: 1 }, place, step: 0.04 };
-            let (found, state) = field.climbed(&start, 0.03, [0.0, f64::MAX], Quantity::Tau1);
+            let (found, state) = field.local_maximum(&start, 0.03, [0.0, f64::MAX], StressMeasure::Tau1);
             assert!((found.value * E - 1.0).abs() < 1e-10 && state.tau1() == found.value, "{found:?}");
             assert!((TAU * found.depth.z - 1.0).abs() < 1e-5, "{found:?}");
         }
@@ -206,7 +208,9 @@ mod tests {
             2.0 - x * x - 2.0 * y * y - 1.5 * z * z + 0.6 * x * z - 0.4 * y * z + 0.3 * x * y
         };
         let level = |z: f64| {
-            let own = |k: usize| if k == 0 { value(0.0, 0.0, z) } else { value(AROUND[k - 1][0], AROUND[k - 1][1], z) };
+            let own = |k: usize| {
+                if k == 0 { value(0.0, 0.0, z) } else { value(NEIGHBOURS[k - 1][0], NEIGHBOURS[k - 1][1], z) }
+            };
             (z, std::array::from_fn(own))
         };
         let found = top(&[level(0.0), level(-1.0), level(1.0)], true);

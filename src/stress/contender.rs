@@ -1,97 +1,92 @@
-//! Values that contend for a maximum.
+//! Contenders: values that may be the largest one within their errors.
 //!
-//! Of values vᵢ with the errors eᵢ the largest one, v, is stated with the error
+//! Of values vᵢ with the errors eᵢ the largest, v with the error e₀, is stated with the error
 //!
-//! e = max(vᵢ + eᵢ) − v ≥ its own,
+//! e = max(vᵢ + eᵢ) − v ≥ e₀,
 //!
-//! and whatever may be larger than v less its own error is a rival for the place. So what is stated of a part, a face of a
-//! material, never exceeds what is stated of the whole.
+//! and a value with vᵢ + eᵢ > v − e₀ at another place is a rival. So value plus error of a part, a face of a material, never
+//! exceeds value plus error of the whole.
 
+use super::constants::{CHANGE_SAFETY, DEEP_OPENING_ERROR, DEEP_SHEAR_ERROR, DEEP_TENSION_ERROR, SHALLOW_ERROR};
 use super::crest::Crest;
 use super::field::StressField;
+use super::measure::StressMeasure;
 use super::peak::{Peak, Rival};
-use super::quantity::Quantity;
-use super::tensor::State;
+use super::tensor::StressState;
 
-/// All that contends, each with its quantity.
-pub(super) type Contenders = Vec<(Quantity, Contender)>;
+/// Contenders for the maxima of several measures, each with its measure.
+pub(super) type Contenders = Vec<(StressMeasure, Contender)>;
 
 /// A value that may be the largest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contender {
-    /// Value and place; the error is its own.
+    /// Value, position and the value's own error.
     pub peak: Peak,
-    /// Where it is the crest of the surface.
+    /// The surface reading, where the value is the largest on the surface.
     pub crest: Option<Crest>,
-    /// The state there, for interfaces.
-    pub state: State,
-    /// √(Σσᵢⱼ²) of what the waves cause there, without the mean and residual stresses.
+    /// State at the position.
+    pub state: StressState,
+    /// √(Σσᵢⱼ²) of the stresses of the waves at the position, without mean and residual stresses, a pressure.
     pub size: f64,
 }
 
-/// By how much a change from the next coarser grid is multiplied.
-const SAFETY: f64 = 1.6;
-/// The error of a stress under spots of n samples per radius is at least this over n of it near the surface, …
-const SHALLOW: f64 = 0.2;
-/// … and this over n² below: of shears, of what opens an interface, and of tensions.
-const DEEP: [f64; 3] = [0.015, 0.01, 0.1];
-
-/// A coarser grid that errors are read from.
+/// The stress field on the next coarser grid, from which errors are estimated.
 #[derive(Debug)]
-pub(super) struct Coarser<'a> {
+pub(super) struct CoarserField<'a> {
     field: &'a StressField,
-    crests: Vec<(Quantity, Crest)>,
+    crests: Vec<(StressMeasure, Crest)>,
 }
 
-impl<'a> Coarser<'a> {
+impl<'a> CoarserField<'a> {
     pub fn new(field: &'a StressField) -> Self {
         Self { field, crests: field.crests() }
     }
 
-    /// The value of a quantity where a contender of the finer grid stands; where it is the crest of the surface, that of this
-    /// surface, as long as contact ends anywhere.
-    fn value(&self, contender: &Contender, quantity: Quantity, near: f64) -> f64 {
-        let crest = contender.crest.and_then(|_| self.crests.iter().find(|(of, _)| *of == quantity));
-        crest.map_or_else(|| self.field.beside(contender, quantity, near), |(_, crest)| crest.peak.value)
+    /// Value of a measure on the coarser grid at the position of a contender; for the largest value on the surface the largest
+    /// one on the coarser surface, where contact has an edge there.
+    fn value(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
+        let crest = contender.crest.and_then(|_| self.crests.iter().find(|(of, _)| *of == measure));
+        crest.map_or_else(|| self.field.value_beside(contender, measure, near), |(_, crest)| crest.peak.value)
     }
 }
 
 impl Contender {
-    /// The estimated error of its value, from a coarser grid and by the samples of the smallest spot; `near`: the depth down
-    /// to which the series converges slowly.
-    pub fn error(&self, quantity: Quantity, coarser: &Coarser<'_>, resolution: f64, near: f64) -> f64 {
+    /// Estimated error of the value, from the coarser grid and the `resolution`, the samples along the radius of the smallest
+    /// spot; above the depth `near`, a length, the series converges slowly.
+    pub fn error(&self, measure: StressMeasure, coarser: &CoarserField<'_>, resolution: f64, near: f64) -> f64 {
         let Peak { value, position, .. } = self.peak;
-        let coarse = coarser.value(self, quantity, near);
+        let coarse = coarser.value(self, measure, near);
         if let Some(crest) = self.crest {
             return crest.scale * crest.error(Some(coarse));
         }
-        let deep = match quantity {
-            Quantity::Tension => DEEP[2],
-            Quantity::Opening => DEEP[1],
-            _ => DEEP[0],
+        let deep = match measure {
+            StressMeasure::Tension => DEEP_TENSION_ERROR,
+            StressMeasure::Opening => DEEP_OPENING_ERROR,
+            _ => DEEP_SHEAR_ERROR,
         };
-        let open = if position[2] < near { SHALLOW / resolution } else { deep / resolution.powi(2) };
-        SAFETY * (value - coarse).abs() + quantity.rise(&self.state, open * self.size)
+        let open = if position[2] < near { SHALLOW_ERROR / resolution } else { deep / resolution.powi(2) };
+        CHANGE_SAFETY * (value - coarse).abs() + measure.rise(&self.state, open * self.size)
     }
 }
 
-/// The maximum of what contends; without errors where any has none. Places within `apart` are one.
-pub(super) fn stated(contenders: &Contenders, quantity: Quantity, apart: f64) -> Option<Peak> {
-    let own = contenders.iter().filter(|(of, _)| *of == quantity);
+/// The largest contender of a measure with its error; without error where any contender has none. Positions within the
+/// distance `apart` count as one.
+pub(super) fn stated(contenders: &Contenders, measure: StressMeasure, apart: f64) -> Option<Peak> {
+    let own = contenders.iter().filter(|(of, _)| *of == measure);
     let peaks: Vec<Peak> = own.map(|(_, contender)| contender.peak).collect();
     Peak::highest(&peaks, apart)
 }
 
 impl Peak {
-    /// The largest of some values with its error and its rival. What has a rival of its own counts with it. Places within
-    /// `apart` of each other are one.
+    /// The largest of some values with its error and its rival, rivals of the values included. Positions within the distance
+    /// `apart` of each other count as one.
     pub(crate) fn highest(peaks: &[Self], apart: f64) -> Option<Self> {
         let best = peaks.iter().copied().reduce(Self::higher)?;
         if peaks.iter().any(|peak| peak.value.is_finite() && peak.error.is_none()) {
             return Some(Self { error: None, rival: None, ..best });
         }
         let Some(own) = best.error.filter(|_| best.value.is_finite()) else { return Some(best) };
-        // What is not a number may be anything.
+        // A value that is not a number may be arbitrarily large.
         let top_of = |top: f64| if top.is_nan() { f64::INFINITY } else { top };
         let errors = peaks.iter().filter_map(|peak| Some((peak, top_of(peak.value + peak.error?))));
         let top = errors.clone().map(|(_, top)| top).fold(best.value + own, f64::max);
@@ -100,12 +95,12 @@ impl Peak {
         let others = others.map(|(peak, _)| peak.rival_itself());
         let rival = others.chain(best.rival).reduce(|a, b| if b.top() > a.top() { b } else { a });
         let beyond = if best.value + own < top { top - best.value } else { own };
-        // The sum is the top, rounding or not.
+        // Value plus error is no less than the top, whatever the rounding.
         let error = if best.value + beyond < top { beyond.next_up() } else { beyond };
         Some(Self { error: Some(error), rival, ..best })
     }
 
-    /// As a rival: where it has one that may be higher still, that one.
+    /// This value as a rival, or its own rival where that may be larger.
     fn rival_itself(&self) -> Rival {
         let Self { value, position, material, .. } = *self;
         let own = Rival { value, error: self.error.unwrap_or(f64::INFINITY), position, material };
@@ -119,7 +114,7 @@ impl Peak {
 }
 
 impl Rival {
-    /// What its value may be at most.
+    /// Value plus error.
     pub fn top(&self) -> f64 {
         self.value + self.error
     }

@@ -1,45 +1,45 @@
-//! The stresses around a place inside a material, to the second order of the distance **d** = (d_x, d_y, d_z):
+//! Taylor expansion of the stresses around a point inside a material, to the second order of the distance **d** = (d_x, d_y, d_z):
 //!
 //! σ(**x** + **d**) ≈ σ + **d**·∇σ + ½ **d**·∇∇σ·**d**.
 //!
-//! All derivatives are sums over the waves themselves: of c e^{i**q**·**x**} those along the surface are i q_α times it, those
-//! in depth follow from F of [`crate::body::Interior`], dF/dz = qF′ and F⁗ = 2F″ − F. The stress
-//! components are smooth; a quantity made of them (a principal stress) need not be, so that they are expanded and it is not.
+//! All derivatives are exact sums over the waves: of c e^{i**q**·**x**} those along the surface are i q_α times it, those
+//! in depth follow from F of [`crate::body::Interior`], dF/dz = qF′ and F⁗ = 2F″ − F. The stress components are
+//! expanded because they are smooth; a measure of them, as a principal stress, need not be.
 
 use super::field::StressField;
 use super::search::SEARCH_REACH;
-use super::series::{MANY, Phases};
-use super::tensor::State;
+use super::series::{PARALLEL_WAVES, Phases};
+use super::tensor::StressState;
 use crate::body::{Depth, InPlane};
-use crate::lattice::waves::Row;
+use crate::lattice::waves::WaveRow;
 use crate::numeric::lanes::{LANES, splat, total, vectorised};
 use fearless_simd::{f64x8, prelude::*};
 use rayon::prelude::*;
 
-/// Components of the stress: xx, yy, zz, xy, xz, yz.
+/// Number of stress components: xx, yy, zz, xy, xz, yz.
 const STRESSES: usize = 6;
-/// Terms 1, d_x, d_y, d_x², d_x d_y, d_y² of an expansion at one depth, then d_z, d_x d_z, d_y d_z, d_z².
+/// Number of terms 1, d_x, d_y, d_x², d_x d_y, d_y² of an expansion at one depth, then d_z, d_x d_z, d_y d_z, d_z².
 const TERMS: usize = 10;
 
-type Terms = [[f64; STRESSES]; TERMS];
+type TaylorTerms = [[f64; STRESSES]; TERMS];
 
-/// The stresses around a place.
+/// Stresses around a point, to second order.
 #[derive(Debug, Clone)]
 pub(super) struct Expansion {
     pub depth: Depth,
     /// x, y; lengths.
     pub place: [f64; 2],
-    terms: Terms,
+    terms: TaylorTerms,
 }
 
 impl Expansion {
-    /// The state in its middle, displacements left out.
-    pub fn state(&self) -> State {
-        State::from_stresses(self.terms[0])
+    /// The state in the middle, displacements left out.
+    pub fn state(&self) -> StressState {
+        StressState::from_stresses(self.terms[0])
     }
 
-    /// The same at a distance.
-    pub fn at(&self, [x, y, z]: [f64; 3]) -> State {
+    /// The state at the distance **d** = (x, y, z) from the middle, lengths; displacements left out.
+    pub fn at(&self, [x, y, z]: [f64; 3]) -> StressState {
         let powers = [1.0, x, y, x * x, x * y, y * y, z, x * z, y * z, z * z];
         let mut stresses = [0.0; STRESSES];
         for (power, term) in powers.iter().zip(&self.terms) {
@@ -47,28 +47,31 @@ impl Expansion {
                 stresses[k] += power * term[k];
             }
         }
-        State::from_stresses(stresses)
+        StressState::from_stresses(stresses)
     }
 }
 
-/// What the waves of a depth cause, by shell.
-struct Waving<'a> {
+/// Functions of the depth at one depth, for the waves of each shell.
+struct DepthFunctions<'a> {
     field: &'a StressField,
+    /// ν of the material.
     poisson: f64,
+    /// Wavelengths over 2π.
     lengths: Vec<f64>,
+    /// F and its derivatives by qz under a pressure.
     normal: Vec<[f64; 4]>,
-    /// Under the traction along the wavevector F, across it v and −v′.
+    /// F and its derivatives by qz under a traction along the wavevector, v and −v′ under one across it; empty without sliding.
     tangential: Vec<([f64; 4], [f64; 2])>,
 }
 
 impl StressField {
-    /// The stresses around the place (x, y) at a depth.
+    /// Expansion of the stresses around the point (x, y) at a depth.
     ///
     /// # Panics
-    /// When the depth is in a material that is not there.
+    /// When the depth names a material that does not exist.
     pub(super) fn expanded(&self, depth: Depth, place: [f64; 2]) -> Expansion {
         let waves = &self.series.waves;
-        let wavenumbers = self.reached(depth, SEARCH_REACH);
+        let wavenumbers = self.wavenumbers_within(depth, SEARCH_REACH);
         let interiors = self.interiors();
         let tangential = if self.slides() {
             let across = interiors.antiplane(wavenumbers, depth);
@@ -77,7 +80,7 @@ impl StressField {
         } else {
             Vec::new()
         };
-        let waving = Waving {
+        let functions = DepthFunctions {
             field: self,
             poisson: self.poisson(depth.material),
             lengths: wavenumbers.iter().map(|q| 1.0 / q).collect(),
@@ -87,17 +90,18 @@ impl StressField {
         let rows = waves.rows_within(wavenumbers.len());
         let [s, t] = self.grid().cell().fractions(place);
         let (along, across) = (Phases::along(&rows, [s]), Phases::across(&rows, [t]));
-        let of_row = |row: &Row| {
+        let of_row = |row: &WaveRow| {
             let &[[re], [im]] = across.of(row);
             if self.slides() {
-                vectorised!(simd => waving.row::<_, true>(simd, row, along.from(row), [re, im]))
+                vectorised!(simd => functions.row::<_, true>(simd, row, along.from(row), [re, im]))
             } else {
-                vectorised!(simd => waving.row::<_, false>(simd, row, along.from(row), [re, im]))
+                vectorised!(simd => functions.row::<_, false>(simd, row, along.from(row), [re, im]))
             }
         };
         let count: usize = rows.iter().map(|row| row.len).sum();
-        // Rows are added in their order, whoever has summed them.
-        let sums: Vec<Terms> = rows.par_iter().with_min_len(MANY * rows.len() / count.max(1)).map(of_row).collect();
+        // Rows are added in their order, whatever the threads, so that the sum does not depend on their number.
+        let sums: Vec<TaylorTerms> =
+            rows.par_iter().with_min_len(PARALLEL_WAVES * rows.len() / count.max(1)).map(of_row).collect();
         let mut terms = [[0.0; STRESSES]; TERMS];
         for (to, from) in terms.iter_mut().flatten().zip(0..) {
             *to = sums.iter().map(|own| own[from / STRESSES][from % STRESSES]).sum();
@@ -108,102 +112,109 @@ impl StressField {
     }
 }
 
-impl Waving<'_> {
-    /// The terms of a row's waves: `along` are the phases of their fractions of a₁, `across` that of a₂.
+impl DepthFunctions<'_> {
+    /// Terms of the expansion by the waves of a row; `along` are the phases of the point's fraction of a₁, one per wave, `across` that
+    /// of its fraction of a₂.
     #[inline(always)]
-    fn row<S: Simd, const SLIDES: bool>(&self, simd: S, row: &Row, along: &[[[f64; 1]; 2]], across: [f64; 2]) -> Terms {
-        let step = self.field.series.waves.step();
-        let shells = &self.field.series.waves.shells()[row.start..row.start + row.len];
-        let coefficients = &self.field.series.coefficients[row.start..row.start + row.len];
-        let [ex, ey] = self.field.traction();
-        let (ex, ey) = (splat(simd, ex), splat(simd, ey));
-        let (turn_re, turn_im) = (splat(simd, across[0]), splat(simd, across[1]));
-        let nu = splat(simd, self.poisson);
+    fn row<S: Simd, const SLIDES: bool>(
+        &self,
+        simd: S,
+        row: &WaveRow,
+        along: &[[[f64; 1]; 2]],
+        across: [f64; 2],
+    ) -> TaylorTerms {
         let mut sums = [[splat(simd, 0.0); STRESSES]; TERMS];
         for first in (0..row.len).step_by(LANES) {
-            // What lies beyond the row's end has no coefficient.
-            let mut own = [[0.0; LANES]; 7];
-            let (mut f, mut g, mut v) = ([[0.0; LANES]; 4], [[0.0; LANES]; 4], [[0.0; LANES]; 2]);
-            for lane in 0..LANES.min(row.len - first) {
-                let number = first + lane;
-                let (shell, c, [[re], [im]]) = (shells[number] as usize, coefficients[number], along[number]);
-                let [x, y] = row.at(number, step);
-                let all = [c.re, c.im, re, im, x, y, self.lengths[shell]];
-                put(&mut own, lane, &all);
-                put(&mut f, lane, &self.normal[shell]);
-                if SLIDES {
-                    let (along, across) = &self.tangential[shell];
-                    put(&mut g, lane, along);
-                    put(&mut v, lane, across);
-                }
-            }
-            let [c_re, c_im, re, im, x, y, length] = loaded(simd, &own);
-            let (f, g, [v, s]) = (loaded(simd, &f), loaded(simd, &g), loaded(simd, &v));
-            let (re, im) = (re * turn_re - im * turn_im, re * turn_im + im * turn_re);
-            let (p, q) = (c_re * re - c_im * im, c_re * im + c_im * re);
-            let (nx, ny) = (x * length, y * length);
-            let (nxx, nyy, nxy) = (nx * nx, ny * ny, nx * ny);
-            let wavenumber = x * nx + y * ny;
-            let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
-            let (two, minus) = (splat(simd, 2.0), splat(simd, -1.0));
-            let turn = Turn { n: [nx, ny], nn: [nxx, nxy, nyy], nu, wavenumber };
-            let xx = [x * x, x * y, y * y];
-            // By derivatives in depth.
+            let waves = self.eight_waves::<S, SLIDES>(simd, row, first, along, across);
             for order in 0..3 {
-                let even = turn.turned(turn.stresses(&f, order));
-                let mut odd = [splat(simd, 0.0); STRESSES];
-                if SLIDES {
-                    // Under a shear traction σ_zz, σ_qq and σ_tt have the other sign.
-                    let [zz, qz, qq, tt] = turn.stresses(&g, order);
-                    let own = turn.turned([zz * minus, qz, qq * minus, tt * minus]);
-                    let (stz, sqt) = match order {
-                        0 => (s * minus, v * minus),
-                        1 => (v * wavenumber, s * wavenumber),
-                        _ => (s * minus * wavenumber * wavenumber, v * minus * wavenumber * wavenumber),
-                    };
-                    let shear = two * nxy * sqt;
-                    let across =
-                        [shear * minus, shear, splat(simd, 0.0), (nxx - nyy) * sqt, ny * minus * stz, nx * stz];
-                    for k in 0..STRESSES {
-                        odd[k] = by_along * own[k] + by_across * across[k];
-                    }
-                }
-                for k in 0..STRESSES {
-                    // c(E − iT) where a pressure's stress is even, c(T − iE) where it is odd.
-                    let (e, t) = if k < 4 { (even[k], odd[k]) } else { (odd[k], even[k]) };
-                    let (re, im) = if SLIDES || k >= 4 { (p * e + q * t, q * e - p * t) } else { (p * e, q * e) };
-                    match order {
-                        0 => {
-                            sums[0][k] += re;
-                            sums[1][k] -= x * im;
-                            sums[2][k] -= y * im;
-                            for term in 0..3 {
-                                sums[3 + term][k] -= xx[term] * re;
-                            }
-                        }
-                        1 => {
-                            sums[6][k] += re;
-                            sums[7][k] -= x * im;
-                            sums[8][k] -= y * im;
-                        }
-                        _ => sums[9][k] += re,
-                    }
-                }
+                let even = waves.cartesian(waves.stresses(&waves.normal, order));
+                let odd = if SLIDES { self.sheared(simd, &waves, order) } else { [splat(simd, 0.0); STRESSES] };
+                waves.add::<SLIDES>(&mut sums, &even, &odd, order);
             }
         }
         let mut terms = [[0.0; STRESSES]; TERMS];
         for term in 0..TERMS {
             for k in 0..STRESSES {
-                // ½ of the squares.
+                // Squares have the factor ½.
                 let part = if matches!(term, 3 | 5 | 9) { 0.5 } else { 1.0 };
                 terms[term][k] = part * total(sums[term][k]);
             }
         }
         terms
     }
+
+    /// Eight waves of a row from the number `first` on.
+    #[inline(always)]
+    fn eight_waves<S: Simd, const SLIDES: bool>(
+        &self,
+        simd: S,
+        row: &WaveRow,
+        first: usize,
+        along: &[[[f64; 1]; 2]],
+        across: [f64; 2],
+    ) -> EightWaves<S> {
+        let step = self.field.series.waves.step();
+        let shells = &self.field.series.waves.shells()[row.start..row.start + row.len];
+        let coefficients = &self.field.series.coefficients[row.start..row.start + row.len];
+        // Lanes beyond the row's end have no coefficient.
+        let mut own = [[0.0; LANES]; 7];
+        let (mut f, mut g, mut v) = ([[0.0; LANES]; 4], [[0.0; LANES]; 4], [[0.0; LANES]; 2]);
+        for lane in 0..LANES.min(row.len - first) {
+            let number = first + lane;
+            let (shell, c, [[re], [im]]) = (shells[number] as usize, coefficients[number], along[number]);
+            let [x, y] = row.at(number, step);
+            let all = [c.re, c.im, re, im, x, y, self.lengths[shell]];
+            put(&mut own, lane, &all);
+            put(&mut f, lane, &self.normal[shell]);
+            if SLIDES {
+                let (along, across) = &self.tangential[shell];
+                put(&mut g, lane, along);
+                put(&mut v, lane, across);
+            }
+        }
+        let [c_re, c_im, re, im, x, y, length] = loaded(simd, &own);
+        let (across_re, across_im) = (splat(simd, across[0]), splat(simd, across[1]));
+        let (re, im) = (re * across_re - im * across_im, re * across_im + im * across_re);
+        let (nx, ny) = (x * length, y * length);
+        EightWaves {
+            value: [c_re * re - c_im * im, c_re * im + c_im * re],
+            q: [x, y],
+            n: [nx, ny],
+            nn: [nx * nx, nx * ny, ny * ny],
+            wavenumber: x * nx + y * ny,
+            nu: splat(simd, self.poisson),
+            normal: loaded(simd, &f),
+            along: loaded(simd, &g),
+            across: loaded(simd, &v),
+        }
+    }
+
+    /// xx, yy, zz, xy, xz, yz under the traction, or their derivatives in depth.
+    #[inline(always)]
+    fn sheared<S: Simd>(&self, simd: S, waves: &EightWaves<S>, order: usize) -> [f64x8<S>; STRESSES] {
+        let [ex, ey] = self.field.traction().map(|e| splat(simd, e));
+        let ([nx, ny], [nxx, nxy, nyy], [v, s]) = (waves.n, waves.nn, waves.across);
+        let (by_along, by_across) = (ex * nx + ey * ny, ey * nx - ex * ny);
+        let (two, minus, wavenumber) = (splat(simd, 2.0), splat(simd, -1.0), waves.wavenumber);
+        // Under a shear traction σ_zz, σ_qq and σ_tt have the other sign.
+        let [zz, qz, qq, tt] = waves.stresses(&waves.along, order);
+        let own = waves.cartesian([zz * minus, qz, qq * minus, tt * minus]);
+        let (stz, sqt) = match order {
+            0 => (s * minus, v * minus),
+            1 => (v * wavenumber, s * wavenumber),
+            _ => (s * minus * wavenumber * wavenumber, v * minus * wavenumber * wavenumber),
+        };
+        let shear = two * nxy * sqt;
+        let across = [shear * minus, shear, splat(simd, 0.0), (nxx - nyy) * sqt, ny * minus * stz, nx * stz];
+        let mut odd = [splat(simd, 0.0); STRESSES];
+        for k in 0..STRESSES {
+            odd[k] = by_along * own[k] + by_across * across[k];
+        }
+        odd
+    }
 }
 
-/// Numbers of eight waves as vectors.
+/// N quantities of eight waves as vectors.
 #[inline(always)]
 fn loaded<S: Simd, const N: usize>(simd: S, all: &[[f64; LANES]; N]) -> [f64x8<S>; N] {
     let mut vectors = [splat(simd, 0.0); N];
@@ -213,7 +224,7 @@ fn loaded<S: Simd, const N: usize>(simd: S, all: &[[f64; LANES]; N]) -> [f64x8<S
     vectors
 }
 
-/// Puts numbers of one wave beside those of others.
+/// Stores N quantities of one wave in its lane.
 #[inline(always)]
 fn put<const N: usize>(all: &mut [[f64; LANES]; N], lane: usize, own: &[f64; N]) {
     for k in 0..N {
@@ -221,23 +232,37 @@ fn put<const N: usize>(all: &mut [[f64; LANES]; N], lane: usize, own: &[f64; N])
     }
 }
 
-/// Eight waves: **n**, n n, ν and q.
-struct Turn<S: Simd> {
+/// Eight waves of a row.
+struct EightWaves<S: Simd> {
+    /// Real and imaginary part of c e^{i**q**·**x**}.
+    value: [f64x8<S>; 2],
+    /// q_x, q_y.
+    q: [f64x8<S>; 2],
+    /// **n** = **q**/q.
     n: [f64x8<S>; 2],
+    /// n_x n_x, n_x n_y, n_y n_y.
     nn: [f64x8<S>; 3],
-    nu: f64x8<S>,
+    /// q.
     wavenumber: f64x8<S>,
+    /// ν.
+    nu: f64x8<S>,
+    /// F and its derivatives by qz under a pressure.
+    normal: [f64x8<S>; 4],
+    /// F and its derivatives by qz under a traction along the wavevector.
+    along: [f64x8<S>; 4],
+    /// v and −v′ under a traction across the wavevector.
+    across: [f64x8<S>; 2],
 }
 
-impl<S: Simd> Turn<S> {
+impl<S: Simd> EightWaves<S> {
     /// xx, yy, zz, xy, xz, yz of σ_zz, σ_qz, σ_qq, σ_tt.
     #[inline(always)]
-    fn turned(&self, [zz, qz, qq, tt]: [f64x8<S>; 4]) -> [f64x8<S>; STRESSES] {
+    fn cartesian(&self, [zz, qz, qq, tt]: [f64x8<S>; 4]) -> [f64x8<S>; STRESSES] {
         let ([nx, ny], [nxx, nxy, nyy]) = (self.n, self.nn);
         [nxx * qq + nyy * tt, nyy * qq + nxx * tt, zz, nxy * (qq - tt), nx * qz, ny * qz]
     }
 
-    /// σ_zz, σ_qz, σ_qq, σ_tt of F, or their derivatives in depth.
+    /// σ_zz, σ_qz, σ_qq, σ_tt of F, or their derivatives in depth of the given order.
     #[inline(always)]
     fn stresses(&self, &[f0, f1, f2, f3]: &[f64x8<S>; 4], order: usize) -> [f64x8<S>; 4] {
         let (nu, q) = (self.nu, self.wavenumber);
@@ -247,6 +272,40 @@ impl<S: Simd> Turn<S> {
             _ => {
                 let square = q * q;
                 [-f2 * square, f3 * square, (f2 + f2 - f0) * square, nu * (f2 - f0) * square]
+            }
+        }
+    }
+
+    /// Adds the terms of one order of d_z, of stresses `even` and `odd` in **q**: c(E − iT) where a pressure's stress is even,
+    /// c(T − iE) where it is odd.
+    #[inline(always)]
+    fn add<const SLIDES: bool>(
+        &self,
+        sums: &mut [[f64x8<S>; STRESSES]; TERMS],
+        even: &[f64x8<S>; STRESSES],
+        odd: &[f64x8<S>; STRESSES],
+        order: usize,
+    ) {
+        let ([p, q], [x, y]) = (self.value, self.q);
+        let squares = [x * x, x * y, y * y];
+        for k in 0..STRESSES {
+            let (e, t) = if k < 4 { (even[k], odd[k]) } else { (odd[k], even[k]) };
+            let (re, im) = if SLIDES || k >= 4 { (p * e + q * t, q * e - p * t) } else { (p * e, q * e) };
+            match order {
+                0 => {
+                    sums[0][k] += re;
+                    sums[1][k] -= x * im;
+                    sums[2][k] -= y * im;
+                    for term in 0..3 {
+                        sums[3 + term][k] -= squares[term] * re;
+                    }
+                }
+                1 => {
+                    sums[6][k] += re;
+                    sums[7][k] -= x * im;
+                    sums[8][k] -= y * im;
+                }
+                _ => sums[9][k] += re,
             }
         }
     }

@@ -1,10 +1,10 @@
 //! The stress field under a solved contact, and its states at points.
 
+use super::depth_response::DepthResponse;
 use super::regions::Regions;
 use super::series::{Response, Series};
-use super::slice::Slice;
 use super::tables::Tables;
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::{Depth, HalfSpace, Interface, Interiors, Layer, MeanStress};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
@@ -24,23 +24,23 @@ pub struct StressField {
     half_space: HalfSpace,
     interiors: Arc<Interiors>,
     tables: Arc<Tables>,
-    /// State under the mean pressure at the upper face of each material, and the slope of its displacement there.
-    mean: Vec<(State, [f64; 3])>,
+    /// State under the mean pressure at the upper face of each material, and the derivative of its displacement by depth.
+    mean: Vec<(StressState, [f64; 3])>,
     mean_stress: MeanStress,
     regions: Regions,
-    /// μ **e** of a counterbody that slides.
+    /// μ **e** of a sliding counterbody; `None` without traction.
     traction: Option<[f64; 2]>,
-    /// η of the pressure's edges, whose exponents are ½ ± η.
+    /// η of the exponents ½ ± η with which the pressure vanishes at edges.
     edge_exponent: f64,
 }
 
 impl StressField {
-    /// Under a solved contact.
+    /// Stress field under a solved contact.
     pub fn new(contact: &Contact, mean: MeanStress) -> Self {
         Self::with_tables(contact, mean, Arc::default())
     }
 
-    /// The same with the tables of other fields of a run, to which those of the contact's grid are added.
+    /// Stress field under a solved contact that shares the `tables` of other fields of a run.
     pub(crate) fn with_tables(contact: &Contact, mean: MeanStress, tables: Arc<Tables>) -> Self {
         let problem = contact.problem();
         Self::of_samples(contact.grid(), contact.pressures(), problem.half_space(), problem.friction(), mean, tables)
@@ -51,7 +51,7 @@ impl StressField {
         Self::with_tables(contact, self.mean_stress, Arc::clone(&self.tables))
     }
 
-    /// Under any `pressure` on a `half_space`, and the traction that `friction` adds to it; axes along a₁ and a₂.
+    /// Stress field under any `pressure` on a `half_space`, axes along a₁ and a₂, and under the traction of `friction`.
     ///
     /// # Errors
     /// [`NotOnGrid`] unless the pressure has one value per sample of the grid.
@@ -91,7 +91,7 @@ impl StressField {
         }
     }
 
-    /// What it lies in.
+    /// The layered half-space below the pressure.
     pub fn half_space(&self) -> &HalfSpace {
         &self.half_space
     }
@@ -101,7 +101,7 @@ impl StressField {
         self.half_space.surface_material().poisson()
     }
 
-    /// What the mean lateral stress is.
+    /// The choice of the mean lateral stress.
     pub fn mean_stress(&self) -> MeanStress {
         self.mean_stress
     }
@@ -111,22 +111,22 @@ impl StressField {
         self.traction.unwrap_or_default()
     }
 
-    /// Whether there is a traction.
+    /// Whether the surface has a shear traction.
     pub(super) fn slides(&self) -> bool {
         self.traction.is_some()
     }
 
-    /// What the waves of its grid cause in its half-space.
+    /// Amplitudes of the grid's waves in the half-space.
     pub(super) fn interiors(&self) -> &Interiors {
         &self.interiors
     }
 
-    /// η of the pressure's edges, see [`Friction::edge_exponent`].
+    /// η of the exponents ½ ± η with which the pressure vanishes at edges, see [`Friction::edge_exponent`].
     pub(super) fn edge_exponent(&self) -> f64 {
         self.edge_exponent
     }
 
-    /// Contact spots and what is open between them.
+    /// Contact spots and the open regions between them.
     pub(super) fn regions(&self) -> &Regions {
         &self.regions
     }
@@ -147,34 +147,40 @@ impl StressField {
     }
 
     /// Wavenumbers of the shells with qz up to `reach` at a depth.
-    pub(super) fn reached(&self, depth: Depth, reach: f64) -> &[f64] {
+    pub(super) fn wavenumbers_within(&self, depth: Depth, reach: f64) -> &[f64] {
         let waves = &self.series.waves;
         &waves.wavenumbers()[..waves.shells_up_to(reach / depth.z.max(f64::MIN_POSITIVE))]
     }
 
-    /// What the waves with qz up to `reach` cause at a depth.
-    pub(super) fn slice(&self, depth: Depth, reach: f64) -> Slice {
-        Slice::new(&self.interiors, depth, self.reached(depth, reach), self.traction, self.mean(depth))
+    /// Response at a depth of the waves with qz up to `reach`.
+    pub(super) fn depth_response(&self, depth: Depth, reach: f64) -> DepthResponse {
+        DepthResponse::new(
+            &self.interiors,
+            depth,
+            self.wavenumbers_within(depth, reach),
+            self.traction,
+            self.mean(depth),
+        )
     }
 
-    /// The state that the mean pressure causes at a depth.
-    pub(super) fn mean(&self, depth: Depth) -> State {
+    /// State under the mean pressure at a depth.
+    pub(super) fn mean(&self, depth: Depth) -> StressState {
         let (mut state, slope) = self.mean[depth.material - 1];
         let below = depth.z - self.half_space.faces(depth.material).0;
         state.displacement.iter_mut().zip(slope).for_each(|(u, slope)| *u += slope * below);
         state
     }
 
-    /// States at the points (x, y), lengths, of one depth: the sum over waves itself.
+    /// States at the points (x, y) of one depth, lengths, by the exact sum over the waves.
     ///
     /// # Panics
-    /// When the depth is in a material that is not there.
-    pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<State> {
-        let states = self.at(points, &self.slice(depth, REACH));
-        states.into_iter().map(State::from_components).collect()
+    /// When the depth names a material that does not exist.
+    pub fn points(&self, depth: Depth, points: &[[f64; 2]]) -> Vec<StressState> {
+        let states = self.at(points, &self.depth_response(depth, REACH));
+        states.into_iter().map(StressState::from_components).collect()
     }
 
-    /// Components at places (x, y), lengths.
+    /// Components of a response at the points (x, y), lengths.
     pub(super) fn at<const K: usize>(&self, places: &[[f64; 2]], response: &impl Response<K>) -> Vec<[f64; K]> {
         let fractions: Vec<[f64; 2]> = places.iter().map(|&place| self.grid.cell().fractions(place)).collect();
         self.series.at(&fractions, response)
@@ -194,11 +200,16 @@ impl fmt::Display for StressField {
     }
 }
 
-/// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, and the slope of the
-/// displacement in it. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
+/// State at the upper face of each material under the mean pressure p̄ and the mean `traction` μp̄ **e**, and the derivative of
+/// its displacement by depth. σ_xz = −μp̄ e_x and σ_yz = −μp̄ e_y at every depth; residual stresses are added.
 ///
 /// Displacements are measured from the mean plane of the deformed surface; those under a lateral mean strain are left out.
-fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64, traction: [f64; 2]) -> Vec<(State, [f64; 3])> {
+fn mean_states(
+    half_space: &HalfSpace,
+    mean: MeanStress,
+    pressure: f64,
+    traction: [f64; 2],
+) -> Vec<(StressState, [f64; 3])> {
     let shear = traction.map(|t| -pressure * t);
     let mut displacement = [0.0; 3];
     let mut states = Vec::new();
@@ -209,7 +220,7 @@ fn mean_states(half_space: &HalfSpace, mean: MeanStress, pressure: f64, traction
         let slope = [shear[0] / material.shear(), shear[1] / material.shear(), closing];
         let [xx, yy] = [lateral + residual; 2];
         states.push((
-            State { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..State::default() },
+            StressState { xx, yy, zz: -pressure, xz: shear[0], yz: shear[1], displacement, ..StressState::default() },
             slope,
         ));
         if let Some(layer) = half_space.layers().get(index) {

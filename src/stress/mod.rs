@@ -11,32 +11,32 @@
 //! A counterbody that slides adds the stresses of its traction μp**e**, wave by wave: of the part μ**e**·**n** along **n** by
 //! the amplitudes of [`Interior::under`](crate::body::Interior::under), of the part across by those of
 //! [`Antiplane`](crate::body::Antiplane); its mean adds the shear σ_αz = −μe_α p̄ at every depth. The residual stress of a
-//! layer adds to its σ_xx and σ_yy. Coupled friction bends the pressure's square root at the edge of contact into the powers
-//! ½ ± η, |η| ≤ atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): what is read at edges takes them for square roots, and states the error
+//! layer adds to its σ_xx and σ_yy. Coupled friction changes the pressure's square root at the edge of contact into the powers
+//! ½ ± η, |η| ≤ atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): readings at edges treat them as square roots, and state the error
 //! that the grids show.
 //!
-//! - **planes**: inverse transforms of the components asked for, the waves that reach the depth filled in column by column,
-//!   as arrays or handed on row by row ([`StressField::plane`], [`StressField::stresses_by_rows`]);
+//! - **planes**: inverse transforms of the components, from the waves that reach the depth, as arrays or row by row ([`StressField::plane`], [`StressField::stresses_by_rows`]);
 //! - **sections** and **lines**: the waves summed by their wavenumbers along the line ([`StressField::section`]);
-//! - **points**: the sum itself ([`StressField::points`]);
+//! - **points**: the exact sum ([`StressField::points`]);
 //! - **maxima** over each material and each face ([`maxima`]).
 
 mod climb;
+mod constants;
 mod contender;
 mod crest;
-mod edge;
+mod depth_response;
 mod expansion;
 mod field;
 pub mod maxima;
+mod measure;
 mod peak;
 mod plane;
-mod quantity;
 mod regions;
 mod search;
 mod section;
 mod series;
-mod slice;
-mod surface;
+mod smoothed_edge;
+mod smoothed_surface;
 mod tables;
 mod tensor;
 mod trace;
@@ -45,7 +45,7 @@ mod transform;
 pub use crest::Crest;
 pub use field::StressField;
 pub use peak::{Peak, Rival};
-pub use plane::Plane;
-pub use section::{Line, Section};
+pub use plane::DepthPlane;
+pub use section::{SurfaceLine, VerticalSection};
 pub(crate) use tables::Tables;
-pub use tensor::State;
+pub use tensor::StressState;

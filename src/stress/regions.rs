@@ -1,34 +1,34 @@
-//! Contact spots and what is open between them, as the surface stresses see them.
+//! Contact spots and the open regions between and inside them, with the number of samples that resolves each.
 
-use crate::lattice::components::components;
-use crate::lattice::{Grid, Joined};
+use crate::lattice::Grid;
+use crate::lattice::components::{contact_spots, open_regions};
 use std::f64::consts::PI;
 
-/// The spots of a periodic grid and the open places around and inside them.
+/// Contact spots of a pressure and the open regions around and inside them.
 #[derive(Debug)]
 pub(super) struct Regions {
-    /// Per sample, the index of its spot or open place: spots first.
+    /// Index of the spot or open region of each sample; spots come first.
     pub of: Vec<u32>,
     /// Number of spots.
     count: u32,
-    /// Number of samples of each spot and open place.
+    /// Number of samples of each spot and open region.
     sizes: Vec<usize>,
 }
 
 impl Regions {
-    /// Spots of a `pressure`.
+    /// Spots and open regions of a `pressure`, one value per sample.
     pub fn new(grid: &Grid, pressure: &[f64]) -> Self {
         let mut of = vec![0; grid.len()];
-        let mut all = components(grid, Joined::AtCorners, |index| pressure[index] > 0.0);
+        let mut all = contact_spots(grid, pressure);
         let count = all.len() as u32;
-        all.extend(components(grid, Joined::AtEdges, |index| pressure[index] <= 0.0));
+        all.extend(open_regions(grid, pressure));
         for (number, spot) in (0..).zip(&all) {
             spot.indices(grid).for_each(|run| of[run].fill(number));
         }
         Self { of, count, sizes: all.iter().map(|spot| spot.size()).collect() }
     }
 
-    /// Whether contact ends anywhere.
+    /// Whether contact has an edge: it is neither complete nor absent.
     pub fn have_edges(&self) -> bool {
         0 < self.count && (self.count as usize) < self.sizes.len()
     }
@@ -38,12 +38,12 @@ impl Regions {
         self.of[sample] < self.count
     }
 
-    /// Samples along the radius of a disc as large as the spot or open place of a sample.
+    /// Samples along the radius of a disc as large as the spot or open region of a sample.
     pub fn resolution(&self, sample: usize) -> f64 {
         (self.sizes[self.of[sample] as usize] as f64 / PI).sqrt()
     }
 
-    /// The least resolution of all spots.
+    /// Samples along the radius of a disc as large as the smallest spot; infinite without contact.
     pub fn least_resolution(&self) -> f64 {
         let least = self.sizes[..self.count as usize].iter().min();
         least.map_or(f64::INFINITY, |&size| (size as f64 / PI).sqrt())

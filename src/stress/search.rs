@@ -1,23 +1,24 @@
 //! The search for the largest stresses of each material and each face.
 //!
-//! 1. **Planes** at depths that thicken towards the faces of each material: the largest sample of each is a candidate.
-//!    A plane holds as many points as the waves that reach its depth need, and is used up row by row.
-//! 2. **Faces** have their peaks between the samples of their planes; on a face the depth stays.
-//! 3. **Inside** a material each local maximum over the depths, faces among them, is a start if it comes near the best plane.
-//!    From there the exact sum over waves is [climbed](super::climb). What ends on a face is that face's.
+//! 1. **Planes** at depths that are denser towards the faces of each material: the largest sample of each is a candidate.
+//!    A plane has as many points as the waves that reach its depth need, and is processed row by row.
+//! 2. **Faces**: the maximum is searched between the samples of the plane, at constant depth.
+//! 3. **Inside** a material each local maximum over the depths, faces included, that comes near the best plane is the start of
+//!    a search by the exact sum over the waves ([`super::climb`]). A search that ends on a face belongs to that face.
 //!
-//! Within two samples of the surface, where the series converges slowly, the samples of the pressure's own grid are taken as
-//! they are.
+//! Within two samples of the surface, where the series converges slowly, the largest sample of the pressure's own grid is taken
+//! without a search.
 
+use super::constants::{EQUAL_BY_SYMMETRY, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW};
 use super::contender::{Contender, Contenders};
 use super::crest::Crest;
+use super::depth_response::StressComponents;
 use super::field::{REACH, StressField};
-use super::maxima::{Found, Maxima, NEAR};
+use super::maxima::{ContenderLists, Maxima};
+use super::measure::{MATERIAL_MEASURES, RunningMaxima, StressMeasure};
 use super::peak::Peak;
-use super::quantity::{LargestSoFar, OVERALL, Quantity};
-use super::slice::Stresses;
-use super::surface::Flat;
-use super::tensor::State;
+use super::smoothed_surface::SurfaceStresses;
+use super::tensor::StressState;
 use super::transform::Transform;
 use crate::body::{Depth, Layer};
 use crate::numeric::fourier::fast_points;
@@ -25,48 +26,39 @@ use crate::numeric::search::first_largest;
 use std::sync::Arc;
 
 /// Ratio of successive distances from a face.
-const RATIO: f64 = 1.35;
-/// Waves with qz beyond this are left out of the search: e^{−25} of the pressure.
+const DEPTH_RATIO: f64 = 1.35;
+/// qz beyond which waves are neglected in the search: they have e^{−25} of their pressure.
 pub(super) const SEARCH_REACH: f64 = 25.0;
-/// The same on planes, whose largest samples the search starts from.
+/// qz beyond which waves are neglected on planes, whose largest samples the search starts from.
 const PLANE_REACH: f64 = 10.0;
 
-/// A plane whose best sample is lower than that of the best plane by more than this part of it is no start: samples of
-/// planes miss so much of a maximum between them, at most.
-const MARGIN: f64 = 0.05;
-/// What a parabola through three planes may rise above the middle one, over the larger drop beside it: an eighth where they
-/// are equally far. Twice that is reckoned with.
-const RISE: f64 = 0.25;
-/// Contenders that differ by less, in value and depth, are one by symmetry.
-const ALIKE: f64 = 1e-3;
-
-/// The best sample of a plane.
+/// The sample of a plane where a measure is largest.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Candidate {
     pub value: f64,
     pub depth: Depth,
     pub place: [f64; 2],
-    /// Half the distance to neighbouring samples.
+    /// Half the distance to the neighbouring samples, a length.
     pub step: f64,
 }
 
-/// A plane that was searched.
+/// The largest samples of a plane.
 #[derive(Debug)]
-struct Searched {
-    /// The best sample for each quantity that was looked for.
-    best: Vec<(Quantity, Candidate)>,
-    /// What contends on it, where the plane is a face.
+struct SearchedPlane {
+    /// The largest sample by each measure.
+    best: Vec<(StressMeasure, Candidate)>,
+    /// Contenders on the plane, where it is a face; none inside a material.
     on_face: Contenders,
 }
 
-impl Searched {
-    fn candidate(&self, quantity: Quantity) -> &Candidate {
-        &found(&self.best, quantity).expect("every plane was searched for it").1
+impl SearchedPlane {
+    fn candidate(&self, measure: StressMeasure) -> &Candidate {
+        &of_measure(&self.best, measure).expect("every plane was searched for it").1
     }
 }
 
-fn found<T>(all: &[(Quantity, T)], quantity: Quantity) -> Option<&(Quantity, T)> {
-    all.iter().find(|(own, _)| *own == quantity)
+fn of_measure<T>(all: &[(StressMeasure, T)], measure: StressMeasure) -> Option<&(StressMeasure, T)> {
+    all.iter().find(|(own, _)| *own == measure)
 }
 
 impl StressField {
@@ -76,35 +68,36 @@ impl StressField {
         self.maxima_while(radii, &|| true).expect("a search that nothing interrupts ends")
     }
 
-    /// The same, unless `goes_on`, called between planes and between starts of a climb, says no.
+    /// Maxima over all materials, faces and interfaces; `None` when `goes_on`, called between planes and between searches,
+    /// returns false. `radii` as in [`Self::maxima`].
     pub fn maxima_while(&self, radii: [f64; 2], goes_on: &dyn Fn() -> bool) -> Option<Maxima> {
-        let mut all = Found::default();
+        let mut all = ContenderLists::default();
         let crests = self.crests();
         for material in 1..=self.materials() {
             let strength = self.half_space().layers().get(material - 1).map(Layer::interface_strength);
             let depths = self.search_depths(material, radii);
             let plane = |index: usize| {
                 let is_interface = index + 1 == depths.len();
-                let tractions = strength.filter(|_| is_interface).into_iter().flat_map(Quantity::of_interface);
-                let quantities: Vec<Quantity> = OVERALL.into_iter().chain(tractions).collect();
+                let tractions = strength.filter(|_| is_interface).into_iter().flat_map(StressMeasure::of_interface);
+                let measures: Vec<StressMeasure> = MATERIAL_MEASURES.into_iter().chain(tractions).collect();
                 let is_face = index == 0 || strength.is_some() && is_interface;
                 let depth = Depth { z: depths[index], material };
                 let crests = if depth == Depth::SURFACE { &crests[..] } else { &[] };
-                goes_on().then(|| self.search_plane(depth, radii[0], &quantities, is_face, crests))
+                goes_on().then(|| self.search_plane(depth, radii[0], &measures, is_face, crests))
             };
-            let planes: Vec<Searched> = (0..depths.len()).map(plane).collect::<Option<_>>()?;
-            let is_overall = |contender: &&(Quantity, Contender)| OVERALL.contains(&contender.0);
+            let planes: Vec<SearchedPlane> = (0..depths.len()).map(plane).collect::<Option<_>>()?;
+            let is_overall = |contender: &&(StressMeasure, Contender)| MATERIAL_MEASURES.contains(&contender.0);
             let mut own: Contenders =
                 planes.iter().flat_map(|plane| plane.on_face.iter().filter(is_overall)).copied().collect();
             let mut inside: Contenders = Vec::new();
-            for quantity in OVERALL {
-                let own = self.inside(&planes, &depths, quantity, goes_on)?;
-                inside.extend(own.into_iter().map(|inside| (quantity, inside)));
+            for measure in MATERIAL_MEASURES {
+                let own = self.inside(&planes, &depths, measure, goes_on)?;
+                inside.extend(own.into_iter().map(|inside| (measure, inside)));
             }
-            // What ends on a face from inside, higher than what was found along the face, is the face's too.
+            // A search from inside that ends on a face, higher than the values along the face, contends on the face too.
             let faces = planes.iter().zip(&depths).filter(|(plane, _)| !plane.on_face.is_empty());
             all.faces.extend(faces.map(|(plane, &depth)| {
-                let is_there = |(_, other): &&(Quantity, Contender)| {
+                let is_there = |(_, other): &&(StressMeasure, Contender)| {
                     depth > 0.0 && (other.peak.position[2] - depth).abs() <= 1e-9 * depth
                 };
                 let along = plane.on_face.iter().filter(is_overall);
@@ -117,44 +110,45 @@ impl StressField {
                 all.interfaces.push((material, lower.into_iter().filter(|own| !is_overall(&own)).collect()));
             }
         }
-        let crest = found(&crests, Quantity::Tension).map(|&(_, crest)| crest);
+        let crest = of_measure(&crests, StressMeasure::Tension).map(|&(_, crest)| crest);
         Some(Maxima::new(all, crest, self.regions().least_resolution(), self.grid().spacing()))
     }
 
-    /// The best samples of a plane, and what contends on a face; the surface has `crests` of its own.
+    /// The largest samples of a plane, and the contenders on a face; on the surface they are the `crests`.
     fn search_plane(
         &self,
         depth: Depth,
         radius: f64,
-        quantities: &[Quantity],
+        measures: &[StressMeasure],
         is_face: bool,
-        crests: &[(Quantity, Crest)],
-    ) -> Searched {
-        let best = self.candidates(depth, radius, quantities);
-        let of = |(quantity, candidate): &(Quantity, Candidate)| {
-            let contender = match found(crests, *quantity) {
-                Some(&(_, crest)) => self.crowned(candidate.depth, crest),
+        crests: &[(StressMeasure, Crest)],
+    ) -> SearchedPlane {
+        let best = self.candidates(depth, radius, measures);
+        let of = |(measure, candidate): &(StressMeasure, Candidate)| {
+            let contender = match of_measure(crests, *measure) {
+                Some(&(_, crest)) => self.crest_contender(candidate.depth, crest),
                 None => {
-                    let (best, state) = self.on_face(candidate, *quantity);
+                    let (best, state) = self.on_face(candidate, *measure);
                     self.contender(&best, state)
                 }
             };
-            (*quantity, contender)
+            (*measure, contender)
         };
         let on_face = if is_face { best.iter().map(of).collect() } else { Vec::new() };
-        Searched { best, on_face }
+        SearchedPlane { best, on_face }
     }
 
-    /// What contends inside a material: the best sample near the surface, and the local maxima below.
+    /// Contenders inside a material: the largest sample near the surface, and the local maxima below; `None` when `goes_on` returns
+    /// false.
     fn inside(
         &self,
-        planes: &[Searched],
+        planes: &[SearchedPlane],
         depths: &[f64],
-        quantity: Quantity,
+        measure: StressMeasure,
         goes_on: &dyn Fn() -> bool,
     ) -> Option<Vec<Contender>> {
-        let near = NEAR * self.grid().spacing();
-        let candidate = |index: usize| planes[index].candidate(quantity);
+        let near = SHALLOW * self.grid().spacing();
+        let candidate = |index: usize| planes[index].candidate(measure);
         let shallow = (0..depths.len()).filter(|&i| depths[i] < near && planes[i].on_face.is_empty());
         let shallow = shallow.map(candidate).reduce(|a, b| if b.value > a.value { b } else { a });
         let mut all: Vec<Contender> =
@@ -167,10 +161,10 @@ impl StressField {
             |i: usize| [i.checked_sub(1), Some(i + 1)].into_iter().flatten().filter(|j| (first..=last).contains(j));
         let is_near = |i: usize| {
             let drop = beside(i).map(|j| value(i) - value(j)).fold(0.0, f64::max);
-            value(i) + RISE * drop + MARGIN * best.abs() >= best
+            value(i) + RISE_BETWEEN_PLANES * drop + MISSED_BY_SAMPLES * best.abs() >= best
         };
         let is_start = |&i: &usize| {
-            // A neighbour that is higher on the same hill, and a start itself, is the better one.
+            // Of neighbouring depths beside the same maximum the higher one is the start.
             let is_better = |j: usize| value(j) > value(i) && is_near(j) && self.are_beside(candidate(i), candidate(j));
             is_near(i) && !beside(i).any(is_better)
         };
@@ -182,14 +176,15 @@ impl StressField {
                 return None;
             }
             let rise = 0.5 * beside(start).map(|j| (depths[j] - depths[start]).abs()).fold(0.0, f64::max);
-            let (climbed, state) = self.climbed(candidate(start), rise, [top, bottom], quantity);
+            let (climbed, state) = self.local_maximum(candidate(start), rise, [top, bottom], measure);
             let z = climbed.depth.z;
             let is_on_face = [depths[0], bottom].iter().any(|face| (z - face).abs() <= 1e-9 * z);
             let same = |other: &Contender| {
                 let Peak { value, position, .. } = other.peak;
-                (climbed.value - value).abs() <= ALIKE * value.abs() && (z - position[2]).abs() <= 10.0 * ALIKE * z
+                (climbed.value - value).abs() <= EQUAL_BY_SYMMETRY * value.abs()
+                    && (z - position[2]).abs() <= 10.0 * EQUAL_BY_SYMMETRY * z
             };
-            let of_face = planes.iter().flat_map(|plane| &plane.on_face).filter(|(of, _)| *of == quantity);
+            let of_face = planes.iter().flat_map(|plane| &plane.on_face).filter(|(of, _)| *of == measure);
             let of_face = of_face.filter(|(_, own)| (own.peak.position[2] - z).abs() <= 1e-9 * z);
             let is_known = is_on_face && of_face.map(|(_, own)| own.peak.value).any(|value| value >= climbed.value);
             if !is_known && !all.iter().any(same) {
@@ -201,7 +196,7 @@ impl StressField {
         Some(all)
     }
 
-    /// Whether the candidates of two planes stand on one hill, as far as their samples tell.
+    /// Whether the candidates of two planes lie beside the same local maximum, judged by the distance of their samples.
     fn are_beside(&self, one: &Candidate, other: &Candidate) -> bool {
         let cell = self.grid().cell();
         let [s, t] = [one, other].map(|own| cell.fractions(own.place));
@@ -209,20 +204,20 @@ impl StressField {
         x.hypot(y) <= 4.0 * one.step.max(other.step)
     }
 
-    /// The value of a quantity on this grid where a contender of a finer one stands; `near`: the depth down to which the
-    /// finer one's series converges slowly.
-    pub(super) fn beside(&self, contender: &Contender, quantity: Quantity, near: f64) -> f64 {
+    /// Value of a measure on this grid at the position of a contender of a finer grid, whose series converges slowly above the
+    /// depth `near`.
+    pub(super) fn value_beside(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
         let Peak { position: [x, y, z], material, .. } = contender.peak;
         let (depth, step) = (Depth { z, material }, self.grid().spacing());
         if z < near {
-            let states = self.searched(&self.slice(depth, REACH), &self.samples_around([x, y]));
-            return states.iter().map(|state| quantity.of(state)).fold(f64::NEG_INFINITY, f64::max);
+            let states = self.stresses_at(&self.depth_response(depth, REACH), &self.samples_around([x, y]));
+            return states.iter().map(|state| measure.of(state)).fold(f64::NEG_INFINITY, f64::max);
         }
         let start = Candidate { value: f64::NEG_INFINITY, depth, place: [x, y], step: 0.5 * step };
-        self.climbed(&start, 0.0, [z, z], quantity).0.value
+        self.local_maximum(&start, 0.0, [z, z], measure).0.value
     }
 
-    /// The 4 × 4 samples around a place.
+    /// The 4 × 4 samples around a point, lengths.
     fn samples_around(&self, place: [f64; 2]) -> Vec<[f64; 2]> {
         let (cell, points) = (self.grid().cell(), self.grid().points());
         let [s, t] = cell.fractions(place);
@@ -238,7 +233,7 @@ impl StressField {
     fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
         let (top, bottom) = self.half_space().faces(material);
         let least = 0.1 * if small > 0.0 { small } else { self.grid().spacing() };
-        // Below some six radii, or the cell, and a few coating thicknesses stresses only fall.
+        // Stresses decrease below some six radii, or the cell, and a few coating thicknesses.
         let reach = 6.0 * large.min(self.grid().cell().reduced().longer_side()) + 3.0 * top;
         let most = if bottom.is_finite() { 0.5 * (bottom - top) } else { reach };
         let mut depths = vec![top];
@@ -248,7 +243,7 @@ impl StressField {
             if bottom.is_finite() {
                 depths.push(bottom - distance);
             }
-            distance *= RATIO;
+            distance *= DEPTH_RATIO;
         }
         if bottom.is_finite() {
             depths.extend([0.5 * (top + bottom), bottom]);
@@ -258,8 +253,8 @@ impl StressField {
         depths
     }
 
-    /// The best samples of the plane at a depth.
-    fn candidates(&self, depth: Depth, radius: f64, quantities: &[Quantity]) -> Vec<(Quantity, Candidate)> {
+    /// The largest sample of a plane by each measure.
+    fn candidates(&self, depth: Depth, radius: f64, measures: &[StressMeasure]) -> Vec<(StressMeasure, Candidate)> {
         let grid = self.grid();
         let lengths = grid.cell().vectors().map(|[x, y]| x.hypot(y));
         let points = [0, 1].map(|k| {
@@ -267,50 +262,56 @@ impl StressField {
             let needed = (PLANE_REACH * length / (std::f64::consts::PI * depth.z)).max(8.0 * length / radius);
             if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
         });
-        let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points), quantities);
+        let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points), measures);
         let [n1, n2] = points.map(|n| n as f64);
-        let candidate = |(index, &quantity): (usize, &Quantity)| {
+        let candidate = |(index, &measure): (usize, &StressMeasure)| {
             let of_rows = || largest_of_rows.iter().map(|row| row[index]);
             let (i, value) = first_largest(of_rows().map(|(_, value)| value)).unwrap_or((0, f64::NEG_INFINITY));
             let j = of_rows().nth(i).map_or(0, |(j, _)| j);
             let place = grid.cell().point([i as f64 / n1, j as f64 / n2]);
-            (quantity, Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) })
+            (measure, Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) })
         };
-        quantities.iter().enumerate().map(candidate).collect()
+        measures.iter().enumerate().map(candidate).collect()
     }
 
-    /// Index and value of the largest of each quantity in each row of a plane.
-    fn largest_of_rows(&self, depth: Depth, transform: &Transform, quantities: &[Quantity]) -> Vec<Vec<(usize, f64)>> {
-        let (slice, found) = (self.slice(depth, PLANE_REACH), LargestSoFar::new(quantities));
+    /// Index and value of the largest of each measure in each row of a plane.
+    fn largest_of_rows(
+        &self,
+        depth: Depth,
+        transform: &Transform,
+        measures: &[StressMeasure],
+    ) -> Vec<Vec<(usize, f64)>> {
+        let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
         if depth == Depth::SURFACE {
             let traction = self.traction();
-            let columns = self.series.on_plane(transform, Vec::new(), &Flat::new(&Arc::new(slice), |_| 1.0));
+            let columns =
+                self.series.on_plane(transform, Vec::new(), &SurfaceStresses::new(&Arc::new(response), |_| 1.0));
             return columns.map(|_, row| {
-                found.add(row[0].len(), |j| State::on_surface(row.map(|component| component[j]), traction))
+                found.add(row[0].len(), |j| StressState::on_surface(row.map(|component| component[j]), traction))
             });
         }
-        let columns = self.series.on_plane(transform, Vec::new(), &Stresses(&slice));
-        columns.map(|_, row| found.add(row[0].len(), |j| State::from_stresses(row.map(|component| component[j]))))
+        let columns = self.series.on_plane(transform, Vec::new(), &StressComponents(&response));
+        columns.map(|_, row| found.add(row[0].len(), |j| StressState::from_stresses(row.map(|component| component[j]))))
     }
 
-    /// The best place on a face and the state there: between the samples of the plane by the exact sum, or, where that converges
-    /// slowly, the sample itself.
-    fn on_face(&self, candidate: &Candidate, quantity: Quantity) -> (Candidate, State) {
+    /// The maximum on a face near a candidate, and the state there: by the exact sum between the samples, or the sample itself
+    /// where the series converges slowly.
+    fn on_face(&self, candidate: &Candidate, measure: StressMeasure) -> (Candidate, StressState) {
         let z = candidate.depth.z;
-        if z < NEAR * self.grid().spacing() {
+        if z < SHALLOW * self.grid().spacing() {
             (*candidate, self.state_at(candidate))
         } else {
-            self.climbed(candidate, 0.0, [z, z], quantity)
+            self.local_maximum(candidate, 0.0, [z, z], measure)
         }
     }
 
     /// The state at a candidate.
-    fn state_at(&self, candidate: &Candidate) -> State {
-        self.searched(&self.slice(candidate.depth, SEARCH_REACH), &[candidate.place])[0]
+    fn state_at(&self, candidate: &Candidate) -> StressState {
+        self.stresses_at(&self.depth_response(candidate.depth, SEARCH_REACH), &[candidate.place])[0]
     }
 
-    /// What contends at a candidate, where there is this state.
-    fn contender(&self, candidate: &Candidate, state: State) -> Contender {
+    /// The contender at a candidate with its state.
+    fn contender(&self, candidate: &Candidate, state: StressState) -> Contender {
         let Candidate { value, depth, place: [x, y], .. } = *candidate;
         let peak = Peak {
             value,
@@ -323,17 +324,17 @@ impl StressField {
         Contender { peak, crest: None, state, size: self.size_of_waves(depth, &state) }
     }
 
-    /// The crest of the surface as what contends there.
-    fn crowned(&self, depth: Depth, crest: Crest) -> Contender {
+    /// The contender of a crest of the surface.
+    fn crest_contender(&self, depth: Depth, crest: Crest) -> Contender {
         let Peak { position: [x, y, _], .. } = crest.peak;
-        let state = self.searched(&self.slice(depth, SEARCH_REACH), &[[x, y]])[0];
+        let state = self.stresses_at(&self.depth_response(depth, SEARCH_REACH), &[[x, y]])[0];
         Contender { peak: crest.peak, crest: Some(crest), state, size: self.size_of_waves(depth, &state) }
     }
 
-    /// The size of what the waves cause in a state at a depth: without the mean and residual stresses.
-    fn size_of_waves(&self, depth: Depth, state: &State) -> f64 {
+    /// √(Σσᵢⱼ²) of a state without its mean and residual stresses, a pressure.
+    fn size_of_waves(&self, depth: Depth, state: &StressState) -> f64 {
         let mean = self.mean(depth);
-        let own = State {
+        let own = StressState {
             xx: state.xx - mean.xx,
             yy: state.yy - mean.yy,
             zz: state.zz - mean.zz,

@@ -1,11 +1,12 @@
-//! Vertical sections and lines, without whole-plane transforms: the waves are collapsed onto a [`Trace`].
+//! Stresses on vertical sections and lines, without transforms of whole planes: the waves are summed along a [`Trace`].
 //!
-//! On the surface the stresses are those of [`super::surface`]: a line meets edges between the samples, where the series
-//! itself overshoots. Just below it, where the series still does, stresses are interpolated in depth.
+//! On the surface the stresses are those of [`super::smoothed_surface`], as the series itself overshoots at edges between the
+//! samples. Just below, where it still overshoots, stresses are interpolated in depth.
 
+use super::constants::OPEN_WIDTH;
 use super::field::{REACH, StressField};
-use super::surface::{OPEN, Skin};
-use super::tensor::State;
+use super::smoothed_surface::SmoothedSurface;
+use super::tensor::StressState;
 use super::trace::Trace;
 use crate::body::Depth;
 use crate::numeric::array::field;
@@ -14,35 +15,35 @@ use ndarray::Array2;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Into so many parts the distance of two points is divided to find the largest stress between them.
-const BETWEEN: usize = 512;
+/// Number of intervals between two points of a line in which the largest stress is searched.
+const REFINEMENT: usize = 512;
 
 /// Equally spaced points on a straight line along the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
-    /// Where s = 0, lengths.
+pub struct SurfaceLine {
+    /// Point (x, y) at s = 0, lengths.
     pub origin: [f64; 2],
-    /// Direction along which s grows; any length, s is a length.
+    /// Direction in which s increases, a vector of any length; s itself is a length.
     pub direction: [f64; 2],
     /// First and last s, lengths.
     pub span: [f64; 2],
-    /// Number of points, both ends counted.
+    /// Number of points, both ends included.
     pub points: usize,
 }
 
-impl Line {
-    /// Values of s.
+impl SurfaceLine {
+    /// Values of s at the points, lengths.
     pub fn distances(&self) -> Vec<f64> {
         (0..self.points).map(|i| self.span[0] + i as f64 * self.step()).collect()
     }
 
-    /// Places (x, y) of the points.
+    /// Positions (x, y) of the points, lengths.
     pub fn places(&self) -> Vec<[f64; 2]> {
         let unit = self.unit();
         self.distances().into_iter().map(|s| [0, 1].map(|k| self.origin[k] + s * unit[k])).collect()
     }
 
-    /// The first and the last place.
+    /// Positions (x, y) of the first and the last point, lengths.
     pub fn ends(&self) -> [[f64; 2]; 2] {
         self.span.map(|s| [0, 1].map(|k| self.origin[k] + s * self.unit()[k]))
     }
@@ -60,60 +61,63 @@ impl Line {
 
 /// The states on a vertical section.
 #[derive(Debug, Clone)]
-pub struct Section {
+pub struct VerticalSection {
     /// The line on the surface.
-    pub line: Line,
-    /// Depths of its rows; one on an interface stands twice, once for each side.
+    pub line: SurfaceLine,
+    /// Depths of the rows; an interface has two, one for each side.
     pub depths: Vec<Depth>,
     /// Axis 0: rows, as `depths`; axis 1: points of the line.
-    pub states: Array2<State>,
-    /// s on the surface where the normal stress along the line is largest, between the points, and that stress; `None`
-    /// unless the first row is the surface.
+    pub states: Array2<StressState>,
+    /// s at the largest normal stress along the line on the surface, between the points, and that stress; `None` unless the
+    /// first row is the surface.
     pub highest: Option<[f64; 2]>,
 }
 
-/// A field below a line. Sections and the highest place are read off it.
+/// The stress field below a line.
 #[derive(Debug)]
-struct Below<'a> {
+struct LineField<'a> {
     field: &'a StressField,
-    line: Line,
+    line: SurfaceLine,
     trace: Trace<'a>,
-    /// The surface, where contact has edges.
-    skin: Option<Skin>,
+    /// The smoothed surface; `None` where contact has no edge.
+    smoothed: Option<SmoothedSurface>,
 }
 
 impl StressField {
     /// States on a vertical section: for each depth those at the points of the line.
     ///
     /// # Panics
-    /// When a depth is in a material that is not there.
-    pub fn section(&self, line: &Line, depths: &[Depth]) -> Section {
-        let below = Below::new(self, *line);
+    /// When a depth names a material that does not exist.
+    pub fn section(&self, line: &SurfaceLine, depths: &[Depth]) -> VerticalSection {
+        let below = LineField::new(self, *line);
         let rows = below.rows(depths);
         let highest = rows.first().filter(|_| depths[0] == Depth::SURFACE).and_then(|surface| below.highest(surface));
         let states = field([depths.len(), line.points], rows.into_iter().flatten().collect());
-        Section { line: *line, depths: depths.to_vec(), states, highest }
+        VerticalSection { line: *line, depths: depths.to_vec(), states, highest }
     }
 
-    /// Depth from which on the series needs no help: the least wavenumber that the grid cannot hold has fallen as far
-    /// as smoothing makes it fall on the surface. Zero where contact has no edge; at most the thickness of the coating.
+    /// Depth above which stresses are interpolated, a length: where the least wavenumber that the grid cannot hold has decayed as far
+    /// as the smoothing damps it on the surface. Zero where contact has no edge; at most the thickness of the coating.
     fn shallow(&self) -> f64 {
-        let depth = if self.regions().have_edges() { 0.5 * OPEN * OPEN / self.grid().least_aliased() } else { 0.0 };
+        let depth =
+            if self.regions().have_edges() { 0.5 * OPEN_WIDTH * OPEN_WIDTH / self.grid().least_aliased() } else { 0.0 };
         depth.min(self.half_space().faces(1).1)
     }
 }
 
-impl<'a> Below<'a> {
-    fn new(field: &'a StressField, line: Line) -> Self {
+impl<'a> LineField<'a> {
+    fn new(field: &'a StressField, line: SurfaceLine) -> Self {
         let cell = field.grid().cell();
         let trace = Trace::new(&field.series, cell.fractions(line.origin), cell.fractions(line.unit()));
-        let skin =
-            field.regions().have_edges().then(|| Skin::new(field, &Arc::new(field.slice(Depth::SURFACE, REACH)), 1.0));
-        Self { field, line, trace, skin }
+        let smoothed = field
+            .regions()
+            .have_edges()
+            .then(|| SmoothedSurface::new(field, &Arc::new(field.depth_response(Depth::SURFACE, REACH)), 1.0));
+        Self { field, line, trace, smoothed }
     }
 
     /// States on the vertical section below the line: for each depth those at its points.
-    fn rows(&self, depths: &[Depth]) -> Vec<Vec<State>> {
+    fn rows(&self, depths: &[Depth]) -> Vec<Vec<StressState>> {
         let shallow = self.field.shallow();
         let between = |depth: &Depth| depth.material == 1 && depth.z > 0.0 && depth.z < shallow;
         let at = |z: f64| self.row(&self.line, Depth { z, material: 1 });
@@ -123,45 +127,46 @@ impl<'a> Below<'a> {
             Some((surface, below)) if between(depth) => {
                 let part = depth.z / shallow;
                 let pairs = surface.iter().zip(below).zip(self.row(&self.line, *depth));
-                pairs.map(|((a, b), own)| State { displacement: own.displacement, ..a.toward(b, part) }).collect()
+                pairs.map(|((a, b), own)| StressState { displacement: own.displacement, ..a.toward(b, part) }).collect()
             }
             _ => self.row(&self.line, *depth),
         };
         depths.par_iter().map(row).collect()
     }
 
-    /// Where on the surface the normal stress along the line is largest, between its points: s and the stress.
-    /// `surface` holds the states at the points.
-    fn highest(&self, surface: &[State]) -> Option<[f64; 2]> {
+    /// s at the largest normal stress along the line on the surface, between its points, and that stress; `surface` holds the
+    /// states at the points.
+    fn highest(&self, surface: &[StressState]) -> Option<[f64; 2]> {
         let line = self.line;
-        let highest = |states: &[State], line: Line| {
+        let highest = |states: &[StressState], line: SurfaceLine| {
             let (best, stress) = first_largest(states.iter().map(|state| state.along(line.direction)))?;
             Some([line.distances()[best], stress])
         };
         let [s, stress] = highest(surface, line)?;
-        let Some(skin) = &self.skin else { return Some([s, stress]) };
-        // The stress drops at once at an edge: as many points between two as say where.
+        let Some(smoothed) = &self.smoothed else { return Some([s, stress]) };
+        // The stress jumps at an edge: a fine line between the points locates it.
         let [first, last] = line.span;
         let span = [s - line.step(), s + line.step()].map(|s| s.clamp(first.min(last), first.max(last)));
-        let finer = Line { span, points: 2 * BETWEEN + 1, ..line };
-        highest(&self.sharp(skin, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
+        let finer = SurfaceLine { span, points: 2 * REFINEMENT + 1, ..line };
+        highest(&self.sharp(smoothed, &finer), finer).filter(|finer| finer[1] > stress).or(Some([s, stress]))
     }
 
-    /// States at a depth, at the points of `line`: of its own or a part of it.
-    fn row(&self, line: &Line, depth: Depth) -> Vec<State> {
+    /// States at a depth at the points of `line`, which is a part of the field's line.
+    fn row(&self, line: &SurfaceLine, depth: Depth) -> Vec<StressState> {
         let (first, step) = (line.span[0], line.step());
-        let slice = self.field.slice(depth, REACH);
-        let states = self.trace.sums(&slice, [first, step], line.points).into_iter().map(State::from_components);
-        let Some(skin) = self.skin.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
-        let sharp = self.sharp(skin, line).into_iter().zip(states);
-        sharp.map(|(sharp, state)| State { displacement: state.displacement, ..sharp }).collect()
+        let response = self.field.depth_response(depth, REACH);
+        let states =
+            self.trace.sums(&response, [first, step], line.points).into_iter().map(StressState::from_components);
+        let Some(smoothed) = self.smoothed.as_ref().filter(|_| depth.z == 0.0) else { return states.collect() };
+        let sharp = self.sharp(smoothed, line).into_iter().zip(states);
+        sharp.map(|(sharp, state)| StressState { displacement: state.displacement, ..sharp }).collect()
     }
 
-    /// States on the surface, displacements left out, at the points of `line`.
-    fn sharp(&self, skin: &Skin, line: &Line) -> Vec<State> {
+    /// States on the surface at the points of `line`, displacements left out.
+    fn sharp(&self, smoothed: &SmoothedSurface, line: &SurfaceLine) -> Vec<StressState> {
         let places = [line.span[0], line.step()];
-        let near = self.trace.sums(&skin.near, places, line.points);
-        let [edge, open] = [&skin.edge, &skin.open].map(|flat| self.trace.sums(flat, places, line.points));
-        near.into_iter().zip(edge).zip(open).map(|((near, edge), open)| skin.state(near, edge, open)).collect()
+        let near = self.trace.sums(&smoothed.near, places, line.points);
+        let [edge, open] = [&smoothed.edge, &smoothed.open].map(|flat| self.trace.sums(flat, places, line.points));
+        near.into_iter().zip(edge).zip(open).map(|((near, edge), open)| smoothed.state(near, edge, open)).collect()
     }
 }

@@ -1,50 +1,50 @@
-//! The pressure as a sum of plane waves, and what becomes of it elsewhere in the body.
+//! The pressure as a sum of plane waves, and linear responses to it.
 //!
 //! p(**x**) = p̄ + Re Σ c e^{i**q**·**x**} over the [`Waves`] of the grid. A component of stress or displacement at a depth is
-//! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over points of a plane by transforms,
-//! and at single places term by term.
+//! the same sum with c times a complex factor of **q**: a [`Response`]. It is summed over the points of a plane by transforms,
+//! and at single points term by term.
 
-use super::transform::{Column, Columns, Transform};
+use super::transform::{FieldColumn, FieldColumns, Transform};
 use crate::lattice::Grid;
-use crate::lattice::waves::{Row, Waves};
+use crate::lattice::waves::{WaveRow, Waves};
 use crate::numeric::lanes::{LANES, vectorised};
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// K components that the pressure causes.
+/// K components of stress or displacement that depend linearly on the pressure.
 pub(super) trait Response<const K: usize>: Sync {
-    /// Shells that count, from the longest waves on.
+    /// Number of shells that contribute, from the longest waves on.
     fn shells(&self) -> usize;
-    /// What a wave of this wavevector and shell with the coefficient c causes: c times factors that are conjugate for −**q**.
+    /// Response to a wave with the wavevector **q** of a shell and the coefficient c: c times factors that are conjugate for −**q**.
     fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; K];
-    /// What the mean pressure causes.
+    /// Response to the mean pressure.
     fn mean(&self) -> [f64; K];
 }
 
 /// Plane waves of a periodic pressure.
 #[derive(Debug)]
 pub(super) struct Series {
-    /// Mean p̄.
+    /// Mean pressure p̄.
     pub mean: f64,
     pub waves: Arc<Waves>,
-    /// c of each wave.
+    /// Coefficient c of each wave, a pressure.
     pub coefficients: Vec<Complex64>,
 }
 
-/// Waves from which on a sum is worth more than one thread.
-pub(super) const MANY: usize = 4096;
+/// Least number of waves per thread.
+pub(super) const PARALLEL_WAVES: usize = 4096;
 
 impl Series {
-    /// Of `pressure`, one value per sample of `grid`.
+    /// Waves of a `pressure`, one value per sample of `grid`.
     pub fn new(grid: &Grid, pressure: &[f64]) -> Self {
         let [n1, n2] = grid.points();
         let columns = Transform::new([n1, n2]).analysed(pressure);
         let waves = Arc::clone(grid.waves());
         let coefficients = waves.coefficients(|[k1, k2]| {
             let [k1, k2] = [k1.rem_euclid(n1 as i32) as usize, k2.rem_euclid(n2 as i32) as usize];
-            // A wave and its conjugate are one.
+            // A wave and its conjugate share one coefficient.
             if 2 * k2 <= n2 {
                 2.0 * columns[k2 * n1 + k1]
             } else {
@@ -55,26 +55,26 @@ impl Series {
     }
 
     /// Wavevector, shell and coefficient of the waves of a row.
-    pub fn of<'a>(&'a self, row: &'a Row) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
+    pub fn of<'a>(&'a self, row: &'a WaveRow) -> impl Iterator<Item = ([f64; 2], usize, Complex64)> + 'a {
         let range = row.start..row.start + row.len;
         let pairs = self.waves.shells()[range.clone()].iter().zip(&self.coefficients[range]);
         let step = self.waves.step();
         pairs.enumerate().map(move |(k, (&shell, &coefficient))| (row.at(k, step), shell as usize, coefficient))
     }
 
-    /// Components at the points of the cell that the transform is for: exact there, however few they are, as waves that
-    /// look alike at the points add up. For the `room` see [`Transform::columns`].
+    /// Components at the points of the transform: exact there, however few they are, as aliased waves add up. For the `buffer`
+    /// see [`Transform::columns`].
     pub fn on_plane<'t, const K: usize, R: Response<K>>(
         &self,
         transform: &'t Transform,
-        room: Vec<f64>,
+        buffer: Vec<f64>,
         response: &R,
-    ) -> Columns<'t, K> {
+    ) -> FieldColumns<'t, K> {
         let [n1, n2] = transform.points().map(|n| n as i32);
         let rows = self.waves.rows_within(response.shells());
-        // Re C e^{iq·x} is half the wave and half its conjugate; each stands in one column or in its mirror image.
+        // Re C e^{iq·x} is half the wave and half its conjugate; each belongs to one column or to its mirror image.
         let sides = rows.iter().flat_map(|row| [(row, 1), (row, -1)]);
-        let mut placed: Vec<(i32, i32, &Row)> = sides
+        let mut placed: Vec<(i32, i32, &WaveRow)> = sides
             .map(|(row, sign)| ((sign * row.across).rem_euclid(n2), sign, row))
             .filter(|(column, ..)| 2 * column <= n2)
             .collect();
@@ -86,7 +86,7 @@ impl Series {
             &placed[first..end]
         };
         let occupied = |columns: Range<usize>| columns.start == 0 || !of(columns).is_empty();
-        transform.columns(room, occupied, |k2, column: &mut Column<'_, K>| {
+        transform.columns(buffer, occupied, |k2, column: &mut FieldColumn<'_, K>| {
             if k2 == 0 {
                 column.add(0, mean.map(Complex64::from));
             }
@@ -107,7 +107,7 @@ impl Series {
         })
     }
 
-    /// Components at places, given as fractions of a₁ and a₂: the sum itself.
+    /// Components at points, given as fractions of a₁ and a₂, by the exact sum.
     pub fn at<const K: usize, R: Response<K>>(&self, places: &[[f64; 2]], response: &R) -> Vec<[f64; K]> {
         let rows = self.waves.rows_within(response.shells());
         let together = places.chunks_exact(LANES);
@@ -120,26 +120,26 @@ impl Series {
 
     fn lanes<const K: usize, const P: usize, R: Response<K>>(
         &self,
-        rows: &[Row],
+        rows: &[WaveRow],
         places: [[f64; 2]; P],
         response: &R,
     ) -> [[f64; K]; P] {
         let along = Phases::along(rows, places.map(|[s, _]| s));
         let across = Phases::across(rows, places.map(|[_, t]| t));
-        let of_row = |row: &Row| vectorised!(_simd => self.row(row, along.from(row), across.of(row), response));
+        let of_row = |row: &WaveRow| vectorised!(_simd => self.row(row, along.from(row), across.of(row), response));
         let waves: usize = rows.iter().map(|row| row.len).sum();
-        // Rows are added in their order, whoever has summed them.
+        // Rows are added in their order, whatever the threads.
         let sums: Vec<[[f64; P]; K]> =
-            rows.par_iter().with_min_len(MANY * rows.len() / waves.max(1)).map(of_row).collect();
+            rows.par_iter().with_min_len(PARALLEL_WAVES * rows.len() / waves.max(1)).map(of_row).collect();
         let mean = response.mean();
         std::array::from_fn(|p| std::array::from_fn(|k| mean[k] + sums.iter().map(|sum| sum[k][p]).sum::<f64>()))
     }
 
-    /// What the waves of a row give at some places, by their phases.
+    /// Sums over the waves of a row at some points, by their phases.
     #[inline(always)]
     fn row<const K: usize, const P: usize, R: Response<K>>(
         &self,
-        row: &Row,
+        row: &WaveRow,
         along: &[[[f64; P]; 2]],
         [across_re, across_im]: &[[f64; P]; 2],
         response: &R,
@@ -159,61 +159,61 @@ impl Series {
     }
 }
 
-/// e^{2πiκs} of some s, for a range of κ.
+/// Phases e^{2πiκs} of some s, for a range of κ.
 #[derive(Debug)]
 pub(super) struct Phases<const P: usize> {
     first: i32,
-    turns: Vec<[[f64; P]; 2]>,
+    values: Vec<[[f64; P]; 2]>,
 }
 
-/// Phases so far apart are computed; those between are products of two.
-const APART: i32 = 16;
+/// Distance in κ of the phases that are computed; those between are products of two.
+const PHASE_BLOCK: i32 = 16;
 
 impl<const P: usize> Phases<P> {
     fn new([first, end]: [i32; 2], places: [f64; P]) -> Self {
-        let short: Vec<[[f64; P]; 2]> = (0..APART.min(end - first)).map(|k| turned(k, places)).collect();
-        let mut turns = Vec::with_capacity((end - first) as usize);
-        for start in (first..end).step_by(APART as usize) {
-            let [long_re, long_im] = turned(start, places);
-            turns.extend(short.iter().take((end - start) as usize).map(|[re, im]| {
+        let short: Vec<[[f64; P]; 2]> = (0..PHASE_BLOCK.min(end - first)).map(|k| phases(k, places)).collect();
+        let mut values = Vec::with_capacity((end - first) as usize);
+        for start in (first..end).step_by(PHASE_BLOCK as usize) {
+            let [long_re, long_im] = phases(start, places);
+            values.extend(short.iter().take((end - start) as usize).map(|[re, im]| {
                 let real = |p: usize| long_re[p] * re[p] - long_im[p] * im[p];
                 let imaginary = |p: usize| long_re[p] * im[p] + long_im[p] * re[p];
                 [std::array::from_fn(real), std::array::from_fn(imaginary)]
             }));
         }
-        Self { first, turns }
+        Self { first, values }
     }
 
-    /// For all κ₁ of some rows, of fractions of a₁.
-    pub fn along(rows: &[Row], places: [f64; P]) -> Self {
+    /// Phases of all κ₁ of some rows, at fractions of a₁.
+    pub fn along(rows: &[WaveRow], places: [f64; P]) -> Self {
         let first = rows.iter().map(|row| row.first).min().unwrap_or(0);
         let end = rows.iter().map(|row| row.first + row.len as i32).max().unwrap_or(first);
         Self::new([first, end], places)
     }
 
-    /// For the κ₂ of some rows, of fractions of a₂.
-    pub fn across(rows: &[Row], places: [f64; P]) -> Self {
+    /// Phases of the κ₂ of some rows, at fractions of a₂.
+    pub fn across(rows: &[WaveRow], places: [f64; P]) -> Self {
         let first = rows.first().map_or(0, |row| row.across);
         Self::new([first, rows.last().map_or(first, |row| row.across + 1)], places)
     }
 
-    /// That of the κ₂ of a row.
-    pub fn of(&self, row: &Row) -> &[[f64; P]; 2] {
-        &self.turns[(row.across - self.first) as usize]
+    /// Phase of the κ₂ of a row.
+    pub fn of(&self, row: &WaveRow) -> &[[f64; P]; 2] {
+        &self.values[(row.across - self.first) as usize]
     }
 
-    /// From the first wave of a row on.
-    pub fn from(&self, row: &Row) -> &[[[f64; P]; 2]] {
-        &self.turns[(row.first - self.first) as usize..]
+    /// Phases of the waves of a row, from the first on.
+    pub fn from(&self, row: &WaveRow) -> &[[[f64; P]; 2]] {
+        &self.values[(row.first - self.first) as usize..]
     }
 }
 
 /// cos 2πks and sin 2πks of some s.
-fn turned<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
-    let turns = places.map(|s| {
-        // Whole turns are none.
+fn phases<const P: usize>(k: i32, places: [f64; P]) -> [[f64; P]; 2] {
+    let pairs = places.map(|s| {
+        // Whole periods are removed.
         let part = (f64::from(k) * (s - s.round())).fract();
         (std::f64::consts::TAU * part).sin_cos()
     });
-    [turns.map(|(_, cosine)| cosine), turns.map(|(sine, _)| sine)]
+    [pairs.map(|(_, cosine)| cosine), pairs.map(|(sine, _)| sine)]
 }

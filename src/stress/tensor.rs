@@ -1,52 +1,52 @@
-//! The state at one point: stress tensor and displacement, and what is derived from them.
+//! The state at one point: stress tensor and displacement, principal stresses and equivalent stresses.
 
 use std::fmt;
 
 /// Stress (positive in tension, a pressure) and displacement (a length; u_z into the body) at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct State {
-    /// σ_xx.
+pub struct StressState {
+    /// Stress σ_xx, in the unit of Young's modulus.
     pub xx: f64,
-    /// σ_yy.
+    /// Stress σ_yy, in the unit of Young's modulus.
     pub yy: f64,
-    /// σ_zz.
+    /// Stress σ_zz, in the unit of Young's modulus.
     pub zz: f64,
-    /// σ_xy.
+    /// Stress σ_xy, in the unit of Young's modulus.
     pub xy: f64,
-    /// σ_xz.
+    /// Stress σ_xz, in the unit of Young's modulus.
     pub xz: f64,
-    /// σ_yz.
+    /// Stress σ_yz, in the unit of Young's modulus.
     pub yz: f64,
-    /// u_x, u_y, u_z; not kept in files.
+    /// Displacement u_x, u_y, u_z, lengths; not kept in files.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub displacement: [f64; 3],
 }
 
-impl State {
-    /// From xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
+impl StressState {
+    /// State from xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn from_components([xx, yy, zz, xy, xz, yz, ux, uy, uz]: [f64; 9]) -> Self {
         Self { xx, yy, zz, xy, xz, yz, displacement: [ux, uy, uz] }
     }
 
-    /// From xx, yy, zz, xy, xz, yz; the displacement is left out.
+    /// State from xx, yy, zz, xy, xz, yz; the displacement is left out.
     pub(super) fn from_stresses([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Self {
         Self { xx, yy, zz, xy, xz, yz, ..Self::default() }
     }
 
-    /// On the surface under the pressure p, from xx, yy, xy, p and the `traction` over the pressure: σ_zz = −p, σ_αz = −q_α; the
+    /// State on the surface under the pressure p from xx, yy, xy, p and the `traction` over the pressure: σ_zz = −p, σ_αz = −q_α; the
     /// displacement is left out.
     pub(super) fn on_surface([xx, yy, xy, p]: [f64; 4], [tx, ty]: [f64; 2]) -> Self {
         Self { xx, yy, zz: -p, xy, xz: -tx * p, yz: -ty * p, ..Self::default() }
     }
 
-    /// xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
+    /// Components xx, yy, zz, xy, xz, yz, u_x, u_y, u_z.
     pub fn components(&self) -> [f64; 9] {
         let [ux, uy, uz] = self.displacement;
         [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz, ux, uy, uz]
     }
 
-    /// The state a `part` of the way toward another.
+    /// Linear interpolation towards another state; `part` is its weight.
     pub fn toward(&self, other: &Self, part: f64) -> Self {
         let (here, there) = (self.components(), other.components());
         Self::from_components(std::array::from_fn(|c| (1.0 - part) * here[c] + part * there[c]))
@@ -85,7 +85,7 @@ impl State {
         (mean, 0.5 * (a * a + b * b + c * c) + self.xy * self.xy + self.xz * self.xz + self.yz * self.yz)
     }
 
-    /// √(Σσᵢⱼ²), a pressure.
+    /// Size √(Σσᵢⱼ²) of the stress tensor, a pressure.
     pub(super) fn size(&self) -> f64 {
         let shear = self.xy * self.xy + self.xz * self.xz + self.yz * self.yz;
         (self.xx * self.xx + self.yy * self.yy + self.zz * self.zz + 2.0 * shear).sqrt()
@@ -102,17 +102,17 @@ impl State {
         self.principal()[0]
     }
 
-    /// τ₁, the stress of von Mises and σ₁.
+    /// Principal shear stress τ₁, stress of von Mises and largest principal stress σ₁.
     pub fn derived(&self) -> [f64; 3] {
         let [first, _, last] = self.principal();
         [0.5 * (first - last), self.mises(), first]
     }
 
-    /// Unit vector along which σ₁ acts, its first non-zero component positive.
+    /// Direction of σ₁, a unit vector whose first non-zero component is positive.
     pub fn s1_direction(&self) -> [f64; 3] {
         let s = self.s1();
         let rows = [[self.xx - s, self.xy, self.xz], [self.xy, self.yy - s, self.yz], [self.xz, self.yz, self.zz - s]];
-        // The direction is normal to all rows; the longest cross product of two of them is the safest.
+        // The direction is normal to all rows; the longest cross product of two of them is the most accurate.
         let cross = |u: [f64; 3], v: [f64; 3]| {
             [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
         };
@@ -146,7 +146,7 @@ impl State {
     }
 }
 
-impl fmt::Display for State {
+impl fmt::Display for StressState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -174,21 +174,21 @@ mod tests {
         let frame = [[c, s, 0.0], [-s * c, c * c, s], [s * s, -s * c, c]];
         let values = [3.0, 1.0, -2.0];
         let entry = |i: usize, j: usize| (0..3).map(|k| values[k] * frame[k][i] * frame[k][j]).sum::<f64>();
-        let state = State {
+        let state = StressState {
             xx: entry(0, 0),
             yy: entry(1, 1),
             zz: entry(2, 2),
             xy: entry(0, 1),
             xz: entry(0, 2),
             yz: entry(1, 2),
-            ..State::default()
+            ..StressState::default()
         };
         for (found, expected) in state.principal().iter().zip(values) {
             assert!((found - expected).abs() < 1e-14);
         }
         assert!((state.tau1() - 2.5).abs() < 1e-14);
         // The cube of so small a stress is zero.
-        let tiny = State::from_components(state.components().map(|s| 1e-120 * s));
+        let tiny = StressState::from_components(state.components().map(|s| 1e-120 * s));
         assert!((tiny.tau1() / 2.5e-120 - 1.0).abs() < 1e-13, "{tiny}");
         assert!((state.mises() - 19f64.sqrt()).abs() < 1e-13);
         let direction = state.s1_direction();
@@ -197,10 +197,10 @@ mod tests {
 
     #[test]
     fn double_and_triple_principal_stresses_have_directions_of_length_one() {
-        let double = State { xx: 2.0, yy: 2.0, zz: -1.0, ..State::default() };
+        let double = StressState { xx: 2.0, yy: 2.0, zz: -1.0, ..StressState::default() };
         let d = double.s1_direction();
         assert!(d[2].abs() < 1e-14 && (d[0].hypot(d[1]) - 1.0).abs() < 1e-14);
-        let triple = State { xx: -1.0, yy: -1.0, zz: -1.0, ..State::default() };
+        let triple = StressState { xx: -1.0, yy: -1.0, zz: -1.0, ..StressState::default() };
         assert_eq!(triple.principal(), [-1.0; 3]);
         assert_eq!(triple.s1_direction(), [1.0, 0.0, 0.0]);
     }

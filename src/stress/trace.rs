@@ -5,14 +5,14 @@
 //! multiple m₁κ₁ + m₂κ₂ of one wavenumber: they are first collapsed onto a few N multiples, −κ being the conjugate of κ.
 
 use super::series::{Phases, Response, Series};
-use crate::lattice::waves::Row;
+use crate::lattice::waves::WaveRow;
 use crate::numeric::fourier::Nonuniform;
 use rustfft::num_complex::Complex64;
 
-/// Multiples m₁, m₂ up to which a direction is one of the lattice.
-const LATTICE: i32 = 32;
-/// How near whole ones they are: a phase error of 1e-11 over a period.
-const WHOLE: f64 = 1e-12;
+/// Largest multiples m₁, m₂ of a lattice direction.
+const MAX_MULTIPLE: i32 = 32;
+/// Tolerance of whole multiples: a phase error of 1e-11 over a period.
+const WHOLE_TOLERANCE: f64 = 1e-12;
 
 /// The waves of a series along a line.
 #[derive(Debug)]
@@ -21,17 +21,17 @@ pub(super) struct Trace<'a> {
     /// Fractions of a₁ and a₂ of the origin **x**₀, and of the unit vector **d**.
     origin: [f64; 2],
     unit: [f64; 2],
-    /// m₁, m₂, and 1/s of m₁**a**₁ + m₂**a**₂.
+    /// m₁, m₂ and 1/s of m₁**a**₁ + m₂**a**₂; `None` for a direction that is incommensurate with the lattice.
     lattice: Option<([i32; 2], f64)>,
 }
 
 impl<'a> Trace<'a> {
-    /// Along the line from `origin` in the direction of the `unit` vector, both as fractions of a₁ and a₂.
+    /// Trace along the line from `origin` in the direction of the `unit` vector, both as fractions of a₁ and a₂.
     pub fn new(series: &'a Series, origin: [f64; 2], unit: [f64; 2]) -> Self {
         Self { series, origin, unit, lattice: lattice_direction(unit) }
     }
 
-    /// Components at s = first + i step, 0 ≤ i < `points`, lengths.
+    /// Components of a response at s = first + i step, 0 ≤ i < `points`; s, first and step are lengths.
     pub fn sums<const K: usize, R: Response<K>>(
         &self,
         response: &R,
@@ -45,7 +45,7 @@ impl<'a> Trace<'a> {
         let mut waves = Nonuniform::new(points);
         match self.lattice {
             Some(([m1, m2], unit)) => {
-                let multiple = |row: &Row, k: usize| m1 * (row.first + k as i32) + m2 * row.across;
+                let multiple = |row: &WaveRow, k: usize| m1 * (row.first + k as i32) + m2 * row.across;
                 let ends = rows.iter().flat_map(|row| [multiple(row, 0), multiple(row, row.len - 1)]);
                 let most = ends.map(i32::abs).max().unwrap_or(0) as usize;
                 let mut sums = vec![[Complex64::default(); K]; most + 1];
@@ -74,10 +74,10 @@ impl<'a> Trace<'a> {
         waves.real_parts().into_iter().map(|sums| std::array::from_fn(|k| mean[k] + sums[k])).collect()
     }
 
-    /// What the waves of a row give at a place, by the phases of its fractions of a₁ and a₂.
+    /// Terms of the waves of a row at a point, by the phases of its fractions of a₁ and a₂.
     fn terms<'b, const K: usize, R: Response<K>>(
         &'b self,
-        row: &'b Row,
+        row: &'b WaveRow,
         along: &'b Phases<1>,
         across: &Phases<1>,
         response: &'b R,
@@ -92,10 +92,10 @@ impl<'a> Trace<'a> {
 }
 
 /// m₁, m₂ without a common factor along a unit vector of these fractions of a₁ and a₂, and one over the distance s of
-/// m₁**a**₁ + m₂**a**₂ along it (of either sign); none for a direction that is incommensurate with the lattice.
+/// m₁**a**₁ + m₂**a**₂ along it (of either sign); `None` for a direction that is incommensurate with the lattice.
 fn lattice_direction([s, t]: [f64; 2]) -> Option<([i32; 2], f64)> {
     let larger = if s.abs() > t.abs() { s } else { t };
-    let near = |x: f64| (x - x.round()).abs() <= WHOLE;
-    let scale = (1..=LATTICE).map(f64::from).find(|m| near(m * s / larger) && near(m * t / larger))?;
+    let near = |x: f64| (x - x.round()).abs() <= WHOLE_TOLERANCE;
+    let scale = (1..=MAX_MULTIPLE).map(f64::from).find(|m| near(m * s / larger) && near(m * t / larger))?;
     Some(([s, t].map(|x| (scale * x / larger).round() as i32), larger / scale))
 }

@@ -1,10 +1,10 @@
 //! Real fields and their Fourier coefficients on n₁ × n₂ points,
 //!
-//! f(i, j) = Σ F(k₁, k₂) e^{2πi (k₁i/n₁ + k₂j/n₂)},  F(−k₁, −k₂) = F*(k₁, k₂): half of the columns k₂ tell all.
+//! f(i, j) = Σ F(k₁, k₂) e^{2πi (k₁i/n₁ + k₂j/n₂)},  F(−k₁, −k₂) = F*(k₁, k₂): half of the columns k₂ suffice.
 //!
-//! Several fields are transformed at once: first all columns, by tiles of eight, each where it is filled in, then groups of
-//! eight rows, which may be used up as they come and need not be kept. A tile or a group is the work of one thread, so
-//! that their number does not reach the result.
+//! Several fields are transformed at once: first the columns, in tiles of eight, each right after it is filled, then the rows, in
+//! groups of eight, which may be processed one by one without being kept. A tile or a group is the work of one thread, so that
+//! the result does not depend on the number of threads.
 
 use crate::numeric::fourier::{self, Buffers, LINE, Rows};
 use crate::numeric::lanes::LANES;
@@ -14,50 +14,50 @@ use rustfft::num_complex::Complex64;
 use std::fmt;
 use std::ops::Range;
 
-/// Groups of rows that are read before they are handed on, at least.
+/// Least number of groups of rows that are read at a time.
 const BATCH: usize = 8;
 
 /// Transforms between fields and coefficients on [n₁, n₂] points.
 pub(super) struct Transform {
     points: [usize; 2],
     columns: fourier::Columns<f64>,
-    /// Where the component k₁ of a column stands.
+    /// Place of the component k₁ in a column.
     places: Vec<usize>,
     rows: Rows<f64>,
 }
 
-/// K fields transformed along their columns: by tiles, then fields, then lines of eight columns.
-pub(super) struct Columns<'a, const K: usize> {
+/// K fields transformed along their columns; stored by tiles, then fields, then lines of eight columns.
+pub(super) struct FieldColumns<'a, const K: usize> {
     transform: &'a Transform,
     values: Vec<f64>,
 }
 
 /// One column of K fields, in its tile.
-pub(super) struct Column<'a, const K: usize> {
+pub(super) struct FieldColumn<'a, const K: usize> {
     lines: &'a mut [f64],
     lane: usize,
     places: &'a [usize],
 }
 
 impl Transform {
-    /// On [n₁, n₂] points.
+    /// Transform on [n₁, n₂] points.
     pub fn new([n1, n2]: [usize; 2]) -> Self {
         let columns = fourier::Columns::new(n1);
         let places = columns.places(n1);
         Self { points: [n1, n2], columns, places, rows: Rows::new(n2) }
     }
 
-    /// [n₁, n₂].
+    /// Number of points [n₁, n₂].
     pub fn points(&self) -> [usize; 2] {
         self.points
     }
 
-    /// Columns 0 ≤ k₂ ≤ n₂/2.
+    /// Number of columns 0 ≤ k₂ ≤ n₂/2.
     fn half(&self) -> usize {
         self.points[1] / 2 + 1
     }
 
-    /// Numbers of a tile.
+    /// Length of a tile of one field.
     fn tile(&self) -> usize {
         self.points[0] * LINE
     }
@@ -99,19 +99,19 @@ impl Transform {
         columns
     }
 
-    /// K fields along their columns. `fill` adds the coefficients of column k₂ to zeros; what is not `occupied`, a tile of
-    /// columns, has none. The `room` is that of columns that are needed no more, or empty.
+    /// K fields transformed along their columns. `fill` adds the coefficients of column k₂ to zeros; tiles of columns that are
+    /// not `occupied` have none. The `buffer` is that of earlier columns, or empty.
     pub fn columns<const K: usize>(
         &self,
-        room: Vec<f64>,
+        buffer: Vec<f64>,
         occupied: impl Fn(Range<usize>) -> bool + Sync,
-        fill: impl Fn(usize, &mut Column<'_, K>) + Sync,
-    ) -> Columns<'_, K> {
+        fill: impl Fn(usize, &mut FieldColumn<'_, K>) + Sync,
+    ) -> FieldColumns<'_, K> {
         let half = self.half();
         let size = half.div_ceil(LANES) * K * self.tile();
-        // Fresh memory is zero, and costs nothing before it is written.
-        let is_fresh = room.is_empty();
-        let mut values = if is_fresh { vec![0.0; size] } else { room };
+        // Fresh memory is zero and is mapped at the first write.
+        let is_fresh = buffer.is_empty();
+        let mut values = if is_fresh { vec![0.0; size] } else { buffer };
         values.reserve_exact(size.saturating_sub(values.len()));
         values.resize(size, 0.0);
         values.par_chunks_exact_mut(K * self.tile()).enumerate().for_each_init(
@@ -120,23 +120,23 @@ impl Transform {
                 let columns = tile * LANES..half.min((tile + 1) * LANES);
                 let any = occupied(columns.clone());
                 if any || !is_fresh {
-                    // Fresh memory too: to read it first would have the system map it twice.
+                    // Fresh memory too: a read before the first write would map it twice.
                     lines.fill(0.0);
                 }
                 if any {
                     for (lane, k2) in columns.enumerate() {
-                        fill(k2, &mut Column { lines, lane, places: &self.places });
+                        fill(k2, &mut FieldColumn { lines, lane, places: &self.places });
                     }
                     let fields = lines.chunks_exact_mut(self.tile());
                     fields.for_each(|lines| self.columns.inverse(lines, scratch));
                 }
             },
         );
-        Columns { transform: self, values }
+        FieldColumns { transform: self, values }
     }
 }
 
-impl<const K: usize> Column<'_, K> {
+impl<const K: usize> FieldColumn<'_, K> {
     /// Adds to the coefficients k₁ of the fields.
     #[inline(always)]
     pub fn add(&mut self, k1: usize, coefficients: [Complex64; K]) {
@@ -148,13 +148,13 @@ impl<const K: usize> Column<'_, K> {
     }
 }
 
-impl<const K: usize> Columns<'_, K> {
-    /// What groups of rows need, for one thread.
+impl<const K: usize> FieldColumns<'_, K> {
+    /// Buffers of one thread for groups of rows.
     fn buffers(&self) -> [Buffers<f64>; K] {
         std::array::from_fn(|_| self.transform.rows.buffers())
     }
 
-    /// Brings a group of eight rows (at the end fewer) of the fields into the buffers: how many there are.
+    /// Transforms a group of eight rows (fewer at the end) of the fields into the buffers; returns the number of rows.
     fn group(&self, group: usize, buffers: &mut [Buffers<f64>; K]) -> usize {
         let Transform { points: [n1, _], ref rows, .. } = *self.transform;
         let (tile, first) = (self.transform.tile(), group * LANES);
@@ -167,12 +167,12 @@ impl<const K: usize> Columns<'_, K> {
         count
     }
 
-    /// The room they take, for others.
-    pub fn into_room(self) -> Vec<f64> {
+    /// Their buffer, for other columns.
+    pub fn into_buffer(self) -> Vec<f64> {
         self.values
     }
 
-    /// `read` of each row: its number, and the rows of the fields.
+    /// Values of `read` for each row, called with its number and the row of each field.
     pub fn map<R: Send>(&self, read: impl Fn(usize, [&[f64]; K]) -> R + Sync) -> Vec<R> {
         let each = |buffers: &mut [Buffers<f64>; K], group: usize| -> Vec<R> {
             let rows = 0..self.group(group, buffers);
@@ -184,7 +184,7 @@ impl<const K: usize> Columns<'_, K> {
         groups.into_iter().flatten().collect()
     }
 
-    /// The fields, one after the other.
+    /// Writes the fields one after the other.
     pub fn write(&self, fields: &mut [f64]) {
         let [n1, n2] = self.transform.points;
         let mut groups: Vec<Vec<&mut [f64]>> = (0..n1.div_ceil(LANES)).map(|_| Vec::with_capacity(K)).collect();
@@ -204,8 +204,8 @@ impl<const K: usize> Columns<'_, K> {
         );
     }
 
-    /// What `read` makes of each sample of the K fields, C numbers, is handed on in their order: [C, rows, n₂] of some rows
-    /// at a time.
+    /// Calls `sink` with the C values that `read` returns for each sample of the K fields, in order, some rows at a time: arrays of
+    /// [C, rows, n₂].
     pub fn hand_on<const C: usize, E>(
         &self,
         read: impl Fn([f64; K]) -> [f64; C] + Sync,
@@ -249,15 +249,15 @@ mod tests {
     use super::*;
     use std::f64::consts::TAU;
 
-    /// Room of columns of other numbers of fields, tiles without coefficients in it, and lengths left to the library.
+    /// Buffers of columns of other numbers of fields, tiles without coefficients, and lengths left to the library.
     #[test]
-    fn room_that_has_served_others_leaves_nothing_behind() {
-        fn waves<const K: usize>(transform: &Transform, room: Vec<f64>, k2: usize) -> Vec<f64> {
+    fn a_buffer_of_other_columns_leaves_nothing_behind() {
+        fn waves<const K: usize>(transform: &Transform, buffer: Vec<f64>, k2: usize) -> Vec<f64> {
             let [n1, n2] = transform.points();
             let columns = transform.columns(
-                room,
+                buffer,
                 |columns| columns.contains(&k2),
-                |column, own: &mut Column<'_, K>| {
+                |column, own: &mut FieldColumn<'_, K>| {
                     if column == k2 {
                         own.add(1, std::array::from_fn(|k| Complex64::from(0.5 * (k + 1) as f64)));
                     }
@@ -270,14 +270,14 @@ mod tests {
                 let expected = (k + 1) as f64 * (TAU * (i as f64 / n1 as f64 + (k2 * j) as f64 / n2 as f64)).cos();
                 assert!((value - expected).abs() < 1e-13, "{n1} × {n2}, {k2}: {value}, {expected}");
             }
-            columns.into_room()
+            columns.into_buffer()
         }
         for points in [[17, 34], [24, 60], [9, 41]] {
             let transform = Transform::new(points);
-            let room = waves::<3>(&transform, Vec::new(), 1);
-            let room = waves::<4>(&transform, room, 9);
-            let room = waves::<2>(&transform, room, 16);
-            waves::<6>(&transform, room, 2);
+            let buffer = waves::<3>(&transform, Vec::new(), 1);
+            let buffer = waves::<4>(&transform, buffer, 9);
+            let buffer = waves::<2>(&transform, buffer, 16);
+            waves::<6>(&transform, buffer, 2);
         }
     }
 
@@ -297,7 +297,7 @@ mod tests {
             let columns = transform.columns(
                 Vec::new(),
                 |_| true,
-                |k2, column: &mut Column<'_, 2>| {
+                |k2, column: &mut FieldColumn<'_, 2>| {
                     (0..n1).for_each(|k1| column.add(k1, [0, 1].map(|field| spectra[field][k2 * n1 + k1])));
                 },
             );

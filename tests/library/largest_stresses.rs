@@ -11,7 +11,7 @@ use percoat::stress::Peak;
 use percoat::stress::maxima::Extremes;
 use percoat::{
     Cell, Depth, Friction, HalfSpace, Indenters, Interface, Lattice, Layer, Load, Material, MeanStress, Problem,
-    Settings, Solver, State, Step, StressField, StressReading,
+    Settings, Solver, Step, StressField, StressReading, StressState,
 };
 use std::f64::consts::PI;
 
@@ -99,11 +99,11 @@ fn random_case(random: &mut Random) -> (Problem, Load, String) {
 }
 
 type Read = fn(&Extremes) -> Peak;
-type Value = fn(&State) -> f64;
+type Value = fn(&StressState) -> f64;
 
 /// τ₁, tension and von Mises.
 const READ: [(Read, Value); 3] =
-    [(|own| own.tau1, State::tau1), (|own| own.tension, State::s1), (|own| own.mises, State::mises)];
+    [(|own| own.tau1, StressState::tau1), (|own| own.tension, StressState::s1), (|own| own.mises, StressState::mises)];
 
 /// The largest of points of a material from `top` on: a grid of points at depths dense near both faces, and random points
 /// around the best ones, nearer and nearer.

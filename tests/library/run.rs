@@ -79,7 +79,7 @@ fn a_recorder_hears_of_grids_steps_and_stresses_in_their_order() {
     let stressed = Run { stress: Some(StressRequest::default()), ..run(Sampling::Points([48, 48])) };
     let outcome = stressed.solve(&mut diary).unwrap();
     assert_eq!(diary.heard, ["grid 48", "stresses", "step 0.01", "stresses", "step 0.02"]);
-    let iterations: usize = outcome.steps.iter().map(|step| step.report.iterations).sum();
+    let iterations: usize = outcome.steps.iter().map(|step| step.iterations).sum();
     assert_eq!(diary.iterations, iterations);
     assert!(outcome.converged() && outcome.end.is_none() && outcome.change.is_none());
     assert_eq!(outcome.last.unwrap().load, Load::MeanPressure(0.02));

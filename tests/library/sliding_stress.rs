@@ -6,8 +6,8 @@ use crate::common;
 use common::{Hills, Random, solve};
 use ndarray::Array2;
 use percoat::{
-    Cell, Depth, Friction, Grid, HalfSpace, Interface, Layer, Line, Load, Material, MeanStress, Problem, State,
-    StressField,
+    Cell, Depth, Friction, Grid, HalfSpace, Interface, Layer, Load, Material, MeanStress, Problem, StressField,
+    StressState, SurfaceLine,
 };
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ fn cells() -> [(Cell, [usize; 2]); 3] {
     ]
 }
 
-fn at(field: &StressField, [x, y, z]: [f64; 3], material: usize) -> State {
+fn at(field: &StressField, [x, y, z]: [f64; 3], material: usize) -> StressState {
     field.points(Depth { z, material }, &[[x, y]])[0]
 }
 
@@ -151,12 +151,12 @@ fn residual_stress_adds_to_its_layer_alone() {
     assert!(free.pressure() == stressed.pressure());
     let [free, stressed] = [&free, &stressed].map(|step| StressField::new(step.finest(), MeanStress::HalfSpace));
     let depths: Vec<Depth> = [0.0, 0.004, 0.1, 0.17].iter().flat_map(|&z| free.half_space().depths(z)).collect();
-    let line = Line { origin: [0.0, 0.1], direction: [1.0, 0.3], span: [0.0, 1.0], points: 64 };
+    let line = SurfaceLine { origin: [0.0, 0.1], direction: [1.0, 0.3], span: [0.0, 1.0], points: 64 };
     let [sections, others] = [&free, &stressed].map(|field| field.section(&line, &depths).states);
     for ((row, depth), other) in sections.outer_iter().zip(&depths).zip(others.outer_iter()) {
         let residual = if depth.material == 1 { 2.0 } else { 0.0 };
         for (state, other) in row.iter().zip(other) {
-            let expected = State { xx: state.xx + residual, yy: state.yy + residual, ..*state };
+            let expected = StressState { xx: state.xx + residual, yy: state.yy + residual, ..*state };
             let (expected, found) = (expected.components(), other.components());
             assert!((0..9).all(|k| (expected[k] - found[k]).abs() < 1e-12), "{depth:?}: {expected:?}\n{found:?}");
         }

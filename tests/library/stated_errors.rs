@@ -100,7 +100,7 @@ fn stated(reading: &Reading) -> Vec<Stated> {
         note("contact radius", level.contact_radius, errors.contact_radius);
         note("smallest radius", level.radius_min, errors.radius_min);
         note("largest radius", level.radius_max, errors.radius_max);
-        note("asymmetry", level.asymmetry(), errors.asymmetry);
+        note("asymmetry", level.asymmetry, errors.asymmetry);
     }
     for level in &reading.levels {
         let centre = |k: usize| Stated {

@@ -6,8 +6,8 @@ use common::{PAPER, Random, one_level, paraboloid, solve_sharply};
 use ndarray::{Array2, Axis};
 use percoat::body::{Interior, TransferFunction};
 use percoat::{
-    Cell, Depth, Grid, HalfSpace, Interface, Lattice, Layer, Line, Load, Material, MeanStress, Problem, State,
-    StressField,
+    Cell, Depth, Grid, HalfSpace, Interface, Lattice, Layer, Load, Material, MeanStress, Problem, StressField,
+    StressState, SurfaceLine,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -33,7 +33,7 @@ fn two_layers(interface: Interface) -> HalfSpace {
     HalfSpace::new(vec![top, next], material(1.0, 0.3))
 }
 
-fn worst(a: &State, b: &State) -> f64 {
+fn worst(a: &StressState, b: &StressState) -> f64 {
     a.components().iter().zip(b.components()).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs()))
 }
 
@@ -94,7 +94,7 @@ fn points_are_the_direct_sum_over_wavevectors() {
                 }
             }
             let mean = flat.points(depth, &[[x, y]])[0].components();
-            let expected = State::from_components(std::array::from_fn(|c| direct[c] + mean[c]));
+            let expected = StressState::from_components(std::array::from_fn(|c| direct[c] + mean[c]));
             let found = field.points(depth, &[[x, y]])[0];
             assert!(worst(&found, &expected) < 1e-12, "{found}\n{expected}");
         }
@@ -133,7 +133,7 @@ fn planes_and_sections_agree_with_points() {
     }
     // Along a lattice direction, and along one that is incommensurate with it.
     for direction in [cell.vectors()[0], [0.3, 0.777]] {
-        let line = Line { origin: [0.1, 0.2], direction, span: [-0.4, 1.3], points: 12 };
+        let line = SurfaceLine { origin: [0.1, 0.2], direction, span: [-0.4, 1.3], points: 12 };
         let section = field.section(&line, &depths);
         let unit = direction[0].hypot(direction[1]);
         for (row, &depth) in section.states.outer_iter().zip(&depths) {
@@ -152,7 +152,7 @@ fn sections_across_rows_of_a_square_lattice_agree_with_points() {
     let field = field(&grid(cell, [108, 108]), &noise([108, 108]), &half_space, MeanStress::HalfSpace);
     let depth = Depth { z: 0.02, material: 1 };
     for direction in [[1.0, 0.86], [1.0, 0.47], [-0.6, 0.8]] {
-        let line = Line { origin: [0.1, 0.2], direction, span: [0.0, 1.0], points: 401 };
+        let line = SurfaceLine { origin: [0.1, 0.2], direction, span: [0.0, 1.0], points: 401 };
         let section = field.section(&line, &[depth]);
         for k in [0, 57, 200, 333, 400] {
             let point = field.points(depth, &[line.places()[k]])[0];
@@ -171,8 +171,9 @@ fn a_section_is_the_same_from_both_ends() {
     });
     let field =
         StressField::under(&grid(cell, [48, 48]), disc.view(), &half_space, None, MeanStress::Confined).unwrap();
-    let line = Line { origin: [0.5, 0.5], direction: [1.0, 0.3], span: [0.0, 0.6], points: 61 };
-    let [there, back] = [line, Line { span: [0.6, 0.0], ..line }].map(|line| field.section(&line, &[Depth::SURFACE]));
+    let line = SurfaceLine { origin: [0.5, 0.5], direction: [1.0, 0.3], span: [0.0, 0.6], points: 61 };
+    let [there, back] =
+        [line, SurfaceLine { span: [0.6, 0.0], ..line }].map(|line| field.section(&line, &[Depth::SURFACE]));
     let ([s, stress], [s_back, stress_back]) = (there.highest.unwrap(), back.highest.unwrap());
     assert!(
         (s - s_back).abs() < 1e-9 && (stress / stress_back - 1.0).abs() < 1e-9,
@@ -313,7 +314,7 @@ fn every_depth_carries_the_load_and_a_uniform_pressure_its_mean_state() {
                     std::array::from_fn(|c| plane.components.index_axis(Axis(0), c).iter().sum::<f64>() / 144.0);
                 assert!((average[2] + load).abs() < 1e-13, "σ_zz at {depth:?}");
                 let expected = uniform.points(depth, &[[0.3, 0.2]])[0];
-                assert!(worst(&State::from_components(average), &expected) < 1e-12);
+                assert!(worst(&StressState::from_components(average), &expected) < 1e-12);
                 let lateral = load * mean.lateral(&half_space)[depth.material - 1];
                 assert!((expected.xx - lateral).abs() < 1e-13 && expected.xy.abs() < 1e-15);
             }

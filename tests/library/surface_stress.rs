@@ -17,8 +17,8 @@ use percoat::stress::maxima::Extremes;
 use percoat::validation::exact::hertz::{Stresses, edge_tension, largest_shear};
 use percoat::validation::exact::lattice_sums::TRIANGULAR;
 use percoat::{
-    Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Level, Line, Load, Material, MeanStress, Problem, Shape,
-    StressField,
+    Cell, Depth, HalfSpace, Indenters, Interface, Lattice, Level, Load, Material, MeanStress, Problem, Shape,
+    StressField, SurfaceLine,
 };
 use std::f64::consts::PI;
 
@@ -345,7 +345,7 @@ fn the_largest_stress_on_a_line_through_the_edge_is_the_largest_of_the_surface()
         let origin = cell.point(shift.map(|s| s / points as f64));
         let [x, y, _] = crest.peak.position;
         let reach = cell.reduced().nearest(cell.fractions([x - origin[0], y - origin[1]]));
-        let line = Line { origin, direction: reach, span: [0.0, 0.4], points: 161 };
+        let line = SurfaceLine { origin, direction: reach, span: [0.0, 0.4], points: 161 };
         let [s, value] = field.section(&line, &[Depth::SURFACE]).highest.unwrap();
         println!("{value} against {} at {s}", crest.peak.value);
         // The search ends 0.4/160/512 from the edge; the tension is continuous outside.

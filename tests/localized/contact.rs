@@ -298,5 +298,5 @@ fn a_penetration_beyond_complete_contact_is_not_converged_at_once() {
     let localized = Localized::new(&Problem::new(indenters, homogeneous()), 7).unwrap();
     let lattice_sum = Setup { rule: CircleRadius::LatticeSum, ..setup(7, 24) };
     let solution = localized.solve(Load::Penetration(1.0), &lattice_sum);
-    assert!(solution.stop == Stop::Stalled && solution.sweeps <= 3, "{solution}");
+    assert!(solution.stop == Stop::Stalled && solution.passes <= 3, "{solution}");
 }

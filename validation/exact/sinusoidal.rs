@@ -9,10 +9,10 @@
 //! p̂ ζe^{−ζ} everywhere, at most p̂/e at the depth 1/q.
 
 use crate::body::Material;
-use crate::stress::State;
+use crate::stress::StressState;
 
 /// State at **x** = (x, y) and the depth z under cos(**q**·**x**), p̂ = 1.
-pub fn state(q: [f64; 2], [x, y]: [f64; 2], z: f64, material: Material) -> State {
+pub fn state(q: [f64; 2], [x, y]: [f64; 2], z: f64, material: Material) -> StressState {
     let wavenumber = q[0].hypot(q[1]);
     let n = q.map(|component| component / wavenumber);
     let nu = material.poisson();
@@ -21,7 +21,7 @@ pub fn state(q: [f64; 2], [x, y]: [f64; 2], z: f64, material: Material) -> State
     let in_plane = |a: f64, b: f64, same: f64| -(a * b * (1.0 - 2.0 * nu - zeta) + 2.0 * nu * same) * decay * cosine;
     let softness = 0.5 / (material.shear() * wavenumber);
     let lateral = -(1.0 - 2.0 * nu - zeta) * decay * sine * softness;
-    State {
+    StressState {
         xx: in_plane(n[0], n[0], 1.0),
         yy: in_plane(n[1], n[1], 1.0),
         zz: -(1.0 + zeta) * decay * cosine,

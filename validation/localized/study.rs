@@ -12,7 +12,7 @@ mod thin;
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
 use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
-use crate::comparison::{Answer, CircleComparison, Comparison, StressPair, Task};
+use crate::comparison::{Answer, CircleComparison, Comparison, ComparisonTask, StressPair};
 use crate::counterbody::{Indenters, Level, Shape};
 use crate::lattice::Lattice;
 use crate::load::Load;
@@ -118,7 +118,7 @@ fn coated(
     let lattice = Lattice::hexagonal(1.0, 3)?;
     let level = |m: usize| Level::new(Shape::Paraboloid { radius: RADIUS }, -0.01 * m as f64);
     let indenters = Indenters::new(lattice.clone(), vec![level(0)?, level(1)?, level(2)?])?;
-    let task = Task {
+    let task = ComparisonTask {
         problem: Arc::new(Problem::new(indenters, half_space.clone())),
         load: Load::MeanPressure(mean_pressure),
         settings: Settings::default(),

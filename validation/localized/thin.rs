@@ -4,7 +4,7 @@
 //! well the localized solution reads its radius.
 
 use crate::body::{HalfSpace, Interface, Layer, Material, MeanStress};
-use crate::comparison::Task;
+use crate::comparison::ComparisonTask;
 use crate::counterbody::{Indenters, Level, Shape};
 use crate::lattice::Lattice;
 use crate::load::Load;
@@ -82,7 +82,7 @@ pub fn thin_coatings(coatings: &[Coating], outcome: &mut Outcome) -> Result<(), 
         let half_space = HalfSpace::new(vec![layer], Material::from_young(1.0, 0.3)?);
         let level = Level::new(Shape::Paraboloid { radius: 1.0 }, 0.0)?;
         let indenters = Indenters::new(Lattice::hexagonal(1.0, 1)?, vec![level])?;
-        let task = Task {
+        let task = ComparisonTask {
             problem: Arc::new(Problem::new(indenters, half_space)),
             load: Load::MeanPressure(mean_pressure),
             settings: Settings::default(),

@@ -4,7 +4,7 @@ use super::model::Model;
 use crate::body::{Depth, MeanStress};
 use crate::load::Load;
 use crate::picture::contour::zero_lines;
-use crate::stress::{Line, State, StressField};
+use crate::stress::{StressField, StressState, SurfaceLine};
 use crate::validation::StudyError;
 use ndarray::Array2;
 
@@ -42,7 +42,7 @@ pub struct Under {
     field: StressField,
 }
 
-fn radial(state: &State) -> f64 {
+fn radial(state: &StressState) -> f64 {
     let [x, y] = TOWARD;
     state.xx * x * x + 2.0 * state.xy * x * y + state.yy * y * y
 }
@@ -57,7 +57,7 @@ impl Under {
         let field = StressField::new(step.finest(), mean);
         let (thickness, period) = (model.thickness(), model.distance());
         let depths = [(0.0, 1), (thickness, 1), (thickness, 2)].map(|(z, material)| Depth { z, material });
-        let line = Line { origin: [0.0; 2], direction: TOWARD, span: [0.0, period], points: LINE };
+        let line = SurfaceLine { origin: [0.0; 2], direction: TOWARD, span: [0.0, period], points: LINE };
         let section = field.section(&line, &depths);
         let profile = |k: usize| -> Profile {
             line.distances()
@@ -106,7 +106,7 @@ impl Under {
     /// down.
     pub fn section(&self, wide: f64, deep: f64) -> [Part; 2] {
         let span = wide * self.radius;
-        let line = Line { origin: [0.0; 2], direction: TOWARD, span: [-span, span], points: COLUMNS + 1 };
+        let line = SurfaceLine { origin: [0.0; 2], direction: TOWARD, span: [-span, span], points: COLUMNS + 1 };
         [(1, [0.0, 1.0]), (2, [1.0, deep])].map(|(material, [top, bottom])| {
             let z = |j: usize| top + (bottom - top) * j as f64 / ROWS as f64;
             let depths: Vec<Depth> = (0..=ROWS).map(|j| Depth { z: z(j) * self.thickness, material }).collect();

@@ -7,7 +7,7 @@ use super::{Check, Data, Outcome, Study, StudyError};
 use crate::body::{Depth, HalfSpace, Material, MeanStress};
 use crate::lattice::{Cell, Grid};
 use crate::picture::{Axis, Chart, Figure, Style};
-use crate::stress::{State, StressField};
+use crate::stress::{StressField, StressState};
 use crate::validation::exact::sinusoidal;
 use ndarray::Array2;
 use std::f64::consts::{E, TAU};
@@ -78,7 +78,7 @@ fn run() -> Result<Outcome, StudyError> {
 
 /// Amplitudes against depth under cos(2πx), in the plane of the crest and a quarter wave beside it.
 fn figure(field: &StressField) -> Figure {
-    type Component = (&'static str, fn(&State) -> f64, fn(f64) -> f64, f64, usize);
+    type Component = (&'static str, fn(&StressState) -> f64, fn(f64) -> f64, f64, usize);
     let components: [Component; 4] = [
         ("σ_zz", |state| state.zz, |x| -(1.0 + x) * (-x).exp(), 0.0, 1),
         ("σ_xx", |state| state.xx, |x| -(1.0 - x) * (-x).exp(), 0.0, 2),

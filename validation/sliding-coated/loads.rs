@@ -8,7 +8,7 @@ use super::super::{Data, StudyError};
 use crate::body::{Depth, HalfSpace, Interface, Layer, Material, MeanStress};
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid};
-use crate::stress::{State, StressField};
+use crate::stress::{StressField, StressState};
 use ndarray::{Array2, ArrayView2};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -59,7 +59,7 @@ fn sampled(side: f64, points: usize) -> Array2<f64> {
     Array2::from_shape_fn((points, points), |(i, j)| (1.0 - away(i).powi(2) - away(j).powi(2)).max(0.0).sqrt())
 }
 
-fn components(state: &State) -> [f64; 4] {
+fn components(state: &StressState) -> [f64; 4] {
     [state.xx, state.yy, state.zz, state.xz]
 }
 

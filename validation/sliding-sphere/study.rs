@@ -12,7 +12,7 @@ use crate::friction::Friction;
 use crate::load::Load;
 use crate::picture::{Axis, Chart, Figure, Style};
 use crate::spectral::{Contact, Step};
-use crate::stress::{Crest, Line, State, StressField};
+use crate::stress::{Crest, StressField, StressState, SurfaceLine};
 use crate::validation::exact::galin::paraboloid;
 use crate::validation::exact::lattice_sums::TRIANGULAR;
 use crate::validation::exact::sliding_sphere::{Stress, images, stresses, together, trailing_tension, turned};
@@ -88,7 +88,7 @@ impl Solved {
     }
 }
 
-fn components(state: &State) -> Stress {
+fn components(state: &StressState) -> Stress {
     [state.xx, state.yy, state.zz, state.xy, state.xz, state.yz]
 }
 
@@ -185,7 +185,7 @@ fn read_inside(data: &mut Data, solved: &Solved, field: &StressField, nu: f64, r
 /// Stresses along two lines on the surface that follow the sliding.
 fn read_surface(data: &mut Data, solved: &Solved, field: &StressField, nu: f64) {
     for aside in [0.0, ASIDE] {
-        let line = Line {
+        let line = SurfaceLine {
             origin: rotated([0.0, aside], BEARING).map(|s| s * solved.radius),
             direction: [BEARING.cos(), BEARING.sin()],
             span: [-2.0, 2.0].map(|s| s * solved.radius),

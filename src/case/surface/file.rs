@@ -14,7 +14,7 @@ use super::text::Table;
 use super::unit::{self, KNOWN};
 use super::xyz::Points;
 use super::{npy, telltale, text, xyz};
-use crate::counterbody::roughness::{JUMP, RunOut, Window, border_jumps, levelled, tapered};
+use crate::counterbody::roughness::{MAX_BORDER_JUMP, RunOut, Window, border_jumps, levelled, tapered};
 use crate::numeric::array::field;
 use crate::numeric::number::number;
 use ndarray::Array2;
@@ -272,10 +272,10 @@ fn not_periodic(heights: &Array2<f64>, treatment: &Treatment) -> Option<String> 
             "it is pressed as if it were periodic; surface.window = true tapers its border"
         }
     };
-    (jump > JUMP).then(|| {
+    (jump > MAX_BORDER_JUMP).then(|| {
         format!(
             "surface.heights: where the surface meets its next period along {axis} heights jump by {} times the rms \
-             difference of neighbours, at most {JUMP} is usual: {advice}",
+             difference of neighbours, at most {MAX_BORDER_JUMP} is usual: {advice}",
             number(jump)
         )
     })

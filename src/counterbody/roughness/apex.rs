@@ -1,15 +1,15 @@
 //! The apex of a topography: the highest point of the sum of waves through its samples.
 //!
-//! h(s, t) = h̄ + Σ ĥ_κ e^{2πi(κ₁s + κ₂t)}, s and t fractions of **a**₁ and **a**₂, is known between the samples. Newton's method
-//! climbs from the highest of the samples that at most one of the eight around exceeds, and from those that are highest by the
-//! paraboloid through the nine: of waves down to two samples the highest hill may have lower samples than others, and none that
-//! exceeds all around. All climb at once: a round takes one sum over the waves. Where −∇∇h is not positive, as along a ridge, the
-//! step is that of its absolute value; no step is longer than a spacing, and one that leads down is taken again at a quarter of its
-//! length. A climber that would stay below the best, even if it rose by many times what the paraboloid at its place foretells,
-//! gives up.
+//! h(s, t) = h̄ + Σ ĥ_κ e^{2πi(κ₁s + κ₂t)}, s and t fractions of **a**₁ and **a**₂, is defined between the samples. Newton's method
+//! starts from the highest of the samples that at most one of their eight neighbours exceeds, and from those that are highest by
+//! the paraboloid through the nine: with waves down to two samples the highest hill may have lower samples than others, and none
+//! that exceeds all its neighbours. All starts iterate together: each round takes one sum over the waves. Where −∇∇h is not
+//! positive definite, as along a ridge, its absolute value is used; no step is longer than a spacing, and a step that leads down is
+//! repeated with a quarter of its length. A start is dropped when it would stay below the best one even if it rose by many times
+//! what its paraboloid predicts.
 //!
-//! The apex is where contact begins, whichever grid holds the waves: the highest sample lies below it by up to the square of a
-//! spacing times half the curvature.
+//! Contact begins at the apex, on every grid that holds the waves: the highest sample lies below it by up to the square of a spacing
+//! times half the curvature.
 
 use super::Spectrum;
 use super::jet::{Jet, WaveRows};
@@ -18,46 +18,46 @@ use crate::numeric::paraboloid;
 use ndarray::ArrayView2;
 use rayon::prelude::*;
 
-/// Samples from which the climb begins, the highest by either measure.
-const STARTS: usize = 32;
-/// Most rounds of Newton's method.
-const ROUNDS: usize = 24;
-/// Part of the range of the heights below which a rise above the highest sample is rounding.
+/// Largest number of starts, by either measure.
+const MAX_STARTS: usize = 32;
+/// Largest number of rounds of Newton's method.
+const MAX_ROUNDS: usize = 24;
+/// Rise above the highest sample that is rounding, over the range of the heights.
 const ROUNDING: f64 = 1e-13;
-/// Part of the largest curvature below which another one counts as none.
-const FLAT: f64 = 1e-10;
-/// Multiple of the rise that its paraboloid predicts by which a climber may still rise. Of twelve thousand random surfaces, rough
-/// down to two samples, a multiple of 1 lost two apexes and one of 2 none; eight times that costs little.
-const HOPE: f64 = 16.0;
+/// Curvature that counts as zero, over the largest curvature.
+const FLAT_CURVATURE: f64 = 1e-10;
+/// Largest rise of a climber that is allowed for, over the rise that its paraboloid predicts. Of twelve thousand random surfaces,
+/// rough down to two samples, a value of 1 lost two apexes and 2 none; eight times that costs little.
+const RISE_ALLOWANCE: f64 = 16.0;
 
-/// A climber: where it stands, and where it goes next.
+/// A climber: one iteration of Newton's method.
 #[derive(Debug, Clone, Copy)]
 struct Climber {
     place: [f64; 2],
     jet: Jet,
-    /// None once it has arrived or given up.
-    step: Option<Step>,
+    /// Next step; `None` once the climber has converged or is dropped.
+    step: Option<NewtonStep>,
 }
 
-/// A step of a climber.
+/// A step of Newton's method.
 #[derive(Debug, Clone, Copy)]
-struct Step {
-    /// In fractions.
+struct NewtonStep {
+    /// Step in fractions of a₁ and a₂.
     along: [f64; 2],
-    /// What can be gained by the paraboloid here, a length: up to its top, or to anywhere within a spacing where it has none there.
+    /// Predicted rise, a length: to the top of the paraboloid, or to its highest point within a spacing where the top is farther.
     gain: f64,
 }
 
-/// Height of the apex of the surface on a cell with these heights at its samples, a length.
+/// Height of the apex of the surface with these `heights` at the samples of a cell, a length.
 ///
 /// # Errors
 /// [`LatticeError`] when there are none.
 pub(crate) fn apex(cell: Cell, heights: ArrayView2<'_, f64>) -> Result<f64, LatticeError> {
-    apex_within(cell, heights, HOPE)
+    apex_within(cell, heights, RISE_ALLOWANCE)
 }
 
-/// The same, where a climber may gain up to `hope` times what is predicted.
-fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, hope: f64) -> Result<f64, LatticeError> {
+/// Height of the apex, a length, where a climber may rise by up to `allowance` times the predicted rise.
+fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, allowance: f64) -> Result<f64, LatticeError> {
     let spectrum = Spectrum::of(cell, heights)?;
     let grid = spectrum.grid();
     let heights = heights.as_standard_layout();
@@ -74,10 +74,10 @@ fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, hope: f64) -> Result<f6
         .zip(places)
         .map(|(jet, place)| Climber { place, jet, step: upward(&jet, points, enough) })
         .collect();
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let best = climbers.iter().map(|climber| climber.jet.height).fold(f64::NEG_INFINITY, f64::max);
         for climber in &mut climbers {
-            climber.step = climber.step.filter(|step| climber.jet.height + hope * step.gain > best);
+            climber.step = climber.step.filter(|step| climber.jet.height + allowance * step.gain > best);
         }
         let goals: Vec<[f64; 2]> = climbers.iter().filter_map(Climber::goal).collect();
         if goals.is_empty() {
@@ -89,8 +89,8 @@ fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, hope: f64) -> Result<f6
                 (climber.place, climber.jet) = (place, jet);
                 upward(&jet, points, enough)
             } else {
-                // Where rounding alone is left to gain it has arrived.
-                let shorter = climber.step.map(|step| Step { along: step.along.map(|x| 0.25 * x), ..step });
+                // Converged where the predicted rise is rounding.
+                let shorter = climber.step.map(|step| NewtonStep { along: step.along.map(|x| 0.25 * x), ..step });
                 shorter.filter(|step| climber.jet.rise(step.along) > enough)
             };
         }
@@ -99,8 +99,8 @@ fn apex_within(cell: Cell, heights: ArrayView2<'_, f64>, hope: f64) -> Result<f6
     Ok(if rise > enough && rise.is_finite() { highest + rise } else { highest })
 }
 
-/// The highest of the samples that at most one of the eight around exceeds, by themselves and by the paraboloid around: flat
-/// indices.
+/// Flat indices of the starts: the highest of the samples that at most one of their eight neighbours exceeds, by their heights and
+/// by the paraboloids around them.
 fn starts([n1, n2]: [usize; 2], heights: &[f64]) -> Vec<usize> {
     let next = |k: usize, n: usize| [if k == 0 { n - 1 } else { k - 1 }, k, if k + 1 == n { 0 } else { k + 1 }];
     let around = |i: usize, j: usize| next(i, n1).map(|row| next(j, n2).map(|column| heights[row * n2 + column]));
@@ -115,7 +115,7 @@ fn starts([n1, n2]: [usize; 2], heights: &[f64]) -> Vec<usize> {
     let lifted = |&(height, index): &(f64, usize)| {
         let nine = around(index / n2, index % n2);
         let (low, top) = nine.as_flattened().iter().fold((height, height), |(a, b), x| (a.min(*x), b.max(*x)));
-        // Within a spacing the paraboloid rises by less than half of what the nine span. It is that of positive values.
+        // Within a spacing the paraboloid rises by less than half of the range of the nine values, which are made positive.
         let above = |i: i32, j: i32| nine[(i + 1) as usize][(j + 1) as usize] - (2.0 * low - top);
         let hopeful = height + 0.5 * (top - low) >= enough;
         hopeful.then(|| (height + paraboloid::rise(1, above).unwrap_or(0.0), index))
@@ -127,9 +127,9 @@ fn starts([n1, n2]: [usize; 2], heights: &[f64]) -> Vec<usize> {
     starts
 }
 
-/// The highest of some samples, of equally high ones the first; in no order.
+/// The highest of some samples in any order; of equally high ones those of the lowest indices.
 fn highest(samples: &mut [(f64, usize)]) -> &[(f64, usize)] {
-    let count = samples.len().min(STARTS);
+    let count = samples.len().min(MAX_STARTS);
     if count < samples.len() {
         samples.select_nth_unstable_by(count - 1, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     }
@@ -142,9 +142,9 @@ impl Climber {
     }
 }
 
-/// The next step; `None` where it would gain less than `enough`.
-fn upward(jet: &Jet, [n1, n2]: [f64; 2], enough: f64) -> Option<Step> {
-    // In units of the samples, of which one is the longest step.
+/// The next step; `None` where the predicted rise is less than `enough`.
+fn upward(jet: &Jet, [n1, n2]: [f64; 2], enough: f64) -> Option<NewtonStep> {
+    // In units of the spacings; the longest step is 1.
     let [g1, g2] = [jet.slope[0] / n1, jet.slope[1] / n2];
     let [h11, h12, h22] = [jet.curvature[0] / (n1 * n1), jet.curvature[1] / (n1 * n2), jet.curvature[2] / (n2 * n2)];
     let (mean, half) = (0.5 * (h11 + h22), 0.5 * (h11 - h22));
@@ -156,7 +156,7 @@ fn upward(jet: &Jet, [n1, n2]: [f64; 2], enough: f64) -> Option<Step> {
     let mut step = [0.0; 2];
     for ([x, y], curvature) in axes {
         let slope = g1 * x + g2 * y;
-        if curvature.abs() > FLAT * largest {
+        if curvature.abs() > FLAT_CURVATURE * largest {
             let length = slope / curvature.abs();
             step = [step[0] + length * x, step[1] + length * y];
         }
@@ -166,7 +166,7 @@ fn upward(jet: &Jet, [n1, n2]: [f64; 2], enough: f64) -> Option<Step> {
     let rise = part * (g1 * step[0] + g2 * step[1]);
     let has_top = mean + radius < 0.0 && length <= 1.0;
     let gain = if has_top { 0.5 * rise } else { g1.hypot(g2) + 0.5 * (mean + radius).max(0.0) };
-    (rise > enough).then_some(Step { along: [part * step[0] / n1, part * step[1] / n2], gain })
+    (rise > enough).then_some(NewtonStep { along: [part * step[0] / n1, part * step[1] / n2], gain })
 }
 
 #[cfg(test)]
@@ -258,7 +258,7 @@ mod tests {
 
     /// Against all that climb to the end.
     #[test]
-    fn climbers_that_give_up_do_not_lose_the_apex() {
+    fn climbers_that_are_dropped_do_not_lose_the_apex() {
         for seed in 1..=200 {
             let (cell, n) = (cells()[seed as usize % 3], [16, 25, 48][seed as usize / 3 % 3]);
             let (hurst, shortest) = ([0.0, 0.4, 0.8][seed as usize / 9 % 3], [2.0, 2.5, 3.0][seed as usize / 27 % 3]);

@@ -3,29 +3,29 @@
 use crate::lattice::Cell;
 use std::f64::consts::TAU;
 
-/// Wavenumbers closer to a cut-off than this, relatively, are on it.
-pub(super) const ON: f64 = 1e-9;
+/// Relative tolerance within which wavenumbers are equal to a cut-off.
+pub(super) const CUTOFF_TOLERANCE: f64 = 1e-9;
 
 /// One of each pair ±**q** of a cell's waves up to a wavenumber: κ₂ > 0, or κ₂ = 0 and κ₁ > 0.
-pub(super) struct Band {
+pub(super) struct WaveBand {
     reciprocal: [[f64; 2]; 2],
     /// Largest |κ₁| and |κ₂|: κᵢ = **q**·**a**ᵢ/2π.
     pub most: [i32; 2],
 }
 
-impl Band {
-    /// Of the waves up to the wavenumber `high`.
+impl WaveBand {
+    /// Band of the waves up to the wavenumber `high`, 1/length.
     pub fn new(cell: Cell, high: f64) -> Self {
-        let most = cell.vectors().map(|[x, y]| (high * x.hypot(y) / TAU * (1.0 + ON)) as i32);
+        let most = cell.vectors().map(|[x, y]| (high * x.hypot(y) / TAU * (1.0 + CUTOFF_TOLERANCE)) as i32);
         Self { reciprocal: cell.reciprocal(), most }
     }
 
-    /// Every κ₂.
+    /// All κ₂ of the band.
     pub fn rows(&self) -> std::ops::RangeInclusive<i32> {
         0..=self.most[1]
     }
 
-    /// Waves of one κ₂, each with its wavevector; those of a corner are beyond the wavenumber.
+    /// Waves of one κ₂, each with its wavevector, 1/length; those in the corners lie beyond the wavenumber.
     pub fn waves(&self, k2: i32) -> impl Iterator<Item = ([i32; 2], [f64; 2])> + '_ {
         let [b1, b2] = self.reciprocal;
         let first = if k2 == 0 { 1 } else { -self.most[0] };

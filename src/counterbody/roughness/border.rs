@@ -1,18 +1,17 @@
-//! How large the jump is where a surface meets its next period.
+//! Jump of a surface across the border of its period.
 //!
 //! rᵢ = rms of the differences across the border of the period along **a**ᵢ / rms of the differences of neighbours within.
 //!
-//! The border of a surface that is periodic is a line between samples like any other. The mean of r² over all N lines is
-//! one, so that at most a ninth of them can have r > 3; the lines of a random surface hardly differ. Where r > 3 the border
-//! is no line like any other.
+//! The border of a periodic surface does not differ from other lines between samples. The mean of r² over all N lines is 1, so
+//! that at most a ninth of them can have r > 3; the lines of a random surface hardly differ. With r > 3 at the border the surface
+//! is not periodic.
 
 use ndarray::{ArrayView2, Axis};
 
-/// The largest jump of a surface that can be taken for periodic.
-pub const JUMP: f64 = 3.0;
+/// Largest border jump of a surface that counts as periodic.
+pub const MAX_BORDER_JUMP: f64 = 3.0;
 
-/// rᵢ along a₁ and a₂; 0 along a direction of less than three samples, or where all differences within vanish with that
-/// across.
+/// Border jumps rᵢ along a₁ and a₂; 0 along a direction of less than three samples, or where all differences vanish.
 pub fn border_jumps(heights: ArrayView2<'_, f64>) -> [f64; 2] {
     [0, 1].map(|axis| {
         let n = heights.shape()[axis];

@@ -1,4 +1,4 @@
-//! A surface and its derivatives at any place, by the sum over its waves.
+//! Height and derivatives of a surface at any point, by the sum over its waves.
 
 use super::Spectrum;
 use crate::lattice::Grid;
@@ -8,20 +8,20 @@ use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Height, slope and curvature of a surface at one place, by fractions of **a**₁ and **a**₂; the height is that above what all
-/// samples have in common ([`Spectrum::common`]). Lengths.
+/// Height, slope and curvature of a surface at one point, derivatives by the fractions s, t of **a**₁ and **a**₂; the height is
+/// measured from that which all samples have in common ([`Spectrum::common`]). Lengths.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Jet {
-    /// h.
+    /// Height h.
     pub height: f64,
-    /// ∂h/∂s and ∂h/∂t.
+    /// Slopes ∂h/∂s and ∂h/∂t.
     pub slope: [f64; 2],
-    /// ∂²h/∂s², ∂²h/∂s∂t and ∂²h/∂t².
+    /// Curvatures ∂²h/∂s², ∂²h/∂s∂t and ∂²h/∂t².
     pub curvature: [f64; 3],
 }
 
 impl Jet {
-    /// By how much its paraboloid rises along a step in fractions.
+    /// Rise of the paraboloid along a step in fractions, a length.
     pub fn rise(&self, [s, t]: [f64; 2]) -> f64 {
         let ([gs, gt], [ss, st, tt]) = (self.slope, self.curvature);
         gs * s + gt * t + 0.5 * (ss * s * s + 2.0 * st * s * t + tt * t * t)
@@ -36,26 +36,25 @@ impl Jet {
     }
 }
 
-/// The sum over the waves of a surface. Of a row (k₁, ·) of components the waves stand in runs, one **b**₂ from each to the next:
-/// Σ v, Σ κ₂v and Σ κ₂²v of a run, by e^{2πiκ₂t}, give height and derivatives once they are multiplied by e^{2πiκ₁s}. Eight places
-/// are summed together.
+/// The sum over the waves of a surface. The waves of a row (k₁, ·) of components form runs with the distance **b**₂: Σ v, Σ κ₂v and
+/// Σ κ₂²v over a run, with the phases e^{2πiκ₂t}, times e^{2πiκ₁s} give height and derivatives. Eight points are summed together.
 pub(super) struct WaveRows<'a> {
     spectrum: &'a Spectrum,
-    rows: Vec<Vec<Run>>,
+    rows: Vec<Vec<WaveRun>>,
 }
 
 /// Waves (κ₁, κ₂), (κ₁, κ₂ + 1), … of components (k₁, k₂), (k₁, k₂ + 1), …
-struct Run {
-    /// k₂.
+struct WaveRun {
+    /// k₂ of the first component.
     column: usize,
     len: usize,
     first: [i32; 2],
-    /// Of each component, and of its conjugate where that is not among the components.
+    /// Weight of each component, 2 where its conjugate is not among the components, over the number of tied aliases.
     part: f64,
 }
 
-/// The part of a component without another alias, and with a conjugate that is not among the components.
-const WHOLE: f64 = 2.0;
+/// Weight of a component without tied aliases whose conjugate is not among the components.
+const WITH_CONJUGATE: f64 = 2.0;
 
 impl<'a> WaveRows<'a> {
     pub fn of(spectrum: &'a Spectrum) -> Self {
@@ -64,16 +63,16 @@ impl<'a> WaveRows<'a> {
         Self { spectrum, rows }
     }
 
-    /// The surface at places in fractions of **a**₁ and **a**₂.
+    /// Jets at points in fractions of **a**₁ and **a**₂.
     pub fn jets(&self, places: &[[f64; 2]]) -> Vec<Jet> {
         let values = self.spectrum.components();
         let values = values.as_slice().expect("made row by row");
         let half = values.len() / self.rows.len();
-        let groups: Vec<Group> = places.chunks(LANES).map(|places| Group::new(places, half)).collect();
-        let of_row = |(row, values): (&Vec<Run>, &[Complex<f64>])| -> Vec<Jet> {
+        let groups: Vec<PointGroup> = places.chunks(LANES).map(|places| PointGroup::new(places, half)).collect();
+        let of_row = |(row, values): (&Vec<WaveRun>, &[Complex<f64>])| -> Vec<Jet> {
             groups.iter().flat_map(|group| vectorised!(simd => group.jets(simd, row, values))).collect()
         };
-        // Rows are added in their order, whoever has summed them.
+        // Rows are added in their order, whatever the threads.
         let rows: Vec<Vec<Jet>> = self.rows.par_iter().zip(values.par_chunks(half)).map(of_row).collect();
         let add = |sum: Vec<Jet>, row: Vec<Jet>| sum.into_iter().zip(row).map(|(a, b)| a.plus(b)).collect();
         rows.into_iter().fold(vec![Jet::default(); places.len()], add)
@@ -81,19 +80,19 @@ impl<'a> WaveRows<'a> {
 }
 
 /// The waves of the components (k₁, ·).
-fn runs(grid: &Grid, k1: usize) -> Vec<Run> {
+fn runs(grid: &Grid, k1: usize) -> Vec<WaveRun> {
     let [_, n2] = grid.points();
     let [b1, b2] = grid.cell().reciprocal();
     let resolved = |m1: i32, m2: i32| grid.resolves([0, 1].map(|c| f64::from(m1) * b1[c] + f64::from(m2) * b2[c]));
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs: Vec<WaveRun> = Vec::new();
     let mut k2 = 0;
     while 2 * k2 <= n2 {
         let aliases = grid.aliases([k1, k2]);
-        let both = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { WHOLE };
+        let both = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { WITH_CONJUGATE };
         let part = both / aliases.len() as f64;
         let mut len = 1;
-        if part == WHOLE {
-            // The zone is convex: once the waves leave it they do not come back.
+        if part == WITH_CONJUGATE {
+            // The zone is convex: the waves leave it once.
             let [m1, m2] = aliases[0];
             let mut beyond = n2.div_ceil(2) - k2;
             while beyond - len > 0 {
@@ -101,20 +100,20 @@ fn runs(grid: &Grid, k1: usize) -> Vec<Run> {
                 if resolved(m1, m2 + middle as i32) { len = middle + 1 } else { beyond = middle }
             }
         }
-        runs.extend(aliases.into_iter().map(|first| Run { column: k2, len, first, part }));
+        runs.extend(aliases.into_iter().map(|first| WaveRun { column: k2, len, first, part }));
         k2 += len;
     }
     runs
 }
 
-/// Up to eight places.
-struct Group {
+/// Up to eight points that are summed together.
+struct PointGroup {
     places: Vec<[f64; 2]>,
-    /// Real and imaginary parts of e^{2πik₂t}.
+    /// Real and imaginary parts of e^{2πik₂t} of each point, by k₂.
     phases: Vec<[[f64; LANES]; 2]>,
 }
 
-impl Group {
+impl PointGroup {
     fn new(places: &[[f64; 2]], half: usize) -> Self {
         let phases = (0..half).map(|k2| {
             let mut own = [[0.0; LANES]; 2];
@@ -127,9 +126,9 @@ impl Group {
         Self { phases: phases.collect(), places: places.to_vec() }
     }
 
-    /// What the waves of a row add at each place.
+    /// Contribution of the waves of a row at each point.
     #[inline(always)]
-    fn jets<S: Simd>(&self, simd: S, row: &[Run], values: &[Complex<f64>]) -> Vec<Jet> {
+    fn jets<S: Simd>(&self, simd: S, row: &[WaveRun], values: &[Complex<f64>]) -> Vec<Jet> {
         let mut jets = vec![Jet::default(); self.places.len()];
         for run in row {
             let moments = self.moments(simd, run.column, &values[run.column..run.column + run.len]);
@@ -151,7 +150,7 @@ impl Group {
         jets
     }
 
-    /// Σ v, Σ k₂v and Σ k₂²v over components from a column on, real and imaginary parts, by the phases of each place.
+    /// Σ v, Σ k₂v and Σ k₂²v over components from a column on, real and imaginary parts, with the phases of each point.
     #[inline(always)]
     fn moments<S: Simd>(&self, simd: S, column: usize, values: &[Complex<f64>]) -> [[f64; LANES]; 6] {
         let mut sums = [splat(simd, 0.0); 6];
@@ -174,7 +173,7 @@ impl Group {
     }
 }
 
-/// e^{2πiκs}.
+/// Phase e^{2πiκs}.
 fn phase(k: f64, s: f64) -> Complex<f64> {
     Complex::cis(TAU * (k * s).fract())
 }

@@ -1,28 +1,28 @@
-//! The plane that fits a surface best.
+//! The mean plane of a surface, by weighted least squares.
 //!
-//! Σ w₁(i) w₂(j) (h_ij − c − c₁ s_i − c₂ t_j)² least, s and t counted from the middle in parts of the length. Weights that
-//! are even about the middle make 1, s and t orthogonal: c = Σwh/Σw, c₁ = Σwsh/Σws², c₂ = Σwth/Σwt².
+//! Σ w₁(i) w₂(j) (h_ij − c − c₁ s_i − c₂ t_j)² is least, s and t measured from the middle over the length. With weights that are
+//! even about the middle 1, s and t are orthogonal: c = Σwh/Σw, c₁ = Σwsh/Σws², c₂ = Σwth/Σwt².
 
 use ndarray::{Array2, ArrayView2};
 
-/// A plane over the samples.
+/// Mean plane of the heights at some samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Plane {
+pub(super) struct MeanPlane {
     /// Height in the middle, a length.
     pub mean: f64,
     /// Rise over the whole length along a₁ and a₂, lengths.
     pub slopes: [f64; 2],
-    /// Samples it lies over.
+    /// Number of samples along a₁ and a₂.
     pub points: [usize; 2],
 }
 
-/// Place of sample k of n from the middle, in parts of the length.
+/// Position of sample k of n from the middle, over the length.
 fn place(k: usize, n: usize) -> f64 {
     (k as f64 - 0.5 * (n as f64 - 1.0)) / n as f64
 }
 
-impl Plane {
-    /// The best one by weights along a₁ and a₂ that are even about the middle.
+impl MeanPlane {
+    /// Mean plane by weights along a₁ and a₂ that are even about the middle.
     pub fn fit(heights: ArrayView2<'_, f64>, weights: &[Vec<f64>; 2]) -> Self {
         let (n1, n2) = heights.dim();
         // Moments of the rows, then of all.
@@ -45,17 +45,17 @@ impl Plane {
         Self { mean: sums[0] / (total[0] * total[1]), slopes, points: [n1, n2] }
     }
 
-    /// Its height at a sample, a length.
+    /// Height of the plane at a sample, a length.
     pub fn at(&self, [i, j]: [usize; 2]) -> f64 {
         let [n1, n2] = self.points;
         self.mean + self.slopes[0] * place(i, n1) + self.slopes[1] * place(j, n2)
     }
 }
 
-/// Heights without the plane that fits them best.
+/// Heights minus their mean plane, lengths.
 pub fn levelled(mut heights: Array2<f64>) -> Array2<f64> {
     let (n1, n2) = heights.dim();
-    let plane = Plane::fit(heights.view(), &[vec![1.0; n1], vec![1.0; n2]]);
+    let plane = MeanPlane::fit(heights.view(), &[vec![1.0; n1], vec![1.0; n2]]);
     for ((i, j), height) in heights.indexed_iter_mut() {
         *height -= plane.at([i, j]);
     }

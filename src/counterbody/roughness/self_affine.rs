@@ -4,11 +4,11 @@
 //! exponent H and the longest, roll-off and shortest wavelength λ_l ≥ λ_r ≥ λ_s (e.g. V. A. Yastrebov, G. Anciaux &
 //! J.-F. Molinari, J. Mech. Phys. Solids 107 (2017) 469–493).
 //!
-//! Every wave of the cell in the band has the amplitude that C demands and a phase of its own, drawn from the seed and the
+//! Every wave of the cell in the band has the amplitude of C and a phase of its own, drawn from the seed and the
 //! wave's multiples (κ₁, κ₂) of **b**₁ and **b**₂ alone. So the surface does not depend on the grid, the spectrum of every seed
-//! is the same, and the rms value asked for is that of the very surface, all its waves counted.
+//! is the same, and the prescribed rms value is exactly that of the surface, all its waves included.
 
-use super::band::{Band, ON};
+use super::band::{CUTOFF_TOLERANCE, WaveBand};
 use super::spectrum::{Spectrum, WaveSum};
 use crate::lattice::{Cell, Grid, LatticeError};
 use crate::numeric::fourier::fast_points;
@@ -17,21 +17,21 @@ use rayon::prelude::*;
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Most waves along a cell vector, either way: a grid of 32768 points holds them.
-const MOST: f64 = 16_383.0;
-/// Most waves of all that are looked at.
-const MOST_IN_ALL: f64 = 1.5e8;
+/// Largest |κ| along a cell vector: a grid of 32768 points holds these waves.
+const MAX_WAVES_ALONG: f64 = 16_383.0;
+/// Largest number of waves that are summed.
+const MAX_WAVES: f64 = 1.5e8;
 
-/// The value that fixes the amplitude of a surface.
+/// Rms value that fixes the amplitude of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rms {
-    /// √⟨|∇h|²⟩.
+    /// Rms slope √⟨|∇h|²⟩, dimensionless.
     Slope(f64),
-    /// √⟨(h − h̄)²⟩, a length.
+    /// Rms height √⟨(h − h̄)²⟩, a length.
     Height(f64),
 }
 
-/// What a self-affine surface is, before any cell. All values are positive and finite, H is between 0 and 1.
+/// Parameters of a self-affine surface, independent of the cell. All values are positive and finite, H lies between 0 and 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SelfAffine {
     /// Hurst exponent H.
@@ -42,13 +42,13 @@ pub struct SelfAffine {
     pub rolloff: f64,
     /// Shortest wavelength λ_s, a length.
     pub shortest: f64,
-    /// What fixes its amplitude.
+    /// Rms value that fixes the amplitude.
     pub rms: Rms,
-    /// Which of all such surfaces.
+    /// Seed of the phases.
     pub seed: u64,
 }
 
-/// Why there is no such surface on a cell.
+/// Why a surface cannot be generated on a cell.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SelfAffineError {
@@ -58,11 +58,11 @@ pub enum SelfAffineError {
          the cell larger or the band wider"
     )]
     NoWaves {
-        /// λ_s.
+        /// Shortest wavelength λ_s, a length.
         shortest: f64,
-        /// λ_l.
+        /// Longest wavelength λ_l, a length.
         longest: f64,
-        /// The longest wavelength of the cell.
+        /// The longest wavelength of the cell, a length.
         cell: f64,
     },
     /// More waves than any grid holds.
@@ -70,45 +70,45 @@ pub enum SelfAffineError {
         "the cell is {0:.0} times as long as the shortest wavelength: no grid of at most 32768 points along a side holds it"
     )]
     TooFine(f64),
-    /// More waves than are looked at.
+    /// More waves than can be summed.
     #[error(
         "the cell has {0:.0} × {1:.0} waves down to the shortest wavelength, too many: make the band narrower or the cell smaller"
     )]
     TooMany(f64, f64),
-    /// A value is not allowed.
+    /// A parameter out of its range.
     #[error(
         "{name} = {value}: the Hurst exponent must lie between 0 and 1, the rms value and the wavelengths must be positive and finite"
     )]
     Value {
-        /// Which.
+        /// Name of the parameter.
         name: &'static str,
-        /// What it is.
+        /// The value given.
         value: f64,
     },
-    /// There is no such grid.
+    /// A grid that cannot be built.
     #[error(transparent)]
     Grid(#[from] LatticeError),
 }
 
 impl SelfAffine {
-    /// C up to a factor.
+    /// Shape of the power spectrum: C(q) over its value at the roll-off.
     pub fn shape(&self, q: f64) -> f64 {
         let [low, roll, high] = [self.longest, self.rolloff, self.shortest].map(|length| TAU / length);
         match q {
-            q if q < low * (1.0 - ON) || q > high * (1.0 + ON) => 0.0,
+            q if q < low * (1.0 - CUTOFF_TOLERANCE) || q > high * (1.0 + CUTOFF_TOLERANCE) => 0.0,
             q if q <= roll => 1.0,
             q => libm::pow(q / roll, -2.0 * (1.0 + self.hurst)),
         }
     }
 
-    /// The surface on a grid of `points` = [N₁, N₂] of a cell, without the waves that the grid cannot tell from others.
+    /// Spectrum of the surface on a grid of `points` = [N₁, N₂] of a cell, without the waves that the grid aliases.
     ///
     /// # Errors
     /// [`SelfAffineError`].
     pub fn spectrum(&self, cell: Cell, points: [usize; 2]) -> Result<Spectrum, SelfAffineError> {
         let power = self.power(cell)?;
         let grid = Grid::new(cell, points)?;
-        let band = Band::new(cell, (TAU / self.shortest).min(grid.largest_wavenumber()));
+        let band = WaveBand::new(cell, (TAU / self.shortest).min(grid.largest_wavenumber()));
         let mut sum = WaveSum::new(points);
         for (wave, q) in band.rows().flat_map(|row| band.waves(row)) {
             let shape = self.shape(q[0].hypot(q[1]));
@@ -122,7 +122,7 @@ impl SelfAffine {
         Ok(Spectrum::new(grid, sum.components()))
     }
 
-    /// Its heights at the samples, lengths, axis 0 along a₁, axis 1 along a₂; mean 0.
+    /// Heights at the samples of a grid, lengths, axis 0 along a₁, axis 1 along a₂; mean 0.
     ///
     /// # Errors
     /// [`SelfAffineError`].
@@ -130,22 +130,22 @@ impl SelfAffine {
         Ok(self.spectrum(cell, points)?.into_heights())
     }
 
-    /// A grid that holds all its waves, with fast transforms.
+    /// Number of points along a₁ and a₂ of a grid that holds all waves, with fast transforms.
     ///
     /// # Errors
     /// [`SelfAffineError::TooFine`] when none does.
     pub fn resolving_points(&self, cell: Cell) -> Result<[usize; 2], SelfAffineError> {
-        let high = TAU / self.shortest * (1.0 + ON);
-        let Band { most, .. } = self.band(cell)?;
+        let high = TAU / self.shortest * (1.0 + CUTOFF_TOLERANCE);
+        let WaveBand { most, .. } = self.band(cell)?;
         let mut points = most.map(|k| fast_points(2 * k as usize + 2));
-        // In a skewed cell the zone of so many samples may cut into the circle of waves.
+        // In a skewed cell the zone of these samples may not contain the circle of waves.
         while Grid::new(cell, points)?.least_aliased() <= high {
             points = points.map(|n| fast_points(n + n / 8 + 1));
         }
         Ok(points)
     }
 
-    /// Refuses values for which there is no surface on any cell.
+    /// Checks the ranges of the parameters.
     fn check(&self) -> Result<(), SelfAffineError> {
         let rms = match self.rms {
             Rms::Slope(rms) | Rms::Height(rms) => rms,
@@ -157,21 +157,21 @@ impl SelfAffine {
         wrong.or(hurst).map_or(Ok(()), |(name, value)| Err(SelfAffineError::Value { name, value }))
     }
 
-    /// All waves that may be in its band.
-    fn band(&self, cell: Cell) -> Result<Band, SelfAffineError> {
+    /// Waves up to the shortest wavelength.
+    fn band(&self, cell: Cell) -> Result<WaveBand, SelfAffineError> {
         self.check()?;
-        let band = Band::new(cell, TAU / self.shortest * (1.0 + ON));
+        let band = WaveBand::new(cell, TAU / self.shortest * (1.0 + CUTOFF_TOLERANCE));
         let [k1, k2] = band.most.map(f64::from);
-        if k1.max(k2) > MOST {
+        if k1.max(k2) > MAX_WAVES_ALONG {
             return Err(SelfAffineError::TooFine(k1.max(k2)));
         }
-        if (2.0 * k1 + 1.0) * (k2 + 1.0) > MOST_IN_ALL {
+        if (2.0 * k1 + 1.0) * (k2 + 1.0) > MAX_WAVES {
             return Err(SelfAffineError::TooMany(2.0 * k1 + 1.0, 2.0 * k2 + 1.0));
         }
         Ok(band)
     }
 
-    /// C over the wavenumber on a cell, length⁴.
+    /// Power spectral density C as a function of the wavenumber on a cell, length⁴.
     ///
     /// # Errors
     /// [`SelfAffineError`].
@@ -180,7 +180,7 @@ impl SelfAffine {
         Ok(move |q| scale * own.shape(q))
     }
 
-    /// √⟨|∇h|²⟩ of the whole surface on a cell.
+    /// Rms slope √⟨|∇h|²⟩ of the surface on a cell, all waves included, dimensionless.
     ///
     /// # Errors
     /// [`SelfAffineError`].
@@ -189,7 +189,7 @@ impl SelfAffine {
         Ok((self.power(cell)? * slopes).sqrt())
     }
 
-    /// |ĥ|² of a wave where the shape of the spectrum is 1, a length squared.
+    /// Squared amplitude |ĥ|² of a wave where the shape of the spectrum is 1, a length squared.
     fn power(&self, cell: Cell) -> Result<f64, SelfAffineError> {
         let [heights, slopes] = self.sums(cell)?;
         Ok(match self.rms {
@@ -198,14 +198,14 @@ impl SelfAffine {
         })
     }
 
-    /// Σ and Σ q² of the shape of the spectrum over all waves.
+    /// Σ S and Σ q²S over all waves, S the shape of the spectrum.
     fn sums(&self, cell: Cell) -> Result<[f64; 2], SelfAffineError> {
         let band = self.band(cell)?;
         let add = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a + c, b + d];
         let row = |row: i32| {
             let terms = band.waves(row).map(|(_, q)| {
                 let q = q[0].hypot(q[1]);
-                // Each and its conjugate.
+                // The wave and its conjugate.
                 [2.0 * self.shape(q), 2.0 * q * q * self.shape(q)]
             });
             terms.fold([0.0; 2], add)
@@ -220,7 +220,7 @@ impl SelfAffine {
     }
 }
 
-/// A number between 0 and 1 that belongs to a seed and a wave: SplitMix64 of each in turn (G. Steele, D. Lea & C. Flood,
+/// Pseudo-random number in [0, 1) of a seed and a wave: SplitMix64 of each in turn (G. Steele, D. Lea & C. Flood,
 /// OOPSLA 2014).
 fn part(seed: u64, [k1, k2]: [i32; 2]) -> f64 {
     let mix = |state: u64| {
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rms_value_asked_for_is_that_of_the_surface() {
+    fn the_rms_value_prescribed_is_that_of_the_surface() {
         let cell = Cell::new([1.0, 0.0], [0.3, 1.7]).unwrap();
         let spectrum = surface(Rms::Slope(0.1)).spectrum(cell, [64, 96]).unwrap();
         assert!((spectrum.rms_slope() / 0.1 - 1.0).abs() < 1e-12);

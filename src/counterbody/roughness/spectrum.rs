@@ -1,7 +1,7 @@
 //! The power spectrum of a periodic surface, and the surface on other grids.
 //!
 //! h(**x**) = h̄ + Σ ĥ_**q** e^{i**q**·**x**} over the shortest waves through the samples; a component of several shortest aliases
-//! is equal parts of them. C(**q**) = A/(4π²) |ĥ_**q**|² with the area A of the cell, so that
+//! is shared by them in equal parts. C(**q**) = A/(4π²) |ĥ_**q**|² with the area A of the cell, so that
 //!
 //! h_rms² = Σ |ĥ_**q**|² = ∫ C d²q,  h′_rms² = ⟨|∇h|²⟩ = Σ q² |ĥ_**q**|²
 //!
@@ -15,32 +15,32 @@ use ndarray::{Array2, ArrayView2};
 use rustfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Rings of wavevectors to a decade of wavenumbers.
-const RINGS: f64 = 16.0;
+/// Number of rings of wavevectors per decade of wavenumbers.
+const RINGS_PER_DECADE: f64 = 16.0;
 
-/// The waves of a surface.
+/// Fourier components of a surface on its grid.
 #[derive(Debug, Clone)]
 pub struct Spectrum {
     grid: Grid,
-    /// A height that all have in common, a length: what it has no waves, not even those of rounding.
+    /// Height that is subtracted from all samples before the transform, a length: a flat surface has no waves, not even of rounding.
     common: f64,
-    /// ĥ of the components (k₁, k₂), k₂ ≤ N₂/2, lengths.
+    /// Components ĥ(k₁, k₂), k₂ ≤ N₂/2, lengths.
     components: Array2<Complex<f64>>,
 }
 
-/// Waves of about one wavenumber.
+/// Radial average of the power spectrum over a ring of wavevectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Radial {
     /// Mean wavenumber q, 1/length.
     pub wavenumber: f64,
-    /// Mean of C over them, length⁴; h_rms² = ∫ C d²q.
+    /// Mean of C over the ring, length⁴; h_rms² = ∫ C d²q.
     pub density: f64,
-    /// How many of them the surface has.
+    /// Number of waves in the ring.
     pub waves: f64,
 }
 
 impl Spectrum {
-    /// Of heights on a cell, lengths, axis 0 along a₁, axis 1 along a₂.
+    /// Spectrum of heights on a cell, lengths, axis 0 along a₁, axis 1 along a₂.
     ///
     /// # Errors
     /// [`LatticeError`] when there are none.
@@ -51,42 +51,42 @@ impl Spectrum {
         Ok(Self { grid, common, components })
     }
 
-    /// Of components (k₁, k₂), k₂ ≤ N₂/2, on a grid.
+    /// Spectrum with these components (k₁, k₂), k₂ ≤ N₂/2, lengths, on a grid.
     pub(super) fn new(grid: Grid, components: Array2<Complex<f64>>) -> Self {
         Self { grid, common: 0.0, components }
     }
 
-    /// The grid of its samples.
+    /// The grid of the samples.
     pub(super) fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// A height that all samples have in common, a length: what is left out of the components.
+    /// Height that all samples have in common, a length, not contained in the components.
     pub(super) fn common(&self) -> f64 {
         self.common
     }
 
-    /// ĥ of the components (k₁, k₂), k₂ ≤ N₂/2, lengths.
+    /// Components ĥ(k₁, k₂), k₂ ≤ N₂/2, lengths.
     pub(super) fn components(&self) -> ArrayView2<'_, Complex<f64>> {
         self.components.view()
     }
 
-    /// The heights at the samples of its own grid, lengths, axis 0 along a₁, axis 1 along a₂.
+    /// Heights at the samples of the grid, lengths, axis 0 along a₁, axis 1 along a₂.
     pub fn into_heights(self) -> Array2<f64> {
         let [_, n2] = self.grid.points();
         let common = self.common;
         field::field(self.components, n2).mapv_into(|height| height + common)
     }
 
-    /// Root mean square of the slope, √⟨|∇h|²⟩.
+    /// Rms slope √⟨|∇h|²⟩, dimensionless.
     pub fn rms_slope(&self) -> f64 {
         self.squares().map(|(q, square, _)| q * q * square).sum::<f64>().sqrt()
     }
 
-    /// C averaged over rings of wavevectors, sixteen to a decade, up to where the grid holds all directions.
+    /// C averaged over rings of wavevectors, sixteen per decade, up to the least aliased wavenumber.
     pub fn radial(&self) -> Vec<Radial> {
         let (least, most) = (self.grid.least_wavenumber(), self.grid.least_aliased());
-        let ring = |q: f64| (RINGS * (q / least).log10() + 0.5).floor().max(0.0) as usize;
+        let ring = |q: f64| (RINGS_PER_DECADE * (q / least).log10() + 0.5).floor().max(0.0) as usize;
         let mut sums = vec![[0.0; 3]; ring(most) + 1];
         for (q, square, waves) in self.squares().filter(|(q, ..)| *q <= most * (1.0 + 1e-9)) {
             let own = &mut sums[ring(q).min(ring(most))];
@@ -99,8 +99,8 @@ impl Spectrum {
             .collect()
     }
 
-    /// The surface on another grid of its cell: the same sum of waves where that is as fine, without the waves that it
-    /// cannot hold where it is coarser. Heights, lengths, axis 0 along a₁, axis 1 along a₂.
+    /// Heights on another grid of the cell, lengths, axis 0 along a₁, axis 1 along a₂: the sum of the waves, without those that a
+    /// coarser grid cannot hold.
     ///
     /// # Errors
     /// [`LatticeError`] when a number of points is zero.
@@ -127,20 +127,19 @@ impl Spectrum {
         Ok(sum.field().mapv_into(|height| height + self.common))
     }
 
-    /// Of every component but the mean: its wavenumber, Σ |ĥ|² of the waves that it and its conjugate stand for, and how
-    /// many they are.
+    /// Wavenumber, Σ |ĥ|² over the waves of the component and its conjugate, and their number, for every component but the mean.
     fn squares(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
         let [_, n2] = self.grid.points();
         self.components.indexed_iter().skip(1).map(move |((k1, k2), value)| {
             let own = if k2 == 0 || 2 * k2 == n2 { 1.0 } else { 2.0 };
-            // Equal parts of a component have less of its square together than it has.
+            // Shared in equal parts, the squares of the parts add to the component's square over their number.
             let tied = self.grid.tied([k1, k2]) as f64;
             (self.grid.wavenumber([k1, k2]), own * value.norm_sqr() / tied, own * tied)
         })
     }
 }
 
-/// Waves summed on a grid.
+/// A sum of waves on a grid.
 #[derive(Debug)]
 pub(super) struct WaveSum {
     points: [usize; 2],
@@ -148,12 +147,12 @@ pub(super) struct WaveSum {
 }
 
 impl WaveSum {
-    /// None yet, on N₁ × N₂ samples.
+    /// The empty sum on N₁ × N₂ samples.
     pub fn new(points: [usize; 2]) -> Self {
         Self { points, components: Array2::default((points[0], points[1] / 2 + 1)) }
     }
 
-    /// Adds value·e^{i**q**·**x**}, **q** = κ₁b₁ + κ₂b₂; whoever adds one adds its conjugate too.
+    /// Adds value·e^{i**q**·**x**}, **q** = κ₁b₁ + κ₂b₂; its conjugate has to be added too.
     pub fn add(&mut self, wave: [i32; 2], value: Complex<f64>) {
         let [k1, k2] = [0, 1].map(|axis| i64::from(wave[axis]).rem_euclid(self.points[axis] as i64) as usize);
         if let Some(component) = self.components.get_mut([k1, k2]) {
@@ -161,7 +160,7 @@ impl WaveSum {
         }
     }
 
-    /// The sum at the samples.
+    /// Values of the sum at the samples, lengths.
     pub fn field(self) -> Array2<f64> {
         field::field(self.components, self.points[1])
     }

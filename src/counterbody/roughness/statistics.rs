@@ -5,24 +5,24 @@
 use crate::numeric::sums;
 use ndarray::ArrayView2;
 
-/// Moments of the heights.
+/// Mean, rms value, range, skewness and kurtosis of heights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Statistics {
     /// Mean height, a length.
     pub mean: f64,
-    /// Root mean square of the heights from their mean, a length.
+    /// Rms height: root mean square of the heights from their mean, a length.
     pub rms_height: f64,
     /// Highest minus lowest sample, a length.
     pub range: f64,
-    /// Positive where peaks are higher than valleys are deep; 0 for a flat surface.
+    /// Skewness, positive where peaks are higher than valleys are deep; 0 for a flat surface.
     pub skewness: f64,
-    /// 3 for a Gaussian distribution; 0 for a flat surface.
+    /// Kurtosis, 3 for a Gaussian distribution; 0 for a flat surface.
     pub kurtosis: f64,
 }
 
 impl Statistics {
-    /// Of heights in any layout, lengths.
+    /// Statistics of heights in any memory layout, lengths.
     pub fn of(heights: ArrayView2<'_, f64>) -> Self {
         let heights = heights.as_standard_layout();
         let heights = heights.as_slice().expect("in standard layout");

@@ -1,33 +1,32 @@
-//! Tapers that make a surface periodic which is not, and let its border run out below all that can touch.
+//! Tapers that make a surface periodic, with a border that runs out below every possible contact.
 //!
 //! h ← P + w₁(i) w₂(j) (h − P) − D (1 − w₁(i) w₂(j)), with the weights at the N samples of a direction at u = (k + ½)/N:
 //!
 //! - Hann: w = sin²(πu);
 //! - Tukey: w = sin²(πu/2a) within a = 1/10 of either end, 1 between them.
 //!
-//! P is the plane, or the mean, that fits the surface best in squares weighted by w₁w₂. Then w₁w₂(h − P) has no mean and no
-//! slope. D = max(h − P) − min(h − P): the border lies as far below the deepest pit as the highest peak above P, and touches
+//! P is the mean plane, or the mean, of the surface weighted by w₁w₂. Then w₁w₂(h − P) has no mean and no slope. D = max(h − P) − min(h − P): the border lies as far below the deepest pit as the highest peak above P, and touches
 //! nothing before all of the surface does.
 
-use super::plane::Plane;
+use super::plane::MeanPlane;
 use ndarray::Array2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A taper along either direction.
+/// Window of a taper along both directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "lowercase"))]
 pub enum Window {
-    /// Over the whole length.
+    /// Hann's window, over the whole length.
     Hann,
-    /// Over a tenth of the length at either end.
+    /// Tukey's window, over a tenth of the length at either end.
     Tukey,
 }
 
-/// Part of the length over which Tukey's window rises.
-const RISE: f64 = 0.1;
+/// Part of the length over which Tukey's window rises, at either end.
+const TUKEY_RISE: f64 = 0.1;
 
 impl Window {
-    /// Its name in a case.
+    /// Name in case files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Hann => "hann",
@@ -35,47 +34,47 @@ impl Window {
         }
     }
 
-    /// The weight at u, in parts of the length, between 0 and 1.
+    /// Weight at the part u of the length, between 0 and 1.
     fn weight(self, u: f64) -> f64 {
         let to_end = u.min(1.0 - u);
         match self {
             Self::Hann => (PI * to_end).sin().powi(2),
-            Self::Tukey if to_end < RISE => (FRAC_PI_2 * to_end / RISE).sin().powi(2),
+            Self::Tukey if to_end < TUKEY_RISE => (FRAC_PI_2 * to_end / TUKEY_RISE).sin().powi(2),
             Self::Tukey => 1.0,
         }
     }
 
-    /// The weights at `n` samples, between 0 and 1.
+    /// Weights at `n` samples, between 0 and 1.
     pub fn weights(self, n: usize) -> Vec<f64> {
         (0..n).map(|k| self.weight((k as f64 + 0.5) / n as f64)).collect()
     }
 }
 
-/// How a surface runs out at its border.
+/// Run-out of a surface at the border of its cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunOut {
-    /// Its taper.
+    /// Window of the taper.
     pub window: Window,
-    /// D, how far the border lies below P, a length.
+    /// Depth D of the border below P, a length.
     pub depth: f64,
-    /// Samples along a₁ and a₂ that were tapered.
+    /// Number of samples along a₁ and a₂ that were tapered.
     pub points: [usize; 2],
 }
 
 impl RunOut {
-    /// w₁w₂ at fractions [s, t] of the cell vectors, sample \[0, 0\] at the origin.
+    /// Weight w₁w₂ at fractions [s, t] of the cell vectors, sample \[0, 0\] at the origin.
     fn weight(&self, place: [f64; 2]) -> f64 {
         let [one, other] =
             [0, 1].map(|axis| self.window.weight((place[axis] + 0.5 / self.points[axis] as f64).rem_euclid(1.0)));
         one * other
     }
 
-    /// Whether the window is below 1 at fractions [s, t] of the cell vectors: heights there are not those of the surface.
+    /// Whether the window is below 1 at fractions [s, t] of the cell vectors, so that heights there differ from the surface's.
     pub fn is_tapered(&self, place: [f64; 2]) -> bool {
         self.weight(place) < 1.0
     }
 
-    /// Tapered heights without what they run out by: P + w₁w₂(h − P), lengths, on any grid of the same cell.
+    /// Tapered heights without the run-out: P + w₁w₂(h − P), lengths, on any grid of the same cell.
     pub fn undone(&self, mut heights: Array2<f64>) -> Array2<f64> {
         let (n1, n2) = heights.dim();
         for ((i, j), height) in heights.indexed_iter_mut() {
@@ -85,13 +84,13 @@ impl RunOut {
     }
 }
 
-/// Heights drawn toward their mean at the border and run out below it; with `level` toward their mean plane, which is then
-/// taken away. Mean and plane are weighted by the window.
+/// Heights tapered to their mean at the border and run out below it, lengths; with `level` tapered to their mean plane, which is then
+/// subtracted. Mean and plane are weighted by the window.
 pub fn tapered(mut heights: Array2<f64>, window: Window, level: bool) -> (Array2<f64>, RunOut) {
     let (n1, n2) = heights.dim();
     let weights = [window.weights(n1), window.weights(n2)];
-    let fitted = Plane::fit(heights.view(), &weights);
-    let plane = if level { fitted } else { Plane { slopes: [0.0; 2], ..fitted } };
+    let fitted = MeanPlane::fit(heights.view(), &weights);
+    let plane = if level { fitted } else { MeanPlane { slopes: [0.0; 2], ..fitted } };
     let kept = if level { 0.0 } else { plane.mean };
     for ((i, j), height) in heights.indexed_iter_mut() {
         *height -= plane.at([i, j]);
@@ -125,10 +124,10 @@ mod tests {
             assert!(border_jumps(surface().view()).iter().all(|jump| *jump > 3.0));
             assert!(border_jumps(level.view()).iter().all(|jump| *jump < 1.0));
             let uniform = [vec![1.0; 40], vec![1.0; 30]];
-            let Plane { mean, slopes, .. } = Plane::fit(run_out.undone(level).view(), &uniform);
+            let MeanPlane { mean, slopes, .. } = MeanPlane::fit(run_out.undone(level).view(), &uniform);
             assert!(mean.abs() < 1e-12 && slopes.iter().all(|slope| slope.abs() < 1e-12), "{mean} {slopes:?}");
             let weights = [window.weights(40), window.weights(30)];
-            let kept = Plane::fit(surface().view(), &weights).mean;
+            let kept = MeanPlane::fit(surface().view(), &weights).mean;
             let (own, run_out) = tapered(surface(), window, false);
             assert!((run_out.undone(own).mean().unwrap() - kept).abs() < 1e-12);
         }

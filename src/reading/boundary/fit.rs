@@ -4,9 +4,10 @@
 //! are added first; the waves are those at its middle. Where the fit stands its shift is zero, whatever the waves.
 
 use super::beside::Beside;
+use super::constants::{COUNTED_ERROR, HARMONICS, MAX_ITERATIONS, MAX_SHIFT, MIN_RESOLUTION, WEIGHT_RISE};
 use super::rim::Rim;
 use super::room::{SECTORS, room};
-use super::spot::{NEAREST, RISE, Sample, Scale, Spot};
+use super::spot::{NEAREST, Sample, Scale, Spot};
 use crate::numeric::closed_line::{self, ANGLES, angle, mean_radius, series_line, waves_at};
 use crate::numeric::series_fit::SeriesFit;
 use rayon::prelude::*;
@@ -46,25 +47,19 @@ struct Sums {
     slope_values: f64,
 }
 
-/// Highest harmonics of the boundary: the first that leave no sample on its wrong side, by more than a part of a spacing.
-/// Contacts about to merge are polygons. And those of the counted boundary from which the fits start.
-const HARMONICS: [(usize, f64); 2] = [(6, 0.5), (12, 1.0)];
-const FIRST_HARMONICS: usize = 6;
+/// Highest harmonics of the boundary, and the distance in spacings by which a sample may lie on its wrong side: the first that
+/// leave none farther are taken. Contacts about to merge are polygons.
+const HIGHEST_HARMONICS: [(usize, f64); 2] = [(HARMONICS, 0.5), (12, 1.0)];
 /// Radius of a disc that round contacts fill, over the distance of their farthest sample.
 const DISC: f64 = 0.9;
-/// Fewest samples per radius for a fit.
-const FEWEST: f64 = 3.0;
-/// Largest distance of a located boundary from the counted one, in spacings: beyond it the fit is not believed.
-const BELIEF: f64 = 2.0;
 /// Weight of the pressure's samples beside the gap's where both are fitted.
 const PRESSURE: f64 = 0.1;
 /// Part of the way to the middle between the contacts over which the gap is that of one edge.
 const OWN: f64 = 0.4;
 /// Part of the samples outside the edge that must be there for a fit of the gap alone.
 const ROOM: f64 = 0.6;
-/// Rounds of a fit, each from the boundary of the last; after the first ones, one that changes it by more than half a spacing
-/// and by more than half as much as the one before comes to no stand.
-const ROUNDS: usize = 8;
+/// Iterations of a fit after which one that changes the boundary by more than half a spacing and by more than half as much as
+/// the one before diverges.
 const FIRST_ROUNDS: usize = 2;
 const LARGE: f64 = 0.5;
 /// Sectors whose samples are summed by one thread at least, and samples from which on it is worth while.
@@ -72,14 +67,13 @@ const TOGETHER: usize = 30;
 const MANY: usize = 8192;
 /// Change of a boundary, in spacings, below which it stands.
 const STANDS: f64 = 1e-4;
-/// What an error estimate adds to the differences of readings, in spacings; the error of a counted radius.
+/// Term that an error estimate adds to the differences of readings, in spacings.
 const FLOOR: f64 = 0.01;
-pub(super) const COUNTED: f64 = 0.5;
 
 /// Boundary of low harmonics that encloses the samples as they are counted, and √(area/π): ρ² has the moments
 /// ½∮ρ² cos kθ dθ = ∫ cos kθ d²x.
 pub(super) fn counted(spot: &Spot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>, f64) {
-    const COUNT: usize = 2 * FIRST_HARMONICS + 1;
+    const COUNT: usize = 2 * HARMONICS + 1;
     // Waves have no sum over a disc: only samples add to theirs that lie outside it, or within it and not in the spot.
     let disc = if rim == Rim::Outer { DISC * spot.farthest() } else { 0.0 };
     // No sample of the spot or its hole lies beyond the farthest in contact.
@@ -91,7 +85,7 @@ pub(super) fn counted(spot: &Spot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>,
             let r = square.sqrt();
             let (cosine, sine) = (x / r, y / r);
             let (mut c, mut s) = (if own { 1.0 } else { -1.0 }, 0.0);
-            for k in 0..FIRST_HARMONICS {
+            for k in 0..HARMONICS {
                 (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
                 sums[2 * k + 1] += c;
                 sums[2 * k + 2] += s;
@@ -109,7 +103,7 @@ pub(super) fn counted(spot: &Spot<'_>, sample_area: f64, rim: Rim) -> (Vec<f64>,
 /// Radii of a rim and the estimated error of their mean.
 pub(super) fn located(spot: &Spot<'_>, scale: &Scale<'_>, rim: Rim) -> Option<(Vec<f64>, f64)> {
     let (start, radius) = counted(spot, scale.sample_area, rim);
-    if scale.resolution(radius) < FEWEST {
+    if scale.resolution(radius) < MIN_RESOLUTION {
         return None;
     }
     let (reach, room) = (scale.reach(radius), room(spot, rim, &start, scale.spacing));
@@ -118,7 +112,7 @@ pub(super) fn located(spot: &Spot<'_>, scale: &Scale<'_>, rim: Rim) -> Option<(V
     if beside.is_astray(&start, belief(&start, scale.spacing) + scale.spacing) {
         return None;
     }
-    HARMONICS.into_iter().find_map(|(harmonics, astray)| {
+    HIGHEST_HARMONICS.into_iter().find_map(|(harmonics, astray)| {
         let whole = Fit { reach, inside: 0.0, powers: 2, harmonics, room };
         let (best, radii) = whole.best(&mut beside, &start)?;
         beside.follow(&radii);
@@ -132,7 +126,7 @@ pub(super) fn located(spot: &Spot<'_>, scale: &Scale<'_>, rim: Rim) -> Option<(V
 
 /// How far a boundary may lie from the counted one.
 fn belief(counted: &[f64], spacing: f64) -> f64 {
-    BELIEF * spacing + 0.1 * mean_radius(counted)
+    MAX_SHIFT * spacing + 0.1 * mean_radius(counted)
 }
 
 /// The largest distance of two lines.
@@ -157,7 +151,7 @@ impl Fit {
     /// What the readings beside the best one, which stands at `radii`, say of its error.
     fn error(self, best: usize, beside: &mut Beside<'_>, start: &[f64], radii: &[f64]) -> f64 {
         let spacing = beside.scale().spacing;
-        let half = Self { reach: (0.5 * (self.reach + RISE * spacing)).min(self.reach), powers: 1, ..self };
+        let half = Self { reach: (0.5 * (self.reach + WEIGHT_RISE * spacing)).min(self.reach), powers: 1, ..self };
         let mean = mean_radius(radii);
         let mut difference = |other: Self| {
             let there = other.has_room(beside, start).then(|| other.moved(beside, start, radii))??;
@@ -165,7 +159,7 @@ impl Fit {
         };
         // A reading that fails says no more than counting does.
         let spread = [Some(half), self.readings().get(best + 1).copied()]
-            .map(|other| other.and_then(&mut difference).unwrap_or(COUNTED * spacing));
+            .map(|other| other.and_then(&mut difference).unwrap_or(COUNTED_ERROR * spacing));
         1.5 * spread[0].max(spread[1]) + FLOOR * spacing
     }
 
@@ -174,7 +168,7 @@ impl Fit {
     fn stands(&self, beside: &mut Beside<'_>, counted: &[f64]) -> Option<Vec<f64>> {
         let spacing = beside.scale().spacing;
         let (mut radii, mut amplitude, mut last) = (counted.to_vec(), Vec::new(), f64::INFINITY);
-        for round in 0..ROUNDS {
+        for round in 0..MAX_ITERATIONS {
             let before = std::mem::take(&mut radii);
             radii = self.round(beside, counted, &before, &mut amplitude)?;
             let change = farthest(&radii, &before);
@@ -246,7 +240,7 @@ impl Fit {
         let along = beside.rim().sign() * scale.edge.along(angle(sector));
         let most = if open { self.own(sector) } else { reach };
         let outwards = if open { 1.0 } else { -1.0 };
-        let (nearest, rise) = (NEAREST * scale.spacing, 1.0 / (RISE * scale.spacing));
+        let (nearest, rise) = (NEAREST * scale.spacing, 1.0 / (WEIGHT_RISE * scale.spacing));
         let (per_reach, per_unit) = (1.0 / reach, 1.0 / unit);
         for point in beside.points(sector, open) {
             let d = outwards * beside.distance(point, radii);

@@ -20,6 +20,7 @@
 //! A **ring** has a hole, read in the same way with inside and outside exchanged.
 
 mod beside;
+pub(crate) mod constants;
 mod fit;
 mod rim;
 mod room;
@@ -28,7 +29,8 @@ mod spot;
 pub use spot::{Sample, Scale, Spot};
 
 use crate::numeric::closed_line::{self, ANGLES, mean_radius};
-use fit::{COUNTED, counted, located};
+use constants::COUNTED_ERROR;
+use fit::{counted, located};
 use rim::Rim;
 use std::f64::consts::{PI, TAU};
 
@@ -55,7 +57,7 @@ impl Boundary {
         if is_ring {
             (boundary.hole, boundary.hole_error) = located(spot, scale, Rim::Hole).unwrap_or_else(|| {
                 let (counted, _) = counted(spot, scale.sample_area, Rim::Hole);
-                (vec![mean_radius(&counted); ANGLES], COUNTED * scale.spacing)
+                (vec![mean_radius(&counted); ANGLES], COUNTED_ERROR * scale.spacing)
             });
         }
         Some(boundary)

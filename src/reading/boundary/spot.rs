@@ -1,13 +1,12 @@
 //! A contact spot on its grid, seen from an axis.
 
-use crate::lattice::runs::{Run, annulus, samples};
-use crate::lattice::{Grid, Reduced};
+use super::constants::WEIGHT_RISE;
+use crate::lattice::runs::{SampleRun, annulus, samples};
+use crate::lattice::{Grid, ReducedBasis};
 use crate::reading::edge::Edge;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Distance from the edge, in spacings, over which the weight of a sample rises from zero to one.
-pub(super) const RISE: f64 = 2.5;
 /// Distance from the edge, in spacings, from which on samples are looked at.
 pub(super) const NEAREST: f64 = 0.3;
 
@@ -30,7 +29,7 @@ pub enum Sample {
 /// A contact spot and what is around it.
 pub struct Spot<'a> {
     grid: &'a Grid,
-    reduced: Reduced,
+    reduced: ReducedBasis,
     /// Half the length of the shortest lattice vector: a sample nearer than that to the axis is farther from all images of it.
     alone: f64,
     /// The axis, lengths.
@@ -91,7 +90,7 @@ impl<'a> Spot<'a> {
         take: impl Fn(&mut T, usize, [f64; 2], Sample) + Sync,
     ) -> Vec<T> {
         let runs = annulus(self.grid, self.centre, distances);
-        let of_block = |runs: &[Run]| {
+        let of_block = |runs: &[SampleRun]| {
             let mut taken = T::default();
             for (index, offset) in samples(self.grid, runs, self.centre) {
                 take(&mut taken, index, offset, self.what(index, offset));
@@ -125,7 +124,7 @@ impl Scale<'_> {
     /// The least and the largest distance from an edge that boundaries on a grid look at, lengths.
     pub fn distances(grid: &Grid) -> [f64; 2] {
         let most = (grid.len() as f64 / PI).sqrt();
-        [0.5 * NEAREST, RISE + most.max(1.0).sqrt()].map(|distance| distance * grid.spacing())
+        [0.5 * NEAREST, WEIGHT_RISE + most.max(1.0).sqrt()].map(|distance| distance * grid.spacing())
     }
 
     /// Samples along a radius.
@@ -136,7 +135,7 @@ impl Scale<'_> {
     /// Reach of a fit around a boundary of `radius`.
     pub(super) fn reach(&self, radius: f64) -> f64 {
         let resolution = self.resolution(radius);
-        (RISE + resolution.sqrt()).min(0.6 * resolution) * self.spacing
+        (WEIGHT_RISE + resolution.sqrt()).min(0.6 * resolution) * self.spacing
     }
 
     /// 3E*g/4 at a sample: a pressure times a length.

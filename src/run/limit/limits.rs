@@ -9,7 +9,7 @@ use crate::run::places::SECTION;
 use crate::run::warnings::{self, Numbered};
 use crate::run::{End, Run, StepRecord};
 use crate::spectral::Step;
-use crate::stress::{Line, Section, StressField};
+use crate::stress::{StressField, SurfaceLine, VerticalSection};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 use std::fmt;
@@ -294,7 +294,7 @@ impl Limits {
 
     /// The stresses under the place that fails first under a load, at its limit: a cut along the sliding (else along x), a
     /// contact's width to both sides and deep enough for it; `None` where nothing does.
-    pub fn section(&self, run: &Run) -> Option<Section> {
+    pub fn section(&self, run: &Run) -> Option<VerticalSection> {
         let Shown { limit, step, .. } = self.shown.as_ref()?;
         let [x, y, z] = limit.position()?;
         let (half_space, cell) = (run.problem.half_space(), run.problem.cell());
@@ -304,7 +304,7 @@ impl Limits {
         let reach = (REACH * radius).min(0.5 * cell.reduced().longer_side());
         let coating = half_space.interface_depths().last().copied().unwrap_or(0.0);
         let [rows, points] = SECTION;
-        let line = Line { origin: [x, y], direction, span: [-reach, reach], points };
+        let line = SurfaceLine { origin: [x, y], direction, span: [-reach, reach], points };
         let depth = (DEPTH * radius).max(1.5 * z).max(1.25 * coating.min(DEEPEST * radius));
         let mean = run.mean_stress().unwrap_or_default();
         Some(StressField::new(step.finest(), mean).section(&line, &half_space.rows(depth, rows)))

@@ -1,50 +1,52 @@
-//! What the waves of the pressure, and of the traction that goes with it, cause at one depth.
+//! Stresses and displacements at one depth by the waves of the pressure and of the traction proportional to it.
 
 use super::series::Response;
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interiors};
 use rustfft::num_complex::Complex64;
 
-/// Of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z those that a pressure makes change their sign with the wavevector, and a shear
-/// traction does not.
+/// Whether each of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z is odd in the wavevector under a pressure; under a shear traction the
+/// others are.
 const ODD: [bool; 9] = [false, false, false, false, true, true, true, true, false];
 
-/// Amplitudes at a depth of the shells whose waves reach it, and the state of the mean pressure.
+/// Amplitudes at one depth of the shells whose waves reach it, and the state under the mean pressure.
 #[derive(Debug)]
-pub(super) struct Slice {
+pub(super) struct DepthResponse {
     pub normal: Vec<Amplitudes>,
     pub tangential: Option<Tangential>,
     /// Wavelengths of the shells over 2π.
     pub lengths: Vec<f64>,
-    pub mean: State,
+    pub mean: StressState,
 }
 
-/// Amplitudes of the shear traction.
+/// Amplitudes at one depth under the shear traction.
 #[derive(Debug)]
 pub(super) struct Tangential {
     /// μ **e**: the traction on the body over the pressure.
     traction: [f64; 2],
-    /// Along and across the wavevector.
+    /// Amplitudes under a traction along the wavevector, by shell.
     along: Vec<Amplitudes>,
+    /// Amplitudes under a traction across the wavevector, by shell.
     across: Vec<Antiplane>,
 }
 
-/// Stresses only: xx, yy, zz, xy, xz, yz.
+/// The stresses of a response: xx, yy, zz, xy, xz, yz.
 #[derive(Debug)]
-pub(super) struct Stresses<'a>(pub &'a Slice);
+pub(super) struct StressComponents<'a>(pub &'a DepthResponse);
 
-/// Displacements only: u_x, u_y, u_z.
+/// The displacements of a response: u_x, u_y, u_z.
 #[derive(Debug)]
-pub(super) struct Displacements<'a>(pub &'a Slice);
+pub(super) struct DisplacementComponents<'a>(pub &'a DepthResponse);
 
-impl Slice {
-    /// At a depth, of shells of these `wavenumbers`, under a pressure and the `traction` that goes with a unit of it.
+impl DepthResponse {
+    /// Response at a depth of the shells with these `wavenumbers` to a pressure and the `traction` per unit of it, with the state
+    /// `mean` under the mean pressure.
     pub fn new(
         interiors: &Interiors,
         depth: Depth,
         wavenumbers: &[f64],
         traction: Option<[f64; 2]>,
-        mean: State,
+        mean: StressState,
     ) -> Self {
         let tangential = traction.map(|traction| Tangential {
             traction,
@@ -59,7 +61,8 @@ impl Slice {
         }
     }
 
-    /// How far the amplitudes of a shell at the surface are from a half-space's with this ν, over the pressure.
+    /// Largest difference of the amplitudes of a shell at the surface from those of a bare half-space with this ν, over the
+    /// pressure.
     pub fn unlike(&self, shell: usize, poisson: f64) -> f64 {
         let Some(at) = self.normal.get(shell) else { return 0.0 };
         let normal = (at.sqq + 1.0).abs().max((at.stt + 2.0 * poisson).abs());
@@ -70,7 +73,7 @@ impl Slice {
     }
 }
 
-/// Factors of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave along the unit vector **n**.
+/// Factors of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z of a wave along the unit vector **n** under a pressure or a traction along **n**.
 #[inline(always)]
 fn in_plane([nx, ny]: [f64; 2], amplitudes: &Amplitudes) -> [f64; 9] {
     let (xx, yy, xy) = (nx * nx, ny * ny, nx * ny);
@@ -78,7 +81,7 @@ fn in_plane([nx, ny]: [f64; 2], amplitudes: &Amplitudes) -> [f64; 9] {
     [xx * sqq + yy * stt, yy * sqq + xx * stt, szz, xy * (sqq - stt), nx * sqz, ny * sqz, nx * uq, ny * uq, uz]
 }
 
-/// The same of a traction across **n**, along **t** = (−n_y, n_x).
+/// Factors of the nine components of a wave along **n** under a traction across it, along **t** = (−n_y, n_x).
 #[inline(always)]
 fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
     let (tx, ty) = (-ny, nx);
@@ -97,7 +100,8 @@ fn antiplane([nx, ny]: [f64; 2], amplitudes: &Antiplane) -> [f64; 9] {
 }
 
 impl Tangential {
-    /// Factors of a wave along **n**, those that are odd under a pressure without −i, the others with.
+    /// Factors of the nine components of a wave along **n** under the traction; those even under a pressure are to be multiplied
+    /// by −i.
     #[inline(always)]
     fn factors(&self, [nx, ny]: [f64; 2], shell: usize) -> [f64; 9] {
         let [ex, ey] = self.traction;
@@ -107,7 +111,7 @@ impl Tangential {
     }
 }
 
-impl Response<9> for Slice {
+impl Response<9> for DepthResponse {
     fn shells(&self) -> usize {
         self.normal.len()
     }
@@ -129,7 +133,7 @@ impl Response<9> for Slice {
         self.mean.components()
     }
 }
-impl Response<6> for Stresses<'_> {
+impl Response<6> for StressComponents<'_> {
     fn shells(&self) -> usize {
         self.0.shells()
     }
@@ -146,7 +150,7 @@ impl Response<6> for Stresses<'_> {
     }
 }
 
-impl Response<3> for Displacements<'_> {
+impl Response<3> for DisplacementComponents<'_> {
     fn shells(&self) -> usize {
         self.0.shells()
     }

@@ -1,47 +1,48 @@
-//! The quantities whose largest values are looked for.
+//! Stress measures whose largest values are searched.
 
-use super::tensor::State;
+use super::tensor::StressState;
 use crate::body::InterfaceStrength;
 use crate::numeric::search::first_largest;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// How much rounding there may be in a bound, relatively.
-const ROUNDING: f64 = 1e-9;
+/// Largest relative rounding error of a bound.
+const ROUNDING_MARGIN: f64 = 1e-9;
 
-/// A quantity to be maximised.
+/// A scalar measure of the stresses at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Quantity {
-    /// τ₁.
+pub(super) enum StressMeasure {
+    /// Principal shear stress τ₁.
     Tau1,
-    /// σ₁.
+    /// Largest principal stress σ₁.
     Tension,
-    /// The stress of von Mises.
+    /// Stress of von Mises.
     Mises,
-    /// σ_zz on an interface.
+    /// Opening stress σ_zz on an interface.
     Opening,
-    /// √(σ_xz² + σ_yz²) on an interface.
+    /// Shear stress √(σ_xz² + σ_yz²) on an interface.
     Shear,
-    /// What an interface of this strength bears, of what it can.
+    /// Utilisation of the strength of an interface, dimensionless.
     Delamination(InterfaceStrength),
 }
 
-/// What is looked for in every material.
-pub(super) const OVERALL: [Quantity; 3] = [Quantity::Tau1, Quantity::Tension, Quantity::Mises];
+/// Measures that are maximised in every material.
+pub(super) const MATERIAL_MEASURES: [StressMeasure; 3] =
+    [StressMeasure::Tau1, StressMeasure::Tension, StressMeasure::Mises];
 
-impl Quantity {
-    /// What is looked for on an interface besides.
+impl StressMeasure {
+    /// Further measures that are maximised on an interface of the given strength.
     pub fn of_interface(strength: InterfaceStrength) -> impl Iterator<Item = Self> {
         let delamination = (!strength.is_empty()).then_some(Self::Delamination(strength));
         [Self::Opening, Self::Shear].into_iter().chain(delamination)
     }
 
-    /// Whether it is what an interface bears of its strength.
+    /// Whether the measure is the utilisation of an interface.
     pub fn is_delamination(&self) -> bool {
         matches!(self, Self::Delamination(_))
     }
 
-    /// By how much it grows where the stresses of a state grow by so much.
-    pub fn rise(self, state: &State, by: f64) -> f64 {
+    /// Rise of the measure of a state when its stresses rise by `by`, a pressure.
+    pub fn rise(self, state: &StressState, by: f64) -> f64 {
         match self {
             Self::Delamination(strength) => {
                 let (normal, shear) = (state.zz, state.interface_shear());
@@ -51,8 +52,8 @@ impl Quantity {
         }
     }
 
-    /// Its value.
-    pub fn of(self, state: &State) -> f64 {
+    /// Value of the measure.
+    pub fn of(self, state: &StressState) -> f64 {
         match self {
             Self::Tau1 => state.tau1(),
             Self::Tension => state.s1(),
@@ -63,9 +64,9 @@ impl Quantity {
         }
     }
 
-    /// What it is at most, without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); of the others the value itself, but for
-    /// rounding. `mean` is σ_kk/3, `root` √J₂.
-    fn bound(self, state: &State, mean: f64, root: f64) -> f64 {
+    /// Upper bound of the measure without principal stresses: τ₁ ≤ √J₂, σ₁ ≤ σ_kk/3 + 2√(J₂/3); for the other measures the value
+    /// itself, up to rounding. `mean` is σ_kk/3, `root` is √J₂.
+    fn bound(self, state: &StressState, mean: f64, root: f64) -> f64 {
         match self {
             Self::Tau1 => root,
             Self::Tension => mean + 2.0 / 3f64.sqrt() * root,
@@ -75,44 +76,44 @@ impl Quantity {
     }
 }
 
-/// The largest value that has been found of each quantity, by whichever thread. What is surely below need not be known: it is
-/// not the largest of all, and so the threads' order does not reach the result.
+/// Running maximum of each measure over all threads. States whose bound lies below it are not evaluated: none of them is the
+/// largest, so that the result does not depend on the order of the threads.
 #[derive(Debug)]
-pub(super) struct LargestSoFar<'a> {
-    quantities: &'a [Quantity],
+pub(super) struct RunningMaxima<'a> {
+    measures: &'a [StressMeasure],
     largest: Vec<AtomicU64>,
 }
 
-impl<'a> LargestSoFar<'a> {
-    /// Nothing yet.
-    pub fn new(quantities: &'a [Quantity]) -> Self {
-        Self { quantities, largest: quantities.iter().map(|_| AtomicU64::new(0)).collect() }
+impl<'a> RunningMaxima<'a> {
+    /// Without any value yet.
+    pub fn new(measures: &'a [StressMeasure]) -> Self {
+        Self { measures, largest: measures.iter().map(|_| AtomicU64::new(0)).collect() }
     }
 
-    /// Index and value of the largest of each quantity at `count` states, of which there is one at least; a lower value where
-    /// another one that was found is larger than all of them.
-    pub fn add(&self, count: usize, state: impl Fn(usize) -> State) -> Vec<(usize, f64)> {
-        let mut bounds = vec![0.0; self.quantities.len() * count];
+    /// Index and value of the largest of `count` ≥ 1 states by each measure; a lower value where the running maximum exceeds all of
+    /// them.
+    pub fn add(&self, count: usize, state: impl Fn(usize) -> StressState) -> Vec<(usize, f64)> {
+        let mut bounds = vec![0.0; self.measures.len() * count];
         for j in 0..count {
             let state = state(j);
             let (mean, j2) = state.invariants();
             let root = j2.sqrt();
-            for (k, quantity) in self.quantities.iter().enumerate() {
-                bounds[k * count + j] = quantity.bound(&state, mean, root);
+            for (k, measure) in self.measures.iter().enumerate() {
+                bounds[k * count + j] = measure.bound(&state, mean, root);
             }
         }
-        let own = self.quantities.iter().zip(&self.largest).zip(bounds.chunks_exact(count));
-        own.map(|((quantity, found), bounds)| {
+        let own = self.measures.iter().zip(&self.largest).zip(bounds.chunks_exact(count));
+        own.map(|((measure, found), bounds)| {
             let (promising, bound) = first_largest(bounds.iter().copied()).unwrap_or((0, f64::NEG_INFINITY));
             let known = from_ordered(found.load(Ordering::Relaxed));
-            if bound < known - ROUNDING * known.abs() {
+            if bound < known - ROUNDING_MARGIN * known.abs() {
                 return (promising, f64::NEG_INFINITY);
             }
-            let enough = quantity.of(&state(promising)).max(known);
-            // What cannot be larger need not be known; what is not a number is larger.
-            let worth = |&j: &usize| bounds[j].is_nan() || bounds[j] >= enough - ROUNDING * enough.abs();
+            let enough = measure.of(&state(promising)).max(known);
+            // States that cannot be larger are skipped; values that are not numbers are kept.
+            let worth = |&j: &usize| bounds[j].is_nan() || bounds[j] >= enough - ROUNDING_MARGIN * enough.abs();
             let numbers: Vec<usize> = (0..count).filter(worth).collect();
-            let largest = first_largest(numbers.iter().map(|&j| quantity.of(&state(j))));
+            let largest = first_largest(numbers.iter().map(|&j| measure.of(&state(j))));
             let Some((k, value)) = largest else { return (promising, f64::NEG_INFINITY) };
             if !value.is_nan() {
                 found.fetch_max(ordered(value), Ordering::Relaxed);
@@ -123,7 +124,7 @@ impl<'a> LargestSoFar<'a> {
     }
 }
 
-/// A whole number that grows with a number; 0 is below all.
+/// Order-preserving map of a number to an integer; 0 is below all numbers.
 fn ordered(value: f64) -> u64 {
     let bits = value.to_bits();
     if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }
@@ -143,20 +144,21 @@ mod tests {
     #[test]
     fn bounds_hold_and_the_largest_is_the_first_of_equals() {
         let state = |k: usize| {
-            State::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
+            StressState::from_stresses(std::array::from_fn(|c| ((k * k * 37 + 11 * c * k + c) % 101) as f64 - 50.0))
         };
-        let states: Vec<State> = (0..200).map(state).chain((0..200).map(state)).collect();
+        let states: Vec<StressState> = (0..200).map(state).chain((0..200).map(state)).collect();
         let strength = InterfaceStrength { normal: Some(30.0), shear: Some(7.0) };
-        let quantities: Vec<Quantity> = OVERALL.into_iter().chain(Quantity::of_interface(strength)).collect();
+        let measures: Vec<StressMeasure> =
+            MATERIAL_MEASURES.into_iter().chain(StressMeasure::of_interface(strength)).collect();
         // All at once, and part by part: the largest of all is among what the parts give.
-        let found = LargestSoFar::new(&quantities);
+        let found = RunningMaxima::new(&measures);
         let parts: Vec<_> = states.chunks(50).map(|part| found.add(part.len(), |j| part[j])).collect();
-        let whole = LargestSoFar::new(&quantities).add(states.len(), |j| states[j]);
-        for (k, quantity) in quantities.iter().enumerate() {
-            let values: Vec<f64> = states.iter().map(|state| quantity.of(state)).collect();
+        let whole = RunningMaxima::new(&measures).add(states.len(), |j| states[j]);
+        for (k, measure) in measures.iter().enumerate() {
+            let values: Vec<f64> = states.iter().map(|state| measure.of(state)).collect();
             for (state, value) in states.iter().zip(&values) {
                 let (mean, j2) = state.invariants();
-                assert!(*value <= quantity.bound(state, mean, j2.sqrt()) + 1e-12 * value.abs());
+                assert!(*value <= measure.bound(state, mean, j2.sqrt()) + 1e-12 * value.abs());
             }
             let largest = first_largest(values.into_iter());
             assert_eq!(Some(whole[k]), largest);

@@ -1,0 +1,217 @@
+//! Stresses on the surface itself, where the pressure ends like a square root.
+//!
+//! There the series of the stresses converges slowly and overshoots. But only the pressure is singular at an edge: with **n** normal and **t** along the edge, and ν of the surface material,
+//!
+//! σ_αβ = σ̂_αβ − p (n_α n_β + 2ν t_α t_β),
+//!
+//! where σ̂ has no square root. So the series is smoothed by a Gaussian, which changes σ̂ in the fourth order of its width
+//! alone (each factor is multiplied by 1 + q²w²/2), and the smoothed pressure in it is replaced by the sharp one of
+//! [`super::smoothed_edge`]. The pressure is zero at the edge itself and outside.
+//!
+//! A traction q = μ p **e** is singular on the other side of the edge: where p = A√d inside, at a distance d outside it adds
+//!
+//! σ_αβ = A√d μ [2 (**e**·**n**)(n_α n_β + ν t_α t_β) + (**e**·**t**)(n_α t_β + t_α n_β)],
+//!
+//! a cusp of tension at the trailing edge, **e**·**n** = −1 (in a plane across the edge, the Hilbert transform of √d). Its
+//! smoothed form is replaced in the same way, with A from the pressure.
+//!
+//! Near an edge, the smoothing leaves e^{−W²/2} of the shortest waves of the grid, W = [`EDGE_WIDTH`], which carry the
+//! discretisation error. The steps of an edge on the grid excite longer waves too: the width near edges grows against the
+//! spacing, as n^{2/5} from n = 12 samples along the radius of the smallest spot on. From one to three widths off the edge the
+//! sharpened stresses are blended into the series itself, smoothed to the fourth order with W = [`OPEN_WIDTH`].
+
+use super::constants::{BLEND, EDGE_WIDTH, OPEN_WIDTH, WIDTH_GROWTH};
+use super::depth_response::DepthResponse;
+use super::field::StressField;
+use super::series::Response;
+use super::smoothed_edge::SmoothedEdge;
+use super::tensor::StressState;
+use rustfft::num_complex::Complex64;
+use std::sync::Arc;
+
+/// Factor of a Gaussian below which waves are neglected.
+const NEGLIGIBLE: f64 = 1e-20;
+
+/// Smoothed responses on the surface of a stress field.
+#[derive(Debug)]
+pub(super) struct SmoothedSurface {
+    /// Smoothed pressure and its slopes.
+    pub near: SmoothedPressure,
+    /// Stresses and pressure with the width near edges.
+    pub edge: SurfaceStresses,
+    /// Stresses and pressure with the width away from edges.
+    pub open: SurfaceStresses,
+    /// Width of the Gaussian near edges, a length.
+    width: f64,
+    seen: &'static SmoothedEdge,
+    /// ν of the surface material.
+    poisson: f64,
+    /// μ **e**: the traction over the pressure.
+    traction: [f64; 2],
+    /// Largest difference of the amplitudes at the wavenumber 1/width from those of a bare half-space of the surface material,
+    /// which has the singular part, over the pressure: small where the coating is thicker than the width.
+    pub unlike: f64,
+}
+
+/// Response p̃, ∂p̃/∂x, ∂p̃/∂y of the pressure smoothed by a Gaussian.
+#[derive(Debug)]
+pub(super) struct SmoothedPressure {
+    /// Factor of each shell.
+    gaussian: Vec<f64>,
+    mean: f64,
+}
+
+/// Response σ_xx, σ_yy, σ_xy and p on the surface, smoothed.
+#[derive(Debug)]
+pub(super) struct SurfaceStresses {
+    surface: Arc<DepthResponse>,
+    /// Factor of each shell.
+    factors: Vec<f64>,
+}
+
+impl SurfaceStresses {
+    /// Response of the surface, each shell multiplied by a factor of its wavenumber that decreases to zero.
+    pub fn new(surface: &Arc<DepthResponse>, factor: impl Fn(f64) -> f64) -> Self {
+        let factors = surface.lengths.iter().map(|length| factor(1.0 / length));
+        Self { surface: Arc::clone(surface), factors: factors.take_while(|&factor| factor > NEGLIGIBLE).collect() }
+    }
+}
+
+impl Response<4> for SurfaceStresses {
+    fn shells(&self) -> usize {
+        self.factors.len()
+    }
+
+    #[inline(always)]
+    fn times(&self, q: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 4] {
+        let [xx, yy, zz, xy, ..] = Response::<9>::times(&*self.surface, q, shell, self.factors[shell] * c);
+        [xx, yy, xy, -zz]
+    }
+
+    fn mean(&self) -> [f64; 4] {
+        let StressState { xx, yy, zz, .. } = self.surface.mean;
+        [xx, yy, 0.0, -zz]
+    }
+}
+
+impl Response<3> for SmoothedPressure {
+    fn shells(&self) -> usize {
+        self.gaussian.len()
+    }
+
+    #[inline(always)]
+    fn times(&self, [x, y]: [f64; 2], shell: usize, c: Complex64) -> [Complex64; 3] {
+        // The slope of c e^{iq·x} is iq times it.
+        let c = self.gaussian[shell] * c;
+        let slope = Complex64::new(-c.im, c.re);
+        [c, x * slope, y * slope]
+    }
+
+    fn mean(&self) -> [f64; 3] {
+        [self.mean, 0.0, 0.0]
+    }
+}
+
+impl SmoothedSurface {
+    /// Smoothed surface of a field with the response `surface`, with `scale` times the usual widths.
+    pub fn new(field: &StressField, surface: &Arc<DepthResponse>, scale: f64) -> Self {
+        let most = field.grid().least_aliased();
+        let (from, power) = WIDTH_GROWTH;
+        let growth = (field.regions().least_resolution() / from).max(1.0).powf(power);
+        let [width, open] = [EDGE_WIDTH * growth, OPEN_WIDTH].map(|c| scale * c / most);
+        let waves = &field.series.waves;
+        let wavenumbers = waves.wavenumbers();
+        let gaussian = wavenumbers.iter().map(|&q| (-0.5 * q * q * width * width).exp());
+        let poisson = field.surface_poisson();
+        let longer = waves.shells_up_to(1.0 / width).saturating_sub(1);
+        let unlike = surface.unlike(longer, poisson);
+        Self {
+            near: SmoothedPressure {
+                gaussian: gaussian.take_while(|&left| left > NEGLIGIBLE).collect(),
+                mean: -surface.mean.zz,
+            },
+            edge: SurfaceStresses::new(surface, |q| fourth(q * width)),
+            open: SurfaceStresses::new(surface, |q| fourth(q * open)),
+            width,
+            seen: SmoothedEdge::shared(),
+            poisson,
+            traction: field.traction(),
+            unlike,
+        }
+    }
+
+    /// Distance from the edge over the width, positive inside, and the outward unit normal, from p̃ and its slopes.
+    pub fn edge_seen(&self, [p, gx, gy]: [f64; 3]) -> (f64, [f64; 2]) {
+        let slope = gx.hypot(gy);
+        let normal = if slope > 0.0 { [-gx / slope, -gy / slope] } else { [1.0, 0.0] };
+        (if p > 0.0 { self.seen.distance(p / (slope * self.width)) } else { self.seen.distance(0.0) }, normal)
+    }
+
+    /// Whether the edge is near enough for the stress to differ from the series itself.
+    pub fn sees_edge(&self, [p, gx, gy]: [f64; 3]) -> bool {
+        p > 0.0 && self.seen.is_within(BLEND[1], p / (gx.hypot(gy) * self.width))
+    }
+
+    /// σ_xx, σ_yy, σ_xy near an edge at the distance `u`: of the smoothed ones in `four` the smoothed pressure `four[3]` is replaced by
+    /// the pressure `p`, and the smoothed cusp of the traction by the sharp one; `smoothed` is p̃.
+    fn sharpened(&self, four: [f64; 4], smoothed: f64, (u, p): (f64, f64), [nx, ny]: [f64; 2]) -> [f64; 3] {
+        let (nu, [tx, ty]) = (self.poisson, self.traction);
+        let (along, across) = (tx * nx + ty * ny, ty * nx - tx * ny);
+        let change = four[3] - p;
+        let cusp = if self.slides() { smoothed * self.seen.cusp(u) } else { 0.0 };
+        // Coefficients of n n, t t and n t + t n, with t = (−n_y, n_x).
+        let normal = change + 2.0 * along * cusp;
+        let lateral = 2.0 * nu * change + 2.0 * nu * along * cusp;
+        let shear = across * cusp;
+        [
+            four[0] + normal * nx * nx + lateral * ny * ny - 2.0 * shear * nx * ny,
+            four[1] + normal * ny * ny + lateral * nx * nx + 2.0 * shear * nx * ny,
+            four[2] + (normal - lateral) * nx * ny + shear * (nx * nx - ny * ny),
+        ]
+    }
+
+    fn slides(&self) -> bool {
+        self.traction != [0.0; 2]
+    }
+
+    /// State from the responses [`Self::near`], [`Self::edge`] and [`Self::open`] at a point, displacements left out.
+    pub fn state(&self, near: [f64; 3], edge: [f64; 4], open: [f64; 4]) -> StressState {
+        let (sharp, part) = self.sharp(near, edge);
+        self.toward_open(sharp, open, part)
+    }
+
+    /// State blended from σ_xx, σ_yy, σ_xy and p near an edge and away from it; `part` is the weight of the latter.
+    pub fn toward_open(&self, near: [f64; 4], open: [f64; 4], part: f64) -> StressState {
+        let four = std::array::from_fn(|k| (1.0 - part) * near[k] + part * open[k]);
+        StressState::on_surface(four, self.traction)
+    }
+
+    /// Sharpened σ_xx, σ_yy, σ_xy and p near an edge, and the weight of the series away from edges beside them.
+    pub fn sharp(&self, near: [f64; 3], edge: [f64; 4]) -> ([f64; 4], f64) {
+        let (u, normal) = self.edge_seen(near);
+        let p = near[0] * self.seen.sharp(u);
+        let [xx, yy, xy] = self.sharpened(edge, near[0], (u, p), normal);
+        // Rises smoothly from 0 to 1.
+        let t = ((u.abs() - BLEND[0]) / (BLEND[1] - BLEND[0])).clamp(0.0, 1.0);
+        ([xx, yy, xy, p], t * t * (3.0 - 2.0 * t))
+    }
+
+    /// State outside the edge at a point on it, displacements left out.
+    pub fn state_on_edge(&self, near: [f64; 3], edge: [f64; 4]) -> StressState {
+        let (_, normal) = self.edge_seen(near);
+        let [xx, yy, xy] = self.sharpened(edge, near[0], (0.0, 0.0), normal);
+        StressState::on_surface([xx, yy, xy, 0.0], self.traction)
+    }
+
+    /// The point moved onto the edge beside it, lengths, and its distance from the edge before, in widths.
+    pub fn moved(&self, [x, y]: [f64; 2], near: [f64; 3]) -> ([f64; 2], f64) {
+        let (u, [nx, ny]) = self.edge_seen(near);
+        let step = self.width * u.clamp(-1.5, 1.5);
+        ([x + step * nx, y + step * ny], u)
+    }
+}
+
+/// Factor of the Gaussian smoothing that changes smooth fields in the fourth order alone; `qw` is wavenumber times width.
+fn fourth(qw: f64) -> f64 {
+    (1.0 + 0.5 * qw * qw) * (-0.5 * qw * qw).exp()
+}
