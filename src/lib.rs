@@ -20,7 +20,7 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
+//! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
 //! → plain → units → case → output → sweep → picture → report → validation → command
 //! ```
 //!
@@ -65,6 +65,7 @@ pub mod friction;
 pub mod lattice;
 pub mod load;
 pub mod localized;
+mod notation;
 mod numeric;
 #[cfg(feature = "cli")]
 pub mod output;

@@ -1,6 +1,6 @@
 //! What is prescribed in a load step.
 
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 
 /// The prescribed quantity of a load step and its value.

@@ -10,7 +10,7 @@ use super::cell::norm;
 use super::waves::{BORDER, TIE, Waves};
 use super::zone::Zone;
 use super::{Cell, LatticeError};
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 

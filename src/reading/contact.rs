@@ -8,7 +8,7 @@ use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak, rough};
 use crate::body::TransferFunction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::numeric::sums;
 use crate::spectral::Contact;
 use std::f64::consts::PI;

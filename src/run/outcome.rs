@@ -3,7 +3,7 @@
 use super::StepRecord;
 use super::accuracy::{End, TooOblong};
 use crate::lattice::LatticeError;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::spectral::{OtherGrids, Step};
 use std::error::Error;
 

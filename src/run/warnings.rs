@@ -8,7 +8,7 @@ use super::StepRecord;
 use super::accuracy::End;
 use crate::counterbody::Shape;
 use crate::counterbody::roughness::Window;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::FEW_SAMPLES;

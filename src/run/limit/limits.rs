@@ -1,7 +1,7 @@
 //! What is found: where each criterion is reached, and how sure that is.
 
 use crate::friction::Friction;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::{Criterion, within_the_errors};
