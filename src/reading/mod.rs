@@ -1,4 +1,4 @@
-//! What a tribologist reads off a solved contact, level by level and between the samples.
+//! Readings of a solved contact: loads, peaks, areas and boundaries level by level, between the samples, with their errors.
 //!
 //! A sample belongs to the indenter whose surface is nearest to it. Contacts of neighbouring indenters that touch have
 //! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning. A contact that is open in
@@ -8,19 +8,24 @@
 mod area;
 pub(crate) mod boundary;
 mod contact;
+mod contact_area;
+mod counted;
 mod edge;
 mod errors;
 mod estimate;
 mod fraction;
+mod fractions;
 mod governing;
 mod histogram;
 mod holes;
 mod level;
+mod level_spots;
 mod peak;
 mod rough;
 mod spots;
 mod strength;
 mod stress;
+mod topography;
 mod touch;
 mod verdict;
 
