@@ -11,20 +11,25 @@ use std::convert::Infallible;
 use std::fmt;
 use std::path::PathBuf;
 
-/// How a command that did its work ended.
+/// The ending of a command that was carried out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// As it should.
+    /// Everything is done.
     Done,
     /// A check of the validation fails.
     #[cfg(feature = "validate")]
     Failed,
-    /// Everything computed is written and marked.
+    /// Something has not converged; everything computed is written and marked.
     NotConverged,
 }
 
 impl Ending {
-    /// What the shell is told.
+    /// The ending of a command that has computed everything, by whether all of it converged.
+    pub fn of(converged: bool) -> Self {
+        if converged { Self::Done } else { Self::NotConverged }
+    }
+
+    /// Exit code.
     pub fn code(self) -> u8 {
         match self {
             Self::Done => 0,
@@ -41,7 +46,7 @@ pub enum Failure {
     /// The case is refused.
     #[error("{}", .0.render(terminal::coloured()).trim_end())]
     Case(#[from] CaseError),
-    /// The command line, or what it asks for, is refused.
+    /// The command line, or the work that it asks for, is refused.
     #[error("{0}")]
     Refused(String),
     /// A file cannot be read.
@@ -81,7 +86,7 @@ impl From<FolderError> for Failure {
 impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failure {
     fn from(error: RunError<E>) -> Self {
         match error {
-            // Its own words say more than that the run cannot be recorded.
+            // The recorder's own message says more than that the run cannot be recorded.
             RunError::Recorder(error) => error.into(),
             refused => Self::refused(refused),
         }
@@ -104,21 +109,21 @@ impl From<Infallible> for Failure {
 }
 
 impl Failure {
-    /// The command or its case is refused (exit code 2), with the reason as plain text.
+    /// A refused command or case (exit code 2), with the reason as plain text.
     pub fn refused(reason: impl fmt::Display) -> Self {
         Self::Refused(reason.to_string())
     }
 
-    /// Says why, on standard error.
+    /// Prints the reason on standard error.
     pub fn tell(&self) {
         match self {
-            // Its colours are percoat's own, its texts are plain.
+            // The colours are percoat's own, the texts in it are plain.
             Self::Case(_) => terminal::print_line(&self.to_string()),
             _ => tell!("error: {}", plain::line(&self.to_string())),
         }
     }
 
-    /// What the shell is told.
+    /// Exit code.
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Refused(_) => 2,

@@ -19,6 +19,7 @@ mod pictures;
 mod plan;
 mod progress;
 mod report;
+mod results;
 mod roughness;
 mod shown;
 mod solve;
