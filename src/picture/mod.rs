@@ -13,6 +13,7 @@
 
 mod axis;
 mod bar;
+mod between_rows;
 mod canvas;
 mod chart;
 mod colour;
@@ -34,7 +35,6 @@ mod pressure;
 mod profiles;
 mod quantity;
 mod raster;
-mod rows;
 mod scale;
 mod section;
 mod sheet;

@@ -22,6 +22,8 @@ mod level;
 mod level_spots;
 mod peak;
 mod rough;
+#[cfg(feature = "cli")]
+mod section;
 mod spots;
 mod strength;
 mod stress;
@@ -36,6 +38,8 @@ pub use governing::{Governing, within_the_errors};
 pub use histogram::Histogram;
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
 pub use rough::{RoughReading, SpotSizes, stiffness};
+#[cfg(feature = "cli")]
+pub(crate) use section::{LargestInSection, StressMeasure};
 pub use strength::{Criterion, Utilisation};
 pub use stress::{StressReading, tears, tips};
 pub use touch::{FirstTouch, first_touches};
