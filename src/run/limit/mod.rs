@@ -18,7 +18,9 @@
 //! there. Shapes with ridges between them come into complete contact under an infinite pressure only; on a grid under a finite
 //! one, where the search ends.
 
+mod band;
 mod curve;
+mod enclosure;
 mod limits;
 mod search;
 

@@ -1,6 +1,6 @@
 //! The search on one grid, load by load.
 
-use super::curve::{Band, Crossing};
+use super::band::{Crossing, UtilisationBand};
 use super::{At, Limit, Limits, Shown};
 use crate::load::Load;
 use crate::reading::{Criterion, Reading, Utilisation};
@@ -166,7 +166,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         for _ in 0..TRIALS {
             let holds = |index: usize| {
                 let holds =
-                    |&criterion: &Criterion| self.band(criterion).lower.0[..=index].iter().all(|[_, u]| *u < 1.0);
+                    |&criterion: &Criterion| self.band(criterion).lower.samples[..=index].iter().all(|[_, u]| *u < 1.0);
                 sought.iter().any(holds)
             };
             let rough = (1..self.steps.len()).find(|&above| holds(above - 1) && self.grows_apart(above));
@@ -200,8 +200,8 @@ impl<'a, R: Recorder> Search<'a, R> {
     }
 
     /// What the loads that were solved take up of a criterion.
-    fn band(&self, criterion: Criterion) -> Band {
-        Band::new(self.steps.iter().map(|record| {
+    fn band(&self, criterion: Criterion) -> UtilisationBand {
+        UtilisationBand::new(self.steps.iter().map(|record| {
             let Utilisation { value, error, .. } = self.utilisation(record, criterion);
             [record.reading.mean_pressure, value, error.unwrap_or(0.0)]
         }))
@@ -246,7 +246,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         let undecided = |at: usize| {
             let Utilisation { value: utilisation, error, position, .. } = taken(at);
             // At another load it may be larger still.
-            let most = band.upper.0.iter().map(|[_, u]| *u).fold(f64::NEG_INFINITY, f64::max);
+            let most = band.upper.samples.iter().map(|[_, u]| *u).fold(f64::NEG_INFINITY, f64::max);
             let error = error.map(|error| error.max(most - utilisation));
             let at = load(at);
             if from.is_infinite() {
