@@ -1,24 +1,15 @@
-//! What is found: where each criterion is reached, and how sure that is.
+//! The limit loads that were found, with their intervals and their order.
 
-use crate::friction::Friction;
-use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::{Criterion, within_the_errors};
-use crate::run::places::SECTION;
+use crate::reading::Criterion;
 use crate::run::warnings::{self, Numbered};
-use crate::run::{End, Run, StepRecord};
+use crate::run::{End, StepRecord};
 use crate::spectral::Step;
-use crate::stress::{Line, Section, StressField};
 use std::cmp::Ordering;
-use std::f64::consts::PI;
-use std::fmt;
 
-/// Half the length of the [section](Limits::section) and its depth, in radii of a contact.
-const REACH: f64 = 3.0;
-const DEPTH: f64 = 2.0;
-/// Its depth at most, in the same unit, when it shall show all layers.
-const DEEPEST: f64 = 8.0;
+/// Relative error above which the ends of the interval of a limit are shown in place of the error.
+const WIDE: f64 = 0.3;
 
 /// Where a criterion is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +76,7 @@ pub enum At {
 /// The limit load of a criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// Which.
+    /// The criterion.
     pub criterion: Criterion,
     /// Where it is reached.
     pub at: At,
@@ -114,7 +105,7 @@ pub struct Limits {
 /// The first limit above the load 0, and what was solved there.
 #[derive(Debug, Clone)]
 pub struct Shown {
-    /// What fails, and where.
+    /// The limit, with the place that fails.
     pub limit: Limit,
     /// Every scalar of the step.
     pub record: StepRecord,
@@ -123,7 +114,7 @@ pub struct Shown {
 }
 
 impl Limit {
-    /// The mean pressure up to which it holds; infinite where it is never reached, or undecided.
+    /// Mean pressure up to which the criterion holds; infinite where it is never reached, or undecided.
     pub fn mean_pressure(&self) -> f64 {
         match self.at {
             At::Rest | At::Tip { .. } => 0.0,
@@ -132,7 +123,7 @@ impl Limit {
         }
     }
 
-    /// The mean pressures between which it is reached, by its error; infinite where it is never reached.
+    /// Mean pressures between which the criterion is reached, by its error; infinite where it is never reached.
     pub fn interval(&self) -> [f64; 2] {
         match self.at {
             At::Rest | At::Tip { .. } => [0.0; 2],
@@ -143,19 +134,19 @@ impl Limit {
         }
     }
 
-    /// Whether its interval has two ends, at most three tenths of the load away, so that the error alone says how sure it is.
+    /// Whether the interval has two ends, at most three tenths of the load away, so that the error alone describes it.
     pub fn is_sharp(&self) -> bool {
         let [from, to] = self.interval();
         from > 0.0 && to.is_finite() && self.spread().is_some_and(|part| part <= WIDE)
     }
 
-    /// Distance to the farther end of the interval over the load; `None` of what is not reached at a load.
-    fn spread(&self) -> Option<f64> {
+    /// Distance to the farther end of the interval over the load; `None` of a criterion that is not reached at a load.
+    pub(super) fn spread(&self) -> Option<f64> {
         let At::Load { mean_pressure, interval: [from, to], .. } = self.at else { return None };
         Some((mean_pressure - from).max(to - mean_pressure) / mean_pressure)
     }
 
-    /// Where it fails, or may fail, x, y, z; `None` where it does not, or everywhere.
+    /// Place x, y, z (lengths) that fails, or may fail; `None` where none does, or all of a material.
     pub fn position(&self) -> Option<[f64; 3]> {
         match self.at {
             At::Tip { position }
@@ -166,7 +157,7 @@ impl Limit {
         }
     }
 
-    /// The same one, which fails at another place.
+    /// The limit with another place that fails.
     pub(super) fn moved_to(self, place: [f64; 3]) -> Self {
         let mut moved = self;
         if let At::Load { position, .. } | At::Below { position, .. } = &mut moved.at {
@@ -175,8 +166,8 @@ impl Limit {
         moved
     }
 
-    /// Relative change of the load from the same criterion's limit on a coarser grid. What is reached on neither has none:
-    /// how near it comes in complete contact depends on how fine the grid is, which is where that ends.
+    /// Relative change of the load from the same criterion's limit on a coarser grid; 0 of a criterion that is reached on neither,
+    /// since the utilisation in complete contact depends on the grid on which contact becomes complete.
     fn change_from(&self, coarse: &Self) -> f64 {
         match (self.at, coarse.at) {
             (At::Rest, At::Rest) | (At::Tip { .. }, At::Tip { .. }) | (At::Never { .. }, At::Never { .. }) => 0.0,
@@ -212,8 +203,8 @@ impl Limits {
         self.ordered().into_iter().next().filter(|limit| limit.mean_pressure().is_finite())
     }
 
-    /// What may be reached before the [first](Self::first) one by the errors of both, in the order of all; everything undecided
-    /// where none is reached.
+    /// Limits that may be reached before the [first](Self::first) one by the errors of both, in the order of all; everything
+    /// undecided where none is reached.
     pub fn contenders(&self) -> Vec<&Limit> {
         let ordered = self.ordered();
         let sure = ordered.iter().map(|limit| limit.interval()[1]).fold(f64::INFINITY, f64::min);
@@ -227,7 +218,7 @@ impl Limits {
         self.contenders().iter().map(|limit| limit.criterion.to_string()).collect()
     }
 
-    /// All of them, what comes first first, and what is never reached last.
+    /// All limits, the first one first, and those that are never reached last.
     pub fn ordered(&self) -> Vec<&Limit> {
         let mut ordered: Vec<&Limit> = self.limits.iter().collect();
         ordered.sort_by(|a, b| a.order(b));
@@ -245,7 +236,7 @@ impl Limits {
         largest(pairs.map(|(fine, coarse)| fine.change_from(coarse)))
     }
 
-    /// What is doubtful about them, steps numbered by ascending load.
+    /// Warnings about the limits, steps numbered by ascending load.
     pub(super) fn doubts(&self, problem: &Problem) -> Vec<String> {
         let all: Vec<Numbered> = (1..).zip(&self.steps).collect();
         let is_limit = |(_, step): &Numbered| {
@@ -264,75 +255,5 @@ impl Limits {
     /// Whether all loads were solved, and the accuracy, if one was asked for, is reached.
     pub fn converged(&self) -> bool {
         self.end.is_none_or(|end| end == End::Reached) && self.steps.iter().all(StepRecord::converged)
-    }
-
-    /// The stresses under the place that fails first under a load, at its limit: a cut along the sliding (else along x), a
-    /// contact's width to both sides and deep enough for it; `None` where nothing does.
-    pub fn section(&self, run: &Run) -> Option<Section> {
-        let Shown { limit, step, .. } = self.shown.as_ref()?;
-        let [x, y, z] = limit.position()?;
-        let (half_space, cell) = (run.problem.half_space(), run.problem.cell());
-        let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);
-        let reading = step.reading();
-        let radius = (reading.contact_fraction * cell.area() / (PI * reading.contact_spots.max(1) as f64)).sqrt();
-        let reach = (REACH * radius).min(0.5 * cell.reduced().longer_side());
-        let coating = half_space.interface_depths().last().copied().unwrap_or(0.0);
-        let [rows, points] = SECTION;
-        let line = Line { origin: [x, y], direction, span: [-reach, reach], points };
-        let depth = (DEPTH * radius).max(1.5 * z).max(1.25 * coating.min(DEEPEST * radius));
-        let mean = run.mean_stress().unwrap_or_default();
-        Some(StressField::new(step.finest(), mean).section(&line, &half_space.rows(depth, rows)))
-    }
-}
-
-impl Limits {
-    /// What fails first, in words, with pressures as `told` has them.
-    pub fn in_words(&self, told: impl Fn(f64) -> String) -> String {
-        let others = self.rivals().join(" or ");
-        let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
-        let complete = if self.is_complete(most) { ", where contact is complete" } else { "" };
-        let Some(limit) = self.first() else {
-            if others.is_empty() {
-                return format!("nothing fails up to the mean pressure {}{complete}", told(most));
-            }
-            let from = self.contenders().iter().map(|limit| limit.interval()[0]).fold(f64::INFINITY, f64::min);
-            let start = self.steps.first().map_or(0.0, |step| step.reading.mean_pressure);
-            let from = if from > 0.0 { told(from) } else { format!("below {}", told(start)) };
-            let to = told(most);
-            return format!(
-                "undecided: {others} may fail within its error at mean pressures from {from} to {to}{complete}"
-            );
-        };
-        let at = match limit.at {
-            At::Rest => ", without load, by residual stress alone".to_owned(),
-            At::Tip { .. } => ", under a tip however small the load".to_owned(),
-            At::Below { mean_pressure, .. } => format!(", at less than the mean pressure {}", told(mean_pressure)),
-            At::Load { mean_pressure, interval: [from, to], .. } => {
-                let part = limit.spread().unwrap_or(0.0);
-                let error = match (from > 0.0, to.is_finite()) {
-                    (true, true) if part <= TOLD => String::new(),
-                    (true, true) if limit.is_sharp() => format!(" ± {:.0} %", 100.0 * part),
-                    (true, true) => format!(", between {} and {} by its error", told(from), told(to)),
-                    (true, false) => format!(", not before {} and by its error perhaps never", told(from)),
-                    (false, true) => format!(", by its error anywhere below {}", told(to)),
-                    (false, false) => ", by its error anywhere or never".to_owned(),
-                };
-                format!(" at the mean pressure {}{error}", told(mean_pressure))
-            }
-            At::Never { .. } | At::Undecided { .. } => String::new(),
-        };
-        format!("first: {}{at}{}", limit.criterion, within_the_errors(&self.rivals()))
-    }
-}
-
-/// Relative errors above this are told beside what fails first.
-const TOLD: f64 = 0.005;
-/// Above this the ends of the interval are shown in place of the error.
-const WIDE: f64 = 0.3;
-
-/// What fails first, in words.
-impl fmt::Display for Limits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.in_words(number))
     }
 }

@@ -23,6 +23,8 @@ mod curve;
 mod enclosure;
 mod limits;
 mod search;
+mod section;
+mod words;
 
 pub use limits::{At, Limit, Limits, Shown};
 
