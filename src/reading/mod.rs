@@ -11,6 +11,7 @@ mod contact;
 mod contact_area;
 mod counted;
 mod edge;
+mod edge_transforms;
 mod errors;
 mod estimate;
 mod fraction;
