@@ -1,9 +1,9 @@
-//! Pictures as a journal prints them: charts and fields, as PNG, SVG or PDF files.
+//! Pictures in the style of a journal: charts and fields, as PNG, SVG or PDF files.
 //!
-//! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. What is
-//! drawn goes on a sheet measured in points ([`Canvas`]), which becomes pixels or a file of lines.
+//! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. It is drawn on a
+//! sheet measured in points ([`Canvas`]), which is written as pixels or as lines.
 //!
-//! - Any curves: [`Chart`], and [`Figure`] for several side by side.
+//! - Any curves: [`Chart`], and [`Figure`] for several charts side by side.
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
 //! - Its stresses under a line ([`Section`](crate::stress::Section)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
