@@ -11,15 +11,15 @@ use std::convert::Infallible;
 use std::fmt;
 use std::path::PathBuf;
 
-/// The ending of a command that was carried out.
+/// How a command that did its work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// Everything is done.
+    /// As it should.
     Done,
     /// A check of the validation fails.
     #[cfg(feature = "validate")]
     Failed,
-    /// Something has not converged; everything computed is written and marked.
+    /// Everything computed is written and marked.
     NotConverged,
 }
 
@@ -29,7 +29,7 @@ impl Ending {
         if converged { Self::Done } else { Self::NotConverged }
     }
 
-    /// Exit code.
+    /// What the shell is told.
     pub fn code(self) -> u8 {
         match self {
             Self::Done => 0,
@@ -46,7 +46,7 @@ pub enum Failure {
     /// The case is refused.
     #[error("{}", .0.render(terminal::coloured()).trim_end())]
     Case(#[from] CaseError),
-    /// The command line, or the work that it asks for, is refused.
+    /// The command line, or what it asks for, is refused.
     #[error("{0}")]
     Refused(String),
     /// A file cannot be read.
@@ -86,7 +86,7 @@ impl From<FolderError> for Failure {
 impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failure {
     fn from(error: RunError<E>) -> Self {
         match error {
-            // The recorder's own message says more than that the run cannot be recorded.
+            // Its own words say more than that the run cannot be recorded.
             RunError::Recorder(error) => error.into(),
             refused => Self::refused(refused),
         }
@@ -109,21 +109,21 @@ impl From<Infallible> for Failure {
 }
 
 impl Failure {
-    /// A refused command or case (exit code 2), with the reason as plain text.
+    /// The command or its case is refused (exit code 2), with the reason as plain text.
     pub fn refused(reason: impl fmt::Display) -> Self {
         Self::Refused(reason.to_string())
     }
 
-    /// Prints the reason on standard error.
+    /// Says why, on standard error.
     pub fn tell(&self) {
         match self {
-            // The colours are percoat's own, the texts in it are plain.
+            // Its colours are percoat's own, its texts are plain.
             Self::Case(_) => terminal::print_line(&self.to_string()),
             _ => tell!("error: {}", plain::line(&self.to_string())),
         }
     }
 
-    /// Exit code.
+    /// What the shell is told.
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Refused(_) => 2,

@@ -1,4 +1,4 @@
-//! `percoat limit`: the mean pressure at which something first fails, and what.
+//! `percoat limit`: the mean pressures at which materials and interfaces fail.
 
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};

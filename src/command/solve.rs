@@ -30,10 +30,10 @@ use std::path::Path;
 /// Options of `percoat solve` alone.
 #[derive(Debug, Args)]
 pub struct SolveOptions {
-    /// Keep scalars alone: no contact.npz, stress.npz and volumes
+    /// Write scalars only: no contact.npz, stress.npz and volumes
     #[arg(long)]
     no_fields: bool,
-    /// Go on from what an earlier run into the folder was stopped at
+    /// Continue an interrupted run into the folder
     #[arg(long)]
     resume: bool,
 }

@@ -1,8 +1,8 @@
 //! `percoat validate`: the studies, their verdicts, and a report of them.
 
 use super::ending::{Ending, Failure};
+use super::interruption;
 use super::options::Studies;
-use super::results::Results;
 use super::terminal::{self, tell};
 use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
 use crate::picture::Format;
@@ -31,21 +31,46 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     // The report of one study stays in its folder, so that it does not pass for the whole.
     let within = name.map_or_else(String::new, |name| format!("{name}/"));
     let path = format!("{within}REPORT.md");
-    let mut results = Results::claim(&folder, may_write(&folder, &path, within, &studies), options.quiet)?;
+    interruption::watch();
+    let mut claim = RunFolder::claim(&folder, may_write(&folder, &path, within, &studies))?;
     // Without a study of the paper that comes to its end there is no new page.
-    results.claim.keeps(PAGE.to_owned());
+    claim.keeps(PAGE.to_owned());
+    terminal::tell_aside(claim.set_aside(), options.quiet);
+    let progress = !options.quiet && !options.verbose && terminal::moves();
     let started = Instant::now();
-    let (report, outcomes) = run_all(&studies, &mut results.claim, options);
+    let mut report = Report::default();
+    let mut outcomes = Vec::new();
+    for (number, study) in (1..).zip(&studies) {
+        let started = Instant::now();
+        if progress {
+            terminal::clear_line();
+            let _ = write!(std::io::stderr(), "study {number} of {}: {}", studies.len(), study.name);
+        }
+        let result = (study.run)();
+        if options.verbose {
+            tell!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
+        }
+        match &result {
+            Ok(outcome) => outcomes.push((study.name, outcome.clone())),
+            // What it has shown before stays.
+            Err(_) => claim.keeps(format!("{}/", study.name)),
+        }
+        report.add(study, result);
+    }
+    if progress {
+        terminal::clear_line();
+    }
     let markdown = report.markdown();
     let statements = report.statements();
-    write(&results, &path, &markdown)?;
+    let result = Gathered(claim.staging());
+    result.text(&path, &markdown)?;
     for (study, outcome) in &outcomes {
-        write_study(&results, study, outcome)?;
+        result.study(study, outcome)?;
     }
     if !statements.is_empty() {
-        write(&results, PAGE, &table::renewed(&statements))?;
+        result.text(PAGE, &table::renewed(&statements))?;
     }
-    results.publish()?;
+    interruption::publish(claim, &folder, options.quiet)?;
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let differences = expected.map(|expected| {
         let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));
@@ -61,37 +86,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     Ok(if report.holds() && as_expected { Ending::Done } else { Ending::Failed })
 }
 
-/// Runs the studies one after another; files of a study that fails stay as they are in the folder.
-fn run_all(
-    studies: &[&'static Study],
-    claim: &mut RunFolder,
-    options: &Studies,
-) -> (Report, Vec<(&'static str, validation::Outcome)>) {
-    let progress = !options.quiet && !options.verbose && terminal::moves();
-    let (mut report, mut outcomes) = (Report::default(), Vec::new());
-    for (number, study) in (1..).zip(studies) {
-        let started = Instant::now();
-        if progress {
-            terminal::clear_line();
-            let _ = write!(std::io::stderr(), "study {number} of {}: {}", studies.len(), study.name);
-        }
-        let result = (study.run)();
-        if options.verbose {
-            tell!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
-        }
-        match &result {
-            Ok(outcome) => outcomes.push((study.name, outcome.clone())),
-            Err(_) => claim.keeps(format!("{}/", study.name)),
-        }
-        report.add(study, result);
-    }
-    if progress {
-        terminal::clear_line();
-    }
-    (report, outcomes)
-}
-
-/// Lists the studies.
+/// What there is to run.
 pub fn list(name: Option<&str>) -> Result<Ending, Failure> {
     let studies: Vec<&Study> = name.map_or_else(|| STUDIES.iter().collect(), validation::named);
     if let (Some(name), true) = (name, studies.is_empty()) {
@@ -109,7 +104,7 @@ fn unknown(name: &str) -> Failure {
     Failure::Refused(format!("there is no study {name}; there are {}", names.join(", ")))
 }
 
-/// Names of the files that the studies may write, known before they are run.
+/// What the studies may write, known before they are run.
 fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) -> Plan {
     let mut names = vec![report.to_owned()];
     let of_study = |study: &&Study| study.files.iter().map(|file| format!("{}/{file}", study.name)).collect::<Vec<_>>();
@@ -117,31 +112,35 @@ fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) ->
     let mut adopted = Vec::new();
     if studies.iter().any(|study| study.name.starts_with("paper/")) {
         names.push(PAGE.to_owned());
-        // The text around the table is part of the program: a page whose text was edited is renewed after a build.
+        // Who edits the text around the table builds the page into the program before the table is renewed.
         let page = disk::read_text(&folder.join(PAGE)).unwrap_or_default();
         adopted.extend(table::is_around(&page).then(|| PAGE.to_owned()));
     }
     Plan { names, adopted, scope: Scope { within, except: Vec::new() }, ..Plan::new(Writer::Validate) }
 }
 
-/// Writes a text file of the result, with the folders above it.
-fn write(results: &Results, name: &str, text: &str) -> Result<(), Failure> {
-    let path = results.staging().join(name);
-    make_folder(path.parent().unwrap_or(&path))?;
-    results.write(name, text)
-}
+/// Files of a result where it is gathered.
+struct Gathered(PathBuf);
 
-/// Writes the figures and data of a study.
-fn write_study(results: &Results, study: &str, outcome: &validation::Outcome) -> Result<(), Failure> {
-    let folder = results.staging().join(study);
-    make_folder(&folder)?;
-    for (name, figure) in &outcome.figures {
-        figure.draw().write(&folder, name, Format::Png)?;
+impl Gathered {
+    fn text(&self, name: &str, text: &str) -> Result<(), Failure> {
+        let path = self.0.join(name);
+        make_folder(path.parent().unwrap_or(&self.0))?;
+        Ok(write_text(&path, text)?)
     }
-    for (name, data) in outcome.tables() {
-        write_text(&folder.join(name), &data.csv())?;
+
+    /// The figures and data of a study.
+    fn study(&self, study: &str, outcome: &validation::Outcome) -> Result<(), Failure> {
+        let folder = self.0.join(study);
+        make_folder(&folder)?;
+        for (name, figure) in &outcome.figures {
+            figure.draw().write(&folder, name, Format::Png)?;
+        }
+        for (name, data) in outcome.tables() {
+            write_text(&folder.join(name), &data.csv())?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {
