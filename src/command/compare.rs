@@ -13,7 +13,7 @@ use crate::case::{Case, plausibility};
 use crate::comparison::{Comparison, Task};
 use crate::output::{Plan, Writer, compare_json, table};
 use crate::picture;
-use crate::run::{End, Run, Sampling};
+use crate::run::{RefinementEnd, Run, Sampling};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -51,20 +51,20 @@ pub fn run(
     let line = format!("{:.2} s", started.elapsed().as_secs_f64());
     published.print(common, || json, tables, &line)?;
     let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
-    if end != End::Reached {
+    if end != RefinementEnd::Reached {
         warnings.push(format!("grid.accuracy is not reached: {end}"));
     }
     terminal::warn(&warnings, common.quiet);
-    Ok(Ending::of(comparison.converged() && end == End::Reached))
+    Ok(Ending::of(comparison.converged() && end == RefinementEnd::Reached))
 }
 
 /// Points of the grid of the spectral solution, and whether the accuracy, if one is prescribed, is reached there.
-fn grid(case: &Case, run: &Run, mut allowed: Allowed<'_>) -> Result<([usize; 2], End), Failure> {
+fn grid(case: &Case, run: &Run, mut allowed: Allowed<'_>) -> Result<([usize; 2], RefinementEnd), Failure> {
     match case.grid {
-        Sampling::Points(points) => Ok((points, End::Reached)),
+        Sampling::Points(points) => Ok((points, RefinementEnd::Reached)),
         Sampling::Accuracy(_) => {
             let refined = run.solve(&mut allowed)?;
-            Ok((refined.points, refined.end.unwrap_or(End::Reached)))
+            Ok((refined.points, refined.end.unwrap_or(RefinementEnd::Reached)))
         }
     }
 }

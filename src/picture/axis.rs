@@ -1,6 +1,6 @@
 //! Axes: a quantity with its unit, a range, and round numbers.
 
-use super::quantity::Quantity;
+use super::label::Label;
 use super::scale::Scale;
 use super::ticks::{Ticks, ticks};
 use crate::units::Prefixed;
@@ -9,7 +9,7 @@ use crate::units::Prefixed;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Label with the unit.
-    pub label: Quantity,
+    pub label: Label,
     /// Spacing of the values.
     pub scale: Scale,
     /// First and last value; `None`, or a range of no length or without end, is replaced by that of the curves.
@@ -20,12 +20,12 @@ pub struct Axis {
 
 impl Axis {
     /// A linear axis for the values of the curves.
-    pub fn linear(label: impl Into<Quantity>) -> Self {
+    pub fn linear(label: impl Into<Label>) -> Self {
         Self { label: label.into(), scale: Scale::Linear, range: None, marks: Vec::new() }
     }
 
     /// A logarithmic axis for the values of the curves.
-    pub fn log(label: impl Into<Quantity>) -> Self {
+    pub fn log(label: impl Into<Label>) -> Self {
         Self { label: label.into(), scale: Scale::Log, range: None, marks: Vec::new() }
     }
 

@@ -3,8 +3,8 @@
 use super::canvas::{Anchor, Canvas, PIXELS};
 use super::colour::{Colour, ColourMap};
 use super::frame::{all, factor, tick, widest};
+use super::label::Label;
 use super::number::short;
-use super::quantity::Quantity;
 use super::scale::Scale;
 use super::sheet::{HAIR, LABELS, NUMBERS};
 use super::text;
@@ -15,7 +15,7 @@ use crate::units::Prefixed;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
     /// Label with the unit.
-    pub label: Quantity,
+    pub label: Label,
     /// Colours from the least to the largest value.
     pub colours: ColourMap,
     /// Least and largest value shown. A diverging map is white at zero and as dark at −x as at x, unless the signs are
@@ -38,7 +38,7 @@ const PALE: [f64; 2] = [0.01, 0.4];
 
 impl Bar {
     /// Bar of values from zero to `most`.
-    pub fn sequential(label: Quantity, most: f64) -> Self {
+    pub fn sequential(label: Label, most: f64) -> Self {
         Self {
             label,
             colours: ColourMap::Sequential,
@@ -50,7 +50,7 @@ impl Bar {
     }
 
     /// Bar of tension and compression, each with a scale of its own where one would be pale beside the other.
-    pub fn signed(label: Quantity, [low, high]: [f64; 2]) -> Self {
+    pub fn signed(label: Label, [low, high]: [f64; 2]) -> Self {
         let ratio = (high / -low).min(-low / high);
         Self {
             label,

@@ -42,7 +42,7 @@ impl Ink {
     /// all.
     pub(super) fn by_depth(index: usize, count: usize) -> Self {
         match count {
-            0..=MOST => Self::Number(index + 1),
+            0..=NUMBERED_COLOURS => Self::Number(index + 1),
             _ => Self::Depth(index as f64 / (count - 1) as f64),
         }
     }
@@ -56,7 +56,7 @@ impl Ink {
 }
 
 /// Largest number of layers or interfaces with numbered colours: four layers on a substrate.
-pub(super) const MOST: usize = 5;
+pub(super) const NUMBERED_COLOURS: usize = 5;
 
 /// The style of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -14,7 +14,7 @@ const TICK: f64 = 3.0;
 /// Distance of the numbers from a plot with outward ticks, points.
 const BEYOND: f64 = 0.7 * TICK;
 /// Largest number of numbers on a horizontal and on a vertical axis.
-const MOST: [usize; 2] = [7, 6];
+const MOST_NUMBERS: [usize; 2] = [7, 6];
 /// Least distance of numbers beside and above each other, over their size.
 const APART: [f64; 2] = [0.6, 0.25];
 
@@ -48,12 +48,12 @@ impl Frame {
     ) -> Margins {
         // The widest number of all divisions: the height of the plot is not known yet.
         let all = |most: usize| axes[1].ticks(ranges[1], most);
-        let widest = (2..=MOST[1]).map(|most| widest(&all(most))).fold(0.0, f64::max);
+        let widest = (2..=MOST_NUMBERS[1]).map(|most| widest(&all(most))).fold(0.0, f64::max);
         let beyond = if outward { BEYOND } else { 0.0 };
         let numbers = widest + 3.5 + beyond;
         let high = aspect * (width - 1.35 * LABELS - numbers - right);
         let lines = wrapped(&label(axes[1], ranges[1]), LABELS, high).len().max(1) as f64;
-        let above = factor(&all(MOST[1])).is_some() || !axes[0].marks.is_empty();
+        let above = factor(&all(MOST_NUMBERS[1])).is_some() || !axes[0].marks.is_empty();
         let top = if above { 1.5 * NUMBERS } else { 0.6 * NUMBERS };
         Margins { left: (0.1 + 1.25 * lines) * LABELS + numbers, right, top }
     }
@@ -73,7 +73,7 @@ impl Frame {
             labels: [vec![label(axes[0], ranges[0])], wrapped(&label(axes[1], ranges[1]), LABELS, size[1])],
             scales: axes.map(|axis| axis.scale),
             ranges,
-            ticks: [0, 1].map(|k| axes[k].ticks(ranges[k], MOST[k])),
+            ticks: [0, 1].map(|k| axes[k].ticks(ranges[k], MOST_NUMBERS[k])),
             outward,
             corner: [left, top],
             size,
@@ -82,7 +82,7 @@ impl Frame {
         for k in 0..2 {
             // The most numbers that do not overlap; of two that overlap, one.
             let span = |value: f64, number: &str| frame.span(k, value, number);
-            let ticks = (2..=MOST[k]).rev().map(|most| axes[k].ticks(ranges[k], most));
+            let ticks = (2..=MOST_NUMBERS[k]).rev().map(|most| axes[k].ticks(ranges[k], most));
             let fits = |ticks: &Ticks| ticks.clone().apart(span).numbered.len() == ticks.numbered.len();
             let ticks = ticks.into_iter().find(fits).unwrap_or_else(|| axes[k].ticks(ranges[k], 2).apart(span));
             frame.ticks[k] = ticks;

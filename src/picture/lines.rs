@@ -3,14 +3,14 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Ink, MOST, Style};
+use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
 use super::number::degrees;
 use super::snapshot::Snapshot;
 use crate::reading::StressMeasure;
 use crate::stress::Section;
 
 /// Number of interfaces from which on colours tell depths, and both sides of an interface have one name.
-const MANY: usize = MOST;
+const MANY: usize = NUMBERED_COLOURS;
 
 /// The picture.
 pub fn lines(snapshot: &Snapshot, section: &Section) -> Canvas {

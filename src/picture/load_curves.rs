@@ -3,8 +3,8 @@
 use super::axis::{Axis, log_spaced};
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Ink, MOST, Style};
-use super::quantity::Quantity;
+use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
+use super::label::Label;
 use super::snapshot::caption;
 use super::touches::touches;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
@@ -57,7 +57,7 @@ struct LoadPath<'a> {
 }
 
 impl LoadPath<'_> {
-    fn axis(&self, label: Quantity) -> Axis {
+    fn axis(&self, label: Label) -> Axis {
         if self.logarithmic { Axis::log(label) } else { Axis::linear(label) }
     }
 
@@ -162,8 +162,8 @@ impl LoadPath<'_> {
         let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, dashed: bool| {
             let name = match interfaces {
                 1 => what.to_owned(),
-                MOST.. if dashed => String::new(),
-                MOST.. => format!("interface {}", index + 1),
+                NUMBERED_COLOURS.. if dashed => String::new(),
+                NUMBERED_COLOURS.. => format!("interface {}", index + 1),
                 _ => format!("{what}, interface {}", index + 1),
             };
             let of = |step: &StepRecord| step.stress.as_ref()?.interfaces.get(index).map(value);
@@ -177,7 +177,8 @@ impl LoadPath<'_> {
             ]
         });
         let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
-        let title = if interfaces < MOST { "interfaces" } else { "interfaces; solid: shear, dashed: tension" };
+        let title =
+            if interfaces < NUMBERED_COLOURS { "interfaces" } else { "interfaces; solid: shear, dashed: tension" };
         (interfaces > 0).then(|| self.chart(title, y, curves.collect()))
     }
 

@@ -16,7 +16,7 @@ use super::window::Window;
 /// Largest distance from the edge that is computed, in spacings.
 const FAR: f64 = 1.5;
 /// Largest number of intervals along a window in which an outline is searched.
-const MOST: f64 = 480.0;
+const MOST_INTERVALS: f64 = 480.0;
 
 impl Snapshot {
     /// Distance of a place from the edge of contact, a length: positive inside, negative outside; accurate near the edge.
@@ -81,7 +81,7 @@ impl Snapshot {
         }
         let lengths = window.map(|[first, last]| last - first);
         let at = |[u, v]: [f64; 2]| [window[0][0] + u * lengths[0], window[1][0] + v * lengths[1]];
-        let count = |length: f64| (1.5 * length / self.step.grid().spacing()).clamp(40.0, MOST) as usize;
+        let count = |length: f64| (1.5 * length / self.step.grid().spacing()).clamp(40.0, MOST_INTERVALS) as usize;
         let value = |part: [f64; 2]| self.is_rough(at(part)).then(|| self.inside(at(part)));
         let lines = zero_lines(count(lengths[0]), count(lengths[1]), value).into_iter();
         lines.map(|line| line.into_iter().map(at).collect()).collect()

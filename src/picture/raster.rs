@@ -6,11 +6,11 @@ use super::text;
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Shader, StrokeDash, Transform};
 
 /// Largest number of pixels of a side of a sheet; the rest is cut off.
-const MOST: f64 = 20_000.0;
+const MOST_PIXELS: f64 = 20_000.0;
 
 /// The PNG file of a sheet at 300 dots per inch.
 pub fn png(canvas: &Canvas) -> Vec<u8> {
-    let [width, height] = canvas.size.map(|length| (length * PIXELS).round().clamp(1.0, MOST) as u32);
+    let [width, height] = canvas.size.map(|length| (length * PIXELS).round().clamp(1.0, MOST_PIXELS) as u32);
     let mut sheet = Pixmap::new(width, height).expect("a sheet of paper fits into memory");
     sheet.fill(Color::WHITE);
     for mark in &canvas.marks {

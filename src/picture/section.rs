@@ -4,10 +4,10 @@ use super::axis::Axis;
 use super::bar::Bar;
 use super::canvas::{Canvas, Dash, Stroke};
 use super::colour::Colour;
-use super::curve::MOST;
+use super::curve::NUMBERED_COLOURS;
+use super::label::equals;
 use super::map::{Fill, Map, Over};
 use super::number::degrees;
-use super::quantity::equals;
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::images;
@@ -85,7 +85,7 @@ impl<'a> SectionPicture<'a> {
         let [first, last] = section.line.span;
         let interfaces = section.interfaces().into_iter().map(|z| vec![[first, z], [last, z]]);
         // The lines of many interfaces are thin.
-        let width = if interfaces.len() < MOST { 0.9 } else { 0.4 };
+        let width = if interfaces.len() < NUMBERED_COLOURS { 0.9 } else { 0.4 };
         let interfaces = interfaces.map(|points| line(points, width, Dash::Dashed, ink));
         let mark = self.largest[number].map(|largest| Over::Mark { at: [largest.s, largest.depth.z], colour: ink });
         let rings = (1..).zip(&self.failures).map(|(number, &(_, at))| Over::Ring { at, number });

@@ -1,7 +1,7 @@
 //! A solved load step with its readings, from which the pictures of fields are drawn.
 
+use super::label::equals;
 use super::number::{degrees, short};
-use super::quantity::equals;
 use crate::body::{HalfSpace, Interface, Layer};
 use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;

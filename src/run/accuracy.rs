@@ -41,7 +41,7 @@ pub struct TooOblong(f64);
 /// Reason for which a refinement ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum End {
+pub enum RefinementEnd {
     /// The last change is below the accuracy.
     Reached,
     /// The changes **stagnate**: if they go on falling as fast as in the better of the last two refinements, no grid in reach gets
@@ -53,7 +53,7 @@ pub enum End {
     Room,
 }
 
-impl fmt::Display for End {
+impl fmt::Display for RefinementEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Reached => f.write_str("it is reached"),
@@ -64,7 +64,7 @@ impl fmt::Display for End {
     }
 }
 
-/// Finer and finer grids, until the results change by less than an accuracy or for another reason to [`End`].
+/// Finer and finer grids, until the results change by less than an accuracy or for another reason to [`RefinementEnd`].
 #[derive(Debug, Clone)]
 pub struct Refinement {
     accuracy: f64,
@@ -126,16 +126,16 @@ impl Refinement {
 
     /// Goes on to the next grid, after the change that the present one brought (`None` on the first), and gives the reason where it
     /// ends instead. `fits` says whether memory and disk suffice for a grid.
-    pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<End> {
+    pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<RefinementEnd> {
         self.changes.extend(change);
         let finer = self.grids.get(self.at + 1);
         if self.changes.last().is_some_and(|&change| change < self.accuracy) {
-            return Some(End::Reached);
+            return Some(RefinementEnd::Reached);
         }
         match finer {
-            None => Some(End::Finest),
-            Some(_) if self.stagnates() => Some(End::Stagnates),
-            Some(&finer) if !fits(finer) => Some(End::Room),
+            None => Some(RefinementEnd::Finest),
+            Some(_) if self.stagnates() => Some(RefinementEnd::Stagnates),
+            Some(&finer) if !fits(finer) => Some(RefinementEnd::Room),
             Some(_) => {
                 self.at += 1;
                 None
@@ -207,11 +207,11 @@ mod tests {
                 }
             }
         };
-        assert_eq!(run(&[1e-2, 3e-3, 9e-4, 1e-9], 8192), (768, End::Reached));
+        assert_eq!(run(&[1e-2, 3e-3, 9e-4, 1e-9], 8192), (768, RefinementEnd::Reached));
         // A logarithm changes as much from grid to grid.
-        assert_eq!(run(&[1e-2, 9.9e-3, 9.8e-3, 9.7e-3], 8192), (768, End::Stagnates));
-        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 8192), (3072, End::Finest));
-        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 1000), (768, End::Room));
+        assert_eq!(run(&[1e-2, 9.9e-3, 9.8e-3, 9.7e-3], 8192), (768, RefinementEnd::Stagnates));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 8192), (3072, RefinementEnd::Finest));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 1000), (768, RefinementEnd::Room));
     }
 
     #[test]

@@ -29,7 +29,7 @@ mod sampling;
 mod tapered;
 pub(crate) mod warnings;
 
-pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
+pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use finished::{Finished, Last};
 pub use limit::{At, Limit, Limits, Shown};
 pub use outcome::{BeyondFullContact, Outcome, RunError};

@@ -4,7 +4,7 @@
 //! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, a real body is not linear.
 
 use super::StepRecord;
-use super::accuracy::End;
+use super::accuracy::RefinementEnd;
 use crate::counterbody::Shape;
 use crate::counterbody::roughness::Window;
 use crate::notation::number;
@@ -23,7 +23,12 @@ const TAPERED_PART: f64 = 0.02;
 const SURFACE_ERROR: f64 = 0.02;
 
 /// Warnings about the steps of a run, about the `end` of its refinement and the last `change`.
-pub(super) fn warnings(problem: &Problem, steps: &[StepRecord], end: Option<End>, change: Option<f64>) -> Vec<String> {
+pub(super) fn warnings(
+    problem: &Problem,
+    steps: &[StepRecord],
+    end: Option<RefinementEnd>,
+    change: Option<f64>,
+) -> Vec<String> {
     let steps: Vec<Numbered> = (1..).zip(steps).collect();
     of_judged(problem, &steps, &steps, end, change)
 }
@@ -36,7 +41,7 @@ pub(super) fn of_judged(
     problem: &Problem,
     all: &[Numbered],
     judged: &[Numbered],
-    end: Option<End>,
+    end: Option<RefinementEnd>,
     change: Option<f64>,
 ) -> Vec<String> {
     let warnings = [
@@ -98,12 +103,12 @@ fn small_spots(steps: &[Numbered]) -> Option<String> {
     ))
 }
 
-fn not_accurate(end: End, change: Option<f64>) -> Option<String> {
+fn not_accurate(end: RefinementEnd, change: Option<f64>) -> Option<String> {
     let reached = match change {
         Some(change) => format!("the last change was {change:.1e}"),
         None => "there is one grid only".to_owned(),
     };
-    (end != End::Reached).then(|| format!("grid.accuracy is not reached: {reached}, and {end}"))
+    (end != RefinementEnd::Reached).then(|| format!("grid.accuracy is not reached: {reached}, and {end}"))
 }
 
 fn rough_surface(steps: &[Numbered]) -> Option<String> {

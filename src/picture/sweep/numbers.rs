@@ -1,6 +1,6 @@
 //! The numbers of a sweep's results that a picture shows.
 
-use super::super::quantity::Quantity;
+use super::super::label::Label;
 use super::first::First;
 use crate::sweep::Row;
 use crate::units::Units;
@@ -14,7 +14,7 @@ type Place = Box<dyn Fn(&Value) -> Option<f64> + Sync>;
 
 /// A number of a result.
 pub struct Number {
-    pub quantity: Quantity,
+    pub quantity: Label,
     pub value: Place,
     /// Name of the limit whose number it is.
     limit: Option<String>,
@@ -32,7 +32,7 @@ pub enum Bound {
 }
 
 impl Number {
-    fn at(quantity: impl Into<Quantity>, pointer: &'static str) -> Self {
+    fn at(quantity: impl Into<Label>, pointer: &'static str) -> Self {
         Self {
             quantity: quantity.into(),
             value: Box::new(move |result| result.pointer(pointer)?.as_f64()),
@@ -41,7 +41,7 @@ impl Number {
     }
 
     /// The largest of a list.
-    fn largest(quantity: impl Into<Quantity>, list: &'static str, pointer: &'static str) -> Self {
+    fn largest(quantity: impl Into<Label>, list: &'static str, pointer: &'static str) -> Self {
         let value = move |result: &Value| {
             let items = result.pointer(list)?.as_array()?.iter();
             items.filter_map(|item| item.pointer(pointer)?.as_f64()).reduce(f64::max)

@@ -4,7 +4,7 @@ use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::Criterion;
 use crate::run::warnings::{self, Numbered};
-use crate::run::{End, StepRecord};
+use crate::run::{RefinementEnd, StepRecord};
 use crate::spectral::Step;
 use std::cmp::Ordering;
 
@@ -97,7 +97,7 @@ pub struct Limits {
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was asked for.
     pub change: Option<f64>,
     /// Why the refinement ended, where there was one.
-    pub end: Option<End>,
+    pub end: Option<RefinementEnd>,
     /// What a reader should know before trusting the numbers.
     pub warnings: Vec<String>,
 }
@@ -254,6 +254,6 @@ impl Limits {
 
     /// Whether all loads were solved, and the accuracy, if one was asked for, is reached.
     pub fn converged(&self) -> bool {
-        self.end.is_none_or(|end| end == End::Reached) && self.steps.iter().all(StepRecord::converged)
+        self.end.is_none_or(|end| end == RefinementEnd::Reached) && self.steps.iter().all(StepRecord::converged)
     }
 }

@@ -5,13 +5,13 @@ use crate::units::{Prefixed, Unit, Units};
 
 /// The label of a quantity.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Quantity {
+pub struct Label {
     /// Words and symbol.
     text: String,
     unit: Unit,
 }
 
-impl Quantity {
+impl Label {
     /// The unit with the prefix for numbers of a size.
     pub(super) fn unit(&self, size: f64) -> Prefixed {
         self.unit.prefixed(size)
@@ -37,13 +37,13 @@ impl Quantity {
     }
 }
 
-impl From<&str> for Quantity {
+impl From<&str> for Label {
     fn from(text: &str) -> Self {
         text.to_owned().into()
     }
 }
 
-impl From<String> for Quantity {
+impl From<String> for Label {
     fn from(text: String) -> Self {
         Self { text, unit: Unit::None }
     }
@@ -51,13 +51,13 @@ impl From<String> for Quantity {
 
 impl Units {
     /// Label of a length.
-    pub(super) fn length_of(&self, words: &str, symbol: &str) -> Quantity {
-        quantity(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
+    pub(super) fn length_of(&self, words: &str, symbol: &str) -> Label {
+        label(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
     }
 
     /// Label of a pressure.
-    pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Quantity {
-        quantity(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
+    pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Label {
+        label(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
     }
 
     /// Lengths in a list of parameters: h/l = 0.5, h = 3 µm or h = 3.
@@ -71,14 +71,14 @@ impl Units {
     }
 }
 
-fn quantity(words: &str, symbol: &str, unit: &Unit, unknown: &str) -> Quantity {
+fn label(words: &str, symbol: &str, unit: &Unit, unknown: &str) -> Label {
     let symbol = match unit {
         Unit::None => format!("{symbol}\u{a0}({unknown})"),
         Unit::Relative(to) => format!("{symbol}/{to}"),
         Unit::Named(_) | Unit::Si { .. } => symbol.to_owned(),
     };
     let text = if words.is_empty() { symbol } else { format!("{words} {symbol}") };
-    Quantity { text, unit: unit.clone() }
+    Label { text, unit: unit.clone() }
 }
 
 fn equals_in(unit: &Unit, symbol: &str, values: &[f64]) -> String {
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn axes_have_the_prefix_with_which_their_numbers_read_well() {
         let si = units(2.0).named(Some("m"), Some("Pa"));
-        let named = |quantity: Quantity, size: f64| {
+        let named = |quantity: Label, size: f64| {
             let unit = quantity.unit(size);
             (plain(&quantity.label(&unit)), unit.shown(size))
         };
