@@ -22,7 +22,7 @@ pub struct Progress {
     _lines: Option<Sender<()>>,
 }
 
-/// What the display shows.
+/// The numbers and words of the display.
 #[derive(Debug, Clone)]
 struct ProgressState {
     /// Name of what is counted, such as `step`; empty where the number is not known.

@@ -23,7 +23,7 @@ pub struct Published {
 }
 
 impl Results {
-    /// Claims a folder for the files of a plan; from here on a signal to end is answered with what is saved.
+    /// Claims a folder for the files of a plan; from here on a signal to end is answered with the saved files.
     pub fn claim(folder: &Path, plan: Plan, quiet: bool) -> Result<Self, Failure> {
         interruption::watch();
         let claim = RunFolder::claim(folder, plan)?;

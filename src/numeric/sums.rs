@@ -48,7 +48,7 @@ pub fn mean(field: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Whole numbers below 2⁵³, which any order adds exactly: every term counts once, in whole blocks and in what is left of them.
+    /// Whole numbers below 2⁵³, which any order adds exactly: every term counts once, in whole blocks and in the rest of a block.
     #[test]
     fn every_term_is_added_once() {
         for len in [0, 1, 7, 8, 9, BLOCK - 1, BLOCK, BLOCK + 13, 3 * BLOCK + 8] {

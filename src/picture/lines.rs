@@ -9,7 +9,7 @@ use super::snapshot::Snapshot;
 use crate::reading::StressMeasure;
 use crate::stress::Section;
 
-/// Number of interfaces from which on colours tell depths, and both sides of an interface have one name.
+/// Number of interfaces from which on colours show depths, and both sides of an interface have one name.
 const MANY: usize = NUMBERED_COLOURS;
 
 /// The picture.

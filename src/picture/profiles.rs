@@ -128,7 +128,7 @@ impl Snapshot {
             Some(boundary) => [theta + PI, theta].map(|theta| (boundary.radius(theta), ContactEnd::Edge)),
             None => [theta + PI, theta].map(|theta| self.end(site, centre, theta)),
         };
-        // Of equal extents the first one.
+        // The first of equal extents.
         let (mut direction, mut widest) = (0.0, 0.0);
         for theta in (0..180).map(|k| f64::from(k).to_radians()) {
             let extent: f64 = ends(theta).iter().map(|(end, _)| end).sum();
@@ -204,7 +204,7 @@ mod tests {
     fn a_smooth_line_through_few_points_of_a_hertzian_contact_is_hertzian() {
         let mut points: Vec<[f64; 2]> =
             (0..12).map(|k| f64::from(k) / 12.0).map(|r| [r, (1.0 - r * r).sqrt()]).collect();
-        // The last element says too much.
+        // The last element is too high.
         points[11][1] *= 1.3;
         points.push([1.0, 0.0]);
         for [r, p] in smooth(&points) {
@@ -226,7 +226,7 @@ mod tests {
         assert!(line.iter().all(|[r, p]| (p * p - square(*r)).abs() < 0.1 * square(0.75)), "{line:?}");
     }
 
-    /// Neighbours of two levels on a square lattice stand √½ apart: the seam is not far from halfway.
+    /// Neighbours of two levels on a square lattice are √½ apart: the seam is not far from halfway.
     #[test]
     fn a_merged_contact_ends_at_the_seam() {
         let levels = [0.01, 0.0].map(|height| Level::new(Shape::Paraboloid { radius: 1.0 }, height).unwrap()).to_vec();

@@ -40,7 +40,7 @@ pub fn section(snapshot: &Snapshot, section: &Section) -> Canvas {
     sheet(&snapshot.caption(&picture.words(apart)), &[&along, &governing])
 }
 
-/// What both panels and the caption show.
+/// The contents of both panels and of the caption.
 struct SectionPicture<'a> {
     snapshot: &'a Snapshot,
     section: &'a Section,

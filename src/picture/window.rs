@@ -122,7 +122,7 @@ mod tests {
         }
     }
 
-    /// Whatever the cell, a plot has a bounded height and few cells, and says where it is not true to scale.
+    /// A plot of any cell has a bounded height and few cells, and a caption where it is not true to scale.
     #[test]
     fn plots_of_slender_cells_are_bounded_and_say_so() {
         let radians = [90.0, 60.0, 5.0, 0.1f64].map(f64::to_radians);

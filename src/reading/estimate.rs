@@ -196,7 +196,7 @@ impl Grids<'_> {
             return LevelErrors::default();
         }
         let by_load = self.load.is_mean_pressure();
-        // Below one sample the laws say no more than at one.
+        // The laws hold from one sample on.
         let samples = own.resolution.max(1.0);
         let of = |safety: f64, law: f64, value: fn(&LevelReading) -> Option<f64>| {
             self.error(safety, law, &|reading| reading.levels.get(index).and_then(value))

@@ -6,8 +6,8 @@
 //! have a few samples across the first errs by −13 to +25 %, the second by a few per cent; of eight self-affine surfaces whose
 //! shortest wave has 16 samples the first errs by 1.6 % on the average, the second by 0.6. Each states its own error, and of spots
 //! narrower than ten samples, and of many spots without boundaries of their own, whose borders run in all directions, the reading
-//! with the smaller error is the fraction in contact. Of others it is the first:
-//! it states more than it errs on them, most of all on rings, where the correction by the perimeter errs more.
+//! with the smaller error is the fraction in contact. Of other spots it is always the first: there its
+//! uncertainty exceeds its error, most of all on rings, where the correction by the perimeter errs more.
 
 use super::counted::CountedArea;
 use super::fraction::Fraction;

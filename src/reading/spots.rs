@@ -184,7 +184,7 @@ impl Part {
 pub fn locate(contact: &Contact, scale: &Scale<'_>, spots: &mut [SpotReading]) {
     let (grid, surface, pressure) = (contact.grid(), contact.surface(), contact.pressures());
     let owners = surface.owners();
-    // What merged contacts enclose between them lies outside each of them.
+    // Open samples between merged contacts lie outside each of them.
     let holes = Holes::of(grid, pressure, |index| Some(owners[index]).filter(|own| !spots[*own as usize].merged));
     spots.par_iter_mut().enumerate().for_each(|(site, spot)| {
         let site = site as u32;

@@ -311,7 +311,7 @@ mod tests {
         assert_eq!(radices(512, true), Some(vec![8, 8, 8]));
     }
 
-    /// Both ways of splitting, whichever this processor takes, against the sums that they stand for.
+    /// Components by the radices of either kind of processor, against direct sums.
     #[test]
     fn components_are_their_sums_by_either_radices() {
         let len = 96;

@@ -4,7 +4,7 @@ use super::rim::Rim;
 use super::spot::{Sample, Spot};
 use crate::numeric::closed_line::{ANGLES, angle, mean_radius};
 
-/// Number of sectors by which the clearance is told apart.
+/// Number of sectors with a clearance of their own.
 pub const SECTORS: usize = 24;
 
 /// Clearance over the mean radius from which on neighbours do not change the gap at the rim.

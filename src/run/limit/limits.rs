@@ -14,19 +14,19 @@ const WIDE: f64 = 0.3;
 /// Where a criterion is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum At {
-    /// Residual stress alone reaches it, everywhere in its material.
+    /// By residual stress alone, everywhere in the material.
     Rest,
     /// Under a tip of the highest level, whose stress is infinite however small the load.
     Tip {
         /// x, y, z of the tip; lengths.
         position: [f64; 3],
     },
-    /// At this mean pressure.
+    /// At a mean pressure.
     Load {
-        /// p̄.
+        /// Mean pressure p̄, in the unit of Young's modulus.
         mean_pressure: f64,
-        /// Its estimated error by the grid, a pressure: the distance to the farther end of the interval; `None` where a
-        /// utilisation jumps, or the interval has no end.
+        /// Estimated error of the mean pressure by the grid, a pressure: the distance to the farther end of the interval; `None` where
+        /// a utilisation jumps, or the interval has no end.
         error: Option<f64>,
         /// The least mean pressures at which u + e and u − e reach 1, u the utilisation and e its error: 0 where u + e does at
         /// the least load that was solved, infinite where u − e never does.
@@ -34,19 +34,19 @@ pub enum At {
         /// x, y, z of the place that fails; lengths.
         position: [f64; 3],
     },
-    /// At less than this mean pressure, at which it is reached: by its error it may be so at the least load that was solved,
-    /// whose contact is a few samples wide.
+    /// Below a mean pressure: by the error of the utilisation the criterion may be reached under the least load that was solved, whose
+    /// contact is a few samples wide.
     Below {
-        /// p̄, the least at which u − e ≥ 1.
+        /// The least mean pressure p̄ at which u − e ≥ 1.
         mean_pressure: f64,
-        /// Utilisation u there.
+        /// Utilisation u at this mean pressure.
         utilisation: f64,
-        /// x, y, z of the place that fails under it; lengths.
+        /// x, y, z of the place that fails at this mean pressure; lengths.
         position: [f64; 3],
     },
-    /// Not up to complete contact, or the largest load that was solved.
+    /// Not reached up to complete contact, or up to the largest load that was solved.
     Never {
-        /// Up to this mean pressure.
+        /// Mean pressure up to which the criterion holds.
         up_to: f64,
         /// The largest utilisation, to a hundredth where it is more than a half and has its top between the loads.
         utilisation: f64,
@@ -55,7 +55,7 @@ pub enum At {
         /// Mean pressure of the largest utilisation.
         at: f64,
     },
-    /// Whether it is reached is undecided: the utilisation stays below 1, or cannot be told from 1 at any load, and the
+    /// Undecided: the utilisation stays below 1, or cannot be distinguished from 1 at any load, and the
     /// utilisation plus its error reaches 1.
     Undecided {
         /// The least mean pressure at which u + e may reach 1; 0 where it does at the least load that was solved.
@@ -85,20 +85,20 @@ pub struct Limit {
 /// All limit loads.
 #[derive(Debug, Clone)]
 pub struct Limits {
-    /// One of each criterion: yield and cracking from the surface down, then the interfaces.
+    /// The limit of each criterion: yield and cracking from the surface down, then the interfaces.
     pub limits: Vec<Limit>,
-    /// Every load that was solved on the last grid, by ascending mean pressure.
+    /// All loads that were solved on the last grid, by ascending mean pressure.
     pub steps: Vec<StepRecord>,
     /// The first limit that is reached above the load 0, and the step there, with its record and its fields; `None` where
     /// there is none.
     pub shown: Option<Shown>,
     /// Mean pressure at which contact becomes complete on the last grid.
     pub complete: f64,
-    /// Largest relative change of the limits against the next coarser grid, where an accuracy was asked for.
+    /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
-    /// Why the refinement ended, where there was one.
+    /// Reason for which the refinement ended, if there was one.
     pub end: Option<RefinementEnd>,
-    /// What a reader should know before trusting the numbers.
+    /// Warnings about the results.
     pub warnings: Vec<String>,
 }
 
@@ -252,7 +252,7 @@ impl Limits {
         warnings::of_judged(problem, &all, &judged, self.end, self.change)
     }
 
-    /// Whether all loads were solved, and the accuracy, if one was asked for, is reached.
+    /// Whether all loads were solved, and the accuracy, if one was prescribed, is reached.
     pub fn converged(&self) -> bool {
         self.end.is_none_or(|end| end == RefinementEnd::Reached) && self.steps.iter().all(StepRecord::converged)
     }
