@@ -12,7 +12,7 @@ use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::output::{Plan, Writer, limit_json, number, summary, table, with_error};
 use crate::picture::{self, Snapshot};
-use crate::run::{Limits, Recorder, Run, Shown, StepRecord};
+use crate::run::{LimitStep, Limits, Recorder, Run, StepRecord};
 use crate::{Solver, Step, StressField};
 use std::convert::Infallible;
 use std::path::Path;
@@ -96,7 +96,7 @@ pub fn run(
 fn draw(results: &Results, case: &Case, run: &Run, limits: &Limits, pictures: &PictureOptions) -> Result<(), Failure> {
     let staging = results.staging();
     pictures.write(&staging, "limit", || picture::utilisations(&case.title, case.problem(), &case.units(), limits))?;
-    if let (true, Some(section), Some(Shown { limit, record, step })) =
+    if let (true, Some(section), Some(LimitStep { limit, record, step })) =
         (pictures.wanted(), limits.section(run), limits.shown.clone())
     {
         let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);

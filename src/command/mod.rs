@@ -18,10 +18,11 @@ mod options;
 mod pictures;
 mod plan;
 mod progress;
+mod progress_recorder;
 mod report;
 mod results;
 mod roughness;
-mod shown;
+
 mod solve;
 mod sweep;
 mod terminal;

@@ -8,8 +8,9 @@ use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::plan::may_write;
 use super::progress::Progress;
+use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
-use super::shown::Shown;
+
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};
@@ -79,7 +80,7 @@ pub fn run(
     }
     let recording = Recording::new(&results.claim, &run, case.to_toml(), clock).resumable(fingerprint, earlier);
     let recording = if fields { recording } else { recording.without_fields() };
-    let mut recording = Shown::new(recording, &results.claim, &run, allowed, common);
+    let mut recording = ProgressRecorder::new(recording, &results.claim, &run, allowed, common);
     let outcome = run.solve(&mut recording)?;
     let (section, mut clock) = recording.finish()?;
     let warnings = [outcome.warnings.clone(), plausibility::of_case(&case)].concat();

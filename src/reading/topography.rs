@@ -1,5 +1,6 @@
 //! The boundaries of the largest contact spots of a topography; the other spots are read along the lines of samples.
 
+use super::boundary::constants::MIN_RESOLUTION;
 use super::boundary::{Boundary, Sample, Scale, Spot};
 use super::holes::{Holes, NO_CONTACT};
 use crate::lattice::components::Component;
@@ -8,8 +9,6 @@ use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::f64::consts::PI;
 
-/// Fewest samples along the radius of a spot, as it is counted, for its boundary to be fitted.
-const FEWEST_SAMPLES: f64 = 3.0;
 /// Number of spots whose boundaries are fitted, at most: the largest ones, and all as large as the smallest of these.
 pub const LARGEST_SPOTS: usize = 8;
 /// Largest area of the circle around a spot over the spot's own: that of an ellipse six times as long as wide.
@@ -54,7 +53,7 @@ pub fn boundaries(contact: &Contact, components: &[Component], scale: &Scale<'_>
 fn largest(components: &[Component]) -> Vec<u32> {
     let size = |own: &u32| components[*own as usize].size();
     let large =
-        |own: &u32| !components[*own as usize].wraps && size(own) as f64 >= PI * FEWEST_SAMPLES * FEWEST_SAMPLES;
+        |own: &u32| !components[*own as usize].wraps && size(own) as f64 >= PI * MIN_RESOLUTION * MIN_RESOLUTION;
     let mut largest: Vec<u32> = (0..components.len() as u32).filter(large).collect();
     largest.sort_by_key(|own| Reverse(size(own)));
     // Which of several spots of one size comes first depends on the vectors that describe the cell: all of them count.

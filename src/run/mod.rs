@@ -31,7 +31,7 @@ pub(crate) mod warnings;
 
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use finished::{Finished, Last};
-pub use limit::{At, Limit, Limits, Shown};
+pub use limit::{At, Limit, LimitStep, Limits};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::StepRecord;

@@ -89,9 +89,8 @@ pub struct Limits {
     pub limits: Vec<Limit>,
     /// All loads that were solved on the last grid, by ascending mean pressure.
     pub steps: Vec<StepRecord>,
-    /// The first limit that is reached above the load 0, and the step there, with its record and its fields; `None` where
-    /// there is none.
-    pub shown: Option<Shown>,
+    /// The first limit that is reached above the load 0, with the step there, its record and its fields; `None` without such a limit.
+    pub shown: Option<LimitStep>,
     /// Mean pressure at which contact becomes complete on the last grid.
     pub complete: f64,
     /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
@@ -102,14 +101,14 @@ pub struct Limits {
     pub warnings: Vec<String>,
 }
 
-/// The first limit above the load 0, and what was solved there.
+/// The step at the first limit above the load 0.
 #[derive(Debug, Clone)]
-pub struct Shown {
+pub struct LimitStep {
     /// The limit, with the place that fails.
     pub limit: Limit,
-    /// Every scalar of the step.
+    /// Scalars of the step.
     pub record: StepRecord,
-    /// The step.
+    /// The step with its fields.
     pub step: Step,
 }
 

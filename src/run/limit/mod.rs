@@ -26,11 +26,11 @@ mod search;
 mod section;
 mod words;
 
-pub use limits::{At, Limit, Limits, Shown};
+pub use limits::{At, Limit, LimitStep, Limits};
 
 use super::{Recorder, Refinement, Run, RunError, Sampling};
 use crate::reading::Criterion;
-use search::Search;
+use search::LimitSearch;
 use std::convert::Infallible;
 use std::error::Error;
 
@@ -82,13 +82,13 @@ impl Run {
     pub fn limits<R: Recorder>(&self, recorder: &mut R) -> Result<Limits, RunError<R::Error>> {
         self.checked_for_limits()?;
         let mut limits = match self.sampling {
-            Sampling::Points(points) => Search::on_grid(self, points, recorder)?,
+            Sampling::Points(points) => LimitSearch::on_grid(self, points, recorder)?,
             Sampling::Accuracy(accuracy) => {
                 let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
                 let mut coarse: Option<Limits> = None;
                 loop {
                     let points = refinement.points();
-                    let mut limits = Search::on_grid(self, points, recorder)?;
+                    let mut limits = LimitSearch::on_grid(self, points, recorder)?;
                     limits.change = coarse.take().map(|coarse| limits.change_from(&coarse));
                     if let Some(change) = limits.change {
                         recorder.refined(points, change);

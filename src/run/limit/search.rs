@@ -1,7 +1,7 @@
 //! The search for the limits on one grid, load by load.
 
 use super::band::{Crossing, UtilisationBand};
-use super::{At, Limit, Limits, Shown};
+use super::{At, Limit, LimitStep, Limits};
 use crate::load::Load;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
@@ -28,7 +28,7 @@ const GROWTH: f64 = 4.0;
 const TOUCHING: f64 = 1e-3;
 
 /// A search on one grid.
-pub(super) struct Search<'a, R: Recorder> {
+pub(super) struct LimitSearch<'a, R: Recorder> {
     run: &'a Run,
     solver: Solver,
     /// Tables that the stresses of all loads share.
@@ -42,7 +42,7 @@ pub(super) struct Search<'a, R: Recorder> {
     recorder: &'a mut R,
 }
 
-impl<'a, R: Recorder> Search<'a, R> {
+impl<'a, R: Recorder> LimitSearch<'a, R> {
     /// Searches the limits of a run on a grid of `points`.
     pub fn on_grid(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Limits, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&run.problem), points, run.settings)?;
@@ -83,7 +83,7 @@ impl<'a, R: Recorder> Search<'a, R> {
                 // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
                 let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
                 limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
-                search.last.take().map(|step| Shown { limit, record, step })
+                search.last.take().map(|step| LimitStep { limit, record, step })
             }
             None => None,
         };

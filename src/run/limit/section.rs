@@ -1,6 +1,6 @@
 //! The section of the stresses under the place that fails first.
 
-use super::{Limits, Shown};
+use super::{LimitStep, Limits};
 use crate::friction::Friction;
 use crate::run::Run;
 use crate::run::places::SECTION;
@@ -19,7 +19,7 @@ impl Limits {
     /// sliding, or along x without friction, a contact's width to both sides and deep enough to show the place; `None` without such
     /// a limit.
     pub fn section(&self, run: &Run) -> Option<Section> {
-        let Shown { limit, step, .. } = self.shown.as_ref()?;
+        let LimitStep { limit, step, .. } = self.shown.as_ref()?;
         let [x, y, z] = limit.position()?;
         let (half_space, cell) = (run.problem.half_space(), run.problem.cell());
         let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);

@@ -11,7 +11,7 @@ use crate::spectral::Checkpoint;
 use crate::{Load, Section, Solver, Step, StressField};
 
 /// Records a run and shows its progress.
-pub struct Shown<'a> {
+pub struct ProgressRecorder<'a> {
     recording: Recording<'a>,
     claim: &'a RunFolder,
     allowed: Allowed<'a>,
@@ -21,7 +21,7 @@ pub struct Shown<'a> {
     progress: Progress,
 }
 
-impl<'a> Shown<'a> {
+impl<'a> ProgressRecorder<'a> {
     /// Recorder of a run with its recording and the claimed folder.
     pub fn new(
         recording: Recording<'a>,
@@ -48,7 +48,7 @@ impl<'a> Shown<'a> {
     }
 }
 
-impl Recorder for Shown<'_> {
+impl Recorder for ProgressRecorder<'_> {
     type Error = OutputError;
 
     fn finished(&mut self) -> Option<Finished> {
