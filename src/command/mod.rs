@@ -22,7 +22,6 @@ mod progress_recorder;
 mod report;
 mod results;
 mod roughness;
-
 mod solve;
 mod sweep;
 mod terminal;

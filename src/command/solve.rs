@@ -10,7 +10,6 @@ use super::plan::may_write;
 use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
-
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};

@@ -44,7 +44,6 @@ mod sweep;
 mod text;
 mod ticks;
 mod tiling;
-mod touches;
 mod utilisations;
 pub(crate) mod vector;
 mod window;

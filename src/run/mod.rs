@@ -27,6 +27,8 @@ mod record;
 mod recorder;
 mod sampling;
 mod tapered;
+#[cfg(feature = "cli")]
+pub(crate) mod touches;
 pub(crate) mod warnings;
 
 pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};

@@ -4,8 +4,8 @@
 //! pressure on the other levels of that profile: P^{n/(n+1)} over p̄^{n/(n+1)} is nearly a straight line. Through the two
 //! steps after the touch it is extrapolated to zero load, between the last step without load and the first one with it.
 
+use super::StepRecord;
 use crate::problem::Problem;
-use crate::run::StepRecord;
 
 /// Number and mean pressure of first touch of each level whose first touch lies between two steps.
 pub fn touches(problem: &Problem, steps: &[StepRecord]) -> Vec<(usize, f64)> {
