@@ -46,7 +46,7 @@ impl Section {
 mod tests {
     use super::*;
     use crate::body::Depth;
-    use crate::reading::StressMeasure;
+    use crate::reading::SectionMeasure;
     use crate::stress::{Line, State};
 
     #[test]
@@ -56,7 +56,7 @@ mod tests {
         let rows = [1.0, 3.0, -2.0, -1.0];
         let states = Array2::from_shape_fn((4, 3), |(row, _)| State { xx: rows[row], ..State::default() });
         let section = Section { line, depths, states, highest: None };
-        let values = section.values(StressMeasure::Along);
+        let values = section.values(SectionMeasure::Along);
         assert!((section.at(&values, 0.3, 0.5).unwrap() - 2.0).abs() < 1e-12);
         assert_eq!(section.at(&values, 0.3, 0.999).map(f64::round), Some(3.0));
         assert_eq!(section.at(&values, 0.3, 1.001).map(f64::round), Some(-2.0));

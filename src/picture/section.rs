@@ -13,7 +13,7 @@ use super::snapshot::Snapshot;
 use super::tiling::images;
 use super::window::Window;
 use crate::friction::Friction;
-use crate::reading::{Criterion, LargestInSection, StressMeasure, Utilisation, Verdict, tears, tips};
+use crate::reading::{Criterion, LargestInSection, SectionMeasure, Utilisation, Verdict, tears, tips};
 use crate::stress::{Line, Section};
 use ndarray::Array2;
 
@@ -45,7 +45,7 @@ struct SectionPicture<'a> {
     snapshot: &'a Snapshot,
     section: &'a Section,
     /// The stresses of both panels.
-    measures: [StressMeasure; 2],
+    measures: [SectionMeasure; 2],
     /// Largest values of both, where they are finite.
     largest: [Option<LargestInSection>; 2],
     /// Whether the second stress is infinite at a tip in the section.
@@ -61,7 +61,7 @@ impl<'a> SectionPicture<'a> {
     fn new(snapshot: &'a Snapshot, section: &'a Section) -> Self {
         let half_space = snapshot.step.problem().half_space();
         let governing = snapshot.governing().map(|criterion| section.governing_measure(criterion, half_space));
-        let measures = [StressMeasure::Along, governing.unwrap_or(StressMeasure::Tau1)];
+        let measures = [SectionMeasure::Along, governing.unwrap_or(SectionMeasure::Tau1)];
         let singular = is_singular(snapshot, measures[1]) && passes_tip(snapshot, section);
         let [along, governing] = measures.map(|measure| section.largest(measure));
         let [first, last] = section.line.span;
@@ -105,7 +105,7 @@ impl<'a> SectionPicture<'a> {
     fn governing_bar(&self, values: &Array2<f64>) -> (Bar, Colour) {
         let [_, symbol] = named(self.measures[1]);
         let (label, [least, most]) = (self.snapshot.units.pressure_of("", symbol), span(values, None));
-        if matches!(self.measures[1], StressMeasure::Tension | StressMeasure::Opening) {
+        if matches!(self.measures[1], SectionMeasure::Tension | SectionMeasure::Opening) {
             (Bar::signed(label, [least, most]), Colour::BLACK)
         } else {
             (Bar::sequential(label, most.max(f64::MIN_POSITIVE)), Colour::WHITE)
@@ -162,24 +162,24 @@ impl<'a> SectionPicture<'a> {
 }
 
 /// Name and symbol of a stress.
-fn named(measure: StressMeasure) -> [&'static str; 2] {
+fn named(measure: SectionMeasure) -> [&'static str; 2] {
     match measure {
-        StressMeasure::Along => ["stress along the section", "σₛ"],
-        StressMeasure::Tau1 => ["principal shear stress", "τ₁"],
-        StressMeasure::Mises => ["stress of von Mises", "σᵥ"],
-        StressMeasure::Tension => ["largest principal stress", "σ₁"],
-        StressMeasure::Shear => ["shear of horizontal planes", "τ"],
-        StressMeasure::Opening => ["normal stress of horizontal planes", "σₙ"],
+        SectionMeasure::Along => ["stress along the section", "σₛ"],
+        SectionMeasure::Tau1 => ["principal shear stress", "τ₁"],
+        SectionMeasure::Mises => ["stress of von Mises", "σᵥ"],
+        SectionMeasure::Tension => ["largest principal stress", "σ₁"],
+        SectionMeasure::Shear => ["shear of horizontal planes", "τ"],
+        SectionMeasure::Opening => ["normal stress of horizontal planes", "σₙ"],
     }
 }
 
 /// Whether a stress is infinite at a tip in contact.
-fn is_singular(snapshot: &Snapshot, measure: StressMeasure) -> bool {
+fn is_singular(snapshot: &Snapshot, measure: SectionMeasure) -> bool {
     match measure {
-        StressMeasure::Tau1 | StressMeasure::Mises => true,
-        StressMeasure::Tension => tears(&snapshot.step),
-        StressMeasure::Shear => snapshot.step.problem().friction().is_some(),
-        StressMeasure::Along | StressMeasure::Opening => false,
+        SectionMeasure::Tau1 | SectionMeasure::Mises => true,
+        SectionMeasure::Tension => tears(&snapshot.step),
+        SectionMeasure::Shear => snapshot.step.problem().friction().is_some(),
+        SectionMeasure::Along | SectionMeasure::Opening => false,
     }
 }
 

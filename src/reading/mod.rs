@@ -40,7 +40,7 @@ pub use histogram::Histogram;
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
 pub use rough::{RoughReading, SpotSizes, stiffness};
 #[cfg(feature = "cli")]
-pub(crate) use section::{LargestInSection, StressMeasure};
+pub(crate) use section::{LargestInSection, SectionMeasure};
 pub use strength::{Criterion, Utilisation};
 pub use stress::{StressReading, tears, tips};
 pub use touch::{FirstTouch, first_touches};

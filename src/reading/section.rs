@@ -5,9 +5,9 @@ use crate::body::{Depth, HalfSpace, InterfaceStrength};
 use crate::stress::{Section, State};
 use ndarray::Array2;
 
-/// A scalar measure of the stresses in a section.
+/// A scalar stress measure that a section shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum StressMeasure {
+pub(crate) enum SectionMeasure {
     /// Normal stress along the line: tension and compression, σ_r of the paper when the line begins at an axis.
     Along,
     /// Principal shear stress τ₁.
@@ -36,10 +36,10 @@ pub(crate) struct LargestInSection {
 impl Section {
     /// Measure that brings about failure by a criterion; for an interface the one that contributes most where the utilisation is
     /// largest.
-    pub(crate) fn governing_measure(&self, criterion: Criterion, half_space: &HalfSpace) -> StressMeasure {
+    pub(crate) fn governing_measure(&self, criterion: Criterion, half_space: &HalfSpace) -> SectionMeasure {
         let interface = match criterion {
-            Criterion::Yield { .. } => return StressMeasure::Mises,
-            Criterion::Cracking { .. } => return StressMeasure::Tension,
+            Criterion::Yield { .. } => return SectionMeasure::Mises,
+            Criterion::Cracking { .. } => return SectionMeasure::Tension,
             Criterion::Delamination { interface } => interface,
         };
         let strength = half_space.layers()[interface - 1].interface_strength();
@@ -50,30 +50,30 @@ impl Section {
         let states = below.into_iter().flat_map(|row| self.states.row(row));
         let worst = states.max_by(|a, b| taken(strength, a).total_cmp(&taken(strength, b)));
         let opens = worst.map_or(strength.shear.is_none(), |state| taken(opening, state) > taken(shear, state));
-        if opens { StressMeasure::Opening } else { StressMeasure::Shear }
+        if opens { SectionMeasure::Opening } else { SectionMeasure::Shear }
     }
 
     /// A measure of a state, in the unit of Young's modulus.
-    pub(crate) fn measure(&self, measure: StressMeasure, state: &State) -> f64 {
+    pub(crate) fn measure(&self, measure: SectionMeasure, state: &State) -> f64 {
         match measure {
-            StressMeasure::Along => state.along(self.line.direction),
-            StressMeasure::Tau1 => state.tau1(),
-            StressMeasure::Mises => state.mises(),
-            StressMeasure::Tension => state.principal()[0],
-            StressMeasure::Shear => state.interface_shear(),
-            StressMeasure::Opening => state.zz,
+            SectionMeasure::Along => state.along(self.line.direction),
+            SectionMeasure::Tau1 => state.tau1(),
+            SectionMeasure::Mises => state.mises(),
+            SectionMeasure::Tension => state.principal()[0],
+            SectionMeasure::Shear => state.interface_shear(),
+            SectionMeasure::Opening => state.zz,
         }
     }
 
     /// All values of a measure; axes as of the states.
-    pub(crate) fn values(&self, measure: StressMeasure) -> Array2<f64> {
+    pub(crate) fn values(&self, measure: SectionMeasure) -> Array2<f64> {
         self.states.map(|state| self.measure(measure, state))
     }
 
     /// The largest value of a measure; `None` in a section without points.
-    pub(crate) fn largest(&self, measure: StressMeasure) -> Option<LargestInSection> {
+    pub(crate) fn largest(&self, measure: SectionMeasure) -> Option<LargestInSection> {
         let (distances, values) = (self.line.distances(), self.values(measure));
-        let surface = self.depths.first().filter(|_| measure == StressMeasure::Along).zip(self.highest);
+        let surface = self.depths.first().filter(|_| measure == SectionMeasure::Along).zip(self.highest);
         let mut best = surface.map(|(&depth, [s, value])| LargestInSection { value, s, depth });
         for (row, &depth) in values.outer_iter().zip(&self.depths) {
             for (&value, &s) in row.iter().zip(&distances) {
@@ -122,11 +122,11 @@ mod tests {
             let section = Section { line, depths, states, highest: None };
             section.governing_measure(Criterion::Delamination { interface: 1 }, &HalfSpace::new(vec![layer], material))
         };
-        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), None)), StressMeasure::Opening);
-        assert_eq!(shown([1.0, 0.1], bears(None, Some(1.0))), StressMeasure::Shear);
-        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), Some(1.0))), StressMeasure::Shear);
-        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), Some(4.0))), StressMeasure::Opening);
-        assert_eq!(shown([-1.0, 0.2], bears(Some(1.0), Some(4.0))), StressMeasure::Shear);
+        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), None)), SectionMeasure::Opening);
+        assert_eq!(shown([1.0, 0.1], bears(None, Some(1.0))), SectionMeasure::Shear);
+        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), Some(1.0))), SectionMeasure::Shear);
+        assert_eq!(shown([1.0, 2.0], bears(Some(1.0), Some(4.0))), SectionMeasure::Opening);
+        assert_eq!(shown([-1.0, 0.2], bears(Some(1.0), Some(4.0))), SectionMeasure::Shear);
     }
 
     #[test]
@@ -138,9 +138,9 @@ mod tests {
         let section = Section { line, depths, states, highest: None };
         assert_eq!(section.interfaces(), [1.0]);
         assert_eq!(section.face_rows(), [0, 1, 2]);
-        assert_eq!(section.largest(StressMeasure::Along).unwrap().value, 3.0);
+        assert_eq!(section.largest(SectionMeasure::Along).unwrap().value, 3.0);
         let sharp = Section { highest: Some([0.3, 3.2]), ..section };
-        assert_eq!(sharp.largest(StressMeasure::Along).map(|largest| (largest.s, largest.value)), Some((0.3, 3.2)));
-        assert!((sharp.largest(StressMeasure::Tau1).unwrap().value - 1.5).abs() < 1e-12);
+        assert_eq!(sharp.largest(SectionMeasure::Along).map(|largest| (largest.s, largest.value)), Some((0.3, 3.2)));
+        assert!((sharp.largest(SectionMeasure::Tau1).unwrap().value - 1.5).abs() < 1e-12);
     }
 }
