@@ -6,7 +6,7 @@
 //! uncoupled, the pressure is that of frictionless contact, as in the school of the paper, and stresses superpose.
 
 use crate::body::Material;
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::f64::consts::PI;
 use std::fmt;
 

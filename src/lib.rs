@@ -20,8 +20,8 @@
 //! stands to its left:
 //!
 //! ```text
-//! numeric → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run → comparison
-//! → plain → units → case → output → sweep → picture → report → validation → command
+//! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run
+//! → comparison → plain → units → case → output → sweep → picture → report → validation → command
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
@@ -65,6 +65,7 @@ pub mod friction;
 pub mod lattice;
 pub mod load;
 pub mod localized;
+mod notation;
 mod numeric;
 #[cfg(feature = "cli")]
 pub mod output;

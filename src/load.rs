@@ -1,6 +1,6 @@
 //! The prescribed quantity of a load step: mean pressure or penetration.
 
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 
 /// The prescribed quantity of a load step and its value.

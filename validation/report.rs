@@ -5,7 +5,7 @@
 //! their digits; they are judged by their tolerances, not by the report.
 
 use super::{Check, Evidence, Outcome, Study, StudyError};
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::output::table::Table;
 use std::collections::BTreeMap;
 

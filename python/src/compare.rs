@@ -9,7 +9,7 @@ use percoat::Sampling;
 use percoat::case::plausibility;
 use percoat::case::resources::{Job, needs};
 use percoat::output::{ComparisonFile, table};
-use percoat::run::{End, Recorder, Run};
+use percoat::run::{Recorder, RefinementEnd, Run};
 use pyo3::prelude::*;
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -49,11 +49,11 @@ pub fn compare<'py>(
         let run = Run { loads: vec![task.load], stress: None, ..own.run() };
         run.check().map_err(|error| error.told())?;
         let (points, end) = match own.grid {
-            Sampling::Points(points) => (points, End::Reached),
+            Sampling::Points(points) => (points, RefinementEnd::Reached),
             Sampling::Accuracy(_) => {
                 let mut fits = Fits(|points| needs(&own, points, job).fit(room));
                 let refined = run.solve(&mut fits).map_err(|error| error.told())?;
-                (refined.points, refined.end.unwrap_or(End::Reached))
+                (refined.points, refined.end.unwrap_or(RefinementEnd::Reached))
             }
         };
         let [n1, n2] = points;
@@ -74,10 +74,10 @@ pub fn compare<'py>(
         let comparison = comparison.map_err(|error| error.to_string())?;
         let text = table::compared(&own, &comparison, width);
         let mut warnings = [comparison.warnings(), plausibility::of_case(&own)].concat();
-        if end != End::Reached {
+        if end != RefinementEnd::Reached {
             warnings.push(format!("grid.accuracy is not reached: {end}"));
         }
-        let converged = comparison.converged() && end == End::Reached;
+        let converged = comparison.converged() && end == RefinementEnd::Reached;
         let file = ComparisonFile::new(&comparison, &own, own.load.values().len());
         Ok::<_, String>((file, text, warnings, converged))
     })?;

@@ -1,7 +1,7 @@
 //! Coating layers and the half-space they form.
 
 use super::{Depth, InterfaceStrength, Material, MaterialError, Strength};
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 
 /// How the lower face of a layer holds to what lies below it. Interfaces never open: tension is carried.

@@ -2,7 +2,7 @@
 //!
 //! E* = E/(1 − ν²) = 2G/(1 − ν); χ = G₁/G₂ = E₁(1 + ν₂)/(E₂(1 + ν₁)).
 
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 
 /// Why a material or a layer cannot be built.

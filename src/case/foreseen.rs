@@ -4,7 +4,7 @@ use super::{Case, LoadSection};
 use crate::body::HalfSpace;
 use crate::counterbody::{Level, Shape};
 use crate::lattice::Grid;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::reading::FEW_SAMPLES;
 use crate::run::Sampling;
 use crate::run::warnings::{STEEP, flank};

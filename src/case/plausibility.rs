@@ -4,7 +4,7 @@ use super::{Case, LayerSection, LoadSection, sizes, sublayers};
 use crate::body::{Interface, Layer, Material, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::run::warnings::{HIGH, STEEP, ratio};
 use std::iter::repeat_n;
 

@@ -7,7 +7,7 @@ use super::Case;
 use crate::body::{Layer, Material};
 use crate::counterbody::roughness::Statistics;
 use crate::counterbody::{Level, Shape, Topography};
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::run::warnings::{HIGH, ratio};
 use crate::units::{Unit, is_force, is_length, is_pressure};
 

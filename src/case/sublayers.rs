@@ -6,7 +6,7 @@
 
 use super::{Case, layers};
 use crate::body::{HalfSpace, TransferFunction};
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::reading::FEW_SAMPLES;
 use std::f64::consts::TAU;

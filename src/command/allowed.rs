@@ -1,4 +1,4 @@
-//! The room that a job may take.
+//! The check that memory and disk suffice for a job.
 
 use super::ending::Failure;
 use crate::case::resources::{Job, needs, refusal};
@@ -7,28 +7,28 @@ use crate::run::Recorder;
 use std::convert::Infallible;
 use std::path::Path;
 
-/// What there is for a job on a case.
+/// A job on a case for which memory and disk suffice.
 #[derive(Debug, Clone, Copy)]
 pub struct Allowed<'a> {
     case: &'a Case,
     job: Job,
-    /// Memory and disk.
+    /// Memory and disk of this machine.
     pub room: Room,
 }
 
 impl<'a> Allowed<'a> {
-    /// For a job that writes into `folder`; what does not find enough is refused before any is taken.
+    /// A job that writes into `folder`; refused before anything is computed where memory or disk does not suffice.
     pub fn new(case: &'a Case, folder: &Path, job: Job) -> Result<Self, Failure> {
         Self::within(case, Room::on_this_machine(folder), job)
     }
 
-    /// The same where the `room` is known.
+    /// A job within a known `room`; refused where memory or disk does not suffice.
     pub fn within(case: &'a Case, room: Room, job: Job) -> Result<Self, Failure> {
         refusal(case, room, job).map_or(Ok(Self { case, job, room }), |why| Err(Failure::Refused(why)))
     }
 }
 
-/// Keeps nothing of a run but that it finds room.
+/// A recorder that checks memory and disk for finer grids and keeps nothing.
 impl Recorder for Allowed<'_> {
     type Error = Infallible;
 

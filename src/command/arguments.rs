@@ -1,4 +1,4 @@
-//! The command line as it is typed.
+//! The command line: commands, arguments and options.
 
 use super::ending::Failure;
 use super::help;
@@ -26,12 +26,12 @@ use std::path::PathBuf;
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
-    /// When messages are coloured: auto, always or never
+    /// Colour messages: auto, always or never
     #[arg(long, value_enum, default_value_t, global = true, value_name = "WHEN", hide_possible_values = true)]
     color: Colour,
 }
 
-/// What is to be done.
+/// A command with its arguments.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve every load step of a case (without CASE: the embedded default, Fig. 2 of the paper)
@@ -60,7 +60,7 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
-    /// Find the mean pressure at which something first fails, and what (without CASE: a DLC coating on steel)
+    /// Find the limit loads: the mean pressures at which materials and interfaces fail (without CASE: a DLC coating on steel)
     #[command(after_help = help::LIMIT)]
     Limit {
         /// Case file with strengths, the name of an embedded case, or - for standard input
@@ -72,12 +72,12 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
-    /// Solve a case for many settings of its keys: one row a combination and load step in sweep.csv
+    /// Solve a case for many values of its keys: one row for each combination and load step in sweep.csv
     #[command(after_help = help::SWEEP)]
     Sweep {
         /// Case file, the name of an embedded case, or - for standard input
         case: PathBuf,
-        /// Values of a key: KEY=V1,V2,… or KEY=A:B:N or KEY=A:B:N:log (repeatable); one value alone is the same in all
+        /// Values of a key: KEY=V1,V2,… or KEY=A:B:N or KEY=A:B:N:log (repeatable); a single value applies to all combinations
         #[arg(long, value_name = "KEY=VALUES")]
         set: Vec<String>,
         #[command(flatten)]
@@ -87,13 +87,13 @@ pub enum Command {
         #[command(flatten)]
         common: Common,
     },
-    /// Join the parts of a sweep that were solved with --shard to the table of the whole
+    /// Join the parts of a sweep that were solved with --shard into one table
     #[command(after_help = help::MERGE)]
     Merge {
         /// Output folders of the parts
         #[arg(required = true, value_name = "DIR")]
         folders: Vec<PathBuf>,
-        /// Output folder [default: the one in which all parts stand]
+        /// Output folder [default: the one that contains all parts]
         #[arg(short, long, value_name = "DIR")]
         output: Option<PathBuf>,
         #[command(flatten)]
@@ -101,7 +101,7 @@ pub enum Command {
         #[command(flatten)]
         saying: Saying,
     },
-    /// Make one HTML page of a finished run, sweep or limit: it opens without network, on a phone and in print
+    /// Make one HTML page of a finished run, sweep or limit, for screen, phone and print, without network
     #[command(after_help = help::REPORT)]
     Report {
         /// Output folder of the run
@@ -122,16 +122,16 @@ pub enum Command {
         /// Wavenumbers q > 0, 1/length
         #[arg(long, value_delimiter = ',', required = true, value_name = "Q,…", value_parser = wavenumber)]
         wavenumber: Vec<f64>,
-        /// Depths z ≥ 0 at which stresses and displacements are wanted
+        /// Depths z ≥ 0 at which stresses and displacements are computed
         #[arg(long, value_delimiter = ',', value_name = "Z,…", value_parser = depth)]
         depth: Vec<f64>,
-        /// What acts on the surface: a pressure, or a shear traction along or across the wavevector
+        /// Load on the surface: a pressure, or a shear traction along or across the wavevector
         #[arg(long, value_enum, default_value_t, value_name = "TRACTION")]
         traction: Traction,
         #[command(flatten)]
         changes: Changes,
     },
-    /// Say what a case means: cell, grid, materials, memory, first touch loads; solves no load step
+    /// Check a case and show what it means: cell, grid, materials, memory, loads of first touch; solves no load step
     #[command(after_help = help::CHECK)]
     Check {
         /// Case file, the name of an embedded case, or - for standard input
@@ -144,7 +144,7 @@ pub enum Command {
         #[command(flatten)]
         work: Work,
     },
-    /// List the embedded example cases, or print one; changed by --set it is complete with its defaults
+    /// List the embedded example cases, or print one; with --set it is printed with the changes and all defaults
     #[command(after_help = help::CASES)]
     Cases {
         /// Name of the case to print
@@ -152,7 +152,7 @@ pub enum Command {
         #[command(flatten)]
         changes: Changes,
     },
-    /// Say what the keys of a case are: type, unit, range, default and an example (without KEY: the sections)
+    /// Explain the keys of a case: type, unit, range, default and an example (without KEY: the sections)
     #[command(after_help = help::EXPLAIN)]
     Explain {
         /// A section, a key such as layers.poisson, or the name of a key
@@ -162,12 +162,12 @@ pub enum Command {
         schema: bool,
     },
     #[cfg(feature = "validate")]
-    /// Hold percoat against closed forms, references and peers; exit code 1 when a check fails
+    /// Compare percoat with closed forms, references and other programs; exit code 1 when a check fails
     #[command(after_help = help::VALIDATE)]
     Validate {
-        /// Name of one study, or of a folder of them (`paper`) [default: all of them]
+        /// Name of one study, or of a folder of studies (`paper`) [default: all]
         study: Option<String>,
-        /// List the studies and run none
+        /// List the studies without running them
         #[arg(long, conflicts_with_all = ["expect", "output", "quiet", "verbose", "threads"])]
         list: bool,
         /// An earlier REPORT.md: fail unless studies, quantities and verdicts are the same
@@ -178,22 +178,22 @@ pub enum Command {
         #[command(flatten)]
         work: Work,
     },
-    /// Completions of commands and options for a shell
+    /// Print the completions of commands and options for a shell
     #[command(after_help = help::COMPLETIONS)]
     Completions {
-        /// Which shell
+        /// Name of the shell
         shell: Shell,
     },
-    /// The manual page of percoat, or of one of its commands, as roff
+    /// Print the manual page of percoat, or of one of its commands, as roff
     #[command(after_help = help::MAN)]
     Man {
-        /// A command
+        /// Name of the command
         command: Option<String>,
     },
 }
 
 impl Arguments {
-    /// The command line as typed, its own name first; what cannot be read is told, with the exit code that goes with it.
+    /// The arguments of a command line, the program's name first; an error is printed, and its exit code returned.
     pub fn read(typed: &[OsString]) -> Result<Self, u8> {
         let words: Vec<String> = typed.iter().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
         terminal::choose_colour(typed_colour(&words));
@@ -205,7 +205,7 @@ impl Arguments {
         })
     }
 
-    /// Threads asked for, and whether nothing but errors is wanted; `None` for a command that computes nothing.
+    /// Number of threads that is prescribed, and whether errors alone are printed; `None` for a command that computes nothing.
     pub fn computes(&self) -> Option<(Option<u16>, bool)> {
         match &self.command {
             Command::Solve { common, .. }
@@ -223,14 +223,14 @@ impl Arguments {
     }
 }
 
-/// Prints the help that was asked for, or what is wrong with the command line; gives the exit code.
+/// Prints the help, or the error of the command line; returns the exit code.
 fn answer(error: &clap::Error, message: Option<String>, words: &[String]) -> u8 {
     let printed = match message {
         Some(message) => {
             tell!("error: {message}");
             Ok(())
         }
-        // Words that act on a terminal are shown, without colours.
+        // Words with control characters are shown as their escapes, without colours.
         None if error.use_stderr() && words.iter().any(|word| word.contains(plain::is_hidden)) => {
             tell!("{}", error.render().to_string().trim_end());
             Ok(())
@@ -248,7 +248,7 @@ fn answer(error: &clap::Error, message: Option<String>, words: &[String]) -> u8 
     }
 }
 
-/// The last colour that is typed, which must be known before anything else can be told.
+/// The last value of --color, which is needed before any message.
 fn typed_colour(words: &[String]) -> Colour {
     let mut colour = Colour::Auto;
     let mut words = words.iter().map(String::as_str).take_while(|word| *word != "--");
@@ -259,7 +259,7 @@ fn typed_colour(words: &[String]) -> Colour {
     colour
 }
 
-/// A wavenumber that double precision carries through the products made of it.
+/// A wavenumber whose powers are within double precision.
 fn wavenumber(text: &str) -> Result<f64, String> {
     number(text, |x| CARRIED.contains(&x), "a number greater than 0, between 1e-60 and 1e60")
 }

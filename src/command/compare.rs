@@ -3,18 +3,17 @@
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
-use super::interruption;
 use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::progress::Progress;
+use super::results::Results;
 use super::terminal;
-use crate::case::plausibility;
 use crate::case::resources::Job;
-use crate::output::{ComparisonFile, Plan, RunFolder, Writer, table, write_text};
+use crate::case::{Case, plausibility};
+use crate::comparison::{Comparison, ComparisonTask};
+use crate::output::{ComparisonFile, Plan, Writer, table};
 use crate::picture;
-use crate::plain;
-use crate::run::{End, Run, Sampling};
-use std::io::Write;
+use crate::run::{RefinementEnd, Run, Sampling};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -36,21 +35,42 @@ pub fn run(
     let started = Instant::now();
     let (task, steps) = (case.comparison(), case.load.values().len());
     let run = Run { loads: vec![task.load], stress: None, ..case.run() };
-    let job = Job::Compare { pictures: pictures.wanted() };
-    let mut allowed = Allowed::new(&case, &folder, job)?;
+    let allowed = Allowed::new(&case, &folder, Job::Compare { pictures: pictures.wanted() })?;
     run.check()?;
     task.check().map_err(Failure::refused)?;
-    interruption::watch();
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
-    let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Compare) })?;
-    terminal::tell_aside(claim.set_aside(), common.quiet);
-    let (points, end) = match case.grid {
-        Sampling::Points(points) => (points, End::Reached),
+    let results = Results::claim(&folder, Plan { names, ..Plan::new(Writer::Compare) }, common.quiet)?;
+    let (points, end) = grid(&case, &run, allowed)?;
+    let comparison = compare(&task, points, common)?;
+    let json = ComparisonFile::new(&comparison, &case, steps).to_json();
+    results.write("compare.json", &json)?;
+    pictures
+        .write(&results.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
+    let published = results.publish()?;
+    let tables = || table::compared(&case, &comparison, terminal::width());
+    let line = format!("{:.2} s", started.elapsed().as_secs_f64());
+    published.print(common, || json, tables, &line)?;
+    let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
+    if end != RefinementEnd::Reached {
+        warnings.push(format!("grid.accuracy is not reached: {end}"));
+    }
+    terminal::warn(&warnings, common.quiet);
+    Ok(Ending::of(comparison.converged() && end == RefinementEnd::Reached))
+}
+
+/// Points of the grid of the spectral solution, and whether the accuracy, if one is prescribed, is reached there.
+fn grid(case: &Case, run: &Run, mut allowed: Allowed<'_>) -> Result<([usize; 2], RefinementEnd), Failure> {
+    match case.grid {
+        Sampling::Points(points) => Ok((points, RefinementEnd::Reached)),
         Sampling::Accuracy(_) => {
             let refined = run.solve(&mut allowed)?;
-            (refined.points, refined.end.unwrap_or(End::Reached))
+            Ok((refined.points, refined.end.unwrap_or(RefinementEnd::Reached)))
         }
-    };
+    }
+}
+
+/// Solves the task by both methods on a grid, and shows the progress.
+fn compare(task: &ComparisonTask, points: [usize; 2], common: &Common) -> Result<Comparison, Failure> {
     let progress = Progress::new("", 0, 0, common);
     let comparison = task.compare(points, &mut |what| {
         if common.verbose {
@@ -60,24 +80,5 @@ pub fn run(
         ControlFlow::Continue(())
     });
     progress.finish();
-    let comparison = comparison.map_err(Failure::refused)?;
-
-    let json = ComparisonFile::new(&comparison, &case, steps).to_json();
-    write_text(&claim.staging().join("compare.json"), &json)?;
-    pictures.write(&claim.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
-    interruption::publish(claim, &folder, common.quiet)?;
-    if common.json {
-        write!(terminal::out(), "{json}")?;
-    } else if !common.quiet {
-        let mut out = terminal::out();
-        write!(out, "{}", table::compared(&case, &comparison, terminal::width()))?;
-        writeln!(out, "{:.2} s; written to {}", started.elapsed().as_secs_f64(), plain::path(&folder))?;
-    }
-    let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
-    if end != End::Reached {
-        warnings.push(format!("grid.accuracy is not reached: {end}"));
-    }
-    terminal::warn(&warnings, common.quiet);
-    let converged = comparison.converged() && end == End::Reached;
-    Ok(if converged { Ending::Done } else { Ending::NotConverged })
+    comparison.map_err(Failure::refused)
 }

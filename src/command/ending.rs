@@ -24,6 +24,11 @@ pub enum Ending {
 }
 
 impl Ending {
+    /// The ending of a command that has computed everything, by whether all of it converged.
+    pub fn of(converged: bool) -> Self {
+        if converged { Self::Done } else { Self::NotConverged }
+    }
+
     /// What the shell is told.
     pub fn code(self) -> u8 {
         match self {

@@ -1,4 +1,4 @@
-//! What stands at the end of every help: examples and exit codes.
+//! The end of every help: examples and exit codes.
 
 macro_rules! help {
     ($name:ident, $codes:literal, $($example:literal $(=> $words:literal)?),+) => {

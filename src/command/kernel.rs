@@ -1,4 +1,4 @@
-//! `percoat kernel`: the layered half-space's response, one JSON line a wavenumber.
+//! `percoat kernel`: the response of the layered half-space, one JSON line for each wavenumber.
 
 use super::ending::{Ending, Failure};
 use super::input::read_case;

@@ -1,29 +1,27 @@
-//! `percoat limit`: the mean pressure at which something first fails, and what.
+//! `percoat limit`: the mean pressures at which materials and interfaces fail.
 
 use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
-use super::interruption;
 use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::progress::Progress;
+use super::results::Results;
 use super::terminal;
-use crate::case::plausibility;
 use crate::case::resources::Job;
-use crate::output::{LimitFile, Plan, RunFolder, Writer, number, summary, table, with_error, write_text};
+use crate::case::{Case, plausibility};
+use crate::output::{LimitFile, Plan, Writer, number, summary, table, with_error};
 use crate::picture::{self, Snapshot};
-use crate::plain;
-use crate::run::{Recorder, Shown, StepRecord};
+use crate::run::{LimitStep, Limits, Recorder, Run, StepRecord};
 use crate::{Solver, Step, StressField};
 use std::convert::Infallible;
-use std::io::Write;
 use std::path::Path;
 use std::time::Instant;
 
-/// The case without one: it has strengths.
+/// Name of the embedded case that is taken where none is given: it has strengths.
 const DEFAULT: &str = "dlc-on-steel";
 
-/// Shows how far the search is.
+/// Shows the progress of the search.
 struct Searching<'a> {
     allowed: Allowed<'a>,
     common: &'a Common,
@@ -74,40 +72,36 @@ pub fn run(
     let run = case.run();
     let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() })?;
     run.check_limits()?;
-    interruption::watch();
     let names = ["limit.json", "limit.csv"].map(str::to_owned).into_iter();
     let names = names.chain(pictures.files(&["limit", "limit-section"])).collect();
-    let claim = RunFolder::claim(&folder, Plan { names, ..Plan::new(Writer::Limit) })?;
-    terminal::tell_aside(claim.set_aside(), common.quiet);
-    let progress = Progress::new("", 0, 0, common);
-    let mut searching = Searching { allowed, common, progress };
+    let results = Results::claim(&folder, Plan { names, ..Plan::new(Writer::Limit) }, common.quiet)?;
+    let mut searching = Searching { allowed, common, progress: Progress::new("", 0, 0, common) };
     let limits = run.limits(&mut searching)?;
     searching.progress.finish();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
     let json = LimitFile::new(&limits, &case, &warnings).to_json();
-    write_text(&claim.staging().join("limit.json"), &json)?;
+    results.write("limit.json", &json)?;
     if !limits.steps.is_empty() {
-        write_text(&claim.staging().join("limit.csv"), &summary::curve(&limits.steps))?;
+        results.write("limit.csv", &summary::curve(&limits.steps))?;
     }
-    pictures.write(&claim.staging(), "limit", || {
-        picture::utilisations(&case.title, case.problem(), &case.units(), &limits)
-    })?;
-    if let (true, Some(section), Some(Shown { limit, record, step })) =
-        (pictures.wanted(), limits.section(&run), limits.shown.clone())
+    draw(&results, &case, &run, &limits, pictures)?;
+    let published = results.publish()?;
+    let line = format!("{} loads solved; {:.2} s", limits.steps.len(), started.elapsed().as_secs_f64());
+    published.print(common, || json, || table::limited(&case, &limits, terminal::width()), &line)?;
+    terminal::warn(&warnings, common.quiet);
+    Ok(Ending::of(limits.converged()))
+}
+
+/// Draws the utilisations over the load, and the stresses under the place that fails first.
+fn draw(results: &Results, case: &Case, run: &Run, limits: &Limits, pictures: &PictureOptions) -> Result<(), Failure> {
+    let staging = results.staging();
+    pictures.write(&staging, "limit", || picture::utilisations(&case.title, case.problem(), &case.units(), limits))?;
+    if let (true, Some(section), Some(LimitStep { limit, record, step })) =
+        (pictures.wanted(), limits.section(run), limits.shown.clone())
     {
         let snapshot = Snapshot::new(&case.title, step, record.reading).with_strength(record.strength);
         let snapshot = snapshot.at_limit_of(limit.criterion).with_units(case.units());
-        pictures.write(&claim.staging(), "limit-section", || Some(picture::section(&snapshot, &section)))?;
+        pictures.write(&staging, "limit-section", || Some(picture::section(&snapshot, &section)))?;
     }
-    interruption::publish(claim, &folder, common.quiet)?;
-    if common.json {
-        write!(terminal::out(), "{json}")?;
-    } else if !common.quiet {
-        let mut out = terminal::out();
-        write!(out, "{}", table::limited(&case, &limits, terminal::width()))?;
-        let (loads, seconds) = (limits.steps.len(), started.elapsed().as_secs_f64());
-        writeln!(out, "{loads} loads solved; {seconds:.2} s; written to {}", plain::path(&folder))?;
-    }
-    terminal::warn(&warnings, common.quiet);
-    Ok(if limits.converged() { Ending::Done } else { Ending::NotConverged })
+    Ok(())
 }

@@ -1,4 +1,4 @@
-//! `percoat completions` and `percoat man`: for the shell and for the reader of manuals.
+//! `percoat completions` and `percoat man`: completions for a shell, and manual pages.
 
 use super::arguments::Arguments;
 use super::ending::{Ending, Failure};
@@ -7,16 +7,16 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use std::io::Write;
 
-/// Completions for a shell.
+/// Prints the completions for a shell.
 pub fn completions(shell: Shell) -> Result<Ending, Failure> {
-    // A generator writes to what cannot fail.
+    // The generator panics where writing fails: memory does not fail.
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut Arguments::command(), "percoat", &mut text);
     terminal::out().write_all(&text)?;
     Ok(Ending::Done)
 }
 
-/// The page of percoat, or of one of its commands.
+/// Prints the manual page of percoat, or of one of its commands.
 pub fn page(name: Option<&str>) -> Result<Ending, Failure> {
     let mut percoat = Arguments::command();
     percoat.build();

@@ -1,4 +1,4 @@
-//! Commands: what the user types, and how it ends.
+//! The commands of the program.
 
 mod allowed;
 mod arguments;
@@ -18,9 +18,10 @@ mod options;
 mod pictures;
 mod plan;
 mod progress;
+mod progress_recorder;
 mod report;
+mod results;
 mod roughness;
-mod shown;
 mod solve;
 mod sweep;
 mod terminal;
@@ -34,7 +35,7 @@ use ending::{Ending, Failure};
 use std::ffi::OsString;
 use std::io::Write;
 
-/// The program: reads what is `typed`, its own name first, runs the command, and gives the exit code.
+/// The program: reads the command line `typed`, its own name first, runs the command, and returns the exit code.
 pub fn main(typed: impl IntoIterator<Item = OsString>) -> u8 {
     let typed: Vec<OsString> = typed.into_iter().collect();
     threads::on_own_stack(move || Arguments::read(&typed).map_or_else(|code| code, |arguments| run(&arguments)))
@@ -44,7 +45,7 @@ fn run(arguments: &Arguments) -> u8 {
     interruption::outlive_large_files();
     let ended = arguments.computes().map_or(Ok(()), |(count, quiet)| threads::start(count, quiet));
     let ended = ended.and_then(|()| carry_out(&arguments.command));
-    // What stands in the buffer may not fit on the disk.
+    // The rest of the buffer may not fit on the disk.
     let ended = ended.and_then(|ending| Ok(terminal::out().flush().map(|()| ending)?));
     match ended {
         Ok(ending) => ending.code(),

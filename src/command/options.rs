@@ -1,4 +1,4 @@
-//! Options that several commands share.
+//! Options of several commands.
 
 use clap::Args;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ pub struct Common {
     /// Print nothing but errors
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Say more on the way
+    /// Print more about the progress
     #[arg(short, long)]
     pub verbose: bool,
     /// Print the summary on standard output as JSON, instead of tables
@@ -23,7 +23,7 @@ pub struct Common {
     pub json: bool,
 }
 
-/// How a command that computes nothing tells of its result.
+/// Options of printing of the commands that compute nothing.
 #[derive(Debug, Args)]
 pub struct Saying {
     /// Print nothing but errors
@@ -34,7 +34,7 @@ pub struct Saying {
     pub json: bool,
 }
 
-/// Overrides of a case.
+/// Changes of a case.
 #[derive(Debug, Args)]
 pub struct Changes {
     /// Change a value of the case, as in layers.0.thickness=0.2 (repeatable)
@@ -42,7 +42,7 @@ pub struct Changes {
     pub set: Vec<String>,
 }
 
-/// Where the studies of a validation go, and how they are told of.
+/// Options of output and printing of a validation.
 #[cfg(feature = "validate")]
 #[derive(Debug, Args)]
 pub struct Studies {
@@ -52,12 +52,12 @@ pub struct Studies {
     /// Print nothing but errors
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Say more on the way
+    /// Print more about the progress
     #[arg(short, long)]
     pub verbose: bool,
 }
 
-/// How much of the machine is used.
+/// Options on the use of the machine.
 #[derive(Debug, Args)]
 pub struct Work {
     /// Threads to use [default: all cores]; results do not depend on it

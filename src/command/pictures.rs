@@ -1,4 +1,4 @@
-//! The pictures of a run, drawn without being asked.
+//! The pictures of the commands, and the options on them.
 
 use super::ending::Failure;
 use crate::VerticalSection;
@@ -27,23 +27,23 @@ fn format(ending: &str) -> Result<Format, &'static str> {
 }
 
 impl PictureOptions {
-    /// Whether there are any pictures.
+    /// Whether pictures are drawn.
     pub fn wanted(&self) -> bool {
         !self.no_pictures
     }
 
-    /// Names of the files of pictures.
+    /// File names of pictures with these names, in all formats.
     pub fn files(&self, names: &[&str]) -> Vec<String> {
         let file = |format: Format| move |name: &&str| format!("{name}.{}", format.extension());
         self.formats().into_iter().flat_map(|format| names.iter().map(file(format))).collect()
     }
 
-    /// The formats asked for; none without pictures.
+    /// The chosen formats; none without pictures.
     fn formats(&self) -> Vec<Format> {
         FORMATS.into_iter().filter(|format| self.wanted() && self.pictures.contains(format)).collect()
     }
 
-    /// Draws what a solved step shows, a section of its stresses if there is one, and the steps before it.
+    /// Draws the pictures of a solved step, of a section of its stresses if there is one, and of all steps.
     pub fn draw(
         &self,
         folder: &Path,
@@ -73,7 +73,7 @@ impl PictureOptions {
         pictures.par_iter().try_for_each(|(name, draw)| self.write(folder, name, draw))
     }
 
-    /// Writes one picture in every format asked for, if there is one and pictures are wanted.
+    /// Writes one picture in the chosen formats, if there is one and pictures are drawn.
     pub fn write(&self, folder: &Path, name: &str, draw: impl FnOnce() -> Option<Canvas>) -> Result<(), Failure> {
         let Some(canvas) = self.wanted().then(draw).flatten() else { return Ok(()) };
         for format in self.formats() {

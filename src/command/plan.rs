@@ -4,7 +4,7 @@ use super::pictures::PictureOptions;
 use crate::case::Case;
 use crate::output::{Plan, solved_plan};
 
-/// What a run of the case may write, with its fields or without.
+/// Files that a run of the case may write, with its fields or without.
 pub fn may_write(case: &Case, steps: usize, fields: bool, pictures: &PictureOptions) -> Plan {
     let mut plan = solved_plan(case, steps, fields);
     let mut drawn = vec!["pressure", "contact", "profiles"];

@@ -1,4 +1,4 @@
-//! How far a command is: on a terminal a line that is drawn again, elsewhere a line every ten seconds.
+//! The progress of a command: on a terminal a line that is redrawn, elsewhere a line every ten seconds.
 
 use super::options::Common;
 use super::terminal::{self, tell};
@@ -10,45 +10,49 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Between two lines where nothing can be drawn again.
+/// Time between two lines where no line can be redrawn.
 const PERIOD: Duration = Duration::from_secs(10);
 
-/// What a person who waits is told.
+/// The display of the progress.
 #[derive(Debug)]
 pub struct Progress {
-    state: Arc<Mutex<State>>,
+    state: Arc<Mutex<ProgressState>>,
     bar: ProgressBar,
-    /// Ends the lines when it goes.
+    /// Ends the lines when it is dropped.
     _lines: Option<Sender<()>>,
 }
 
+/// The numbers and words of the display.
 #[derive(Debug, Clone)]
-struct State {
-    /// What is counted, such as `step`; nothing where the end is not known.
+struct ProgressState {
+    /// Name of what is counted, such as `step`; empty where the number is not known.
     unit: &'static str,
+    /// Number of units done.
     done: usize,
+    /// Number of all units; 0 where it is not known.
     of: usize,
-    /// The grid that is worked on.
+    /// Points of the present grid.
     points: Option<[usize; 2]>,
-    /// What goes on right now.
+    /// Description of the present work.
     phase: String,
     began: Instant,
-    /// When the present count began, and at what.
+    /// Time at which the present count began, and the number of units done then.
     counted: (Instant, usize),
 }
 
 impl Progress {
-    /// Of so many of a `unit`, some of which are done; of an unknown number of nothing when `of` is 0.
+    /// Progress over a number `of` units, some of which are `done`; over an unknown number when `of` is 0.
     pub fn new(unit: &'static str, of: usize, done: usize, common: &Common) -> Self {
         let now = Instant::now();
-        let state = State { unit, done, of, points: None, phase: String::new(), began: now, counted: (now, done) };
+        let state =
+            ProgressState { unit, done, of, points: None, phase: String::new(), began: now, counted: (now, done) };
         let state = Arc::new(Mutex::new(state));
         let drawn = !common.quiet && !common.verbose && terminal::moves();
         let bar = if drawn { ProgressBar::new(of as u64) } else { ProgressBar::hidden() };
         let template = if of > 0 { "{bar:16} {msg}" } else { "{spinner} {msg}" };
         bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
         bar.set_position(done as u64);
-        // The line moves by a thread of its own, where there is one more.
+        // The line is redrawn by a thread of its own, if one can be started.
         if drawn && thread::Builder::new().spawn(|| ()).is_ok() {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
@@ -59,14 +63,14 @@ impl Progress {
         Self { state, bar, _lines: lines }
     }
 
-    /// What goes on now.
+    /// Shows a description of the present work.
     pub fn say(&self, phase: impl Into<String>) {
         let mut state = held(&self.state);
         state.phase = plain::line(&phase.into()).into_owned();
         self.bar.set_message(state.to_string());
     }
 
-    /// One more is done.
+    /// Counts one more unit as done.
     pub fn advance(&self) {
         let mut state = held(&self.state);
         state.done += 1;
@@ -74,7 +78,7 @@ impl Progress {
         self.bar.set_message(state.to_string());
     }
 
-    /// All begins again, on a grid of `points`, with some done already.
+    /// Begins the count anew, on a grid of `points`, with some units done.
     pub fn grid(&self, points: [usize; 2], done: usize) {
         let mut state = held(&self.state);
         (state.points, state.done, state.counted) = (Some(points), done, (Instant::now(), done));
@@ -82,22 +86,22 @@ impl Progress {
         self.bar.set_message(state.to_string());
     }
 
-    /// A line between those of progress.
+    /// Prints a line between those of the progress.
     pub fn tell(&self, line: impl fmt::Display) {
         self.bar.suspend(|| tell!("{line}"));
     }
 
-    /// Nothing more is told.
+    /// Ends the display.
     pub fn finish(self) {
         self.bar.finish_and_clear();
     }
 }
 
-fn held(state: &Mutex<State>) -> MutexGuard<'_, State> {
+fn held(state: &Mutex<ProgressState>) -> MutexGuard<'_, ProgressState> {
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Calls `line` again and again until the sender goes.
+/// Calls `line` once a period until the sender is dropped.
 fn lines(period: Duration, line: impl Fn() + Send + 'static) -> Sender<()> {
     let (sender, goes_on) = mpsc::channel();
     // Without a thread there are no lines.
@@ -109,8 +113,8 @@ fn lines(period: Duration, line: impl Fn() + Send + 'static) -> Sender<()> {
     sender
 }
 
-impl State {
-    /// Time left if the rest takes as long as what was done since the count began.
+impl ProgressState {
+    /// Time left if the rest takes as long as the units done since the count began.
     fn left(&self) -> Option<Duration> {
         let (since, from) = self.counted;
         let done = self.done.checked_sub(from).filter(|done| *done > 0)?;
@@ -119,7 +123,7 @@ impl State {
     }
 }
 
-impl fmt::Display for State {
+impl fmt::Display for ProgressState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
         if self.of > 0 {
@@ -133,7 +137,7 @@ impl fmt::Display for State {
     }
 }
 
-/// As a person says it: 12 s, 3 min 20 s, 2 h 5 min.
+/// A time in words: 12 s, 3 min 20 s, 2 h 5 min.
 fn duration(time: Duration) -> String {
     let seconds = time.as_secs();
     match (seconds / 3600, seconds / 60 % 60, seconds % 60) {
@@ -151,7 +155,7 @@ mod tests {
     #[test]
     fn a_line_says_what_goes_on_and_how_long_it_takes() {
         let ago = |seconds: u64| Instant::now().checked_sub(Duration::from_millis(1000 * seconds + 500)).unwrap();
-        let state = State {
+        let state = ProgressState {
             unit: "step",
             done: 4,
             of: 10,
@@ -161,13 +165,13 @@ mod tests {
             counted: (ago(20), 2),
         };
         assert_eq!(state.to_string(), "step 5 of 10, 64 × 48 samples, stresses, 3 min 20 s, about 1 min 1 s left");
-        let last = State { done: 10, of: 10, ..state };
+        let last = ProgressState { done: 10, of: 10, ..state };
         assert_eq!(last.to_string(), "step 10 of 10, 64 × 48 samples, stresses, 3 min 20 s");
         assert_eq!(duration(Duration::from_secs(7510)), "2 h 5 min");
     }
 
     #[test]
-    fn lines_come_until_their_sender_goes() {
+    fn lines_come_until_their_sender_is_dropped() {
         let count = Arc::new(AtomicUsize::new(0));
         let own = Arc::clone(&count);
         let sender = lines(Duration::from_millis(5), move || {

@@ -24,7 +24,7 @@ impl From<ReportError> for Failure {
 
 pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, Failure> {
     let file = output.map_or_else(|| folder.join(NAME), Path::to_path_buf);
-    // Nothing is made in a folder without a result.
+    // A folder without a result is left unchanged.
     let mut page = report::page(folder)?;
     let own = owned(&file)?;
     match file.file_name().and_then(|name| name.to_str()).filter(|_| is_in(&file, folder)) {
@@ -47,17 +47,17 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
 fn publish(folder: &Path, name: &str, own: bool) -> Result<Page, Failure> {
     let names = vec![name.to_owned()];
     let adopted = if own { names.clone() } else { Vec::new() };
-    // Pages of other names stay.
+    // Pages with other names are kept.
     let scope = Scope { within: name.to_owned(), except: Vec::new() };
     let claim = RunFolder::claim(folder, Plan { names, adopted, scope, ..Plan::new(Writer::Report) })?;
-    // No run writes there now: what is read belongs together.
+    // With the claim no run writes there: the files that are read belong together.
     let page = report::page(folder)?;
     write_text(&claim.staging().join(name), &page.html)?;
     interruption::publish(claim, folder, true)?;
     Ok(page)
 }
 
-/// Whether an earlier page stands there that may be replaced; anything else is refused.
+/// Whether the file is an earlier page that may be replaced; other files are refused.
 fn owned(file: &Path) -> Result<bool, Failure> {
     match report::is_own(file) {
         Ok(true) => Ok(true),
@@ -70,7 +70,7 @@ fn owned(file: &Path) -> Result<bool, Failure> {
     }
 }
 
-/// Whether the file stands, or would stand, in the folder itself.
+/// Whether a file lies, or would lie, in the folder itself.
 fn is_in(file: &Path, folder: &Path) -> bool {
     let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let real = |path: &Path| -> Option<PathBuf> { fs::canonicalize(path).ok() };

@@ -8,7 +8,8 @@ use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::plan::may_write;
 use super::progress::Progress;
-use super::shown::Shown;
+use super::progress_recorder::ProgressRecorder;
+use super::results::Results;
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};
@@ -18,18 +19,19 @@ use crate::output::{
 };
 use crate::picture::Snapshot;
 use crate::plain;
-use crate::run::{Finished, Run, Sampling, StepRecord};
+use crate::run::{Finished, Outcome, Run, Sampling, StepRecord};
+use crate::stress::VerticalSection;
 use clap::Args;
 use std::io::Write;
 use std::path::Path;
 
-/// What stays of a run.
+/// Options of `percoat solve` alone.
 #[derive(Debug, Args)]
 pub struct SolveOptions {
-    /// Keep scalars alone: no contact.npz, stress.npz and volumes
+    /// Write scalars only: no contact.npz, stress.npz and volumes
     #[arg(long)]
     no_fields: bool,
-    /// Go on from what an earlier run into the folder was stopped at
+    /// Continue an interrupted run into the folder
     #[arg(long)]
     resume: bool,
 }
@@ -44,30 +46,24 @@ pub fn run(
     let clock = Clock::start();
     let (case, name) = read_case(case, &changes.set)?;
     let folder = output_folder(common, &name)?;
-    let run = case.run();
-    let job = Job::Solve { pictures: pictures.wanted(), fields: !options.no_fields };
-    let mut room = Room::on_this_machine(&folder);
+    let (run, fields) = (case.run(), !options.no_fields);
+    let steps = run.loads.len();
     // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
     // takes over that load.
-    let goes_on = options.resume || RunFolder::has_solved_alone(&folder);
-    if goes_on {
-        // What stands there already takes no room again.
-        room.disk = room.disk.saturating_add(RunFolder::gathered(&folder));
-    }
-    let allowed = Allowed::within(&case, room, job)?;
+    let resumes = options.resume || RunFolder::has_solved_alone(&folder);
+    let room = room(&folder, resumes);
+    let allowed = Allowed::within(&case, room, Job::Solve { pictures: pictures.wanted(), fields })?;
     run.check()?;
-    interruption::watch();
-    let plan = may_write(&case, run.loads.len(), !options.no_fields, pictures);
-    let mut claim = RunFolder::claim(&folder, Plan { resumes: goes_on, ..plan })?;
-    terminal::tell_aside(claim.set_aside(), common.quiet);
-    let fingerprint = output::fingerprint(&case, if options.no_fields { "scalars" } else { "fields" });
-    let was_begun = claim.resumes();
-    let earlier = earlier(&mut claim, &fingerprint, &run, options.resume, common.quiet)?;
+    let plan = Plan { resumes, ..may_write(&case, steps, fields, pictures) };
+    let mut results = Results::claim(&folder, plan, common.quiet)?;
+    let fingerprint = output::fingerprint(&case, if fields { "fields" } else { "scalars" });
+    let was_begun = results.claim.resumes();
+    let earlier = earlier(&mut results.claim, &fingerprint, &run, options.resume, common.quiet)?;
     if options.resume
         && !was_begun
-        && let Some((ending, summary)) = finished(&case, &folder, run.loads.len(), !options.no_fields)
+        && let Some((ending, summary)) = finished(&case, &folder, steps, fields)
     {
-        claim.leave()?;
+        results.claim.leave()?;
         if !common.quiet {
             tell!("note: {} is finished; leave --resume out to solve it again", plain::path(&folder));
         }
@@ -77,41 +73,54 @@ pub fn run(
         return Ok(ending);
     }
     if let Some(earlier) = &earlier {
-        *interruption::hold() = Saved::Steps { done: done(earlier), of: run.loads.len(), folder: claim.staging() };
+        *interruption::hold() = Saved::Steps { done: done(earlier), of: steps, folder: results.staging() };
     }
-    let recording = Recording::new(&claim, &run, case.to_toml(), clock).resumable(fingerprint, earlier);
-    let recording = if options.no_fields { recording.without_fields() } else { recording };
-    let mut recording = Shown::new(recording, &claim, &run, allowed, common);
+    let recording = Recording::new(&results.claim, &run, case.to_toml(), clock).resumable(fingerprint, earlier);
+    let recording = if fields { recording } else { recording.without_fields() };
+    let mut recording = ProgressRecorder::new(recording, &results.claim, &run, allowed, common);
     let outcome = run.solve(&mut recording)?;
     let (section, mut clock) = recording.finish()?;
-    let ending = if outcome.converged() { Ending::Done } else { Ending::NotConverged };
     let warnings = [outcome.warnings.clone(), plausibility::of_case(&case)].concat();
-    let steps = &outcome.steps;
-    if let (Some(last), Some(record), true) = (&outcome.last, steps.last(), pictures.wanted()) {
+    draw(&results, &case, &outcome, section.as_ref(), pictures, common)?;
+    let timing = clock.timing();
+    write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
+    let published = results.publish()?;
+    let json = || Summary::new(&case, &warnings, outcome.change, &outcome.steps, timing).to_json();
+    let tables = || table::outcome(&case, &outcome.steps, outcome.change, terminal::width());
+    let line = format!("{:.2} s ({})", clock.seconds(), table::timing(&timing));
+    published.print(common, json, tables, &line)?;
+    terminal::warn(&warnings, common.quiet);
+    Ok(Ending::of(outcome.converged()))
+}
+
+/// Memory and disk of this machine for a run into a folder. Files of an earlier run that is resumed take no room again.
+fn room(folder: &Path, resumes: bool) -> Room {
+    let room = Room::on_this_machine(folder);
+    if resumes { Room { disk: room.disk.saturating_add(RunFolder::gathered(folder)), ..room } } else { room }
+}
+
+/// Draws the pictures of the last step, and of the steps before it.
+fn draw(
+    results: &Results,
+    case: &Case,
+    outcome: &Outcome,
+    section: Option<&VerticalSection>,
+    pictures: &PictureOptions,
+    common: &Common,
+) -> Result<(), Failure> {
+    if let (Some(last), Some(record), true) = (&outcome.last, outcome.steps.last(), pictures.wanted()) {
         let snapshot = Snapshot::new(&case.title, last.clone(), record.reading.clone());
         let snapshot = snapshot.with_strength(record.strength.clone()).with_units(case.units());
         let progress = Progress::new("", 0, 0, common);
         progress.say("drawing pictures");
-        pictures.draw(&claim.staging(), &snapshot, section.as_ref(), steps)?;
+        pictures.draw(&results.staging(), &snapshot, section, &outcome.steps)?;
         progress.finish();
     }
-    let timing = clock.timing();
-    write_scalars(&claim.staging(), &case, &outcome, &warnings, timing)?;
-    interruption::publish(claim, &folder, common.quiet)?;
-    if common.json {
-        write!(terminal::out(), "{}", Summary::new(&case, &warnings, outcome.change, steps, timing).to_json())?;
-    } else if !common.quiet {
-        let mut out = terminal::out();
-        write!(out, "{}", table::outcome(&case, steps, outcome.change, terminal::width()))?;
-        let (seconds, parts) = (clock.seconds(), table::timing(&timing));
-        writeln!(out, "{seconds:.2} s ({parts}); written to {}", plain::path(&folder))?;
-    }
-    terminal::warn(&warnings, common.quiet);
-    Ok(ending)
+    Ok(())
 }
 
-/// The steps of an earlier run into the folder from which this one goes on. With `demanded` (`--resume`) steps of another run are
-/// an error, and damaged ones are moved aside and solved again.
+/// Steps of an earlier run into the folder with which this one goes on. With `demanded` (`--resume`) steps of another run are an
+/// error, and damaged ones are moved aside and solved again.
 fn earlier(
     claim: &mut RunFolder,
     fingerprint: &str,
@@ -154,7 +163,8 @@ fn done(earlier: &Finished) -> usize {
     earlier.steps.len() + usize::from(earlier.last.is_some())
 }
 
-/// Ending and summary of the finished result in a folder, if it is of this case and whole; a warning names files that are missing.
+/// Ending and summary of the finished result in a folder; `None` if it is of another case, or not whole. A warning names files that
+/// are missing.
 fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(Ending, String)> {
     let is_own =
         |name: &str| disk::is_file(&folder.join(name)) && is_beside("summary.json", folder, name).unwrap_or(false);

@@ -1,4 +1,4 @@
-//! What standard error can show: <https://no-color.org>, and terminals that only print.
+//! Standard error and standard output: colours (<https://no-color.org>), and terminals without a cursor.
 
 use crate::plain;
 use std::env;
@@ -10,7 +10,7 @@ use std::path::Path;
 use clap::{ColorChoice, ValueEnum};
 use std::sync::OnceLock;
 
-/// Prints a line on standard error, hidden characters as their escapes ([`plain`]). Where it cannot be written, the command goes on.
+/// Prints a line on standard error, hidden characters as their escapes ([`plain`]). A line that cannot be written is no error.
 macro_rules! tell {
     ($($message:tt)*) => {
         $crate::command::terminal::print_line(&$crate::plain::lines(&format!($($message)*)))
@@ -18,16 +18,16 @@ macro_rules! tell {
 }
 pub(super) use tell;
 
-/// A line on standard error as it is, with colours that are percoat's own.
+/// Prints a line on standard error as it is, with percoat's own colours.
 pub fn print_line(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// Standard output, with hidden characters as their escapes ([`plain`]). Where a closed pipe takes no more, the command goes on to
-/// its end and its exit code.
+/// Standard output, with hidden characters as their escapes ([`plain`]). A closed pipe is no error: the command goes on to its end
+/// and its exit code.
 pub struct Out(StdoutLock<'static>);
 
-/// Standard output, for one writer.
+/// Locks standard output for one writer.
 pub fn out() -> Out {
     Out(io::stdout().lock())
 }
@@ -46,6 +46,7 @@ impl Write for Out {
     }
 }
 
+/// The result, or a value in place of the error of a closed pipe.
 fn unless_unread<T>(result: io::Result<T>, otherwise: T) -> io::Result<T> {
     match result {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(otherwise),
@@ -53,12 +54,12 @@ fn unless_unread<T>(result: io::Result<T>, otherwise: T) -> io::Result<T> {
     }
 }
 
-/// Empties the line of the terminal.
+/// Clears the line of the terminal.
 pub fn clear_line() {
     let _ = write!(std::io::stderr(), "\r\x1b[K");
 }
 
-/// Says where the finished steps of an interrupted run, or files of somebody else beside them, have been moved.
+/// Prints the place to which the finished steps of an interrupted run, or foreign files beside them, have been moved.
 pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     if let (Some(place), false) = (place, quiet) {
         tell!(
@@ -68,26 +69,26 @@ pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     }
 }
 
-/// Says what of an earlier run is damaged, where all of it is now, and what is done: also to who wants no warnings, since work is lost.
+/// Prints the damage of an earlier run, the place where the run is kept, and what is done; also with --quiet, since work is lost.
 pub fn tell_damage(reason: &str, aside: Option<&Path>, done: &str) {
     let aside = aside.map_or(String::new(), |place| format!("; it is kept in {}", plain::path(place)));
     tell!("warning: {reason}{aside}; {done}");
 }
 
-/// Letters in a line of standard output; where it is no terminal, 80.
+/// Width of a line of standard output in characters; 80 without a terminal.
 pub fn width() -> usize {
     let size = terminal_size::terminal_size_of(io::stdout());
     size.map_or(80, |(terminal_size::Width(width), _)| usize::from(width))
 }
 
-/// Says what a reader should know before trusting the numbers.
+/// Prints warnings, unless quiet.
 pub fn warn(warnings: &[String], quiet: bool) {
     if !quiet {
         warnings.iter().for_each(|warning| tell!("warning: {warning}"));
     }
 }
 
-/// When messages are coloured.
+/// The use of colours in messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Colour {
     /// Where a terminal shows it, unless NO_COLOR is set
@@ -99,12 +100,12 @@ pub enum Colour {
     Never,
 }
 
-/// What `--color` says.
+/// The value of `--color`.
 static CHOSEN: OnceLock<Colour> = OnceLock::new();
 
-/// Whether messages are coloured from now on.
+/// Sets the use of colours in messages.
 pub fn choose_colour(colour: Colour) {
-    // It is chosen once, before anything is told.
+    // It is set once, before any message.
     let _ = CHOSEN.set(colour);
 }
 
@@ -117,8 +118,8 @@ pub fn coloured() -> bool {
     }
 }
 
-/// Colour of help and of arguments that cannot be read: where a terminal shows it, also in continuous integration,
-/// where clap alone would colour a terminal that only prints.
+/// Use of colours in the help and in errors of arguments: on terminals with a cursor, also in continuous integration, where clap alone
+/// would colour terminals without one.
 pub fn parser_colour() -> ColorChoice {
     match CHOSEN.get() {
         Some(Colour::Always) => return ColorChoice::Always,
@@ -132,7 +133,7 @@ pub fn parser_colour() -> ColorChoice {
     }
 }
 
-/// Whether lines may be drawn again in their place, as progress does.
+/// Whether lines can be redrawn in their place, as the progress is.
 pub fn moves() -> bool {
     std::io::stderr().is_terminal() && has_cursor(env::var_os("TERM"))
 }

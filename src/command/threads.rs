@@ -1,4 +1,4 @@
-//! The threads that a command works with.
+//! The threads of a command.
 
 use super::ending::Failure;
 use super::terminal::tell;
@@ -6,13 +6,13 @@ use crate::case::Threads;
 use std::error::Error;
 use std::thread;
 
-/// Stack of a thread, bytes: that of the process may be small (`ulimit -s`), and reading the command line alone takes 100 kB.
+/// Stack of a thread, bytes; the stack of the process may be small (`ulimit -s`), and reading the command line alone takes 100 kB.
 const STACK: usize = 8 << 20;
 
-/// Runs a command on a stack that is large enough, whatever that of the process is.
+/// Runs a command on a stack that is large enough, whatever the stack of the process; returns the exit code.
 pub fn on_own_stack(command: impl FnOnce() -> u8 + Send + 'static) -> u8 {
     match thread::Builder::new().stack_size(STACK).spawn(command) {
-        // It has said why it panicked.
+        // A panic has printed its message.
         Ok(running) => running.join().unwrap_or(101),
         Err(error) => {
             let failure = Failure::Threads { count: 1, error: error.to_string() };
@@ -22,16 +22,16 @@ pub fn on_own_stack(command: impl FnOnce() -> u8 + Send + 'static) -> u8 {
     }
 }
 
-/// Starts as many threads as `--threads` or the environment says, else one a core; that they are lowered is said.
-pub fn start(asked: Option<u16>, quiet: bool) -> Result<(), Failure> {
-    let threads = Threads::new("--threads", asked.map(usize::from)).map_err(Failure::Refused)?;
+/// Starts as many threads as `--threads` or the environment prescribe, else one for each core; a note says if their number is lowered.
+pub fn start(prescribed: Option<u16>, quiet: bool) -> Result<(), Failure> {
+    let threads = Threads::new("--threads", prescribed.map(usize::from)).map_err(Failure::Refused)?;
     if let (Some(lowered), false) = (&threads.lowered, quiet) {
         tell!("note: {lowered}");
     }
     threads.are_used();
     let count = threads.count;
     match rayon::ThreadPoolBuilder::new().num_threads(count).stack_size(STACK).build_global() {
-        // Only what the system says has a source: else they are started already.
+        // Errors of the system alone have a source; any other error means that the threads run already.
         Err(error) if error.source().is_some() => Err(Failure::Threads { count, error: error.to_string() }),
         _ => Ok(()),
     }

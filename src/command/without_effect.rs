@@ -1,8 +1,8 @@
-//! Options that one command has and another has no use for: said so, instead of "unexpected argument".
+//! Messages on options of other commands, instead of "unexpected argument".
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
-/// Options that only some commands have, and why the others, or the one named, do without them.
+/// Options that only some commands have, and the reason why the others, or the named one, have none.
 const OPTIONS: [(&[&str], &str, &str); 6] = [
     (&["-o", "--output"], "", "it writes no files"),
     (&["--set"], "", "it reads no case"),
@@ -12,7 +12,7 @@ const OPTIONS: [(&[&str], &str, &str); 6] = [
     (&["--pictures", "--no-pictures"], "", "it draws none"),
 ];
 
-/// What is wrong with an option of another command; `None` for every other fault. `typed` is the command line of `percoat`.
+/// Message on an option of another command; `None` for any other error. `typed` is the command line of `percoat`.
 pub fn explained(error: &clap::Error, typed: &[String], percoat: &clap::Command) -> Option<String> {
     let (ErrorKind::UnknownArgument, Some(ContextValue::String(option))) =
         (error.kind(), error.get(ContextKind::InvalidArg))

@@ -4,7 +4,7 @@
 //! the radius r from its axis. The drop d_m = h₁ − h_m ≥ 0 of the level is the distance of its apex behind that of the highest
 //! level, which touches first.
 
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 
 /// Why an indenter cannot be built.

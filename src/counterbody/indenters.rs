@@ -2,7 +2,7 @@
 
 use super::{CounterbodyError, Level, Shape};
 use crate::lattice::Lattice;
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 
 /// Site of an indenter in the cell.

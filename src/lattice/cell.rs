@@ -1,8 +1,8 @@
 //! The unit cell, and the reduced basis of its lattice.
 
 use super::LatticeError;
+use crate::notation::number;
 use crate::numeric::lanes::vectorised;
-use crate::numeric::number::number;
 use fearless_simd::Simd;
 use std::f64::consts::TAU;
 use std::fmt;

@@ -10,7 +10,7 @@ use super::cell::norm;
 use super::waves::{BORDER_TOLERANCE, WAVENUMBER_TOLERANCE, Waves};
 use super::zone::BrillouinZone;
 use super::{Cell, LatticeError};
-use crate::numeric::number::number;
+use crate::notation::number;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 

@@ -1,20 +1,19 @@
-//! Memory that starts with a line of the cache.
+//! Arrays aligned to cache lines.
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-/// Bytes of a line of the cache, the largest register of any processor.
+/// Bytes of a cache line, the largest register of any processor.
 const LINE: usize = 64;
 
-/// Numbers the first of which stands at the start of a line of the cache: a register that is loaded from a multiple of 64 bytes
-/// on never spans two lines.
+/// An array whose first number starts a cache line: a register that is loaded from a multiple of 64 bytes on never spans two lines.
 pub struct Aligned<T> {
     numbers: Vec<T>,
     first: usize,
 }
 
 impl<T: Copy + Default> Aligned<T> {
-    /// So many zeros.
+    /// An array of `len` zeros.
     pub fn new(len: usize) -> Self {
         let spare = LINE / size_of::<T>();
         let mut numbers = vec![T::default(); len + spare];
@@ -55,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_number_starts_a_line_of_the_cache() {
+    fn the_first_number_starts_a_cache_line() {
         for len in [0, 1, 7, 1000] {
             let (double, single) = (Aligned::<f64>::new(len), Aligned::<f32>::new(len));
             assert_eq!((double.len(), single.len()), (len, len));

@@ -18,7 +18,7 @@ impl<const N: usize> Chebyshev<N> {
         std::array::from_fn(|k| Self::angle(k).cos())
     }
 
-    /// Series of the function with these values at the nodes.
+    /// Series of the function with given values at the nodes.
     pub fn through(values: &[f64; N]) -> Self {
         Self(std::array::from_fn(|j| {
             let sum: f64 = values.iter().enumerate().map(|(k, value)| value * (j as f64 * Self::angle(k)).cos()).sum();
@@ -31,17 +31,17 @@ impl<const N: usize> Chebyshev<N> {
         Self::through(&Self::nodes().map(f))
     }
 
-    /// Series with these coefficients.
+    /// Series with given coefficients c_j.
     pub fn with(coefficients: [f64; N]) -> Self {
         Self(coefficients)
     }
 
-    /// c_j.
+    /// Coefficients c_j.
     pub fn coefficients(&self) -> &[f64; N] {
         &self.0
     }
 
-    /// Its value at x in [−1, 1], by Clenshaw's recurrence.
+    /// Value at x in [−1, 1], by Clenshaw's recurrence.
     pub fn at(&self, x: f64) -> f64 {
         let (mut one, mut two) = (0.0, 0.0);
         for &c in self.0[1..].iter().rev() {
@@ -51,12 +51,12 @@ impl<const N: usize> Chebyshev<N> {
     }
 }
 
-/// x in [−1, 1] of a place between `from` and `to`.
+/// Coordinate in [−1, 1] of a place between `from` and `to`.
 pub fn inside([from, to]: [f64; 2], place: f64) -> f64 {
     (2.0 * place - from - to) / (to - from)
 }
 
-/// The place between `from` and `to` of an x in [−1, 1].
+/// Place between `from` and `to` of a coordinate x in [−1, 1].
 pub fn place([from, to]: [f64; 2], x: f64) -> f64 {
     0.5 * ((to - from) * x + from + to)
 }

@@ -1,20 +1,19 @@
-//! A closed line around an axis, given by its distances at equally spaced angles from θ = 0, and Fourier series in the
-//! angle.
+//! A closed line around an axis, given by its radii at equally spaced angles from θ = 0, and Fourier series in the angle.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-/// Angles at which lines are given.
+/// Number of angles at which lines are given.
 pub const ANGLES: usize = 360;
-/// Highest harmonic of the waves at these angles.
+/// Highest harmonic of the tabulated waves.
 pub const HIGHEST: usize = 24;
 
-/// The angle of an index, radians.
+/// Angle with an index, radians.
 pub fn angle(index: usize) -> f64 {
     TAU * index as f64 / ANGLES as f64
 }
 
-/// Distance at an angle, linear between those given.
+/// Radius at an angle, linear between the given ones.
 pub fn radius(radii: &[f64], theta: f64) -> f64 {
     let count = radii.len();
     let place = theta.rem_euclid(TAU) / TAU * count as f64;
@@ -22,27 +21,26 @@ pub fn radius(radii: &[f64], theta: f64) -> f64 {
     (1.0 - rest) * radii[before] + rest * radii[(before + 1) % count]
 }
 
-/// √(enclosed area/π); 0 for no line.
+/// √(enclosed area/π); 0 without radii.
 pub fn mean_radius(radii: &[f64]) -> f64 {
     (radii.iter().map(|r| r * r).sum::<f64>() / radii.len().max(1) as f64).sqrt()
 }
 
-/// The line moved outwards by the shifts, by `most` where it moves farthest: all of it in proportion, so that it stays
-/// smooth.
+/// The line moved outwards by the shifts, scaled in proportion so that none exceeds `most`: the line stays smooth.
 pub fn moved(radii: &[f64], shifts: &[f64], most: f64) -> Vec<f64> {
     let largest = shifts.iter().fold(0.0, |most: f64, shift| most.max(shift.abs()));
     let part = (most / largest).min(1.0);
     radii.iter().zip(shifts).map(|(radius, shift)| radius + part * shift).collect()
 }
 
-/// 1, cos θ, sin θ, … of the harmonics up to `highest`.
+/// Waves 1, cos θ, sin θ, … of the harmonics up to `highest`.
 pub fn waves(theta: f64, highest: usize) -> Vec<f64> {
     let mut waves = vec![0.0; 1 + 2 * highest];
     waves_into(theta, &mut waves);
     waves
 }
 
-/// The same, as many as there is room for.
+/// Waves 1, cos θ, sin θ, … of as many harmonics as the slice holds.
 pub fn waves_into(theta: f64, waves: &mut [f64]) {
     let (sine, cosine) = theta.sin_cos();
     let (mut c, mut s) = (1.0, 0.0);
@@ -54,7 +52,7 @@ pub fn waves_into(theta: f64, waves: &mut [f64]) {
     }
 }
 
-/// The [`waves`] at the angle of an index, up to the [highest](HIGHEST).
+/// [`waves`] at the angle with an index, up to the harmonic [`HIGHEST`].
 pub fn waves_at(index: usize) -> &'static [f64] {
     static WAVES: LazyLock<Vec<[f64; 1 + 2 * HIGHEST]>> = LazyLock::new(|| {
         let at = |index| {
@@ -67,13 +65,13 @@ pub fn waves_at(index: usize) -> &'static [f64] {
     &WAVES[index]
 }
 
-/// Sums of a series of [`waves`] at the angles of a line.
+/// Values of a series of [`waves`] at the angles of a line.
 pub fn series_line(coefficients: &[f64]) -> Vec<f64> {
     let sum = |index| coefficients.iter().zip(waves_at(index)).map(|(c, wave)| c * wave).sum();
     (0..ANGLES).map(sum).collect()
 }
 
-/// Sum of a series of [`waves`] with the coefficients, at least one.
+/// Value of a series of [`waves`] at an angle; it has at least one coefficient.
 pub fn series(coefficients: &[f64], theta: f64) -> f64 {
     let (sine, cosine) = theta.sin_cos();
     let (mut c, mut s) = (1.0, 0.0);

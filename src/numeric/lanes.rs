@@ -1,20 +1,20 @@
-//! Eight numbers at a time, on what the processor at hand can do.
+//! Loops over eight numbers at a time, by the vector instructions of this processor.
 //!
-//! Loops over a row take its samples in groups of eight, each in double precision whatever the row is stored in; the
-//! last group is padded. A sum keeps eight lanes apart and adds them in one order at the end, so that the same row gives
-//! the same sum by whichever thread it is taken. (Products are added in one rounding where the processor can, and
-//! transforms are split by the width of its registers: another one may differ in the last digits.)
+//! Loops over a row take its samples in groups of eight, in double precision whatever the precision of the row; the
+//! last group is padded. A sum keeps eight lanes apart and adds them in one order at the end, so that a row has the
+//! same sum on any thread. (Fused multiply-add is used where the processor has it, and transforms are split by the width of
+//! its registers: results of different processors may differ in the last digits.)
 
 use fearless_simd::{f32x4, f32x8, f32x16, f64x2, f64x8, prelude::*};
 use rustfft::FftNum;
 
-/// Numbers of a group.
+/// Length of a group.
 pub const LANES: usize = 8;
 
-/// Numbers that are passed over at once where they are [all zero](all_zero): four lines of the cache in single precision.
+/// Length of the runs that are skipped where they are [all zero](all_zero): four cache lines in single precision.
 pub const RUN: usize = 64;
 
-/// Runs an expression with the vector instructions of this processor.
+/// Evaluates an expression with the vector instructions of this processor.
 macro_rules! vectorised {
     ($simd:ident => $operation:expr) => {
         fearless_simd::dispatch!(fearless_simd::Level::new(), $simd => $operation)
@@ -24,34 +24,34 @@ pub(crate) use vectorised;
 
 /// A real number, of single or double precision.
 pub trait Real: FftNum + SimdFloatElement + Default + bytemuck::Pod {
-    /// How many of them take 64 bytes, a line of the cache.
+    /// Number of values in 64 bytes, a cache line.
     const WIDTH: usize;
 
-    /// Eight of them.
+    /// Eight values.
     type Lanes<S: Simd>: SimdFloat<S, Element = Self>;
 
-    /// As many as a register of the processor holds; these divide the `WIDTH`.
+    /// As many values as a register of the processor holds, a divisor of `WIDTH`.
     type Register<S: Simd>: SimdFloat<S, Element = Self>;
 
-    /// `WIDTH` of them.
+    /// `WIDTH` values.
     type Wide<S: Simd>: SimdFloat<S, Element = Self>;
 
-    /// `WIDTH` runs of as many numbers to their columns: number j of run i, at `from[i · apart + j]`, to `to[j · spread + i]`.
+    /// Transposes `WIDTH` runs of `WIDTH` numbers: number j of run i, at `from[i · apart + j]`, to `to[j · spread + i]`.
     fn transpose<S: Simd>(simd: S, from: &[Self], apart: usize, to: &mut [Self], spread: usize);
 
-    /// Rounded to this precision.
+    /// The value rounded to this precision.
     fn rounded(value: f64) -> Self;
 
-    /// In double precision.
+    /// The value in double precision.
     fn double(self) -> f64;
 
-    /// The group of a row that starts at `at`, in double precision; what lies beyond the row's end is `beyond`.
+    /// Group of a row from index `at` on, in double precision; padded with `beyond` at the row's end.
     fn group<S: Simd>(simd: S, row: &[Self], at: usize, beyond: Self) -> f64x8<S>;
 
-    /// A group, rounded to this precision.
+    /// A group rounded to this precision.
     fn lanes<S: Simd>(group: f64x8<S>) -> Self::Lanes<S>;
 
-    /// Puts a group back, rounded to this precision.
+    /// Stores a group in a row from index `at` on, rounded to this precision.
     fn put<S: Simd>(group: f64x8<S>, row: &mut [Self], at: usize);
 }
 
@@ -155,8 +155,8 @@ impl Real for f32 {
 
 /// The [transpose](Real::transpose) of W runs of W numbers, by blocks of N vectors of N numbers.
 ///
-/// Where a register holds fewer than W numbers the blocks are of 128 bits: to turn a wider one there takes more steps a number,
-/// since numbers cross its halves.
+/// Where a register holds fewer than W numbers the blocks are of 128 bits: transposing wider ones takes more instructions for each
+/// number, since numbers cross the halves of a register.
 #[inline(always)]
 fn transpose_by_blocks<S: Simd, V: SimdFloat<S>, const N: usize, const W: usize>(
     simd: S,
@@ -171,7 +171,7 @@ fn transpose_by_blocks<S: Simd, V: SimdFloat<S>, const N: usize, const W: usize>
             for k in 1..N {
                 vectors[k] = V::from_slice(simd, &from[(i + k) * apart + j..][..N]);
             }
-            // The bits of a number's place, vector and lane, go round, one of them a time.
+            // Each interleaving rotates the bits of a number's index, vector and lane, by one.
             for _ in 0..N.trailing_zeros() {
                 let before = vectors;
                 for pair in 0..N / 2 {
@@ -185,7 +185,7 @@ fn transpose_by_blocks<S: Simd, V: SimdFloat<S>, const N: usize, const W: usize>
     }
 }
 
-/// A group of a row in the row's own precision; what lies beyond its end is `beyond`.
+/// Group of a row from index `at` on, in the row's own precision; padded with `beyond` at the row's end.
 #[inline(always)]
 pub fn own_group<S: Simd, T: Real>(simd: S, row: &[T], at: usize, beyond: T) -> T::Lanes<S> {
     match row.get(at..at + LANES) {
@@ -194,8 +194,8 @@ pub fn own_group<S: Simd, T: Real>(simd: S, row: &[T], at: usize, beyond: T) -> 
     }
 }
 
-/// The last numbers of a row, from `at` on, and what lies beyond. A function of its own, so that loops over whole groups
-/// prepare nothing for it.
+/// The last numbers of a row from index `at` on, padded with `beyond`. A function that is not inlined, so that loops over whole
+/// groups stay free of its code.
 #[cold]
 #[inline(never)]
 fn padded<T: Real>(row: &[T], at: usize, beyond: T) -> [T; LANES] {
@@ -221,7 +221,7 @@ pub fn all_zero<S: Simd, T: Real>(simd: S, numbers: &[T]) -> bool {
     true
 }
 
-/// Σ over eight lanes, always in the same order.
+/// Sum of eight lanes, in a fixed order.
 #[inline(always)]
 pub fn total<S: Simd>(lanes: f64x8<S>) -> f64 {
     let l = lanes.as_slice();
@@ -234,7 +234,7 @@ pub fn lowest<S: Simd>(lanes: f64x8<S>) -> f64 {
     lanes.as_slice().iter().fold(f64::INFINITY, |least, &x| least.min(x))
 }
 
-/// Eight times the same number.
+/// A group of eight equal numbers.
 #[inline(always)]
 pub fn splat<S: Simd>(simd: S, value: f64) -> f64x8<S> {
     f64x8::simd_from(simd, value)

@@ -1,6 +1,6 @@
 //! Linear least squares of a few unknowns by normal equations.
 
-/// Minimises Σ (Σₖ cₖ `row[k]` − value)² over c; `None` when the rows do not determine c.
+/// Coefficients c that minimise Σ (Σₖ cₖ `row[k]` − value)²; `None` when the rows do not determine c.
 ///
 /// Meant for a few tens of unknowns with basis functions of order one.
 pub fn fit(unknowns: usize, rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Option<Vec<f64>> {
@@ -9,14 +9,14 @@ pub fn fit(unknowns: usize, rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Opti
     for (row, value) in rows {
         for ((line, right), own) in matrix.iter_mut().zip(&mut right).zip(&row) {
             *right += own * value;
-            // The lower triangle is needed; whole rows are summed faster.
+            // The lower triangle alone is needed, but whole rows are summed faster.
             line.iter_mut().zip(&row).for_each(|(sum, other)| *sum += own * other);
         }
     }
     solved(matrix, right)
 }
 
-/// Solves normal equations, of whose matrix the lower triangle is needed; `None` when they do not determine c.
+/// Solution of normal equations, whose matrix is given by its lower triangle; `None` when they do not determine c.
 pub(super) fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
     let unknowns = right.len();
     // Cholesky: matrix = L Lᵀ, in place.
@@ -42,7 +42,7 @@ pub(super) fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<V
     Some(right)
 }
 
-/// Σ aᵢbᵢ, by eight sums that do not wait for one another.
+/// Scalar product Σ aᵢbᵢ, by eight independent sums.
 fn product(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let ((groups, rest), (others, others_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());

@@ -2,10 +2,10 @@
 
 use super::search::largest;
 
-/// A pivot below this part of its row's largest entry is what rounding left of zero.
+/// Pivot over the row's largest entry below which it is taken for a rounding error of zero.
 const SINGULAR: f64 = 1e-13;
 
-/// x with Σₖ aᵢₖ xₖ = bᵢ, aᵢₖ = `rows[i][k]`, bᵢ = `right[i]`; `None` when the matrix is singular to working precision.
+/// Solution x of Σₖ aᵢₖ xₖ = bᵢ, aᵢₖ = `rows[i][k]`, bᵢ = `right[i]`; `None` when the matrix is singular to working precision.
 pub fn solve(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
     let n = right.len();
     let mut scales: Vec<f64> = rows.iter().map(|row| largest(row.iter().map(|x| x.abs()))).collect();

@@ -1,6 +1,6 @@
-//! General numerics that the physics rests on: sums whose order is fixed, small systems, quadrature, Chebyshev series,
-//! maxima and tops, lines around an axis and series along them, fields as arrays, swept and transformed eight samples at a time, and
-//! numbers as a person reads them.
+//! General numerics that the physics rests on: sums in a fixed order, small systems of equations, quadrature, Chebyshev series,
+//! maxima, closed lines around an axis with Fourier series in the angle, fields as arrays, and transforms and passes over rows
+//! with eight samples at a time.
 
 pub mod aligned;
 pub mod array;
@@ -10,7 +10,6 @@ pub mod fourier;
 pub mod lanes;
 pub mod least_squares;
 pub mod linear;
-pub mod number;
 pub mod paraboloid;
 pub mod quadrature;
 pub mod rows;

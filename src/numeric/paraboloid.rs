@@ -1,15 +1,15 @@
 //! The top of a smooth peak between equally spaced values.
 
-/// How far the paraboloid c₀ + c₁i + c₂j + c₃i² + c₄ij + c₅j² through the values at i, j = −`half`, …, `half` (least
-/// squares) rises from its middle to its top, with an error that falls with the fourth power of the spacing.
+/// Rise from the middle to the top of the paraboloid c₀ + c₁i + c₂j + c₃i² + c₄ij + c₅j² through the values at i, j = −`half`, …,
+/// `half` (least squares), with an error that falls with the fourth power of the spacing.
 ///
-/// `None` next to the edge of contact, where a value is not positive, and where the top is none or farther than one step.
+/// `None` where a value is not positive, as next to the edge of contact, and where there is no top within one step.
 pub fn rise(half: i32, value: impl Fn(i32, i32) -> f64) -> Option<f64> {
     let steps = || (-half..=half).flat_map(|i| (-half..=half).map(move |j| (i, j)));
     if !steps().all(|(i, j)| value(i, j) > 0.0) {
         return None;
     }
-    // On these places 1, i, j, ij, i² − m and j² − m are orthogonal, m the mean of i².
+    // At these points 1, i, j, ij, i² − m and j² − m are orthogonal, m the mean of i².
     let sum = |weight: &dyn Fn(f64, f64) -> f64| -> f64 {
         steps().map(|(i, j)| weight(f64::from(i), f64::from(j)) * value(i, j)).sum()
     };

@@ -1,18 +1,19 @@
-//! Sweeps over fields row by row, on all threads, with sums that do not depend on how many there are.
+//! Passes over fields row by row, on all threads, with sums that do not depend on the number of threads.
 //!
-//! Each row, or each part of the rows, gives its own sums and minima; they are added in order.
+//! Each row, or each block of rows, gives its own sums and minima, which are added in order.
 
 use rayon::prelude::*;
 use std::slice::{ChunksExact, ChunksExactMut};
 
-/// Most parts the rows are divided into, and the least rows of one.
-const PARTS: usize = 64;
-const LEAST: usize = 64;
+/// Largest number of blocks that rows are divided into.
+const MOST_BLOCKS: usize = 64;
+/// Least number of rows of a block.
+const LEAST_ROWS: usize = 64;
 
-/// Samples that are worth a task of their own.
+/// Least number of samples of a task.
 const TASK: usize = 8192;
 
-/// Σ and least value over all rows.
+/// Sums and least values over rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Totals<const K: usize, const L: usize> {
     pub sums: [f64; K],
@@ -20,32 +21,33 @@ pub struct Totals<const K: usize, const L: usize> {
 }
 
 impl<const K: usize, const L: usize> Totals<K, L> {
-    /// Those of nothing.
+    /// Totals of no samples.
     pub const NONE: Self = Self { sums: [0.0; K], least: [f64::INFINITY; L] };
 
-    /// Takes in those of further samples.
+    /// Adds the totals of further samples.
     pub fn add(&mut self, more: Self) {
         self.sums.iter_mut().zip(more.sums).for_each(|(sum, term)| *sum += term);
         self.least.iter_mut().zip(more.least).for_each(|(least, value)| *least = least.min(value));
     }
 
-    /// Those of all parts, in their order.
-    pub fn of(parts: Vec<Self>) -> Self {
-        parts.into_iter().fold(Self::NONE, |mut totals, part| {
-            totals.add(part);
+    /// Totals of all blocks, added in their order.
+    pub fn of(blocks: Vec<Self>) -> Self {
+        blocks.into_iter().fold(Self::NONE, |mut totals, block| {
+            totals.add(block);
             totals
         })
     }
 }
 
-/// The rows of fields in parts, whatever the number of threads: each is the work of one of them, row after row.
+/// The division of the rows of fields into blocks, which does not depend on the number of threads: a block is the work of one
+/// thread, row after row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Parts {
     points: [usize; 2],
 }
 
 impl Parts {
-    /// Of fields of `points` = [rows, columns].
+    /// Division of fields of `points` = [rows, columns].
     pub fn new(points: [usize; 2]) -> Self {
         Self { points }
     }
@@ -55,49 +57,49 @@ impl Parts {
         self.points
     }
 
-    /// Rows of a part; the last one may have fewer.
+    /// Number of rows of a block; the last block may have fewer.
     pub fn rows(&self) -> usize {
-        self.points[0].div_ceil(PARTS).max(LEAST)
+        self.points[0].div_ceil(MOST_BLOCKS).max(LEAST_ROWS)
     }
 
-    /// How many there are.
+    /// Number of blocks.
     pub fn count(&self) -> usize {
         self.points[0].div_ceil(self.rows())
     }
 
-    /// Totals of each, of nothing yet.
+    /// Totals of no samples, one for each block.
     pub fn totals<const K: usize, const L: usize>(&self) -> Vec<Totals<K, L>> {
         vec![Totals::NONE; self.count()]
     }
 
-    /// The rows of a field, by parts.
+    /// The rows of a field, block by block.
     pub fn of<'a, T: Sync>(
         &self,
         field: &'a [T],
     ) -> impl IndexedParallelIterator<Item = ChunksExact<'a, T>> + use<'a, T> {
         let columns = self.points[1];
-        field.par_chunks(self.rows() * columns).map(move |part| part.chunks_exact(columns))
+        field.par_chunks(self.rows() * columns).map(move |block| block.chunks_exact(columns))
     }
 
-    /// The same, to be written.
+    /// The rows of a mutable field, block by block.
     pub fn of_mut<'a, T: Send>(
         &self,
         field: &'a mut [T],
     ) -> impl IndexedParallelIterator<Item = ChunksExactMut<'a, T>> + use<'a, T> {
         let columns = self.points[1];
-        field.par_chunks_mut(self.rows() * columns).map(move |part| part.chunks_exact_mut(columns))
+        field.par_chunks_mut(self.rows() * columns).map(move |block| block.chunks_exact_mut(columns))
     }
 }
 
-/// The next row of a part.
+/// The next row of a block.
 ///
 /// # Panics
-/// When there is none.
+/// When the block has no further row.
 pub fn next<I: Iterator>(rows: &mut I) -> I::Item {
-    rows.next().expect("a part has its rows")
+    rows.next().expect("a block has its rows")
 }
 
-/// Calls `row(i, rows of the fields)` for each row of fields with so many `columns`.
+/// Totals over fields with a number of `columns`: calls `row(i, rows of the fields)` for each row i.
 pub fn sweep<const K: usize, const L: usize, R>(
     columns: usize,
     rows: R,
@@ -110,7 +112,7 @@ where
     Totals::of(rows.map(|(i, fields)| row(i, fields)).collect())
 }
 
-/// The same without sums.
+/// Calls `row(i, rows of the fields)` for each row i of fields with a number of `columns`.
 pub fn each<R>(columns: usize, rows: R, row: impl Fn(usize, R::Item) + Sync + Send)
 where
     R: IntoParallelIterator<Iter: IndexedParallelIterator>,

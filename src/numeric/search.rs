@@ -1,6 +1,6 @@
-//! Where a function of one variable is largest.
+//! The largest of numbers, and the maximum of a function of one variable.
 
-/// Place and value of the maximum of a function with one between `low` and `high` > 0, by golden sections, to the relative
+/// Place and value of the maximum of a unimodal function between `low` and `high` > 0, by golden sections, to the relative
 /// `tolerance` of the place.
 #[cfg(feature = "validate")]
 pub fn golden_maximum([low, high]: [f64; 2], tolerance: f64, value: impl Fn(f64) -> f64) -> [f64; 2] {
@@ -22,13 +22,13 @@ pub fn golden_maximum([low, high]: [f64; 2], tolerance: f64, value: impl Fn(f64)
     if at_c > at_d { [c, at_c] } else { [d, at_d] }
 }
 
-/// The largest of some numbers, at least 0; unlike [`f64::max`] it keeps what is not a number.
+/// The largest of some numbers, at least 0; NaN where one of them is, unlike [`f64::max`].
 pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
     numbers.into_iter().fold(0.0, |most, x| if most.is_nan() || x <= most { most } else { x })
 }
 
-/// Index and value of the largest of some numbers: of those that are equal to rounding, as symmetric places have them, the
-/// first one. What is not a number is larger than any.
+/// Index and value of the largest of some numbers, the first of several that are equal to rounding, as those of symmetric places
+/// are; NaN counts as the largest.
 pub fn first_largest(numbers: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
     let behind = |next: f64, best: f64| best.is_nan() || next <= best + 1e-12 * next.abs();
     numbers.enumerate().reduce(|best, next| if behind(next.1, best.1) { best } else { next })
@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_a_number_stays() {
+    fn nan_is_the_largest() {
         assert_eq!(largest([0.1, 0.3, 0.2]), 0.3);
         assert_eq!(largest([]), 0.0);
         assert!(largest([0.1, f64::NAN, 5.0]).is_nan());

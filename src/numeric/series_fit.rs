@@ -2,23 +2,23 @@
 //!
 //! Σᵢ [Σₜ aₜᵢ sₜ(θᵢ) − yᵢ]² is least over the series sₜ of given highest harmonics. As products of waves are waves, the
 //! normal equations need no more than the sums Σᵢ aₜᵢ aᵤᵢ cos kθᵢ and Σᵢ aₜᵢ aᵤᵢ sin kθᵢ: samples at one angle are added before
-//! they meet its waves.
+//! they are multiplied by its waves.
 
 use super::least_squares::solved;
 
-/// The sums of a fit.
+/// The sums of the normal equations of a fit.
 #[derive(Debug, Clone)]
 pub struct SeriesFit {
     /// Highest harmonic of each term.
     harmonics: Vec<usize>,
-    /// Of the terms t ≥ u one after the other: sums of aₜaᵤ with the waves up to the sum of their harmonics.
+    /// Sums of aₜaᵤ with the waves up to the sum of their harmonics, for the terms t ≥ u one after the other.
     products: Vec<Vec<f64>>,
-    /// Of each term: sums of aₜ y with its waves.
+    /// Sums of aₜ y with the waves of each term.
     values: Vec<Vec<f64>>,
 }
 
 impl SeriesFit {
-    /// No samples yet of terms with series of these highest harmonics.
+    /// A fit without samples, of terms with series of given highest harmonics.
     pub fn new(harmonics: Vec<usize>) -> Self {
         let sums = |highest: usize| vec![0.0; 1 + 2 * highest];
         let pairs = harmonics.iter().enumerate().flat_map(|(t, a)| harmonics[..=t].iter().map(move |b| a + b));
@@ -29,7 +29,7 @@ impl SeriesFit {
         }
     }
 
-    /// Takes in samples at one angle, whose waves are these: Σ aₜaᵤ for u ≤ t, one t after the other, and Σ aₜy.
+    /// Adds samples at one angle, given by its waves: the sums Σ aₜaᵤ for u ≤ t, one t after the other, and Σ aₜy.
     pub fn add(&mut self, waves: &[f64], products: &[f64], values: &[f64]) {
         let own = self.products.iter_mut().chain(&mut self.values);
         for (sums, factor) in own.zip(products.iter().chain(values)).filter(|(_, factor)| **factor != 0.0) {
@@ -37,7 +37,7 @@ impl SeriesFit {
         }
     }
 
-    /// The series one after the other, each with its coefficients in the order of [`waves`](super::closed_line::waves);
+    /// Coefficients of the series, one series after the other, each in the order of [`waves`](super::closed_line::waves);
     /// `None` where the samples do not determine them.
     pub fn solve(self) -> Option<Vec<f64>> {
         let places: Vec<(usize, usize)> =
@@ -50,11 +50,11 @@ impl SeriesFit {
     }
 }
 
-/// Sum of the product of the waves j and k from the sums of the waves.
+/// Sum of the product of the waves j and k, from the sums of single waves.
 fn product(sums: &[f64], j: usize, k: usize) -> f64 {
     let cosine = |m: usize| if m == 0 { sums[0] } else { sums[2 * m - 1] };
     let sine = |m: i32| if m == 0 { 0.0 } else { f64::from(m.signum()) * sums[2 * m.unsigned_abs() as usize] };
-    // Wave k is the cosine (odd) or sine (even) of so many times the angle.
+    // Wave k is the cosine (odd k) or sine (even k) of ⌈k/2⌉ times the angle.
     let (a, b) = (j.div_ceil(2), k.div_ceil(2));
     let is_sine = |wave: usize| wave > 0 && wave.is_multiple_of(2);
     match (is_sine(j), is_sine(k)) {

@@ -1,23 +1,23 @@
 //! Sums over fields that do not depend on the number of threads.
 //!
-//! A field is cut into blocks of fixed length; blocks are summed on any thread, their sums added in order. Within a block a few
-//! sums run beside each other, so that none waits for the last addition.
+//! A field is divided into blocks of fixed length; blocks are summed on any thread, their sums added in order. Within a block
+//! several independent sums run in parallel lanes.
 
 use rayon::prelude::*;
 
-/// Samples of one block.
+/// Length of a block.
 pub const BLOCK: usize = 4096;
-/// Sums beside each other.
-const BESIDE: usize = 8;
+/// Number of independent sums within a block.
+const INDEPENDENT: usize = 8;
 
-/// Σᵢ term(i) for `K` sums at once over 0 ≤ i < `len`.
+/// Sums Σᵢ term(i), `K` at once, over 0 ≤ i < `len`.
 pub fn of<const K: usize>(len: usize, term: impl Fn(usize) -> [f64; K] + Sync + Send) -> [f64; K] {
     let add = |total: [f64; K], part: [f64; K]| std::array::from_fn(|k| total[k] + part[k]);
     let of_block = |block: usize| {
         let (start, end) = (block * BLOCK, len.min((block + 1) * BLOCK));
-        let whole = start + (end - start) / BESIDE * BESIDE;
-        let mut sums = [[0.0; K]; BESIDE];
-        for first in (start..whole).step_by(BESIDE) {
+        let whole = start + (end - start) / INDEPENDENT * INDEPENDENT;
+        let mut sums = [[0.0; K]; INDEPENDENT];
+        for first in (start..whole).step_by(INDEPENDENT) {
             for (k, sum) in sums.iter_mut().enumerate() {
                 *sum = add(*sum, term(first + k));
             }
@@ -48,7 +48,7 @@ pub fn mean(field: &[f64]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Whole numbers below 2⁵³, which any order adds exactly: every term counts once, in whole blocks and in what is left of them.
+    /// Whole numbers below 2⁵³, which any order adds exactly: every term counts once, in whole blocks and in the rest of a block.
     #[test]
     fn every_term_is_added_once() {
         for len in [0, 1, 7, 8, 9, BLOCK - 1, BLOCK, BLOCK + 13, 3 * BLOCK + 8] {

@@ -1,6 +1,6 @@
 //! Numbers with their errors.
 
-pub use crate::numeric::number::number;
+pub use crate::notation::number;
 
 /// Errors below this part of a number are those of its arithmetic.
 pub(super) const ROUNDING: f64 = 1e-12;

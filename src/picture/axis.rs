@@ -1,6 +1,6 @@
-//! Axes: a quantity with its unit, a range, and numbers that a reader can read off.
+//! Axes: a quantity with its unit, a range, and round numbers.
 
-use super::quantity::Quantity;
+use super::label::Label;
 use super::scale::Scale;
 use super::ticks::{Ticks, ticks};
 use crate::units::Prefixed;
@@ -8,24 +8,24 @@ use crate::units::Prefixed;
 /// An axis of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Quantity and unit.
-    pub label: Quantity,
-    /// How values are spread.
+    /// Label with the unit.
+    pub label: Label,
+    /// Spacing of the values.
     pub scale: Scale,
-    /// First and last value; none, or one without length or end: what the curves need.
+    /// First and last value; `None`, or a range of no length or without end, is replaced by that of the curves.
     pub range: Option<[f64; 2]>,
-    /// Values of a horizontal axis that a dotted line across the plot marks, each with a word.
+    /// Values of a horizontal axis that are marked by dotted lines across the plot, each with a word.
     pub marks: Vec<(f64, String)>,
 }
 
 impl Axis {
     /// A linear axis for the values of the curves.
-    pub fn linear(label: impl Into<Quantity>) -> Self {
+    pub fn linear(label: impl Into<Label>) -> Self {
         Self { label: label.into(), scale: Scale::Linear, range: None, marks: Vec::new() }
     }
 
     /// A logarithmic axis for the values of the curves.
-    pub fn log(label: impl Into<Quantity>) -> Self {
+    pub fn log(label: impl Into<Label>) -> Self {
         Self { label: label.into(), scale: Scale::Log, range: None, marks: Vec::new() }
     }
 
@@ -38,20 +38,20 @@ impl Axis {
     /// The unit of its numbers over a range.
     pub(super) fn unit(&self, [first, last]: [f64; 2]) -> Prefixed {
         self.label.unit(match self.scale {
-            // Numbers on both sides of the middle read well.
+            // The prefix suits the middle of the range.
             Scale::Log => (first * last).abs().sqrt(),
             Scale::Linear | Scale::Degrees => first.abs().max(last.abs()),
         })
     }
 
-    /// Ticks of a range with at most `most` numbers, these in the axis' unit.
+    /// Ticks of a range with at most `most` numbers, in the unit of the axis.
     pub(super) fn ticks(&self, range: [f64; 2], most: usize) -> Ticks {
         let unit = self.unit(range);
         ticks(range.map(|end| unit.shown(end)), self.scale, most).in_unit(&unit)
     }
 
-    /// The range, from the values if it is not given: on a linear axis with zero where that is near, `margin` of the
-    /// length beyond the values.
+    /// The range, or that of the values if it is not given, with a `margin` of its length on both sides; on a linear axis it includes
+    /// zero where that is near.
     pub(super) fn reach(&self, values: impl Iterator<Item = f64>, margin: f64) -> [f64; 2] {
         if let Some([first, last]) = self.range.filter(|[first, last]| (last - first).is_finite() && first != last) {
             return [first, last];
@@ -63,7 +63,7 @@ impl Axis {
         match self.scale {
             _ if least > most => [if self.scale == Scale::Log { 0.1 } else { 0.0 }, 1.0],
             Scale::Linear | Scale::Degrees => {
-                // Zero belongs to it where it is not far.
+                // The range includes zero where that is near.
                 let (low, high) = (if least > 0.0 && least < 0.6 * most { 0.0 } else { least }, most);
                 let high = if high < 0.0 && high > 0.6 * least { 0.0 } else { high };
                 let length = if high > low { high - low } else { high.abs().max(1e-300) };

@@ -1,43 +1,44 @@
-//! A colour bar: what the colours of a field stand for.
+//! Colour bars: the values of the colours of a field.
 
 use super::canvas::{Anchor, Canvas, PIXELS};
 use super::colour::{Colour, ColourMap};
 use super::frame::{all, factor, tick, widest};
+use super::label::Label;
 use super::number::short;
-use super::quantity::Quantity;
 use super::scale::Scale;
 use super::sheet::{HAIR, LABELS, NUMBERS};
 use super::text;
 use super::ticks::{Ticks, ticks};
 use crate::units::Prefixed;
 
-/// What colours stand for.
+/// A colour bar.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
-    /// Quantity and unit.
-    pub label: Quantity,
-    /// The map.
+    /// Label with the unit.
+    pub label: Label,
+    /// Colours from the least to the largest value.
     pub colours: ColourMap,
     /// Least and largest value shown. A diverging map is white at zero and as dark at −x as at x, unless the signs are
     /// apart.
     pub span: [f64; 2],
-    /// How values are spread along it.
+    /// Spacing of the values along the bar.
     pub scale: Scale,
-    /// Whether both signs have scales of their own, half of the bar each: see [`Bar::signed`].
+    /// Whether both signs have scales of their own, each on half of the bar: see [`Bar::signed`].
     pub apart: bool,
-    /// The colour where there is no value.
+    /// Colour of places without a value.
     pub without: Colour,
 }
 
-/// Width of a colour bar and its distance from the plot, points.
+/// Width of a colour bar, points.
 const BAR: f64 = 7.0;
+/// Distance of a colour bar from the plot, points.
 pub(super) const GAP: f64 = 6.0;
-/// Between these ratios the lesser of two signs would be pale beside the other, and is more than nothing.
+/// Ratios of the extremes of both signs between which each has a scale of its own: the lesser one would be pale on a common scale.
 const PALE: [f64; 2] = [0.01, 0.4];
 
 impl Bar {
-    /// Of values from zero on.
-    pub fn sequential(label: Quantity, most: f64) -> Self {
+    /// Bar of values from zero to `most`.
+    pub fn sequential(label: Label, most: f64) -> Self {
         Self {
             label,
             colours: ColourMap::Sequential,
@@ -48,8 +49,8 @@ impl Bar {
         }
     }
 
-    /// Of tension and compression, each with a scale of its own where one would be pale beside the other.
-    pub fn signed(label: Quantity, [low, high]: [f64; 2]) -> Self {
+    /// Bar of tension and compression, each with a scale of its own where one would be pale beside the other.
+    pub fn signed(label: Label, [low, high]: [f64; 2]) -> Self {
         let ratio = (high / -low).min(-low / high);
         Self {
             label,
@@ -61,7 +62,7 @@ impl Bar {
         }
     }
 
-    /// Where a value stands on the bar, from 0 at the bottom to 1.
+    /// Place of a value on the bar, from 0 at the bottom to 1.
     fn place(&self, value: f64) -> f64 {
         let [low, high] = self.span;
         match (self.apart, value < 0.0) {
@@ -72,7 +73,7 @@ impl Bar {
         }
     }
 
-    /// What stands at a place.
+    /// Value at a place from 0 to 1.
     fn value(&self, place: f64) -> f64 {
         let [low, high] = self.span;
         match (self.apart, place < 0.5) {
@@ -92,7 +93,7 @@ impl Bar {
         table[(part * 255.0).round().clamp(0.0, 255.0) as usize]
     }
 
-    /// Ticks on a bar of a height, whose numbers stand apart.
+    /// Ticks on a bar of a height in points, whose numbers do not overlap.
     pub(super) fn ticks(&self, height: f64) -> Ticks {
         let span = |value: f64, _: &str| {
             let half = 0.5 * (text::CAPITALS + 0.25) * NUMBERS;
@@ -130,7 +131,7 @@ impl Bar {
         GAP + BAR + 4.0 + self.widest() + if self.name().is_empty() { 0.0 } else { 1.6 * LABELS }
     }
 
-    /// Quantity and unit.
+    /// Label with the unit.
     fn name(&self) -> String {
         self.label.label(&self.unit())
     }

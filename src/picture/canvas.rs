@@ -1,6 +1,6 @@
 //! A sheet of paper measured in points (1/72 inch), and the marks on it in their order.
 //!
-//! x grows to the right and y down. The sheet becomes pixels or an SVG file; whoever draws on it need not know which.
+//! x grows to the right and y down. A sheet is written as PNG, SVG or PDF; drawing on it does not depend on the format.
 
 use super::colour::Colour;
 use super::text;
@@ -12,10 +12,10 @@ pub const COLUMN: f64 = 241.0;
 /// Pixels per point: 300 dots per inch.
 pub const PIXELS: f64 = 300.0 / 72.0;
 
-/// Points of a line closer together than this are one, points.
+/// Distance in points below which two points of a line are drawn as one.
 const CLOSE: f64 = 0.25;
 
-/// Which point of its baseline a text is placed by.
+/// The point of its baseline by which a text is placed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     Left,
@@ -23,7 +23,7 @@ pub enum Anchor {
     Right,
 }
 
-/// How a line is interrupted.
+/// The pattern of a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Dash {
     Solid,
@@ -32,7 +32,8 @@ pub enum Dash {
 }
 
 impl Dash {
-    /// Lengths of a dash and of the gap after it over the width of the line; a dot is a round end without a dash.
+    /// Lengths of a dash and of the gap after it over the width of the line; `None` for a solid line. A dot is a round end without a
+    /// dash.
     pub fn lengths(self) -> Option<[f64; 2]> {
         match self {
             Self::Solid => None,
@@ -46,13 +47,13 @@ impl Dash {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stroke {
     pub points: Vec<[f64; 2]>,
-    /// In points (1/72 inch).
+    /// Width, points (1/72 inch).
     pub width: f64,
     pub dash: Dash,
     pub colour: Colour,
 }
 
-/// One mark; lengths are points.
+/// A mark; lengths in points.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
     Line(Stroke),
@@ -70,18 +71,18 @@ pub enum Mark {
     /// A line of text.
     Text {
         text: String,
-        /// Where its anchor is, on the baseline.
+        /// Place of the anchor on the baseline.
         at: [f64; 2],
         anchor: Anchor,
-        /// Size of the typeface.
+        /// Size of the letters.
         size: f64,
         /// Whether it runs from bottom to top.
         upward: bool,
         colour: Colour,
     },
-    /// A rectangle of pixels; they stand below all other marks.
+    /// A rectangle of pixels, below all other marks.
     Image {
-        /// The upper left one.
+        /// Upper left corner.
         corner: [f64; 2],
         /// Width and height.
         size: [f64; 2],
@@ -92,7 +93,7 @@ pub enum Mark {
     },
 }
 
-/// The sheet.
+/// A sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Canvas {
     /// Width and height, points.
@@ -107,12 +108,12 @@ impl Canvas {
         Self { size, marks: Vec::new() }
     }
 
-    /// A line through points.
+    /// Draws a line through points.
     pub fn line(&mut self, points: &[[f64; 2]], width: f64, colour: Colour) {
         self.dashed(points, width, Dash::Solid, colour);
     }
 
-    /// A line through points, dashed or dotted; points closer together than an eye can see are left out.
+    /// Draws a line through points, solid, dashed or dotted; points closer together than [`CLOSE`] are left out.
     pub fn dashed(&mut self, points: &[[f64; 2]], width: f64, dash: Dash, colour: Colour) {
         let Some((&last, others)) = points.split_last() else { return };
         let mut seen: Vec<[f64; 2]> = Vec::new();
@@ -122,46 +123,46 @@ impl Canvas {
             }
         }
         seen.push(last);
-        // Dots as wide as a line would look thinner than it.
+        // Dots of the width of a line would look thinner than the line.
         let width = if dash == Dash::Dotted { 1.2 * width } else { width };
         if seen.len() > 1 {
             self.marks.push(Mark::Line(Stroke { points: seen, width, dash, colour }));
         }
     }
 
-    /// A closed line around a polygon.
+    /// Draws the outline of a polygon.
     pub fn outline(&mut self, corners: &[[f64; 2]], width: f64, colour: Colour) {
         let closed: Vec<[f64; 2]> = corners.iter().chain(corners.first()).copied().collect();
         self.line(&closed, width, colour);
     }
 
-    /// A filled polygon.
+    /// Fills a polygon.
     pub fn area(&mut self, corners: &[[f64; 2]], colour: Colour) {
         self.marks.push(Mark::Area { corners: corners.to_vec(), colour });
     }
 
-    /// A filled disc.
+    /// Fills a disc.
     pub fn disc(&mut self, centre: [f64; 2], radius: f64, colour: Colour) {
         self.marks.push(Mark::Disc { centre, radius, colour });
     }
 
-    /// A line of text on its baseline, in which nothing is hidden.
+    /// Draws a line of text on its baseline, hidden characters as their escapes.
     pub fn text(&mut self, text: &str, at: [f64; 2], anchor: Anchor, size: f64, colour: Colour) {
         self.marks.push(Mark::Text { text: plain::line(text).into_owned(), at, anchor, size, upward: false, colour });
     }
 
-    /// A line of text whose capitals are centred in height on `at`.
+    /// Draws a line of text whose capitals are centred in height on `at`.
     pub fn label(&mut self, text: &str, [x, y]: [f64; 2], anchor: Anchor, size: f64, colour: Colour) {
         self.text(text, [x, y + 0.5 * text::CAPITALS * size], anchor, size, colour);
     }
 
-    /// A centred line of text from bottom to top, its baseline on the right.
+    /// Draws a centred line of text from bottom to top, its baseline on the right.
     pub fn upward(&mut self, text: &str, at: [f64; 2], size: f64, colour: Colour) {
         let anchor = Anchor::Centre;
         self.marks.push(Mark::Text { text: plain::line(text).into_owned(), at, anchor, size, upward: true, colour });
     }
 
-    /// A rectangle of pixels, below all other marks.
+    /// Draws a rectangle of pixels, below all other marks.
     pub fn image(&mut self, corner: [f64; 2], size: [f64; 2], pixels: [usize; 2], colours: Vec<u8>) {
         let lowest = self.marks.partition_point(|mark| matches!(mark, Mark::Image { .. }));
         self.marks.insert(lowest, Mark::Image { corner, size, pixels, colours });

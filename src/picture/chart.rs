@@ -10,7 +10,7 @@ use super::sheet::{Margins, Panel, sheet};
 /// A chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// What stands over it.
+    /// Title above the plot.
     pub title: String,
     /// The horizontal axis.
     pub x: Axis,
@@ -23,7 +23,7 @@ pub struct Chart {
 /// Charts in one picture, two in a row, each as wide as a column of a journal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What stands under all; long lines are broken.
+    /// Caption below all charts; long lines are broken.
     pub caption: String,
     /// The charts, row by row.
     pub panels: Vec<Chart>,
@@ -50,7 +50,7 @@ pub(super) struct Plot<'a> {
     pub aspect: f64,
 }
 
-/// What stays free beside a plot, points.
+/// Margin to the right of a plot, points.
 const RIGHT: f64 = 6.0;
 
 /// A chart laid out.
@@ -90,7 +90,7 @@ impl<'a> Plot<'a> {
         Layout { frame, legend, height }
     }
 
-    /// Points that the legend must keep clear of.
+    /// Points of the curves, bars and marks, which the legend must not cover.
     fn taken(&self, frame: &Frame) -> Vec<[f64; 2]> {
         let mut taken = Vec::new();
         for run in self.chart.curves.iter().flat_map(|curve| runs(curve, frame)) {
@@ -129,7 +129,7 @@ fn runs(curve: &Curve, frame: &Frame) -> Vec<Vec<[f64; 2]>> {
     runs
 }
 
-/// Upper and lower end of each error bar of a curve. What reaches zero on a logarithmic axis ends below the plot.
+/// Upper and lower end of each error bar of a curve. A bar that reaches zero on a logarithmic axis ends below the plot.
 fn bars(curve: &Curve, frame: &Frame) -> Vec<[[f64; 2]; 2]> {
     let below = frame.corner[1] + frame.size[1] + 2.0;
     let ends = |(x, [low, high]): (f64, [f64; 2])| {

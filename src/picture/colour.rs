@@ -17,10 +17,10 @@ impl Colour {
     /// The grey of captions.
     pub const GREY: Self = Self([70, 70, 70]);
 
-    /// Where a map has no value.
+    /// The colour of places without a value in a map.
     pub const PALE: Self = Self([205, 205, 205]);
 
-    /// The colour of a line by its index, see [`Curve::colour`](super::Curve).
+    /// Colour of a line by its index, see [`Curve::colour`](super::Curve).
     pub fn line(index: usize) -> Self {
         const LINES: [[u8; 3]; 6] =
             [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233]];
@@ -30,12 +30,12 @@ impl Colour {
         }
     }
 
-    /// The colour of a line at a depth from 0 to 1: the sequential map without its end, too light on white.
+    /// Colour of a line at a depth from 0 to 1: the sequential map without its last part, too light on white.
     pub fn deep(part: f64) -> Self {
         ColourMap::Sequential.colour(0.87 * part.clamp(0.0, 1.0))
     }
 
-    /// Mixed with white: 0 leaves it, 1 makes it white.
+    /// The colour mixed with a part of white, from 0 (unchanged) to 1 (white).
     pub fn lighter(self, part: f64) -> Self {
         Self(self.0.map(|c| (f64::from(c) + part * (255.0 - f64::from(c))).round() as u8))
     }
@@ -52,7 +52,7 @@ impl Colour {
         0.210_454_255_3 * l.cbrt() + 0.793_617_785 * m.cbrt() - 0.004_072_046_8 * s.cbrt()
     }
 
-    /// From Oklab, clipped to what a screen can show.
+    /// Colour from Oklab coordinates, clipped to sRGB.
     fn oklab(lightness: f64, a: f64, b: f64) -> Self {
         let l = (lightness + 0.396_337_777_4 * a + 0.215_803_757_3 * b).powi(3);
         let m = (lightness - 0.105_561_345_8 * a - 0.063_854_172_8 * b).powi(3);

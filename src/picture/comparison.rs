@@ -9,10 +9,10 @@ use crate::comparison::{CircleComparison, Comparison, Deviation};
 use crate::localized::CircleRadius;
 use crate::units::Units;
 
-/// What is read off a deviation.
+/// A value of a deviation.
 type Value = fn(&Deviation) -> f64;
 
-/// Quantities that are drawn.
+/// The quantities that are drawn, with their names.
 const QUANTITIES: [(&str, Value); 4] = [
     ("penetration", |deviation| deviation.penetration),
     ("load on one", |deviation| deviation.load),
@@ -20,7 +20,8 @@ const QUANTITIES: [(&str, Value); 4] = [
     ("contact radius", |deviation| deviation.contact_radius),
 ];
 
-/// The picture: one panel for each rule; `None` for less than two circles, or where nothing differs, as without contact.
+/// The picture: one panel for each rule of the circle radius; `None` for less than two circles, or where nothing differs, as without
+/// contact.
 pub fn comparison(title: &str, units: &Units, comparison: &Comparison) -> Option<Canvas> {
     if comparison.circles.len() < 2 || comparison.other_rule.is_empty() {
         return None;

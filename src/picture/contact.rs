@@ -12,82 +12,96 @@ use super::scale::Scale;
 use super::sheet::sheet;
 use super::snapshot::Snapshot;
 use super::tiling::images;
-use super::window::View;
+use super::window::{View, Window};
 use crate::reading::LevelReading;
 use std::f64::consts::TAU;
 
-/// Least range of deviations from a circle that is shown, per cent: a fitted boundary is good to some 0.03.
+/// Least range of deviations from a circle that is shown, per cent: a fitted boundary errs by some 0.03 per cent.
 const LEAST: f64 = 0.1;
 
 /// The picture; `None` for a topography. `without_mutual_effect`: per level the contact radius that indenters would
 /// have without each other, a length, drawn dashed.
 pub fn contact(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<Canvas> {
-    (snapshot.levels() > 0).then(|| {
-        let view = View::cells(snapshot.step.grid().cell());
-        let window = view.window;
-        let colour = |place: [f64; 2]| {
-            snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
-        };
-        let [x, y] = axes(snapshot, window);
-        let mut over = unit_cell(snapshot, view);
-        let cell = snapshot.step.grid().cell();
-        for (site, boundary) in snapshot.step.surface().sites().iter().zip(&snapshot.reading.boundaries) {
-            for centre in images(cell, site.place, widened(window)) {
-                let ring = |radius: &dyn Fn(f64) -> f64, dash: Dash, width: f64, colour: Colour| {
-                    let point = |k: u32| {
-                        let theta = TAU * f64::from(k) / 180.0;
-                        [centre[0] + radius(theta) * theta.cos(), centre[1] + radius(theta) * theta.sin()]
-                    };
-                    Over::Line(Stroke { points: (0..=180).map(point).collect(), width, dash, colour })
-                };
-                if let Some(boundary) = boundary {
-                    over.push(ring(&|theta| boundary.radius(theta), Dash::Solid, 0.9, Colour::line(site.level)));
-                    if !boundary.hole.is_empty() {
-                        let inner = |theta| boundary.hole_radius(theta);
-                        over.push(ring(&inner, Dash::Solid, 0.9, Colour::line(site.level)));
-                    }
-                }
-                let alone = without_mutual_effect.and_then(|radii| radii.get(site.level - 1));
-                if let Some(&radius) = alone.filter(|radius| **radius > 0.0) {
-                    over.push(ring(&|_| radius, Dash::Dashed, 0.7, Colour::BLACK));
-                }
-            }
-        }
-        let lines = snapshot.outlines(window).into_iter();
-        over.extend(lines.map(|points| {
-            Over::Line(Stroke { points, width: 0.6, dash: Dash::Solid, colour: Colour::BLACK })
-        }));
-        over.extend(numbers(snapshot, view, |_| Colour::BLACK));
-        over.extend(sliding_arrow(snapshot, view));
-        let fill = Fill::Colours(&colour);
-        let spots = Map { title: "(a) contact spots".into(), x, y, aspect: view.aspect(), fill, over };
-        let radii = radii(snapshot, without_mutual_effect);
-        let mut what = "Numbers are levels.".to_owned();
-        what += &merged_words(snapshot);
-        if let Some((_, beyond)) = &radii {
-            what += " ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the \
-                     area within it.";
-            if snapshot.reading.boundaries.iter().flatten().any(|boundary| !boundary.hole.is_empty()) {
-                what += " Dotted in (b): the hole of a ring, over its own mean radius.";
-            }
-            if without_mutual_effect.is_some() {
-                what += " Dashed circles and lines: without the mutual effect of the indenters";
-                what += &if beyond.is_empty() { ".".to_owned() } else { format!(", beyond (b) {}.", beyond.join(", ")) };
-            }
-        }
-        what += sliding_words(snapshot);
-        what += &view.words();
-        let caption = snapshot.caption(&what);
-        match radii {
-            Some((chart, _)) => {
-                sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: view.aspect().min(1.0) }])
-            }
-            None => sheet(&caption, &[&Map { title: String::new(), ..spots }]),
-        }
+    if snapshot.levels() == 0 {
+        return None;
+    }
+    let view = View::cells(snapshot.step.grid().cell());
+    let colour = |place: [f64; 2]| {
+        snapshot.level_in_contact(place).map_or(Colour::WHITE, |level| Colour::line(level).lighter(0.6))
+    };
+    let [x, y] = axes(snapshot, view.window);
+    let mut over = unit_cell(snapshot, view);
+    over.extend(boundaries(snapshot, view.window, without_mutual_effect));
+    let outlines = snapshot.outlines(view.window).into_iter();
+    over.extend(outlines.map(|points| line(points, Dash::Solid, 0.6, Colour::BLACK)));
+    over.extend(numbers(snapshot, view, |_| Colour::BLACK));
+    over.extend(sliding_arrow(snapshot, view));
+    let fill = Fill::Colours(&colour);
+    let spots = Map { title: "(a) contact spots".into(), x, y, aspect: view.aspect(), fill, over };
+    let radii = radii(snapshot, without_mutual_effect);
+    let mut words = "Numbers are levels.".to_owned() + &merged_words(snapshot);
+    if let Some((_, beyond)) = &radii {
+        words += &radii_words(snapshot, without_mutual_effect.is_some(), beyond);
+    }
+    words += sliding_words(snapshot);
+    words += &view.words();
+    let caption = snapshot.caption(&words);
+    Some(match radii {
+        Some((chart, _)) => sheet(&caption, &[&spots, &Plot { chart: &chart, aspect: view.aspect().min(1.0) }]),
+        None => sheet(&caption, &[&Map { title: String::new(), ..spots }]),
     })
 }
 
-/// Which contacts have no boundary of their own: what is said of them.
+/// The located boundaries and holes in a window, and dashed circles of the radii without mutual effect.
+fn boundaries(snapshot: &Snapshot, window: Window, without_mutual_effect: Option<&[f64]>) -> Vec<Over> {
+    let cell = snapshot.step.grid().cell();
+    let mut over = Vec::new();
+    for (site, boundary) in snapshot.step.surface().sites().iter().zip(&snapshot.reading.boundaries) {
+        for centre in images(cell, site.place, widened(window)) {
+            let closed = |radius: &dyn Fn(f64) -> f64, dash: Dash, width: f64, colour: Colour| {
+                let point = |k: u32| {
+                    let theta = TAU * f64::from(k) / 180.0;
+                    [centre[0] + radius(theta) * theta.cos(), centre[1] + radius(theta) * theta.sin()]
+                };
+                line((0..=180).map(point).collect(), dash, width, colour)
+            };
+            if let Some(boundary) = boundary {
+                let colour = Colour::line(site.level);
+                over.push(closed(&|theta| boundary.radius(theta), Dash::Solid, 0.9, colour));
+                if !boundary.hole.is_empty() {
+                    over.push(closed(&|theta| boundary.hole_radius(theta), Dash::Solid, 0.9, colour));
+                }
+            }
+            let alone = without_mutual_effect.and_then(|radii| radii.get(site.level - 1));
+            if let Some(&radius) = alone.filter(|radius| **radius > 0.0) {
+                over.push(closed(&|_| radius, Dash::Dashed, 0.7, Colour::BLACK));
+            }
+        }
+    }
+    over
+}
+
+fn line(points: Vec<[f64; 2]>, dash: Dash, width: f64, colour: Colour) -> Over {
+    Over::Line(Stroke { points, width, dash, colour })
+}
+
+/// Text of the caption on the chart of radii; `beyond`: the levels whose radius without mutual effect is not in the chart.
+fn radii_words(snapshot: &Snapshot, has_dashed: bool, beyond: &[String]) -> String {
+    let mut words =
+        " ρ(θ) is the boundary's distance from the indenter's axis, θ its direction from the x axis, πa² the area \
+                     within it."
+            .to_owned();
+    if snapshot.reading.boundaries.iter().flatten().any(|boundary| !boundary.hole.is_empty()) {
+        words += " Dotted in (b): the hole of a ring, over its own mean radius.";
+    }
+    if has_dashed {
+        words += " Dashed circles and lines: without the mutual effect of the indenters";
+        words += &if beyond.is_empty() { ".".to_owned() } else { format!(", beyond (b) {}.", beyond.join(", ")) };
+    }
+    words
+}
+
+/// Text of the caption on the contacts without a boundary of their own: merged ones, and those of few samples.
 fn merged_words(snapshot: &Snapshot) -> String {
     let levels = |which: fn(&LevelReading) -> bool| {
         let own = snapshot.reading.levels.iter().filter(|level| level.load > 0.0 && which(level));
@@ -166,8 +180,8 @@ fn radii(snapshot: &Snapshot, without_mutual_effect: Option<&[f64]>) -> Option<(
     (!chart.curves.is_empty()).then_some((chart, beyond))
 }
 
-/// A window with the spots that reach into it.
-fn widened(window: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+/// A window with a margin for the spots that reach into it.
+fn widened(window: Window) -> Window {
     window.map(|[first, last]| [first - 0.25 * (last - first), last + 0.25 * (last - first)])
 }
 

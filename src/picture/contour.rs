@@ -1,7 +1,7 @@
-//! Lines on which a field is zero, by marching squares.
+//! Contour lines of zero of a field, by marching squares.
 
 /// Lines on which values on a rectangle with `columns` × `rows` intervals are zero, in parts of its width and height; a
-/// closed one ends where it begins.
+/// closed line ends where it begins.
 pub fn zero_lines(columns: usize, rows: usize, value: impl Fn([f64; 2]) -> Option<f64>) -> Vec<Vec<[f64; 2]>> {
     let part = |i: usize, j: usize| [i as f64 / columns as f64, j as f64 / rows as f64];
     let values: Vec<Option<f64>> =
@@ -24,6 +24,7 @@ pub fn zero_lines(columns: usize, rows: usize, value: impl Fn([f64; 2]) -> Optio
     joined(pieces)
 }
 
+/// Pieces of lines joined at their common ends.
 fn joined(mut pieces: Vec<[[f64; 2]; 2]>) -> Vec<Vec<[f64; 2]>> {
     // Neighbours find their common end from opposite sides and differ by rounding.
     let same = |p: [f64; 2], q: [f64; 2]| (0..2).all(|k| (p[k] - q[k]).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! A curve of a chart: its points, how it is drawn, and its marker.
+//! Curves of charts: points, errors, style and marker.
 
 use super::canvas::{Anchor, Canvas, Dash};
 use super::colour::Colour;
@@ -7,18 +7,18 @@ use super::sheet::NUMBERS;
 /// A curve of a chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// Its name in the legend; empty: it is not there.
+    /// Name in the legend; empty for a curve without an entry.
     pub label: String,
     /// Points (x, y); one that is not finite, or not positive on a logarithmic axis, interrupts the curve.
     pub points: Vec<[f64; 2]>,
     /// Error of y at each point, in its unit, drawn as a bar; NaN where none is known. Empty: the curve has none.
     ///
-    /// A fall from one point to the next that is less than both errors together is no fall that the numbers show: there the
-    /// line is interrupted. A point whose error exceeds half of its value has an open marker.
+    /// The line is interrupted where it falls from one point to the next by less than both errors together: the numbers do not show
+    /// such a fall. A point whose error exceeds half of its value has an open marker.
     pub errors: Vec<f64>,
-    /// How it is drawn.
+    /// Style of line and markers.
     pub style: Style,
-    /// Its colour.
+    /// Colour.
     pub colour: Ink,
 }
 
@@ -27,7 +27,7 @@ pub struct Curve {
 pub enum Ink {
     /// By its index: 0 black, then 1 blue, 2 vermilion, 3 green, 4 purple, 5 orange, 6 sky blue, and again from 1.
     Number(usize),
-    /// By depth, from 0 at the surface, dark, to 1, light: for more curves than there are colours.
+    /// By depth, from 0 at the surface (dark) to 1 (light): for more curves than numbered colours.
     Depth(f64),
 }
 
@@ -38,10 +38,11 @@ impl From<usize> for Ink {
 }
 
 impl Ink {
-    /// Of the `index`-th of `count` things from the surface down (from 0): by number while there are colours for all.
+    /// Colour of the `index`-th of `count` layers or interfaces from the surface down (from 0): by number while there are colours for
+    /// all.
     pub(super) fn by_depth(index: usize, count: usize) -> Self {
         match count {
-            0..=MOST => Self::Number(index + 1),
+            0..=NUMBERED_COLOURS => Self::Number(index + 1),
             _ => Self::Depth(index as f64 / (count - 1) as f64),
         }
     }
@@ -54,10 +55,10 @@ impl Ink {
     }
 }
 
-/// Most things that are told apart by numbered colours, one below the other: four layers on a substrate.
-pub(super) const MOST: usize = 5;
+/// Largest number of layers or interfaces with numbered colours: four layers on a substrate.
+pub(super) const NUMBERED_COLOURS: usize = 5;
 
-/// How a curve is drawn.
+/// The style of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Style {
     /// A solid line.
@@ -74,9 +75,9 @@ pub enum Style {
 
 /// Width of curves, points.
 const STROKE: f64 = 1.1;
-/// Half the size of a marker.
+/// Half the size of a marker, points.
 const MARKER: f64 = 1.9;
-/// Distance between a piece of line in a legend and its text.
+/// Distance between a piece of line in a legend and its text, points.
 pub(super) const TEXT_GAP: f64 = 3.5;
 
 /// Half the length of the ends of an error bar, points.
@@ -99,12 +100,12 @@ impl Curve {
         *next >= *y || y - next > self.error(index) + self.error(index + 1)
     }
 
-    /// Whether a point is hardly known: its error exceeds half of its value.
+    /// Whether the error of a point exceeds half of its value.
     fn is_rough(&self, index: usize) -> bool {
         self.error(index) > 0.5 * self.points[index][1].abs()
     }
 
-    /// The bars of the points that have errors: x, and y from and to.
+    /// Error bars of the points that have errors: x, and least and largest y.
     pub(super) fn bars(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
         let known = self.points.iter().enumerate().filter(|(index, _)| self.error(*index) > 0.0);
         known.map(|(index, [x, y])| (*x, [y - self.error(index), y + self.error(index)]))
@@ -124,8 +125,8 @@ impl Curve {
         }
     }
 
-    /// Draws a point of a curve with errors, within a rectangle: an open marker where it is hardly known, else a dot where no
-    /// line leads to it or from it and the curve has no markers.
+    /// Draws a point of a curve with errors, within a rectangle: an open marker where its error exceeds half of its value, else a dot
+    /// where no line leads to it or from it and the curve has no markers.
     pub(super) fn draw_point(&self, canvas: &mut Canvas, index: usize, [x, y]: [f64; 2], bounds: [[f64; 2]; 2]) {
         let [low, high] = bounds;
         if !(x >= low[0] - 0.1 && x <= high[0] + 0.1 && y >= low[1] - 0.1 && y <= high[1] + 0.1) {
@@ -164,7 +165,7 @@ impl Curve {
         canvas.label(&self.label, [x + length + TEXT_GAP, y], Anchor::Left, NUMBERS, Colour::BLACK);
     }
 
-    /// Draws the marker, if the curve has one: shapes alternate with the colours.
+    /// Draws the marker, if the style has one: shapes alternate with the colours.
     fn mark(&self, canvas: &mut Canvas, [x, y]: [f64; 2]) {
         let open = match self.style {
             Style::Markers => true,

@@ -14,12 +14,12 @@ pub enum Format {
     Png,
     /// Lines, letters as outlines and, for fields, embedded pixels.
     Svg,
-    /// The same as a page.
+    /// A page with lines, letters as outlines and embedded pixels.
     Pdf,
 }
 
 impl Format {
-    /// Ending of a file name.
+    /// Extension of file names.
     pub fn extension(self) -> &'static str {
         match self {
             Self::Png => "png",
@@ -30,7 +30,7 @@ impl Format {
 }
 
 impl Canvas {
-    /// Writes the sheet as `<folder>/<name>.png`, `.svg` or `.pdf`, whole or not at all.
+    /// Writes the sheet as `<folder>/<name>.png`, `.svg` or `.pdf`, completely or not at all.
     ///
     /// # Errors
     /// [`OutputError`] with the path.

@@ -1,4 +1,4 @@
-//! The frame of a plot: two axes with their ranges, numbers and quantities, and where a point stands between them.
+//! The frame of a plot: two axes with their ranges, numbers and labels, and the place of a point between them.
 
 use super::axis::Axis;
 use super::canvas::{Anchor, Canvas, Dash};
@@ -11,17 +11,17 @@ use super::ticks::Ticks;
 
 /// Length of a numbered tick, points.
 const TICK: f64 = 3.0;
-/// How far numbers stand away from a plot with outward ticks.
+/// Distance of the numbers from a plot with outward ticks, points.
 const BEYOND: f64 = 0.7 * TICK;
-/// Most numbers on a horizontal and on a vertical axis.
-const MOST: [usize; 2] = [7, 6];
-/// Distance at which numbers stand apart, of their size: beside and above each other.
+/// Largest number of numbers on a horizontal and on a vertical axis.
+const MOST_NUMBERS: [usize; 2] = [7, 6];
+/// Least distance of numbers beside and above each other, over their size.
 const APART: [f64; 2] = [0.6, 0.25];
 
 /// A frame, laid out relative to the upper left corner of its panel.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    /// Quantities, line by line.
+    /// Labels, line by line.
     labels: [Vec<String>; 2],
     scales: [Scale; 2],
     ranges: [[f64; 2]; 2],
@@ -32,13 +32,13 @@ pub struct Frame {
     pub corner: [f64; 2],
     /// Width and height of the plot.
     pub size: [f64; 2],
-    /// Height with numbers and quantities.
+    /// Height with numbers and labels, points.
     pub height: f64,
 }
 
 impl Frame {
-    /// Room that the axes x and y need over their ranges in a panel of the given width with `right` points beside the
-    /// plot, which is `aspect` times as high as wide; `outward`: see the field.
+    /// Margins that the axes x and y need over their ranges in a panel of a width with `right` points beside the plot, which is
+    /// `aspect` times as high as wide, with ticks `outward` as over a field or inward.
     pub fn margins(
         axes: [&Axis; 2],
         ranges: [[f64; 2]; 2],
@@ -46,19 +46,19 @@ impl Frame {
         aspect: f64,
         outward: bool,
     ) -> Margins {
-        // As many numbers as there may be: how high the plot is shows later.
+        // The widest number of all divisions: the height of the plot is not known yet.
         let all = |most: usize| axes[1].ticks(ranges[1], most);
-        let widest = (2..=MOST[1]).map(|most| widest(&all(most))).fold(0.0, f64::max);
+        let widest = (2..=MOST_NUMBERS[1]).map(|most| widest(&all(most))).fold(0.0, f64::max);
         let beyond = if outward { BEYOND } else { 0.0 };
         let numbers = widest + 3.5 + beyond;
         let high = aspect * (width - 1.35 * LABELS - numbers - right);
         let lines = wrapped(&label(axes[1], ranges[1]), LABELS, high).len().max(1) as f64;
-        let above = factor(&all(MOST[1])).is_some() || !axes[0].marks.is_empty();
+        let above = factor(&all(MOST_NUMBERS[1])).is_some() || !axes[0].marks.is_empty();
         let top = if above { 1.5 * NUMBERS } else { 0.6 * NUMBERS };
         Margins { left: (0.1 + 1.25 * lines) * LABELS + numbers, right, top }
     }
 
-    /// A frame of the axes x and y over their ranges in a panel of the given width and margins.
+    /// Frame of the axes x and y over their ranges in a panel of a width and margins.
     pub fn new(
         axes: [&Axis; 2],
         ranges: [[f64; 2]; 2],
@@ -73,16 +73,16 @@ impl Frame {
             labels: [vec![label(axes[0], ranges[0])], wrapped(&label(axes[1], ranges[1]), LABELS, size[1])],
             scales: axes.map(|axis| axis.scale),
             ranges,
-            ticks: [0, 1].map(|k| axes[k].ticks(ranges[k], MOST[k])),
+            ticks: [0, 1].map(|k| axes[k].ticks(ranges[k], MOST_NUMBERS[k])),
             outward,
             corner: [left, top],
             size,
             height: top + size[1] + beyond + NUMBERS * 1.45 + LABELS * 1.5,
         };
         for k in 0..2 {
-            // As many numbers as stand apart; of two that do not, one.
+            // The most numbers that do not overlap; of two that overlap, one.
             let span = |value: f64, number: &str| frame.span(k, value, number);
-            let ticks = (2..=MOST[k]).rev().map(|most| axes[k].ticks(ranges[k], most));
+            let ticks = (2..=MOST_NUMBERS[k]).rev().map(|most| axes[k].ticks(ranges[k], most));
             let fits = |ticks: &Ticks| ticks.clone().apart(span).numbered.len() == ticks.numbered.len();
             let ticks = ticks.into_iter().find(fits).unwrap_or_else(|| axes[k].ticks(ranges[k], 2).apart(span));
             frame.ticks[k] = ticks;
@@ -90,7 +90,7 @@ impl Frame {
         frame
     }
 
-    /// What a number takes of the sheet along its axis (0: x, 1: y), with half of the distance to the next.
+    /// Extent of a number along its axis (0: x, 1: y), with half of the least distance to the next on both sides; points.
     fn span(&self, axis: usize, value: f64, number: &str) -> Option<[f64; 2]> {
         let place = self.place([0, 1].map(|k| if k == axis { value } else { self.ranges[k][0] }))?;
         let extent = if axis == 0 { text::width(number, NUMBERS) } else { text::CAPITALS * NUMBERS };
@@ -98,7 +98,7 @@ impl Frame {
         Some([place[axis] - half, place[axis] + half])
     }
 
-    /// Place of a point of the plot, if it has one.
+    /// Place of a point, relative to the panel; `None` for a point without a place, as a negative one on a logarithmic axis.
     pub fn place(&self, point: [f64; 2]) -> Option<[f64; 2]> {
         let part = |k: usize| {
             let [first, last] = self.ranges[k];
@@ -175,16 +175,15 @@ impl Frame {
         places
     }
 
-    /// Draws the marks of the horizontal axis, their words above the plot; those too near for words of their own have
-    /// one together.
+    /// Draws the marks of the horizontal axis with their words above the plot; the words of marks near each other are joined.
     pub fn draw_marks(&self, canvas: &mut Canvas, axis: &Axis, origin: [f64; 2]) {
         let [[_, top], [_, bottom]] = self.bounds(origin);
         let mut words: Vec<([f64; 2], String)> = Vec::new();
         for (x, word) in self.marks(axis) {
             canvas.dashed(&[[origin[0] + x, top], [origin[0] + x, bottom]], 0.7, Dash::Dotted, Colour::GREY);
-            let room = text::width(word, NUMBERS) + NUMBERS;
+            let width = text::width(word, NUMBERS) + NUMBERS;
             match words.last_mut() {
-                Some(([_, last], own)) if x - *last < room => {
+                Some(([_, last], own)) if x - *last < width => {
                     *last = x;
                     own.push_str(&format!(", {word}"));
                 }
@@ -209,29 +208,29 @@ impl Frame {
     }
 }
 
-/// Draws a tick from a place on a border along `way`, a shorter one where it has no number.
+/// Draws a tick from a place on a border along a vector, shorter where it has no number.
 pub fn tick(canvas: &mut Canvas, [x, y]: [f64; 2], [dx, dy]: [f64; 2], numbered: bool) {
     let part = if numbered { 1.0 } else { 0.55 };
     canvas.line(&[[x, y], [x + part * dx, y + part * dy]], HAIR, Colour::BLACK);
 }
 
-/// Numbered and plain ticks in one list.
+/// All ticks, with the numbers of the numbered ones.
 pub fn all(ticks: &Ticks) -> impl Iterator<Item = (f64, Option<&str>)> {
     let numbered = ticks.numbered.iter().map(|(value, number)| (*value, Some(number.as_str())));
     numbered.chain(ticks.plain.iter().map(|&value| (value, None)))
 }
 
-/// Width of the widest number.
+/// Width of the widest number, points.
 pub fn widest(ticks: &Ticks) -> f64 {
     ticks.numbered.iter().map(|(_, number)| text::width(number, NUMBERS)).fold(0.0, f64::max)
 }
 
-/// The power of ten that the numbers are to be multiplied by, if it is not one.
+/// The power of ten by which the numbers are multiplied; `None` for 1.
 pub fn factor(ticks: &Ticks) -> Option<String> {
     (ticks.exponent != 0).then(|| number::factor(ticks.exponent))
 }
 
-/// What an axis shows over a range, with its unit.
+/// Label of an axis over a range, with its unit.
 fn label(axis: &Axis, range: [f64; 2]) -> String {
     axis.label.label(&axis.unit(range))
 }

@@ -1,4 +1,4 @@
-//! The legend of a chart: where no curve runs, or else below the chart.
+//! The legend of a chart: where it covers no curve, or else below the chart.
 
 use super::canvas::Canvas;
 use super::curve::{Curve, TEXT_GAP};
@@ -7,9 +7,9 @@ use super::text;
 
 /// Length of the piece of line before an entry, points.
 const PIECE: f64 = 16.0;
-/// Distance around the whole.
+/// Distance around the legend, points.
 pub const GAP: f64 = 3.5;
-/// Height of an entry.
+/// Height of an entry, points.
 const ROW: f64 = 1.4 * NUMBERS;
 
 /// A legend laid out.
@@ -30,7 +30,7 @@ fn named(curves: &[Curve]) -> impl Iterator<Item = (usize, &Curve)> {
 }
 
 impl Legend {
-    /// Entries in as many columns of equal width as fit into `width`, one at least; `None` without any.
+    /// Legend with entries in as many columns of equal width as fit into `width` points, at least one; `None` without entries.
     pub fn new(curves: &[Curve], width: f64) -> Option<Self> {
         let pitch = named(curves).map(|(_, curve)| entry_width(curve)).fold(0.0, f64::max) + 3.0 * GAP;
         let count = named(curves).count();
@@ -41,11 +41,11 @@ impl Legend {
         (count > 0).then_some(Self { entries, size: [columns as f64 * pitch - GAP, rows as f64 * ROW + GAP] })
     }
 
-    /// The upper left corner of a place in the plot (corner and size) that no point of `taken` comes near.
+    /// Upper left corner of a place in the plot (given by corner and size) that covers no point of `taken`; `None` without one.
     pub fn free_place(&self, [x, y]: [f64; 2], [width, height]: [f64; 2], taken: &[[f64; 2]]) -> Option<[f64; 2]> {
         const STEPS: u8 = 6;
-        let room = [width - self.size[0] - 2.0 * GAP, height - self.size[1] - 2.0 * GAP];
-        if room[0] < 0.0 || room[1] < 0.0 || self.size[1] > 0.6 * height {
+        let free = [width - self.size[0] - 2.0 * GAP, height - self.size[1] - 2.0 * GAP];
+        if free[0] < 0.0 || free[1] < 0.0 || self.size[1] > 0.6 * height {
             return None;
         }
         let mut places: Vec<[u8; 2]> = (0..=STEPS).flat_map(|i| (0..=STEPS).map(move |j| [i, j])).collect();
@@ -54,7 +54,7 @@ impl Legend {
         places.sort_by_key(|&[i, j]| (inside(i).min(inside(j)), inside(i) + inside(j), j, STEPS - i));
         let corner = |[i, j]: [u8; 2]| {
             let part = |k: u8| f64::from(k) / f64::from(STEPS);
-            [x + GAP + part(i) * room[0], y + GAP + part(j) * room[1]]
+            [x + GAP + part(i) * free[0], y + GAP + part(j) * free[1]]
         };
         places.into_iter().map(corner).find(|[left, top]| {
             let near = |&[px, py]: &[f64; 2]| {

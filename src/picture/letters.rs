@@ -1,4 +1,4 @@
-//! Letters as outlines, for files that must look the same where the typeface is not at hand.
+//! Letters as outlines, for files that look the same without the typeface.
 
 use super::text::{FONT, placed};
 use ab_glyph::{Font, OutlineCurve, Point};
@@ -6,25 +6,25 @@ use ab_glyph::{Font, OutlineCurve, Point};
 /// A letter of a line of text.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Letter {
-    /// Its number in the typeface.
+    /// Index of the glyph in the typeface.
     pub glyph: u16,
-    /// Where its origin stands, in units of the size from the beginning of the line.
+    /// Distance of its origin from the beginning of the line, in units of the size.
     pub x: f64,
 }
 
 /// A piece of an outline, y up; coordinates in units of the em.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Piece {
-    /// A closed line begins.
+    /// The beginning of a closed line.
     Move([f64; 2]),
-    /// Straight on.
+    /// A straight line to a point.
     Line([f64; 2]),
-    /// A cubic Bézier curve: two points that draw it aside, and its end.
+    /// A cubic Bézier curve: two control points and the end.
     Curve([[f64; 2]; 3]),
 }
 
 impl Piece {
-    /// The same elsewhere.
+    /// The piece with its points mapped to other places.
     pub fn map(self, place: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         match self {
             Self::Move(to) => Self::Move(place(to)),
@@ -34,13 +34,13 @@ impl Piece {
     }
 }
 
-/// The letters of a line of text that leave ink.
+/// The letters of a line of text that have an outline.
 pub fn letters(text: &str) -> Vec<Letter> {
     let letters = placed(text).0.into_iter().map(|own| Letter { glyph: own.glyph.0, x: own.x });
     letters.filter(|letter| !outline(letter.glyph).is_empty()).collect()
 }
 
-/// The outline of a letter by its number in the typeface; empty for a space.
+/// Outline of a glyph by its index in the typeface; empty for a space.
 pub fn outline(glyph: u16) -> Vec<Piece> {
     let em = FONT.units_per_em().unwrap_or(2048.0);
     let at = |point: Point| [point.x, point.y].map(|c| f64::from(c / em));
@@ -49,7 +49,7 @@ pub fn outline(glyph: u16) -> Vec<Piece> {
     for curve in FONT.outline(ab_glyph::GlyphId(glyph)).map_or(Vec::new(), |outline| outline.curves) {
         let (from, piece, to) = match curve {
             OutlineCurve::Line(from, to) => (at(from), Piece::Line(at(to)), at(to)),
-            // A parabola is a cubic whose points stand two thirds of the way to its one.
+            // A parabola is a cubic whose control points lie two thirds of the way to that of the parabola.
             OutlineCurve::Quad(from, aside, to) => {
                 let [a, q, b] = [from, aside, to].map(at);
                 (a, Piece::Curve([between([a, q], 2.0 / 3.0), between([b, q], 2.0 / 3.0), b]), b)

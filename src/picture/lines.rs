@@ -3,14 +3,14 @@
 use super::axis::Axis;
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Ink, MOST, Style};
+use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
 use super::number::degrees;
-use super::rows::Quantity;
 use super::snapshot::Snapshot;
+use crate::reading::SectionMeasure;
 use crate::stress::VerticalSection;
 
-/// From so many interfaces on colours tell depths, and both sides of an interface have one name.
-const MANY: usize = MOST;
+/// Number of interfaces from which on colours show depths, and both sides of an interface have one name.
+const MANY: usize = NUMBERED_COLOURS;
 
 /// The picture.
 pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
@@ -30,16 +30,18 @@ pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
             (_, _, false) => format!("interface {}, below", depth.material - 1),
         }
     };
-    let points = |row: usize, quantity: Quantity| {
+    let points = |row: usize, measure: SectionMeasure| {
         let states = distances.iter().zip(section.states.row(row));
-        let mut points: Vec<[f64; 2]> = states.map(|(&s, state)| [s, section.stress(quantity, state)]).collect();
+        let mut points: Vec<[f64; 2]> = states.map(|(&s, state)| [s, section.measure(measure, state)]).collect();
         // An edge of contact between two points is the top of the surface's curve.
-        if let Some(highest) = section.highest.filter(|_| quantity == Quantity::Along && section.depths[row].z == 0.0) {
+        if let Some(highest) =
+            section.highest.filter(|_| measure == SectionMeasure::Along && section.depths[row].z == 0.0)
+        {
             points.insert(points.partition_point(|[s, _]| *s <= highest[0]), highest);
         }
         points
     };
-    let chart = |title: &str, quantity: Quantity, y: Axis| Chart {
+    let chart = |title: &str, measure: SectionMeasure, y: Axis| Chart {
         title: title.to_owned(),
         x: Axis::linear(snapshot.units.length_of("distance", "s")),
         y,
@@ -47,7 +49,7 @@ pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
             .zip(section.face_rows())
             .map(|(number, row)| Curve {
                 label: name(row),
-                points: points(row, quantity),
+                points: points(row, measure),
                 errors: Vec::new(),
                 style: if below(row) { Style::Dashed } else { Style::Line },
                 colour: match interfaces {
@@ -60,8 +62,8 @@ pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
     let along = Axis::linear(snapshot.units.pressure_of("stress along the section", "σₛ"));
     let tau1 = Axis::linear(snapshot.units.pressure_of("principal shear stress", "τ₁"));
     let charts = [
-        chart("(a) tension and compression", Quantity::Along, along),
-        chart("(b) principal shear stress", Quantity::Tau1, tau1),
+        chart("(a) tension and compression", SectionMeasure::Along, along),
+        chart("(b) principal shear stress", SectionMeasure::Tau1, tau1),
     ];
     let what = format!("Lines along {} from the x axis.", degrees(section.line.direction));
     let sides = if interfaces >= MANY { " Solid: above an interface; dashed: below." } else { "" };

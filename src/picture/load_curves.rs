@@ -1,16 +1,16 @@
-//! Load curves: what changes with the mean pressure over the steps of a run (Figs 4 and 5).
+//! Load curves: the readings over the mean pressure of the steps of a run (Figs 4 and 5).
 
 use super::axis::{Axis, log_spaced};
 use super::canvas::Canvas;
 use super::chart::{Chart, plots};
-use super::curve::{Curve, Ink, MOST, Style};
-use super::quantity::Quantity;
+use super::curve::{Curve, Ink, NUMBERED_COLOURS, Style};
+use super::label::Label;
 use super::snapshot::caption;
-use super::touches::touches;
 use super::utilisations::{BARS, utilisation_axis, utilisation_curves};
 use crate::problem::Problem;
 use crate::reading::{Criterion, LevelReading, Reading};
 use crate::run::StepRecord;
+use crate::run::touches::touches;
 use crate::stress::Peak;
 use crate::stress::maxima::{Carried, Extremes};
 use crate::units::Units;
@@ -22,14 +22,14 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
     }
     let levels = problem.counterbody().levels().len();
     let touches = touches(problem, steps);
-    let run = Run { steps, levels, units, logarithmic: logarithmic(steps), touches: &touches };
-    let mut charts = vec![run.peak_pressure(), run.extent(), run.penetration()];
-    if run.levels > 1 {
-        charts.push(run.shares());
+    let path = LoadPath { steps, levels, units, logarithmic: logarithmic(steps), touches: &touches };
+    let mut charts = vec![path.peak_pressure(), path.extent(), path.penetration()];
+    if path.levels > 1 {
+        charts.push(path.shares());
     }
-    charts.extend(run.stresses());
-    charts.extend(run.interfaces());
-    charts.extend(run.utilisations());
+    charts.extend(path.stresses());
+    charts.extend(path.interfaces());
+    charts.extend(path.utilisations());
     for (letter, chart) in ('a'..).zip(&mut charts) {
         chart.title = format!("({letter}) {}", chart.title);
     }
@@ -44,18 +44,20 @@ pub fn load_curves(title: &str, problem: &Problem, units: &Units, steps: &[StepR
     Some(plots(&format!("{}{what}{bars}", caption(title, problem, units, &more)), &charts))
 }
 
-struct Run<'a> {
+/// The steps of a run, and how they are drawn.
+struct LoadPath<'a> {
     steps: &'a [StepRecord],
+    /// Number of levels; 0 for a topography.
     levels: usize,
     units: &'a Units,
-    /// Whether the mean pressure and what grows with it have logarithmic axes.
+    /// Whether the mean pressure and the quantities that grow with it have logarithmic axes.
     logarithmic: bool,
     /// Levels and the mean pressures at which they touch first.
     touches: &'a [(usize, f64)],
 }
 
-impl Run<'_> {
-    fn axis(&self, label: Quantity) -> Axis {
+impl LoadPath<'_> {
+    fn axis(&self, label: Label) -> Axis {
         if self.logarithmic { Axis::log(label) } else { Axis::linear(label) }
     }
 
@@ -71,7 +73,7 @@ impl Run<'_> {
 
     fn curve(&self, label: &str, colour: Ink, value: impl Fn(&StepRecord) -> f64) -> Curve {
         let points: Vec<[f64; 2]> = self.steps.iter().map(|step| [step.reading.mean_pressure, value(step)]).collect();
-        // Markers show the steps where they are few.
+        // Markers show the steps of short paths.
         let style = if points.len() <= 25 { Style::LineMarkers } else { Style::Line };
         Curve { label: label.to_owned(), points, errors: Vec::new(), style, colour }
     }
@@ -83,7 +85,7 @@ impl Run<'_> {
         Curve { errors: self.steps.iter().map(errors).collect(), ..self.curve(label, colour, value) }
     }
 
-    /// One curve a level; where it has no value, or no contact, there is no curve. One of the `whole` for a topography.
+    /// One curve for each level, interrupted where the level has no value or no contact; one of the `whole` for a topography.
     fn by_level(
         &self,
         whole: impl Fn(&Reading) -> Option<f64>,
@@ -126,7 +128,7 @@ impl Run<'_> {
         self.chart("share of the load", Axis::linear("load share (%)").from_to(0.0, 105.0), curves)
     }
 
-    /// The largest stresses in each material, where the case asks for stresses.
+    /// Charts of the largest stresses in each material; empty for runs without stresses.
     fn stresses(&self) -> Vec<Chart> {
         let materials = self.steps.iter().filter_map(|step| step.stress.as_ref()).map(|stress| stress.materials.len());
         let Some(materials) = materials.max() else { return Vec::new() };
@@ -154,14 +156,14 @@ impl Run<'_> {
         ]
     }
 
-    /// What opens and what shears each interface most.
+    /// Chart of the largest tension and shear of each interface.
     fn interfaces(&self) -> Option<Chart> {
         let interfaces = self.steps.iter().filter_map(|step| Some(step.stress.as_ref()?.interfaces.len())).max()?;
         let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, dashed: bool| {
             let name = match interfaces {
                 1 => what.to_owned(),
-                MOST.. if dashed => String::new(),
-                MOST.. => format!("interface {}", index + 1),
+                NUMBERED_COLOURS.. if dashed => String::new(),
+                NUMBERED_COLOURS.. => format!("interface {}", index + 1),
                 _ => format!("{what}, interface {}", index + 1),
             };
             let of = |step: &StepRecord| step.stress.as_ref()?.interfaces.get(index).map(value);
@@ -175,11 +177,12 @@ impl Run<'_> {
             ]
         });
         let y = Axis::linear(self.units.pressure_of("largest tension and shear", "σ, τ"));
-        let title = if interfaces < MOST { "interfaces" } else { "interfaces; solid: shear, dashed: tension" };
+        let title =
+            if interfaces < NUMBERED_COLOURS { "interfaces" } else { "interfaces; solid: shear, dashed: tension" };
         (interfaces > 0).then(|| self.chart(title, y, curves.collect()))
     }
 
-    /// What is taken up of the strengths.
+    /// Chart of the utilisations of the strengths.
     fn utilisations(&self) -> Option<Chart> {
         let criteria: Vec<Criterion> =
             self.steps.iter().find(|step| !step.strength.is_empty())?.strength.iter().map(|u| u.criterion).collect();

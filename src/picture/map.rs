@@ -1,4 +1,4 @@
-//! A field over a rectangle in colours, with a colour bar and what is drawn over it.
+//! Maps: a field over a rectangle in colours, with a colour bar and marks over it.
 
 use super::axis::Axis;
 use super::bar::{Bar, GAP};
@@ -9,7 +9,7 @@ use super::frame::Frame;
 use super::sheet::{HAIR, Margins, NUMBERS, Panel};
 use rayon::prelude::*;
 
-/// What is drawn over a field, in its coordinates.
+/// A mark over a field, in its coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Over {
     Line(Stroke),
@@ -19,18 +19,18 @@ pub enum Over {
         at: [f64; 2],
         colour: Colour,
     },
-    /// A bar on top of the plot, where the counterbody touches.
+    /// A bar on top of the plot, for a contact.
     Roof {
         /// First and last place along the horizontal axis.
         from_to: [f64; 2],
     },
-    /// A cross, where something is largest.
+    /// A cross, at a largest value.
     Mark {
         at: [f64; 2],
-        /// Its colour; its edge has the opposite lightness.
+        /// Colour of the cross; its edge has the opposite lightness.
         colour: Colour,
     },
-    /// A number in a ring, where something fails.
+    /// A number in a ring, at a failure.
     Ring {
         at: [f64; 2],
         number: usize,
@@ -42,17 +42,17 @@ pub enum Over {
     },
 }
 
-/// The colour of a place.
+/// The colours of a field.
 pub enum Fill<'a> {
-    /// A value; `None` has the colour that the bar has for it.
+    /// By values and a colour bar; places without a value have [`Bar::without`].
     Values(Bar, &'a (dyn Fn([f64; 2]) -> Option<f64> + Sync)),
-    /// A colour without a scale.
+    /// By colours without a scale.
     Colours(&'a (dyn Fn([f64; 2]) -> Colour + Sync)),
 }
 
-/// A field.
+/// A map of a field.
 pub struct Map<'a> {
-    /// What stands over it.
+    /// Title above the plot.
     pub title: String,
     /// The horizontal axis, with a range.
     pub x: Axis,
@@ -60,17 +60,19 @@ pub struct Map<'a> {
     pub y: Axis,
     /// Height over width.
     pub aspect: f64,
-    /// What it shows.
+    /// The field.
     pub fill: Fill<'a>,
-    /// What is drawn over it, the first one lowest.
+    /// Marks over the field, the first one lowest.
     pub over: Vec<Over>,
 }
 
 /// Height of a bar on top of a plot, points.
 const ROOF: f64 = 2.6;
-/// Length of an arrow, and of its head; its distance from the border. Points.
+/// Length of an arrow, points.
 const ARROW: f64 = 20.0;
+/// Length of the head of an arrow, points.
 const HEAD: f64 = 6.0;
+/// Distance of an arrow from the border of the plot, points.
 const INSET: f64 = 16.0;
 
 impl Map<'_> {
@@ -104,7 +106,7 @@ impl Map<'_> {
                 pixel.copy_from_slice(&colour(place(row as f64, column as f64)).0);
             }
         });
-        // The edges of what is white are smoothed: pixels next to them become means of several places.
+        // The edges of white areas are smoothed: pixels next to them become means of several places.
         const PARTS: u8 = 4;
         let white = |row: usize, column: usize| pixels[3 * (row * columns + column)..][..3] == [255; 3];
         let is_edge = |row: usize, column: usize| {

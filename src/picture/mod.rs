@@ -1,9 +1,9 @@
-//! Pictures as a journal prints them: charts and fields, as PNG, SVG or PDF files.
+//! Pictures in the style of a journal: charts and fields, as PNG, SVG or PDF files.
 //!
-//! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. What is
-//! drawn goes on a sheet measured in points ([`Canvas`]), which becomes pixels or a file of lines.
+//! A picture is one column (85 mm) or two columns wide, its letters 6 to 8 points high, its typeface embedded. It is drawn on a
+//! sheet measured in points ([`Canvas`]), which is written as pixels or as lines.
 //!
-//! - Any curves: [`Chart`], and [`Figure`] for several side by side.
+//! - Any curves: [`Chart`], and [`Figure`] for several charts side by side.
 //! - A solved load step ([`Snapshot`]): [`pressure`](pressure()), [`contact`](contact()), [`profiles`](profiles()).
 //! - Its stresses under a line ([`Section`](crate::stress::VerticalSection)): [`section`](section()), [`lines`](lines()).
 //! - The steps of a run: [`load_curves`](load_curves()); of a search for limit loads: [`utilisations`](utilisations()).
@@ -13,6 +13,7 @@
 
 mod axis;
 mod bar;
+mod between_rows;
 mod canvas;
 mod chart;
 mod colour;
@@ -22,6 +23,7 @@ pub(crate) mod contour;
 mod curve;
 mod file;
 mod frame;
+mod label;
 mod legend;
 mod letters;
 mod lines;
@@ -32,9 +34,7 @@ mod outline;
 mod paper;
 mod pressure;
 mod profiles;
-mod quantity;
 mod raster;
-mod rows;
 mod scale;
 mod section;
 mod sheet;
@@ -44,7 +44,6 @@ mod sweep;
 mod text;
 mod ticks;
 mod tiling;
-mod touches;
 mod utilisations;
 pub(crate) mod vector;
 mod window;
@@ -56,11 +55,11 @@ pub use comparison::comparison;
 pub use contact::contact;
 pub use curve::{Curve, Ink, Style};
 pub use file::Format;
+pub use label::Label;
 pub use lines::lines;
 pub use load_curves::load_curves;
 pub use pressure::pressure;
 pub use profiles::profiles;
-pub use quantity::Quantity;
 pub use scale::Scale;
 pub use section::section;
 pub use snapshot::Snapshot;

@@ -1,6 +1,6 @@
-//! Numbers as a journal prints them: one way on axes, on colour bars and in captions.
+//! Numbers in pictures, in the style of a journal: on axes, on colour bars and in captions.
 //!
-//! A true minus sign, and powers of ten as 2×10⁻⁵; not 2e-5, which tables on the terminal have for other programs to read.
+//! With a true minus sign, and powers of ten as 2×10⁻⁵; tables on the terminal have 2e-5, which other programs read.
 
 /// A number with up to five digits.
 pub fn short(x: f64) -> String {
@@ -25,12 +25,12 @@ pub fn times(digits: &str, exponent: i32) -> String {
     if digits == "1" { power(exponent) } else { format!("{digits}{}", factor(exponent)) }
 }
 
-/// What numbers are to be multiplied by: ×10ⁿ.
+/// The factor ×10ⁿ.
 pub fn factor(exponent: i32) -> String {
     format!("×{}", power(exponent))
 }
 
-/// 10ⁿ.
+/// The power 10ⁿ.
 pub fn power(exponent: i32) -> String {
     let raised = |c: char| match c {
         '-' => '⁻',

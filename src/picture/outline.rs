@@ -1,5 +1,5 @@
-//! The outline of contact between the samples where no boundary is fitted: of contacts that have merged, of those of few
-//! samples, and of a topography's.
+//! The outline of contact between the samples where no boundary is fitted: of merged contacts, of contacts of few samples, and of
+//! those of a topography.
 //!
 //! Next to the edge the square of the pressure grows evenly inwards and the power 2/3 of the gap outwards. Over their own
 //! slopes both are the distance from the edge,
@@ -13,19 +13,18 @@ use super::snapshot::Snapshot;
 use super::tiling::around;
 use super::window::Window;
 
-/// Farthest distance that is told apart, in spacings.
+/// Largest distance from the edge that is computed, in spacings.
 const FAR: f64 = 1.5;
-/// Most intervals along a window on which an outline is looked for.
-const MOST: f64 = 480.0;
+/// Largest number of intervals along a window in which an outline is searched.
+const MOST_INTERVALS: f64 = 480.0;
 
 impl Snapshot {
-    /// Distance of a place from the edge of contact, a length: positive inside, negative outside. Right near the edge
-    /// alone.
+    /// Distance of a place from the edge of contact, a length: positive inside, negative outside; accurate near the edge.
     pub fn inside(&self, place: [f64; 2]) -> f64 {
         around(self.step.grid(), place).iter().map(|&(index, weight)| weight * self.inside_at(index)).sum()
     }
 
-    /// The same at a sample.
+    /// Distance of a sample from the edge of contact, by its flat index.
     fn inside_at(&self, index: usize) -> f64 {
         let (grid, pressures, gaps) = (self.step.grid(), self.pressures(), self.step.finest().gaps());
         let touches = pressures[index] > 0.0;
@@ -37,11 +36,11 @@ impl Snapshot {
         // Neighbours along a₁ and a₂, before and after.
         let [n1, n2] = grid.points();
         let (i, j) = (index / n2, index % n2);
-        let ways = [
+        let pairs = [
             [((i + n1 - 1) % n1) * n2 + j, ((i + 1) % n1) * n2 + j],
             [i * n2 + (j + n2 - 1) % n2, i * n2 + (j + 1) % n2],
         ];
-        let [along1, along2] = ways.map(|[before, after]| {
+        let [along1, along2] = pairs.map(|[before, after]| {
             let alike = |next: usize| (pressures[next] > 0.0) == touches;
             match (alike(before), alike(after)) {
                 (true, true) => 0.5 * (value(after) - value(before)),
@@ -59,15 +58,15 @@ impl Snapshot {
         if touches { distance } else { -distance }
     }
 
-    /// Index of the site whose indenter faces a place, and the way from its axis; `None` for a topography.
+    /// Index of the site whose indenter faces a place, and the vector from its axis, lengths; `None` for a topography.
     pub fn facing(&self, place: [f64; 2]) -> Option<(usize, [f64; 2])> {
         let (cell, sites) = (self.step.grid().cell(), self.step.surface().sites());
         let (reduced, own) = (cell.reduced(), cell.fractions(place));
         let facing = sites.iter().enumerate().map(|(index, site)| {
-            let way = reduced.nearest([own[0] - site.place[0], own[1] - site.place[1]]);
-            (index, way, site.profile(way[0].hypot(way[1])))
+            let offset = reduced.nearest([own[0] - site.place[0], own[1] - site.place[1]]);
+            (index, offset, site.profile(offset[0].hypot(offset[1])))
         });
-        facing.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(index, way, _)| (index, way))
+        facing.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(index, offset, _)| (index, offset))
     }
 
     /// Whether the contact of the indenter that faces a place has no fitted boundary.
@@ -75,14 +74,14 @@ impl Snapshot {
         self.facing(place).is_none_or(|(site, _)| self.reading.boundaries[site].is_none())
     }
 
-    /// The outlines within a window of all contacts without a fitted boundary.
+    /// Outlines within a window of all contacts without a fitted boundary.
     pub fn outlines(&self, window: Window) -> Vec<Vec<[f64; 2]>> {
         if self.reading.boundaries.iter().all(Option::is_some) {
             return Vec::new();
         }
         let lengths = window.map(|[first, last]| last - first);
         let at = |[u, v]: [f64; 2]| [window[0][0] + u * lengths[0], window[1][0] + v * lengths[1]];
-        let count = |length: f64| (1.5 * length / self.step.grid().spacing()).clamp(40.0, MOST) as usize;
+        let count = |length: f64| (1.5 * length / self.step.grid().spacing()).clamp(40.0, MOST_INTERVALS) as usize;
         let value = |part: [f64; 2]| self.is_rough(at(part)).then(|| self.inside(at(part)));
         let lines = zero_lines(count(lengths[0]), count(lengths[1]), value).into_iter();
         lines.map(|line| line.into_iter().map(at).collect()).collect()

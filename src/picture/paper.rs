@@ -10,9 +10,9 @@ use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref};
 
-/// Effort of compression, of 10.
+/// Level of compression, 0 to 10.
 const EFFORT: u8 = 6;
-/// Distance of the points that draw a quarter of a circle aside, over its radius.
+/// Distance of the control points of a quarter of a circle, over its radius.
 const ROUND: f64 = 0.552_284_75;
 
 /// The PDF file of a sheet.
@@ -56,7 +56,7 @@ pub fn pdf(canvas: &Canvas) -> Vec<u8> {
     pdf.finish()
 }
 
-/// Draws a mark; the names of images are taken one by one.
+/// Draws a mark; `images` are the names of the images, in their order.
 fn put<'a>(content: &mut Content, mark: &Mark, images: &mut impl Iterator<Item = &'a (String, Ref)>) {
     match mark {
         Mark::Line(Stroke { points, width, dash, colour }) => {
@@ -111,7 +111,7 @@ fn put<'a>(content: &mut Content, mark: &Mark, images: &mut impl Iterator<Item =
     }
 }
 
-/// The path through points, closed if it ends where it begins.
+/// Adds a path through points, closed if it ends where it begins.
 fn path(content: &mut Content, points: &[[f64; 2]]) {
     for (k, &point) in points.iter().enumerate() {
         go(content, if k == 0 { Piece::Move(point) } else { Piece::Line(point) });
@@ -132,7 +132,7 @@ fn go(content: &mut Content, piece: Piece) {
     };
 }
 
-/// To 0.001 points: letters are small.
+/// A length rounded to 0.001 points, fine enough for letters.
 fn rounded(x: f64) -> f32 {
     ((1000.0 * x).round() / 1000.0) as f32
 }

@@ -1,4 +1,4 @@
-//! The contact pressure over the surface, true to scale: several cells side by side (Fig. 2a), one of a topography.
+//! The contact pressure over the surface, true to scale: several cells side by side (Fig. 2a), one cell of a topography.
 
 use super::axis::Axis;
 use super::bar::Bar;
@@ -10,10 +10,10 @@ use super::snapshot::{Snapshot, is_oblique};
 use super::tiling::images;
 use super::window::{View, Window};
 
-/// Room of a number, widths of a plot: beside and above each other.
-const ROOM: [f64; 2] = [0.035, 0.055];
+/// Least distance of numbers beside and above each other, in widths of a plot.
+const NUMBERS_APART: [f64; 2] = [0.035, 0.055];
 
-/// The picture; white is where there is no contact.
+/// The picture; places without contact are white.
 pub fn pressure(snapshot: &Snapshot) -> Canvas {
     let cell = snapshot.step.grid().cell();
     let view = if snapshot.levels() == 0 { View::one(cell) } else { View::cells(cell) };
@@ -45,7 +45,7 @@ pub fn sliding_arrow(snapshot: &Snapshot, view: View) -> Option<Over> {
     Some(Over::Arrow { direction: [x, y].map(|part| part / x.hypot(y)) })
 }
 
-/// What a caption says about it.
+/// Text of the caption on the arrow.
 pub fn sliding_words(snapshot: &Snapshot) -> &'static str {
     snapshot.step.problem().friction().map_or("", |_| " Arrow: direction of sliding.")
 }
@@ -73,13 +73,13 @@ pub fn unit_cell(snapshot: &Snapshot, view: View) -> Vec<Over> {
     (0..4).flat_map(side).chain(names(snapshot, view, corners)).collect()
 }
 
-/// a₁ and a₂ beside their sides, where the cell has no other name: outside it, or where the plot ends there, inside.
+/// The names a₁ and a₂ beside the sides of an oblique cell: outside the cell, or inside where the plot ends there.
 fn names(snapshot: &Snapshot, view: View, [origin, along1, _, along2]: [[f64; 2]; 4]) -> Vec<Over> {
     if !is_oblique(&snapshot.step.grid().cell()) {
         return Vec::new();
     }
     let [[x0, x1], [y0, y1]] = view.window;
-    // As the plot has them: lengths along y stretched.
+    // In the plot lengths along y are stretched.
     let stretch = view.stretch();
     let off = 0.04 * (x1 - x0);
     let beside = |word: &str, to: [f64; 2], other: [f64; 2]| {
@@ -102,7 +102,7 @@ fn names(snapshot: &Snapshot, view: View, [origin, along1, _, along2]: [[f64; 2]
     [beside("a₁", along1, along2), beside("a₂", along2, along1)].into_iter().flatten().collect()
 }
 
-/// The number of the level at each site within the view, as far as they have room beside each other: from its middle on.
+/// The number of the level at each site within the view; numbers that would overlap others nearer to the middle are left out.
 pub fn numbers(snapshot: &Snapshot, view: View, colour: impl Fn([f64; 2]) -> Colour) -> Vec<Over> {
     let [[x0, x1], [y0, y1]] = view.window;
     let inner = view.window.map(|[first, last]| {
@@ -121,11 +121,11 @@ pub fn numbers(snapshot: &Snapshot, view: View, colour: impl Fn([f64; 2]) -> Col
     places.sort_by(|(_, a), (_, b)| off(*a).total_cmp(&off(*b)));
     let mut shown: Vec<(usize, [f64; 2])> = Vec::new();
     for (level, at) in places {
-        let has_room = |(_, other): &(usize, [f64; 2])| {
+        let is_clear = |(_, other): &(usize, [f64; 2])| {
             let [across, up] = apart(at, *other);
-            across > ROOM[0] || up > ROOM[1]
+            across > NUMBERS_APART[0] || up > NUMBERS_APART[1]
         };
-        if shown.iter().all(has_room) {
+        if shown.iter().all(is_clear) {
             shown.push((level, at));
         }
     }

@@ -56,16 +56,16 @@ pub fn profiles(snapshot: &Snapshot, isolated: Option<&[Vec<[f64; 2]>]>) -> Opti
     })
 }
 
-/// Points on either side of the axis.
+/// Number of points on either side of the axis.
 const POINTS: u32 = 240;
 
-/// Most steps of a quarter of a spacing on the way to the end of a contact.
+/// Largest number of steps of a quarter of a spacing to the end of a contact.
 const MOST_STEPS: f64 = 4e4;
 
-/// What ends a contact.
+/// The end of a contact along a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Rim {
-    /// Its edge.
+enum ContactEnd {
+    /// The edge of contact.
     Edge,
     /// The contact of the next indenter, with which it has merged.
     Seam,
@@ -77,7 +77,7 @@ enum Rim {
 fn smooth(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let Some((&[edge, _], inner)) = points.split_last() else { return Vec::new() };
     let element = if inner.len() > 1 { inner[1][0] - inner[0][0] } else { 0.0 };
-    // A ring's first element stands half of its width behind the inner edge.
+    // The first element of a ring is half of its width behind the inner edge.
     let first = inner.first().map_or(0.0, |[r, _]| *r);
     let hole = if first > 1.1 * element { first - 0.5 * element } else { 0.0 };
     let is_whole = |r: f64| edge - r > 1.05 * element && (hole == 0.0 || r - hole > 1.05 * element);
@@ -103,13 +103,13 @@ fn smooth(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let square = a + t * (c + t * (3.0 * (b - a) - 2.0 * c - d + t * (2.0 * (a - b) + c + d)));
         [r, square.max(0.0).sqrt()]
     };
-    // Points gather at edges.
+    // Points are denser at edges.
     let part = |k: u32| {
-        let turn = PI * f64::from(k) / f64::from(POINTS);
-        if hole > 0.0 { 0.5 - 0.5 * turn.cos() } else { (0.5 * turn).sin() }
+        let angle = PI * f64::from(k) / f64::from(POINTS);
+        if hole > 0.0 { 0.5 - 0.5 * angle.cos() } else { (0.5 * angle).sin() }
     };
     let mut line: Vec<[f64; 2]> = (0..=POINTS).map(|k| at(hole + (edge - hole) * part(k))).collect();
-    // Rounding has no part in how the pressure ends.
+    // The pressure ends without rounding errors.
     line[POINTS as usize] = points[points.len() - 1];
     line
 }
@@ -125,10 +125,10 @@ impl Snapshot {
         }
         let boundary = self.reading.boundaries[site].as_ref();
         let ends = |theta: f64| match boundary {
-            Some(boundary) => [theta + PI, theta].map(|theta| (boundary.radius(theta), Rim::Edge)),
+            Some(boundary) => [theta + PI, theta].map(|theta| (boundary.radius(theta), ContactEnd::Edge)),
             None => [theta + PI, theta].map(|theta| self.end(site, centre, theta)),
         };
-        // Of equal extents the first one.
+        // The first of equal extents.
         let (mut direction, mut widest) = (0.0, 0.0);
         for theta in (0..180).map(|k| f64::from(k).to_radians()) {
             let extent: f64 = ends(theta).iter().map(|(end, _)| end).sum();
@@ -150,28 +150,28 @@ impl Snapshot {
             let (outer, inner) = (end - s.abs(), s.abs() - hole);
             let square = match kind {
                 _ if hole > 0.0 && inner < rim => squared(sign * (hole + rim)) * inner.max(0.0) / rim,
-                Rim::Edge if outer < rim => squared(sign * (end - rim)) * outer / rim,
+                ContactEnd::Edge if outer < rim => squared(sign * (end - rim)) * outer / rim,
                 _ => squared(s),
             };
             [s, square.max(0.0).sqrt()]
         };
         let points = (0..=2 * POINTS)
             .map(|k| f64::from(k) / f64::from(POINTS) - 1.0)
-            // Points gather at the edge, where the pressure ends like a square root.
+            // Points are denser at the edge, where the pressure falls like a square root.
             .map(|t| (t * 0.5 * PI).sin())
             .map(|t| at(if t < 0.0 { t * left } else { t * right }))
             .collect();
         Some((direction, points))
     }
 
-    /// Where a line from the axis of an indenter whose contact has no boundary of its own leaves this contact for the last
-    /// time: the distance, and whether there is an edge or the next indenter's contact.
-    fn end(&self, site: usize, centre: [f64; 2], theta: f64) -> (f64, Rim) {
+    /// Distance at which a line from the axis of an indenter leaves its contact for the last time, a length, and the kind of this
+    /// end; for contacts without a located boundary.
+    fn end(&self, site: usize, centre: [f64; 2], theta: f64) -> (f64, ContactEnd) {
         let step = 0.25 * self.step.grid().spacing();
         let at = |r: f64| [centre[0] + r * theta.cos(), centre[1] + r * theta.sin()];
         let own = |r: f64| {
-            let way = self.facing(at(r)).filter(|(facing, _)| *facing == site).map(|(_, way)| way);
-            way.is_some_and(|[x, y]| (x - r * theta.cos()).hypot(y - r * theta.sin()) < step)
+            let offset = self.facing(at(r)).filter(|(facing, _)| *facing == site).map(|(_, offset)| offset);
+            offset.is_some_and(|[x, y]| (x - r * theta.cos()).hypot(y - r * theta.sin()) < step)
         };
         let (mut last, mut k) = (0.0, 0.0);
         while own(k * step) && k < MOST_STEPS {
@@ -180,7 +180,7 @@ impl Snapshot {
             }
             k += 1.0;
         }
-        let rim = if last >= (k - 1.5) * step { Rim::Seam } else { Rim::Edge };
+        let rim = if last >= (k - 1.5) * step { ContactEnd::Seam } else { ContactEnd::Edge };
         (last, rim)
     }
 
@@ -204,7 +204,7 @@ mod tests {
     fn a_smooth_line_through_few_points_of_a_hertzian_contact_is_hertzian() {
         let mut points: Vec<[f64; 2]> =
             (0..12).map(|k| f64::from(k) / 12.0).map(|r| [r, (1.0 - r * r).sqrt()]).collect();
-        // The last element says too much.
+        // The last element is too high.
         points[11][1] *= 1.3;
         points.push([1.0, 0.0]);
         for [r, p] in smooth(&points) {
@@ -226,7 +226,7 @@ mod tests {
         assert!(line.iter().all(|[r, p]| (p * p - square(*r)).abs() < 0.1 * square(0.75)), "{line:?}");
     }
 
-    /// Neighbours of two levels on a square lattice stand √½ apart: the seam is not far from halfway.
+    /// Neighbours of two levels on a square lattice are √½ apart: the seam is not far from halfway.
     #[test]
     fn a_merged_contact_ends_at_the_seam() {
         let levels = [0.01, 0.0].map(|height| Level::new(Shape::Paraboloid { radius: 1.0 }, height).unwrap()).to_vec();

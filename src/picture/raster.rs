@@ -1,20 +1,20 @@
-//! A sheet as a PNG file, every edge smooth.
+//! A sheet as a PNG file, with smooth edges.
 
 use super::canvas::{Anchor, Canvas, Dash, Mark, PIXELS, Stroke};
 use super::colour::Colour;
 use super::text;
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Shader, StrokeDash, Transform};
 
-/// Most pixels of a side of a sheet; what lies beyond is cut off.
-const MOST: f64 = 20_000.0;
+/// Largest number of pixels of a side of a sheet; the rest is cut off.
+const MOST_PIXELS: f64 = 20_000.0;
 
 /// The PNG file of a sheet at 300 dots per inch.
 pub fn png(canvas: &Canvas) -> Vec<u8> {
-    let [width, height] = canvas.size.map(|length| (length * PIXELS).round().clamp(1.0, MOST) as u32);
+    let [width, height] = canvas.size.map(|length| (length * PIXELS).round().clamp(1.0, MOST_PIXELS) as u32);
     let mut sheet = Pixmap::new(width, height).expect("a sheet of paper fits into memory");
     sheet.fill(Color::WHITE);
     for mark in &canvas.marks {
-        // What has no extent or no place leaves no mark.
+        // A mark without extent or place is not drawn.
         let _ = put(&mut sheet, mark);
     }
     let colours: Vec<u8> = sheet.pixels().iter().flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect();
@@ -52,7 +52,7 @@ fn put(sheet: &mut Pixmap, mark: &Mark) -> Option<()> {
                 };
             let [along, down] = if *upward { [-y, *x] } else { [*x, *y] };
             text::draw(text, size * PIXELS, [(along - before) * PIXELS, down * PIXELS], |i, j, coverage| {
-                // A pixel ends one further than it begins, and begins there once turned.
+                // A pixel ends one further than it begins; rotated, it begins there.
                 let [i, j] = if *upward { [j, -1 - i] } else { [i, j] };
                 blend(sheet, [i, j], coverage, *colour);
             });
@@ -101,7 +101,7 @@ fn blend(sheet: &mut Pixmap, [column, row]: [i32; 2], part: f32, Colour(colour):
     }
 }
 
-/// A PNG file of the pixels that knows its size on paper.
+/// PNG file of the pixels, with its size on paper.
 pub fn encode([width, height]: [usize; 2], pixels: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
     let mut encoder = png::Encoder::new(&mut file, width as u32, height as u32);

@@ -1,18 +1,18 @@
-//! How values are spread along an axis.
+//! The spacing of values along an axis.
 
-/// How values are spread along an axis.
+/// The spacing of values along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
-    /// In proportion.
+    /// Proportional to the value.
     Linear,
-    /// In proportion to the logarithm; values that are not positive have no place.
+    /// Proportional to the logarithm; values that are not positive have no place.
     Log,
-    /// In proportion, with numbers at parts of a full turn.
+    /// Proportional to an angle in degrees, with numbers at parts of 360°.
     Degrees,
 }
 
 impl Scale {
-    /// What stands at a part of the way from one value to another.
+    /// Value at a part of the axis between two values.
     pub(super) fn between(self, first: f64, last: f64, part: f64) -> f64 {
         match self {
             Self::Linear | Self::Degrees => first + (last - first) * part,

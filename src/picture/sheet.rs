@@ -6,32 +6,32 @@ use super::text::wrapped;
 
 /// Size of the numbers on axes, points.
 pub const NUMBERS: f64 = 7.0;
-/// Size of the quantities on axes and of legends.
+/// Size of the labels of axes, points.
 pub const LABELS: f64 = 7.5;
-/// Size of titles.
+/// Size of titles, points.
 pub const TITLES: f64 = 8.0;
-/// Size of captions.
+/// Size of captions, points.
 pub const CAPTIONS: f64 = 6.5;
 /// Width of frames, points.
 pub const HAIR: f64 = 0.6;
-/// Distance from the border of the sheet and between panels.
+/// Distance from the border of the sheet and between panels, points.
 const MARGIN: f64 = 5.0;
-/// Distance of lines of text over their size.
+/// Line spacing over the size of the letters.
 const LEADING: f64 = 1.3;
 
-/// Room that a panel needs around its plot, points.
+/// Margins of a panel around its plot, points.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Margins {
-    /// For the numbers and the quantity of the vertical axis.
+    /// Margin for the numbers and the label of the vertical axis.
     pub left: f64,
-    /// For a colour bar.
+    /// Margin for a colour bar.
     pub right: f64,
-    /// For a power of ten.
+    /// Margin for a power of ten.
     pub top: f64,
 }
 
 impl Margins {
-    /// Room for both.
+    /// The larger one of two margins on each side.
     pub fn union(self, other: Self) -> Self {
         Self { left: self.left.max(other.left), right: self.right.max(other.right), top: self.top.max(other.top) }
     }
@@ -39,13 +39,13 @@ impl Margins {
 
 /// A part of a picture.
 pub trait Panel {
-    /// What stands over it.
+    /// Title above the panel.
     fn title(&self) -> &str;
-    /// Room that the panel needs around its plot at a given width, points.
+    /// Margins that the panel needs around its plot at a width; points.
     fn margins(&self, width: f64) -> Margins;
-    /// Height of the body without title at a given width, with at least the room that it needs.
+    /// Height of the panel without its title, at a width and with margins; points.
     fn height(&self, width: f64, margins: Margins) -> f64;
-    /// Draws the body with its upper left corner at `corner`.
+    /// Draws the panel without its title, its upper left corner at `corner`.
     fn draw(&self, canvas: &mut Canvas, corner: [f64; 2], width: f64, margins: Margins);
 }
 
@@ -57,7 +57,7 @@ pub fn sheet(caption: &str, panels: &[&dyn Panel]) -> Canvas {
     let own = (inner - 2.0 * MARGIN * (columns - 1) as f64) / columns as f64;
     let mut canvas = Canvas::new([width, 0.0]);
     let mut y = MARGIN;
-    // All plots of a sheet begin and end in line.
+    // All plots of a sheet are aligned.
     let all = panels.iter().map(|panel| panel.margins(own)).fold(Margins::default(), Margins::union);
     for row in panels.chunks(columns) {
         let top = row.iter().map(|panel| panel.margins(own).top).fold(0.0, f64::max);

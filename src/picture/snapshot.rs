@@ -1,7 +1,7 @@
-//! A solved load step with what is known about it: what the pictures of fields are drawn from.
+//! A solved load step with its readings, from which the pictures of fields are drawn.
 
+use super::label::equals;
 use super::number::{degrees, short};
-use super::quantity::equals;
 use crate::body::{HalfSpace, Interface, Layer};
 use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;
@@ -18,47 +18,47 @@ pub struct Snapshot {
     pub title: String,
     /// The step.
     pub step: Step,
-    /// What is read off it.
+    /// Reading of the step.
     pub reading: Reading,
-    /// What it takes up of the strengths, where there are any.
+    /// Utilisations of the strengths; empty without strengths.
     pub strength: Vec<Utilisation>,
-    /// What fails at this load, where that was looked for.
+    /// Criterion that fails at this load, if it is a limit load.
     pub failing: Option<Criterion>,
-    /// What lengths and pressures are measured in.
+    /// Units of lengths and pressures.
     pub units: Units,
 }
 
 impl Snapshot {
-    /// A step and what is read off it.
+    /// Snapshot of a step with its reading.
     pub fn new(title: &str, step: Step, reading: Reading) -> Self {
         let units = Units::of(step.problem());
         Self { title: title.to_owned(), step, reading, strength: Vec::new(), failing: None, units }
     }
 
-    /// With units that have names.
+    /// The snapshot with units that have names.
     #[must_use]
     pub fn with_units(self, units: Units) -> Self {
         Self { units, ..self }
     }
 
-    /// With what it takes up of the strengths.
+    /// The snapshot with utilisations of the strengths.
     #[must_use]
     pub fn with_strength(self, strength: Vec<Utilisation>) -> Self {
         Self { strength, ..self }
     }
 
-    /// At the limit load of a criterion.
+    /// The snapshot as that at the limit load of a criterion.
     #[must_use]
     pub fn at_limit_of(self, criterion: Criterion) -> Self {
         Self { failing: Some(criterion), ..self }
     }
 
-    /// The criterion that fails here or else governs: its utilisation is largest.
+    /// The criterion that fails at this load, or else the one with the largest utilisation.
     pub fn governing(&self) -> Option<Criterion> {
         self.failing.or_else(|| Governing::of(&self.strength).map(|own| own.criterion))
     }
 
-    /// Pressure sample by sample, a₂ fastest.
+    /// Pressure, sample by sample, a₂ fastest.
     pub fn pressures(&self) -> &[f64] {
         self.step.finest().pressures()
     }
@@ -68,7 +68,7 @@ impl Snapshot {
         self.step.problem().counterbody().levels().len()
     }
 
-    /// Caption: the title, the case's parameters and the load, then what more is to be said.
+    /// Caption: the title, the parameters of the case and the load, then more text.
     pub fn caption(&self, more: &str) -> String {
         let [n1, n2] = self.step.grid().points();
         let load = [
@@ -80,7 +80,7 @@ impl Snapshot {
     }
 }
 
-/// Title and parameters of a case, then what else is to be said about it.
+/// Title and parameters of a case, then more parts of the sentence.
 pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -> String {
     let title = title.trim_end_matches('.');
     let title = if title.is_empty() { String::new() } else { format!("{title}. ") };
@@ -92,7 +92,7 @@ pub fn caption(title: &str, problem: &Problem, units: &Units, more: &[String]) -
     format!("{title}{}.", parts.collect::<Vec<_>>().join("; "))
 }
 
-/// Most layers that a caption names one by one.
+/// Largest number of layers that a caption describes one by one.
 const FEW: usize = 4;
 
 fn materials(half_space: &HalfSpace, units: &Units) -> String {
@@ -125,7 +125,7 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
     parts.join(if single { ", " } else { "; " })
 }
 
-/// Many layers by how thick they are together and by the ranges of their parameters.
+/// Description of many layers by their total thickness and the ranges of their parameters.
 fn many_layers(half_space: &HalfSpace, units: &Units) -> String {
     let layers = half_space.layers();
     let range = |of: &dyn Fn(&Layer) -> f64| {
@@ -170,7 +170,7 @@ fn sliding(friction: &Friction) -> String {
     format!("sliding at {angle} from the x axis, {}{uncoupled}", equals("μ", &[friction.coefficient()]))
 }
 
-/// Whether a cell is neither the hexagonal nor the square one, so that it is known by its vectors alone.
+/// Whether a cell is neither hexagonal nor square, so that its vectors describe it.
 pub fn is_oblique(cell: &Cell) -> bool {
     let [[side, _], _] = cell.vectors();
     let like = |named: Result<Cell, LatticeError>| {
@@ -182,7 +182,7 @@ pub fn is_oblique(cell: &Cell) -> bool {
     !like(Cell::hexagonal(side)) && !like(Cell::square(side))
 }
 
-/// a₁ = (1, 0.2), a₂ = (0.3, 1.4), with their unit.
+/// Cell vectors with their unit, as in "cell a₁ = (1, 0.2), a₂ = (0.3, 1.4)".
 fn cell_vectors(cell: &Cell, units: &Units) -> String {
     let unit = units.length().suited(cell.vectors().into_iter().flatten());
     let [a1, a2] = cell.vectors().map(|vector| vector.map(|c| short(unit.shown(c))).join(",\u{a0}"));

@@ -10,13 +10,13 @@ use crate::counterbody::roughness::{SelfAffine, Spectrum, Statistics};
 use crate::units::{Unit, Units};
 use std::f64::consts::TAU;
 
-/// The picture; `None` for a flat surface. `random`: what a generated one was asked to be.
+/// The picture; `None` for a flat surface. `random`: the prescribed parameters of a generated surface.
 pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Option<&SelfAffine>) -> Option<Canvas> {
     let heights = topography.own_heights();
     let own = Spectrum::of(topography.cell(), heights.view()).ok()?;
     let rings: Vec<[f64; 2]> = own.radial().iter().map(|ring| [ring.wavenumber, ring.density]).collect();
     let most = rings.iter().map(|[_, density]| *density).fold(0.0, f64::max);
-    // What rounding leaves where there are no waves is no spectrum.
+    // Rounding errors of vanishing waves are left out.
     let rings: Vec<[f64; 2]> = rings.into_iter().filter(|[_, density]| *density > 1e-20 * most).collect();
     let least = rings.iter().map(|[_, density]| *density).reduce(f64::min)?;
     let curve = |label: &str, points, style, colour: usize| {

@@ -1,4 +1,4 @@
-//! Text in the embedded typeface: how wide it is, and its pixels.
+//! Text in the embedded typeface: its width and its pixels.
 //!
 //! The typeface is DejaVu Sans (its licence stands beside it): Latin, Greek, Cyrillic, indices and signs, so that
 //! pictures look the same on every machine. Combining marks, as the bar of p̄, are centred over the letter before them.
@@ -14,7 +14,7 @@ pub(super) static FONT: LazyLock<FontRef<'static>> = LazyLock::new(|| {
 /// Height of capital letters over the size.
 pub const CAPITALS: f64 = 0.73;
 
-/// A glyph and where its origin stands, in units of the size.
+/// A glyph and the distance of its origin from the beginning of the line, in units of the size.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Placed {
     pub glyph: GlyphId,
@@ -54,7 +54,7 @@ pub fn width(text: &str, size: f64) -> f64 {
     size * placed(text).1
 }
 
-/// The text in lines not wider than `most`, broken at spaces, but not at those that do not break.
+/// The text in lines not wider than `most`, broken at spaces but not at no-break spaces.
 pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in plain::line(text).split(' ').filter(|word| !word.is_empty()) {

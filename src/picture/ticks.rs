@@ -1,22 +1,22 @@
-//! Where an axis is marked: round numbers, few enough to be read.
+//! Ticks of axes: round numbers, few enough to be read.
 
 use super::number::{signed, times};
 use super::scale::Scale;
 use crate::units::Prefixed;
 
-/// Where an axis is marked.
+/// The ticks of an axis.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ticks {
-    /// Values with numbers, the number to be multiplied by ten to the `exponent`.
+    /// Values of ticks with numbers, and the numbers, to be multiplied by ten to the `exponent`.
     pub numbered: Vec<(f64, String)>,
-    /// Values with a short mark only.
+    /// Values of short ticks without numbers.
     pub plain: Vec<f64>,
-    /// See `numbered`.
+    /// Exponent of ten by which the numbers are multiplied.
     pub exponent: i32,
 }
 
 impl Ticks {
-    /// Ticks of shown numbers at the places of the case's.
+    /// The ticks with their values converted from a unit to that of the case.
     pub fn in_unit(self, unit: &Prefixed) -> Self {
         let own = Prefixed { exponent: -unit.exponent, name: String::new() };
         Self {
@@ -26,7 +26,7 @@ impl Ticks {
         }
     }
 
-    /// The same with only as many numbers as stand apart where each takes the `span` of the sheet.
+    /// The ticks without the numbers that would overlap, given the `span` that a number takes on the sheet.
     pub fn apart(mut self, span: impl Fn(f64, &str) -> Option<[f64; 2]>) -> Self {
         let mut taken: Vec<[f64; 2]> = Vec::new();
         let fits = |(value, number): &(f64, String)| {
@@ -71,7 +71,7 @@ fn linear_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
         }
         power += 1;
     }
-    // Numbers from 0.01 to 9999 stand as they are.
+    // Numbers from 0.01 to 9999 are written without a power of ten.
     let magnitude = if largest > 0.0 { (largest * (1.0 + 1e-12)).log10().floor() as i32 } else { 0 };
     let exponent = if (-2..4).contains(&magnitude) { 0 } else { magnitude.div_euclid(3) * 3 };
     let decimals = usize::try_from(exponent - power).unwrap_or(0);
@@ -87,7 +87,7 @@ fn degree_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
     marked([low, high], step, parts, |x| format!("{x:.0}"))
 }
 
-/// Numbers at the multiples of `step`, which short marks cut into `parts`.
+/// Ticks with numbers at the multiples of `step`, and short ticks that divide a step into `parts`.
 fn marked([low, high]: [f64; 2], step: f64, parts: i32, number: impl Fn(f64) -> String) -> Ticks {
     let slack = 1e-9 * step;
     let multiples = |step: f64| {
@@ -119,7 +119,7 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
         };
         return Ticks { numbered, plain, exponent: 0 };
     }
-    // Within one decade or two: numbers between the powers, or as on a linear axis where these are too few.
+    // Within one decade or two: numbers between the powers, or as on a linear axis where there are too few.
     let named = |(f, k, x): (u8, i32, f64)| {
         let text = match k {
             -2..0 => format!("{x:.*}", usize::try_from(-k).unwrap_or(0)),
@@ -129,7 +129,7 @@ fn log_ticks([first, last]: [f64; 2], most: usize) -> Ticks {
         (x, text)
     };
     let choices: [&'static [u8]; 5] = [&[1, 2, 3, 4, 5, 6, 7, 8, 9], &[1, 2, 3, 5], &[1, 2, 5], &[1, 3], &[1, 5]];
-    // Numbers must not gather at one end.
+    // The numbers must span half of the axis.
     let spread = |factors: &'static [u8]| {
         let mut values = all(factors).map(|(_, _, x)| x);
         let first = values.next().unwrap_or(low);
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_is_marked_in_parts_of_it() {
+    fn degrees_are_marked_at_parts_of_a_full_circle() {
         assert_eq!(numbers([0.0, 360.0], Scale::Degrees, 7).0, ["0", "60", "120", "180", "240", "300", "360"]);
     }
 }

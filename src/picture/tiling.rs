@@ -4,13 +4,13 @@ use super::snapshot::Snapshot;
 use super::window::Window;
 use crate::lattice::{Cell, Grid};
 
-/// All places in the window that are equivalent to the place given in fractions of a₁, a₂.
+/// All places in a window that are periodic images of a place in fractions of a₁, a₂; lengths.
 pub fn images(cell: Cell, place: [f64; 2], window: Window) -> Vec<[f64; 2]> {
     let [[x0, x1], [y0, y1]] = window;
     let reduced = cell.reduced().cell();
     let own = reduced.fractions(cell.point(place));
     let corners = [[x0, y0], [x0, y1], [x1, y0], [x1, y1]].map(|corner| reduced.fractions(corner));
-    // Whole multiples of the reduced vectors by which the place can come to stand in the window.
+    // Multiples of the reduced vectors that may move the place into the window.
     let range = |k: usize| {
         let parts = corners.iter().map(|corner| corner[k] - own[k]);
         let [low, high] = parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
@@ -38,7 +38,7 @@ pub fn around(grid: &Grid, place: [f64; 2]) -> [(usize, f64); 4] {
 }
 
 impl Snapshot {
-    /// The stretches of a straight line on which there is contact, or none: the first and the last part of the way.
+    /// Stretches of a straight line with contact (`touching`) or without: their first and last point, as parts of the line.
     pub fn stretches(&self, [from, to]: [[f64; 2]; 2], touching: bool) -> Vec<[f64; 2]> {
         const STEPS: u32 = 800;
         let belongs = |part: f64| {
@@ -51,7 +51,7 @@ impl Snapshot {
     }
 
     /// Pressure at a place; `None` outside contact. Between samples on both sides of the edge the fitted boundary
-    /// decides, or where there is none the distance from the edge.
+    /// decides, or the distance from the edge where no boundary is fitted.
     pub fn pressure_at(&self, place: [f64; 2]) -> Option<f64> {
         let (mut weight, mut sum, mut touching, mut site) = (0.0, 0.0, 0, None);
         for (index, part) in around(self.step.grid(), place) {

@@ -1,4 +1,4 @@
-//! Utilisation against load: what fails first.
+//! Utilisations over the load.
 
 use super::axis::Axis;
 use super::canvas::Canvas;
@@ -11,10 +11,10 @@ use crate::reading::{Criterion, Utilisation};
 use crate::run::{Limits, StepRecord};
 use crate::units::Units;
 
-/// What the marks of curves with errors mean.
+/// Text of captions on the error bars of curves.
 pub(super) const BARS: &str = "Bars: estimated errors of the grid; open: the error exceeds half of the value; where a curve \
                                would fall by less than its errors it is interrupted.";
-/// Colours that lines have by their number.
+/// Number of colours of numbered lines.
 const COLOURS: usize = 6;
 
 /// The picture; `None` where less than two loads were solved.
@@ -33,7 +33,7 @@ pub fn utilisations(title: &str, problem: &Problem, units: &Units, limits: &Limi
     Some(plots(&format!("{} {BARS}", caption(title, problem, units, &more)), &[chart]))
 }
 
-/// From a hundredth on at least: what takes up less is as good as nothing. Error bars belong to it up to ten times the
+/// Axis of utilisations, from a hundredth on at least, since smaller ones do not matter. Error bars extend it up to ten times the
 /// largest value.
 pub(super) fn utilisation_axis(steps: &[StepRecord]) -> Axis {
     let all = || steps.iter().flat_map(|step| &step.strength);
@@ -43,8 +43,8 @@ pub(super) fn utilisation_axis(steps: &[StepRecord]) -> Axis {
     Axis::log("utilisation").from_to(least.max(0.01) / 1.2, reach.min(10.0 * most) * 1.2)
 }
 
-/// A curve for each criterion with its errors, and where it fails. What is zero or infinite has no place on a logarithmic
-/// axis.
+/// A curve for each criterion with its errors, and the line of failure. Utilisations that are zero or infinite have no place on a
+/// logarithmic axis.
 pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterator<Item = Criterion>) -> Vec<Curve> {
     let curve = |criterion: Criterion| {
         let point = |step: &StepRecord| {
@@ -72,8 +72,8 @@ pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterat
     own.chain([failure]).collect()
 }
 
-/// Solid lines in the order of the criteria; of more than there are colours, what fails is told by the line and where by
-/// its colour.
+/// Style and colour of a criterion: solid lines in the order of the criteria, or, for more criteria than colours, styles by the kind
+/// of failure and colours by depth.
 fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) {
     let depth = |criterion: &Criterion| match *criterion {
         Criterion::Yield { material } | Criterion::Cracking { material } => material,

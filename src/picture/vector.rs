@@ -1,8 +1,8 @@
-//! A sheet as an SVG file: its lines stay lines, its letters are outlines.
+//! A sheet as an SVG file: lines as lines, letters as outlines.
 //!
-//! Every letter stands once in the file and is used from there, so that browsers, drawing programs and what makes a page
-//! of it for LaTeX show the same, whatever typefaces are at hand. The words lie over the letters without ink: they can be
-//! searched and copied. Fields are images within the file. The unit of the file is the point.
+//! Every letter is defined once in the file and used from there, so that browsers, drawing programs and converters for LaTeX show
+//! the same picture, whatever typefaces are installed. The words lie over the letters as transparent text, which can be searched and
+//! copied. Fields are images within the file. The unit of the file is the point.
 
 use super::canvas::{Anchor, Canvas, Dash, Mark, Stroke};
 use super::colour::Colour;
@@ -10,7 +10,7 @@ use super::letters::{Letter, Piece, letters, outline};
 use super::{raster, text};
 use std::collections::BTreeSet;
 
-/// Units of a letter's outline in the em.
+/// Units of letter outlines per em.
 const EM: f64 = 2048.0;
 
 /// The SVG file of a sheet.
@@ -29,7 +29,7 @@ pub fn svg(canvas: &Canvas) -> String {
     )
 }
 
-/// The outline of a letter under its number in the typeface, which is the same in all files, y down.
+/// Definition of a letter's outline, y down, named by the index of the glyph, which is the same in all files.
 fn outlined(glyph: u16) -> String {
     let units = |[x, y]: [f64; 2]| format!("{:.0},{:.0}", EM * x, 0.0 - EM * y);
     let piece = |piece: Piece| match piece {
@@ -41,7 +41,7 @@ fn outlined(glyph: u16) -> String {
     format!("<path id=\"g{glyph}\" d=\"{path}Z\"/>\n")
 }
 
-/// A mark as a line of the file.
+/// A mark as an element of the file.
 fn element(mark: &Mark) -> String {
     match mark {
         Mark::Line(Stroke { points, width, dash, colour }) => {
@@ -65,14 +65,14 @@ fn element(mark: &Mark) -> String {
                 Anchor::Centre => 0.5 * length,
                 Anchor::Right => length,
             };
-            let turn = if *upward { " rotate(-90)" } else { "" };
+            let rotation = if *upward { " rotate(-90)" } else { "" };
             let used = |Letter { glyph, x }: Letter| format!("<use href=\"#g{glyph}\" x=\"{:.0}\"/>", EM * x);
             let used: String = letters(text).into_iter().map(used).collect();
             let ([x, y], colour, words) = (at.map(hundredths), hex(*colour), escaped(text));
             let (scale, start) = (format!("{:.5}", size / EM), hundredths(-before));
             let (length, size) = (hundredths(length), hundredths(*size));
             format!(
-                "<g transform=\"translate({x} {y}){turn} translate({start})\" fill=\"{colour}\">\
+                "<g transform=\"translate({x} {y}){rotation} translate({start})\" fill=\"{colour}\">\
                  <g transform=\"scale({scale})\">{used}</g>\
                  <text font-size=\"{size}\" font-family=\"sans-serif\" textLength=\"{length}\" fill-opacity=\"0\">\
                  {words}</text></g>\n"
@@ -89,7 +89,7 @@ fn element(mark: &Mark) -> String {
     }
 }
 
-/// Rounded to 0.01 points, finer than any printer; without the sign of −0.
+/// A length rounded to 0.01 points, finer than any printer; without the sign of −0.
 fn hundredths(x: f64) -> f64 {
     (100.0 * x).round() / 100.0 + 0.0
 }
@@ -98,7 +98,7 @@ fn hex(Colour([r, g, b]): Colour) -> String {
     format!("#{r:02X}{g:02X}{b:02X}")
 }
 
-/// The path through points, closed if it ends where it begins.
+/// Path through points, closed if it ends where it begins.
 fn path(points: &[[f64; 2]]) -> String {
     let places: Vec<String> =
         points.iter().map(|place| place.map(hundredths)).map(|[x, y]| format!("{x},{y}")).collect();
@@ -106,12 +106,12 @@ fn path(points: &[[f64; 2]]) -> String {
     format!("M{}{end}", places.join(" "))
 }
 
-/// Text as it may stand between tags and within quotes.
+/// Text escaped for use between tags and within quotes.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Base64 of RFC 4648.
+/// Bytes in base64 (RFC 4648).
 pub(crate) fn base64(bytes: &[u8]) -> String {
     const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(4 * bytes.len().div_ceil(3));

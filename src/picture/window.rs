@@ -1,4 +1,4 @@
-//! What part of the surface a plot shows, and how far it is from true to scale.
+//! The part of the surface that a plot shows, and its distortion.
 
 use super::number::short;
 use crate::lattice::Cell;
@@ -6,22 +6,22 @@ use crate::lattice::Cell;
 /// A rectangle of the surface, [first, last] along x and along y; lengths.
 pub type Window = [[f64; 2]; 2];
 
-/// Height over width of a plot, least and largest: beyond, one axis is stretched. A quantity has room along the lowest.
+/// Least and largest height over width of a plot: beyond, one axis is stretched. The label fits along the lowest plot.
 const ASPECT: [f64; 2] = [0.45, 1.6];
-/// Most rows of cells of a slender cell.
+/// Largest number of rows of cells of a slender cell.
 const ROWS: f64 = 12.0;
 
-/// A window and how a plot shows it.
+/// A window and its distortion in a plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     /// The rectangle.
     pub window: Window,
-    /// Whether a whole cell has no room in it.
+    /// Whether a whole cell does not fit into the window.
     pub is_part: bool,
 }
 
 impl View {
-    /// A window of at least two by two cells around the middle of the unit cell, as far as these have room.
+    /// A window of at least two by two cells around the middle of the unit cell, less for slender cells.
     pub fn cells(cell: Cell) -> Self {
         let long = cell.reduced().longer_side();
         // Rows of cells are area/long apart; of a slender cell several are shown.
@@ -32,7 +32,7 @@ impl View {
             |axis: usize| cell.vectors().iter().any(|a| a[1 - axis] == 0.0 && a[axis].abs() >= long * (1.0 - 1e-9));
         let half = match (lies_along(0), lies_along(1)) {
             (true, _) => half,
-            // Of a slender cell that stands upright as much; otherwise a square shows it.
+            // A slender cell along y has the window turned; any other cell has a square.
             (_, true) if long > ROWS * apart => [half[1], half[0]],
             _ => return Self::square(cell, long, apart),
         };
@@ -44,7 +44,7 @@ impl View {
         let [[x1, y1], [x2, y2]] = cell.vectors();
         let window = [bounds(x1, x2), bounds(y1, y2)];
         let area: f64 = window.iter().map(|[first, last]| last - first).product();
-        // A slender cell that stands askew is a line in the rectangle around it.
+        // An oblique slender cell would be a line in the rectangle around it.
         if area > ROWS * cell.area() {
             let long = cell.reduced().longer_side();
             return Self::square(cell, long, cell.area() / long);
@@ -63,7 +63,7 @@ impl View {
         self.true_aspect().clamp(ASPECT[0], ASPECT[1])
     }
 
-    /// By how much lengths along y are longer in the plot than those along x.
+    /// Ratio of the scales of y and x in the plot.
     pub fn stretch(&self) -> f64 {
         self.aspect() / self.true_aspect()
     }
@@ -73,7 +73,7 @@ impl View {
         height / width
     }
 
-    /// What a caption says about it.
+    /// Text of the caption on the distortion.
     pub fn words(&self) -> String {
         let stretch = self.stretch();
         let part = if self.is_part { " The middle of a slender cell." } else { "" };
@@ -85,12 +85,12 @@ impl View {
     }
 }
 
-/// Three digits are enough.
+/// A factor with three digits.
 fn times(stretch: f64) -> String {
     short(format!("{stretch:.2e}").parse().unwrap_or(stretch))
 }
 
-/// A window that reaches so far around the middle of a cell.
+/// A window around the middle of a cell, with half its width and height.
 fn around(cell: Cell, half: [f64; 2]) -> Window {
     let middle = cell.point([0.5, 0.5]);
     [0, 1].map(|k| [middle[k] - half[k], middle[k] + half[k]])
@@ -122,7 +122,7 @@ mod tests {
         }
     }
 
-    /// Whatever the cell, a plot has a bounded height and few cells, and says where it is not true to scale.
+    /// A plot of any cell has a bounded height and few cells, and a caption where it is not true to scale.
     #[test]
     fn plots_of_slender_cells_are_bounded_and_say_so() {
         let radians = [90.0, 60.0, 5.0, 0.1f64].map(f64::to_radians);

@@ -3,29 +3,22 @@
 //! Along every line of nearest samples contact is a set of intervals. At a distance d inside an end p² falls nearly as d, at a
 //! distance d outside g^{2/3} rises nearly as d: the end is the mean of the roots of two parabolas, one fitted to p² on
 //! the one side, one to g^{2/3} on the other, each without the outermost sample. The lengths, averaged over the lines
-//! of all directions, give the fraction of the cell. What the two roots differ measures their error. Between intervals
+//! of all directions, give the fraction of the cell. Half the difference of the two roots is the error. Between intervals
 //! of few samples the end is halfway.
 
+use super::fraction::Fraction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
 use rayon::prelude::*;
 
-/// Fewest samples of an interval for a parabola, and most samples it uses beyond the square root of their number.
-const FEWEST: usize = 6;
-const MOST: usize = 3;
+/// Fewest samples of an interval through which a parabola is fitted.
+const FEWEST_SAMPLES: usize = 6;
+/// Samples that a parabola uses beyond the square root of their number, at most.
+const EXTRA_SAMPLES: usize = 3;
 
-/// Fraction of the cell in contact.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Area {
-    /// The fraction.
-    pub fraction: f64,
-    /// Its estimated error: half of what the two readings of each end differ.
-    pub error: f64,
-}
-
-/// Fraction of the cell in contact, from pressure and gap (one value per sample each), without the intervals whose
-/// samples are `known`.
-fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(usize) -> bool + Sync) -> Area {
+/// Fraction of the cell in contact, from pressure and gap (one value per sample each), without the intervals whose samples are
+/// `excluded`; its uncertainty is half of the difference of the two roots of each end.
+fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], excluded: impl Fn(usize) -> bool + Sync) -> Fraction {
     let points = grid.points();
     let parabolas = Parabolas::new(points[0].max(points[1]));
     let mut mean = [0.0; 2];
@@ -35,58 +28,61 @@ fn contact_fraction(grid: &Grid, pressure: &[f64], gap: &[f64], known: impl Fn(u
             line.clear();
             line.extend(direction.line(points, start).map(|index| pressure[index]));
             let at = |k: usize| direction.sample(points, start, k as i64);
-            Line { pressure: line, gap: |k| gap[at(k)], known: |k| known(at(k)), parabolas: &parabolas }.fraction()
+            SampleLine { pressure: line, gap: |k| gap[at(k)], excluded: |k| excluded(at(k)), parabolas: &parabolas }
+                .fraction()
         };
-        // Lines are added in their order, whoever has read them.
+        // Lines are added in their order, whichever thread has read them.
         let all: Vec<[f64; 2]> = lines.par_iter().map_init(Vec::new, read).collect();
         let sum = all.iter().fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
         mean = [0, 1].map(|k| mean[k] + 0.5 * direction.weight * (sum[k] / lines.len() as f64));
     }
-    Area { fraction: mean[0], error: mean[1] }
+    Fraction { value: mean[0], uncertainty: mean[1] }
 }
 
-/// Fraction of the cell that some of the `all` contact spots take; the others are known.
+/// Fraction of the cell that `some` of the `all` contact spots take, by the lines of samples.
 pub fn of_components<'a>(
     grid: &Grid,
     pressure: &[f64],
     gap: &[f64],
-    unknown: impl Iterator<Item = &'a Component>,
+    some: impl Iterator<Item = &'a Component>,
     all: usize,
-) -> Area {
-    let unknown: Vec<&Component> = unknown.collect();
-    if unknown.is_empty() {
-        return Area::default();
+) -> Fraction {
+    let some: Vec<&Component> = some.collect();
+    if some.is_empty() {
+        return Fraction::default();
     }
-    if unknown.len() == all {
+    if some.len() == all {
         return contact_fraction(grid, pressure, gap, |_| false);
     }
-    let mut known = vec![true; grid.len()];
-    unknown.iter().for_each(|component| component.indices(grid).for_each(|run| known[run].fill(false)));
-    contact_fraction(grid, pressure, gap, |index| known[index])
+    let mut excluded = vec![true; grid.len()];
+    some.iter().for_each(|component| component.indices(grid).for_each(|run| excluded[run].fill(false)));
+    contact_fraction(grid, pressure, gap, |index| excluded[index])
 }
 
 /// A closed line of samples.
-struct Line<'a, G, K> {
+struct SampleLine<'a, G, X> {
+    /// Pressure, sample by sample.
     pressure: &'a [f64],
-    /// Gap of a sample, and whether its interval is known.
+    /// Gap of a sample by its number in the line, a length.
     gap: G,
-    known: K,
+    /// Whether the interval that a sample belongs to is left out, by its number in the line.
+    excluded: X,
     parabolas: &'a Parabolas,
 }
 
-impl<G: Fn(usize) -> f64, K: Fn(usize) -> bool> Line<'_, G, K> {
-    /// Fraction in contact and its estimated error.
+impl<G: Fn(usize) -> f64, X: Fn(usize) -> bool> SampleLine<'_, G, X> {
+    /// Fraction of the line in contact and its estimated error.
     fn fraction(&self) -> [f64; 2] {
         let n = self.pressure.len();
         let touches = |i: usize| self.pressure[i] > 0.0;
-        // Where contact begins and ends by turns, from the first sample in contact beside an open one on.
+        // Where contact begins and ends, alternately, from the first sample in contact beside an open one on.
         let mut ends: Vec<usize> = (1..n).filter(|&i| touches(i - 1) != touches(i)).collect();
         if touches(n - 1) != touches(0) {
             ends.insert(0, 0);
         }
         if ends.is_empty() {
             // All or nothing.
-            return [f64::from(u8::from(touches(0) && !(self.known)(0))), 0.0];
+            return [f64::from(u8::from(touches(0) && !(self.excluded)(0))), 0.0];
         }
         if !touches(ends[0]) {
             let first = ends.remove(0);
@@ -100,7 +96,7 @@ impl<G: Fn(usize) -> f64, K: Fn(usize) -> bool> Line<'_, G, K> {
         let mut total = [0.0; 2];
         for (index, interval) in ends.windows(2).enumerate().step_by(2) {
             let [first, last] = [interval[0], interval[1]];
-            if (self.known)(first % n) {
+            if (self.excluded)(first % n) {
                 continue;
             }
             total[0] += (last - first) as f64 - 1.0;
@@ -118,9 +114,9 @@ impl<G: Fn(usize) -> f64, K: Fn(usize) -> bool> Line<'_, G, K> {
         total.map(|samples| samples / n as f64)
     }
 
-    /// How far contact reaches beyond its outermost sample, in samples, between 0 and 1, and how uncertain that is:
-    /// `inside(k)` and `outside(k)` are the heights k samples from the end on either side. Where one side alone can be read,
-    /// a quarter of a sample is uncertain, where none can, half.
+    /// Length by which contact reaches beyond its outermost sample, in samples, between 0 and 1, and its uncertainty, from the
+    /// heights `inside(k)` and `outside(k)` k samples from the end on either side. The uncertainty is a quarter of a sample where
+    /// one side alone can be read, and half a sample where none can.
     fn overhang(
         &self,
         inside: impl Fn(usize) -> f64,
@@ -128,8 +124,8 @@ impl<G: Fn(usize) -> f64, K: Fn(usize) -> bool> Line<'_, G, K> {
         outside: impl Fn(usize) -> f64,
         open: usize,
     ) -> [f64; 2] {
-        let from_inside = self.parabolas.beyond(inside, count);
-        let from_outside = self.parabolas.beyond(outside, open).map(|x| 1.0 - x);
+        let from_inside = self.parabolas.root(inside, count);
+        let from_outside = self.parabolas.root(outside, open).map(|x| 1.0 - x);
         match (from_inside, from_outside) {
             (Some(a), Some(b)) => [0.5 * (a + b), 0.5 * (a - b).abs()],
             (Some(x), None) | (None, Some(x)) => [x, 0.25],
@@ -138,32 +134,33 @@ impl<G: Fn(usize) -> f64, K: Fn(usize) -> bool> Line<'_, G, K> {
     }
 }
 
-/// Length of the open interval that ends or begins at the border of this index.
+/// Length in samples of the open interval that ends or begins at the border with this index, of n samples in all.
 fn open_length(ends: &[usize], index: usize, n: usize) -> usize {
     // Borders alternate; the first and the last one are the same border of the closed line.
     let (end, borders) = (ends[index], ends.len() - 1);
     if index % 2 == 1 { ends[index + 1] - end } else { (end + n - ends[(index + borders - 1) % borders]) % n }
 }
 
-/// Parabolas of least squares through heights at x = 1/m, 2/m, … 1: each coefficient is a weighted sum of them.
+/// Parabolas of least squares through m heights at x = 1/m, 2/m, … 1: each coefficient is a weighted sum of the heights.
 struct Parabolas {
-    /// By the number m of heights, from the first with three on: the weights of each height.
+    /// Weights of each height in the three coefficients, for m = 3, 4, ….
     weights: Vec<Vec<[f64; 3]>>,
 }
 
 impl Parabolas {
-    /// For intervals of lines of so many samples.
+    /// Parabolas for the intervals of lines of at most `longest` samples.
     fn new(longest: usize) -> Self {
-        let most = MOST + (longest as f64).sqrt() as usize;
+        let most = EXTRA_SAMPLES + (longest as f64).sqrt() as usize;
         Self { weights: (3..=most).map(weights).collect() }
     }
 
-    /// How far beyond the outermost of `count` samples their heights vanish, if there are enough of them.
-    fn beyond(&self, height: impl Fn(usize) -> f64, count: usize) -> Option<f64> {
-        if count < FEWEST {
+    /// Distance beyond the outermost of `count` samples at which the parabola through their heights vanishes, from 0 to 1 sample;
+    /// `None` for less than [`FEWEST_SAMPLES`], or without a root.
+    fn root(&self, height: impl Fn(usize) -> f64, count: usize) -> Option<f64> {
+        if count < FEWEST_SAMPLES {
             return None;
         }
-        let used = (count / 2 - 1).min(MOST + (count as f64).sqrt() as usize).clamp(3, 2 + self.weights.len());
+        let used = (count / 2 - 1).min(EXTRA_SAMPLES + (count as f64).sqrt() as usize).clamp(3, 2 + self.weights.len());
         let mut c = [0.0; 3];
         for (k, weights) in (1..).zip(&self.weights[used - 3]) {
             let own = height(k);
@@ -175,7 +172,7 @@ impl Parabolas {
     }
 }
 
-/// Weights of `used` heights, at least three: the rows of (XᵀX)⁻¹Xᵀ with X = (1, x, x²).
+/// Weights of `used` heights, at least three, in the coefficients: the rows of (XᵀX)⁻¹Xᵀ with X = (1, x, x²).
 fn weights(used: usize) -> Vec<[f64; 3]> {
     let x = |k: usize| k as f64 / used as f64;
     let sum = |power: i32| (1..=used).map(|k| x(k).powi(power)).sum::<f64>();
@@ -209,7 +206,7 @@ mod tests {
                 .collect();
             let pressure: Vec<f64> = depth.iter().map(|d| d.max(0.0).sqrt()).collect();
             let gap: Vec<f64> = depth.iter().map(|d| (-d).max(0.0).powf(1.5)).collect();
-            let Area { fraction, .. } = contact_fraction(&grid, &pressure, &gap, |_| false);
+            let Fraction { value: fraction, .. } = contact_fraction(&grid, &pressure, &gap, |_| false);
             assert!((fraction - expected).abs() < 2e-4, "{fraction} {expected}");
         }
     }
@@ -217,7 +214,7 @@ mod tests {
     #[test]
     fn full_contact_and_none_are_exact() {
         let grid = Grid::new(Cell::square(1.0).unwrap(), [8, 12]).unwrap();
-        let exact = |fraction| Area { fraction, error: 0.0 };
+        let exact = |value| Fraction { value, uncertainty: 0.0 };
         assert_eq!(contact_fraction(&grid, &[1.0; 96], &[0.0; 96], |_| false), exact(1.0));
         assert_eq!(contact_fraction(&grid, &[0.0; 96], &[1.0; 96], |_| false), exact(0.0));
     }
@@ -229,8 +226,8 @@ mod tests {
         pressure[27] = 1.0;
         // One line of eight in each direction, with one sample: half a sample beyond it on either side.
         let found = contact_fraction(&grid, &pressure, &[0.0; 64], |_| false);
-        assert!((found.fraction - 1.0 / 64.0).abs() < 1e-12 && found.error > 0.0);
-        assert_eq!(contact_fraction(&grid, &pressure, &[0.0; 64], |index| index == 27).fraction, 0.0);
+        assert!((found.value - 1.0 / 64.0).abs() < 1e-12 && found.uncertainty > 0.0);
+        assert_eq!(contact_fraction(&grid, &pressure, &[0.0; 64], |index| index == 27).value, 0.0);
     }
 
     #[test]
@@ -238,9 +235,9 @@ mod tests {
         let parabolas = Parabolas::new(100);
         for count in [6, 9, 20, 100] {
             let height = |k: usize| (k as f64 + 0.37) * (1.0 - 2e-3 * k as f64);
-            let found = parabolas.beyond(height, count).unwrap();
+            let found = parabolas.root(height, count).unwrap();
             assert!((found - 0.37).abs() < 1e-9, "{count}: {found}");
         }
-        assert_eq!(parabolas.beyond(|_| 1.0, 5), None);
+        assert_eq!(parabolas.root(|_| 1.0, 5), None);
     }
 }

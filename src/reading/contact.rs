@@ -1,14 +1,16 @@
-//! What is read off a contact on one grid.
+//! The reading of a contact on one grid.
 
 use super::boundary::{Boundary, Scale};
+use super::contact_area::ContactArea;
+use super::counted::CountedArea;
 use super::edge::Edge;
-use super::fraction::{Fraction, Fractions};
-use super::spots::{self, SpotReading};
-use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak, rough};
+use super::fractions::Fractions;
+use super::level_spots::LevelSpots;
+use super::{Errors, LevelReading, peak, spots, topography};
 use crate::body::TransferFunction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
-use crate::numeric::number::number;
+use crate::notation::number;
 #[cfg(feature = "serde")]
 use crate::numeric::serialised;
 use crate::numeric::sums;
@@ -16,7 +18,7 @@ use crate::spectral::Contact;
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Scalars of one load step.
+/// Scalars of the contact of one load step.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Reading {
@@ -30,7 +32,7 @@ pub struct Reading {
     /// less, as on rough surfaces whose spots have few samples.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::number"))]
     pub contact_fraction: f64,
-    /// What the reading of the fraction says of its own error, from the samples of this grid alone; not kept in files.
+    /// Uncertainty of the fraction in contact, from the samples of this grid alone; not kept in files.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub contact_fraction_uncertainty: f64,
     /// Elastic energy ½∫ p w d²x of one cell, a pressure times a cubed length: see
@@ -40,10 +42,10 @@ pub struct Reading {
     /// Largest pressure, between the samples, in the unit of Young's modulus; infinite where that of a level is.
     #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::max_pressure"))]
     pub max_pressure: f64,
-    /// What the grid resolves of a largest pressure that is infinite; `None` where it is finite.
+    /// Largest pressure that the grid resolves, where the largest one is infinite; `None` where it is finite.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub resolved_peak: Option<f64>,
-    /// Estimated discretisation errors, where coarser grids tell them.
+    /// Estimated discretisation errors; empty without coarser grids.
     pub errors: Errors,
     /// Samples between the largest pressure and the edge of contact, at most `spot_resolution`; not kept in files.
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -81,133 +83,43 @@ impl Reading {
         self.resolved_peak.unwrap_or(self.max_pressure)
     }
 
-    /// What one grid says of a contact, without errors.
+    /// Reading of a contact on one grid, without estimated errors.
     pub fn of(contact: &Contact) -> Self {
         Self::at_edge(contact, &edge(&[contact]), true)
     }
 
-    /// The same with the edge of the body at hand; without `errors` those of the boundaries are left out.
+    /// Reading of a contact on one grid from the edge of its body; without `errors` those of the boundaries are left out.
     pub(super) fn at_edge(contact: &Contact, edge: &Edge, errors: bool) -> Self {
-        let (grid, surface) = (contact.grid(), contact.surface());
-        let (pressure, gap) = (contact.pressures(), contact.gaps());
-        let mean_pressure = sums::mean(pressure);
-        let modulus = contact.problem().half_space().surface_material().contact_modulus();
-        let [sample_area, spacing] = [grid.sample_area(), grid.spacing()];
-        let scale = Scale { sample_area, spacing, pressure, gap, modulus, edge, errors };
+        let (grid, pressure) = (contact.grid(), contact.pressures());
         let components = contact.touching();
         let counts = contact.spots(Some(&components));
         let highest = highest(grid, pressure, &components);
-        let max_pressure = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
-
         let mut spots = spots::spots(contact, &components);
-        let topography = if surface.owners().is_empty() {
-            spots::of_topography(contact, &components, &scale)
+        let scale = scale(contact, edge, errors);
+        let topography = if contact.surface().owners().is_empty() {
+            topography::boundaries(contact, &components, &scale)
         } else {
             spots::locate(contact, &scale, &mut spots);
             Vec::new()
         };
-
-        let cell = grid.cell().area();
-        // Located spots have their own area. The others share what the lines of samples find there, as they were counted.
-        let located = || spots.iter().map(|spot| &spot.boundary).chain(&topography).flatten();
-        let along_lines = if surface.owners().is_empty() {
-            let unknown = components.iter().zip(&topography).filter(|(_, boundary)| boundary.is_none());
-            area::of_components(grid, pressure, gap, unknown.map(|(component, _)| component), components.len())
-        } else {
-            // A component has one owner, or its owners have merged.
-            let owner = |own: &Component| surface.owners()[own.runs[0].index(grid.points())];
-            let unknown = components.iter().filter(|own| spots[owner(own) as usize].boundary.is_none());
-            area::of_components(grid, pressure, gap, unknown, components.len())
-        };
-        let located_area: f64 = located().map(Boundary::area).sum();
-        let contact_area = located_area + cell * along_lines.fraction;
-        let counted: f64 = spots.iter().filter(|spot| spot.boundary.is_none()).map(|spot| spot.counted).sum();
-        let share = if counted > 0.0 { cell / counted } else { 0.0 };
-        let spot_area = |spot: &SpotReading| match &spot.boundary {
-            Some(boundary) => [boundary.area(), boundary.area_error()],
-            None => [along_lines.fraction, along_lines.error].map(|part| part * share * spot.counted),
-        };
-
+        let area = ContactArea::of(contact, &components, &spots, &topography);
+        let mean_pressure = sums::mean(pressure);
         let levels: Vec<LevelReading> = (1..=contact.problem().counterbody().levels().len())
-            .map(|level| {
-                let own: Vec<&SpotReading> = surface
-                    .sites()
-                    .iter()
-                    .zip(&spots)
-                    .filter(|(site, _)| site.level == level)
-                    .map(|(_, s)| s)
-                    .collect();
-                let indenters = own.len() as f64;
-                let load = own.iter().map(|spot| spot.load).sum::<f64>();
-                let [area, area_error] =
-                    [0, 1].map(|k| own.iter().map(|spot| spot_area(spot)[k]).sum::<f64>() / indenters);
-                let merged = own.iter().any(|spot| spot.merged);
-                let peaks = || own.iter().filter_map(|spot| spot.peak);
-                let resolution = (area / PI / grid.sample_area()).sqrt();
-                let radius = (area / PI).sqrt();
-                let ring = !merged && own.iter().any(|spot| spot.ring);
-                // What follows from the boundaries of all indenters: means by area, the least and the largest.
-                let boundaries: Option<Vec<&Boundary>> = own.iter().map(|spot| spot.boundary.as_ref()).collect();
-                let all = |value: fn(&Boundary) -> f64| {
-                    let boundaries = boundaries.as_ref()?;
-                    Some(boundaries.iter().map(move |boundary| value(boundary)))
-                };
-                let mean = |radius| Some((all(radius)?.map(|r| r * r).sum::<f64>() / indenters).sqrt());
-                let most = |value| Some(all(value)?.fold(0.0, f64::max));
-                let ring_radii = mean(Boundary::mean_hole_radius).zip(mean(Boundary::mean_radius)).filter(|_| ring);
-                let (radius_inner, radius_outer) = ring_radii.unzip();
-                let radius_min = all(|b| b.extremes().0).and_then(|radii| radii.reduce(f64::min));
-                let radius_max = most(|b| b.extremes().1);
-                let shown = peaks().map(|index| peak::interpolated(grid, pressure, index)).fold(0.0, f64::max);
-                let is_tip =
-                    load > 0.0 && surface.sites().iter().any(|site| site.level == level && site.shape.singular_peak());
-                let (max_pressure, resolved_peak) = LevelReading::peak_of(shown, is_tip);
-                LevelReading {
-                    level,
-                    load: load / indenters,
-                    load_share: if mean_pressure > 0.0 { load / (mean_pressure * cell) } else { 0.0 },
-                    max_pressure,
-                    resolved_peak,
-                    contact_area: area,
-                    contact_radius: (!merged).then_some(radius),
-                    ring,
-                    radius_inner,
-                    radius_outer,
-                    radius_min,
-                    radius_max,
-                    asymmetry: LevelReading::asymmetry_of(radius_min, radius_max),
-                    centre: (load > 0.0 && !merged)
-                        .then(|| [0, 1].map(|k| own.iter().map(|spot| spot.moment[k]).sum::<f64>() / load)),
-                    merged,
-                    resolution,
-                    uncertainty: Uncertainty {
-                        peak_to_edge: peaks()
-                            .map(|index| peak::samples_to_edge(grid, pressure, index, resolution))
-                            .fold(resolution, f64::min),
-                        area: area_error,
-                        radius: (!merged && area > 0.0).then(|| 0.5 * area_error / area * radius),
-                        hole: most(|b| b.hole_error).filter(|_| ring),
-                        boundary: most(|b| b.error),
-                    },
-                    errors: LevelErrors::default(),
-                }
-            })
+            .map(|level| LevelSpots::new(contact, level, &spots).reading(&area, mean_pressure))
             .collect();
+        let fractions = Fractions {
+            between: area.fraction(),
+            // The correction by the perimeter is a mean over the directions of borders: it takes many spots.
+            many: components.len() > topography::LARGEST_SPOTS && area.located() < 0.5 * area.total(),
+            counted: contact.surface().owners().is_empty().then(|| CountedArea::of(grid, pressure)),
+        };
+        let (fraction, _) = fractions.best(|own, _| own.uncertainty);
         let typical = counts.half_load().map_or(0, |index| counts.sizes[index].0);
         let spot_resolution = (typical as f64 / PI).sqrt();
-        let between = Fraction {
-            value: contact_area / cell,
-            uncertainty: located().map(Boundary::area_error).sum::<f64>() / cell + along_lines.error,
-        };
-        let corrected = surface.owners().is_empty().then(|| rough::corrected_fraction(grid, pressure));
-        // The correction by the perimeter is a mean over the directions of borders: it takes many spots.
-        let many = components.len() > spots::MOST && located_area < 0.5 * contact_area;
-        let fractions = Fractions { between, many, corrected };
-        let (fraction, _) = fractions.best(|own, _| own.uncertainty);
-        let boundaries = spots.into_iter().map(|spot| spot.boundary).collect();
+        let highest_peak = highest.map_or(0.0, |index| peak::interpolated(grid, pressure, index));
         // Between the samples the highest of them need not be the highest peak.
-        let shown = levels.iter().map(LevelReading::grid_peak).fold(max_pressure, f64::max);
-        let (max_pressure, resolved_peak) = LevelReading::peak_of(shown, levels.iter().any(LevelReading::singular));
+        let resolved = levels.iter().map(LevelReading::grid_peak).fold(highest_peak, f64::max);
+        let (max_pressure, resolved_peak) = LevelReading::peak_of(resolved, levels.iter().any(LevelReading::singular));
         Self {
             mean_pressure,
             penetration: contact.penetration(),
@@ -220,7 +132,7 @@ impl Reading {
             contact_spots: counts.sizes.len(),
             spot_resolution,
             levels,
-            boundaries,
+            boundaries: spots.into_iter().map(|spot| spot.boundary).collect(),
             errors: Errors::default(),
             fractions,
         }
@@ -257,7 +169,14 @@ mod both_names {
     }
 }
 
-/// The edge on the body of contacts, at all distances at which their boundaries are looked for.
+/// The samples of a contact, with the edge of its body.
+fn scale<'a>(contact: &'a Contact, edge: &'a Edge, errors: bool) -> Scale<'a> {
+    let [sample_area, spacing] = [contact.grid().sample_area(), contact.grid().spacing()];
+    let modulus = contact.problem().half_space().surface_material().contact_modulus();
+    Scale { sample_area, spacing, pressure: contact.pressures(), gap: contact.gaps(), modulus, edge, errors }
+}
+
+/// Pressure and gap at an edge on the body of some contacts, at all distances that the fits of their boundaries use.
 pub(super) fn edge(contacts: &[&Contact]) -> Edge {
     let distances = contacts.iter().map(|contact| Scale::distances(contact.grid()));
     let [shortest, longest] = distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
@@ -265,7 +184,7 @@ pub(super) fn edge(contacts: &[&Contact]) -> Edge {
     Edge::new(&TransferFunction::new(problem.half_space()), problem.friction(), shortest, longest)
 }
 
-/// The sample with the largest pressure, the first of several; `None` without contact.
+/// Flat index of the sample with the largest pressure, the first of several; `None` without contact.
 fn highest(grid: &Grid, pressure: &[f64], components: &[Component]) -> Option<usize> {
     let samples = components.iter().flat_map(|component| component.indices(grid)).flatten();
     samples.reduce(|a, b| if pressure[b] > pressure[a] || pressure[b] == pressure[a] && b < a { b } else { a })

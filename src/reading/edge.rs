@@ -1,6 +1,6 @@
-//! The edge of a contact on a layered half-space: how pressure and gap leave it.
+//! Pressure and gap near the edge of a contact on a layered half-space.
 //!
-//! Close to its edge a contact is a straight one, 0 < x < ∞, without a scale but the body's own. With the compliance
+//! Close to its edge a contact is a straight one, 0 < x < ∞, without a length of its own but those of the body. With the compliance
 //! 2T(q)/(E*q) written as a product, T(q) = T₊T₋, T₊ without zeros and poles where Im q > 0 (Wiener & Hopf), the pressure
 //! at a distance x inside and the gap at a distance y outside of a smooth contact are
 //!
@@ -21,114 +21,114 @@
 //! [`Friction::edge_exponent`]. They are tabulated for the normal across the direction of sliding, along and against it; in
 //! between the logarithms are those of the parabola through the three.
 
+use super::edge_transforms::{EdgeTransforms, Wave, euler};
 use crate::body::TransferFunction;
 use crate::friction::Friction;
-use crate::numeric::lanes::{LANES, Real, splat, vectorised};
-use fearless_simd::Simd;
 use rayon::prelude::*;
-use rustfft::num_complex::Complex64;
-use std::f64::consts::{LN_10, PI};
 
-/// Pressure and gap at the edge, tabulated over the logarithm of the distance.
+/// Pressure and gap near the edge, tabulated over the distance.
 #[derive(Debug, Clone)]
 pub struct Edge {
+    /// Shortest distance of the tables, a length.
     shortest: f64,
-    /// φ/√x and γ/y^{3/2} at the distances `shortest`·e^{k STEP}.
+    /// φ/√x and γ/y^{3/2} at the distances `shortest`·e^{k LOG_STEP}.
     ratios: Vec<[f64; 2]>,
-    /// The same two, each with its slope over the logarithm, at equal steps of √x from √`shortest` on.
+    /// φ/√x and γ/y^{3/2}, each with its slope over the logarithm, at equal steps of √x from √`shortest` on.
     roots: Vec<[[f64; 2]; 2]>,
-    /// The first of these roots, and one over their step.
+    /// First of these roots, √length.
     first: f64,
+    /// One over the step of the roots.
     per_step: f64,
-    sliding: Option<Sliding>,
+    sliding: Option<SlidingEdge>,
 }
 
 /// The edge under coupled friction.
 #[derive(Debug, Clone)]
-struct Sliding {
-    /// Where the counterbody slides to, a unit vector.
+struct SlidingEdge {
+    /// Direction in which the counterbody slides, a unit vector.
     direction: [f64; 2],
-    /// The same ratios for normals along the direction and against it.
+    /// φ/√x and γ/y^{3/2} at the distances of the table, for normals along the direction and against it.
     ratios: [Vec<[f64; 2]>; 2],
 }
 
 /// Step of the table in the logarithm of the distance.
-const STEP: f64 = 0.06;
-/// Steps of the table in the root of the distance.
-const ROOTS: usize = 1024;
-/// Terms of the Euler sum: it errs by 10^{−0.6 TERMS}.
-const TERMS: usize = 13;
-/// Step of the quadrature over ln q, and how far q reaches beyond the inverse distances.
-const RULE: f64 = 0.05;
-const BEYOND: f64 = 100.0;
+const LOG_STEP: f64 = 0.06;
+/// Number of steps of the table in the root of the distance.
+const ROOT_STEPS: usize = 1024;
+/// Step of the quadrature over ln q.
+const QUADRATURE_STEP: f64 = 0.05;
+/// Ratio of the largest and the smallest q to the inverse distances.
+const WAVENUMBER_REACH: f64 = 100.0;
 
 impl Edge {
     /// The edge on a half-space, at distances from `shortest` to `longest` (lengths).
     pub fn new(transfer: &TransferFunction, friction: Option<&Friction>, shortest: f64, longest: f64) -> Self {
-        let first = (1.0 / (BEYOND * longest)).ln();
-        let count = ((BEYOND * BEYOND * longest / shortest).ln() / RULE).ceil() as usize;
-        let distances = (longest / shortest).ln() / STEP;
+        let first = (1.0 / (WAVENUMBER_REACH * longest)).ln();
+        let count = ((WAVENUMBER_REACH * WAVENUMBER_REACH * longest / shortest).ln() / QUADRATURE_STEP).ceil() as usize;
+        let distances = (longest / shortest).ln() / LOG_STEP;
         let sum = euler();
         let table = |along: f64| -> Vec<[f64; 2]> {
             let wave = |k: usize| {
-                let wavenumber = (first + k as f64 * RULE).exp();
+                let wavenumber = (first + k as f64 * QUADRATURE_STEP).exp();
                 // T of any layered half-space is positive.
                 let log = transfer.correction(wavenumber).max(f64::MIN_POSITIVE).ln();
                 if along == 0.0 {
                     return Wave { wavenumber, log, phase: 0.0 };
                 }
                 let response = transfer.response(wavenumber);
-                let turn = along * response.coupling / response.normal;
-                Wave { wavenumber, log: log + 0.5 * (turn * turn).ln_1p(), phase: turn.atan() }
+                let ratio = along * response.coupling / response.normal;
+                Wave { wavenumber, log: log + 0.5 * (ratio * ratio).ln_1p(), phase: ratio.atan() }
             };
             let waves: Vec<Wave> = (0..=count).map(wave).collect();
-            let (integrals, entries) = (Integrals::new(&waves, longest), distances.ceil() as usize + 2);
-            if integrals.is_bare() {
+            let transforms = EdgeTransforms::new(&waves, QUADRATURE_STEP, longest);
+            let entries = distances.ceil() as usize + 2;
+            if transforms.is_bare() {
                 return vec![[1.0; 2]; entries];
             }
-            let ratios = |k: usize| integrals.ratios(&sum, shortest * (k as f64 * STEP).exp());
+            let ratios = |k: usize| transforms.ratios(&sum, shortest * (k as f64 * LOG_STEP).exp());
             (0..entries).into_par_iter().map(ratios).collect()
         };
-        let sliding = friction.filter(|friction| friction.couples()).map(|friction| Sliding {
+        let sliding = friction.filter(|friction| friction.couples()).map(|friction| SlidingEdge {
             direction: friction.direction(),
             ratios: [1.0, -1.0].map(|sign| table(sign * friction.coefficient())),
         });
         let first = shortest.sqrt();
-        let step = (longest.sqrt() - first) / ROOTS as f64;
+        let step = (longest.sqrt() - first) / ROOT_STEPS as f64;
         let per_step = step.recip();
         let mut edge = Self { shortest, ratios: table(0.0), roots: Vec::new(), first, per_step, sliding };
         let root = |k: usize| (first + k as f64 * step).powi(2);
-        edge.roots = (0..=ROOTS).map(|k| [0, 1].map(|side| edge.logarithmic(&edge.ratios, root(k), side))).collect();
+        edge.roots =
+            (0..=ROOT_STEPS).map(|k| [0, 1].map(|side| edge.logarithmic(&edge.ratios, root(k), side))).collect();
         edge
     }
 
     /// Component of the outward normal (cos θ, sin θ) of an edge along the direction of sliding; 0 without coupled friction.
     pub fn along(&self, theta: f64) -> f64 {
-        self.sliding.as_ref().map_or(0.0, |Sliding { direction: [x, y], .. }| x * theta.cos() + y * theta.sin())
+        self.sliding.as_ref().map_or(0.0, |SlidingEdge { direction: [x, y], .. }| x * theta.cos() + y * theta.sin())
     }
 
-    /// φ and its slope at the distance x inside an edge whose normal has this component [along](Self::along) the sliding.
+    /// φ and its slope at the distance x inside an edge whose normal has the component [`along`](Self::along) the sliding.
     pub fn pressure(&self, x: f64, along: f64) -> [f64; 2] {
         let root = x.sqrt();
         let [ratio, slope] = self.at(x, root, along, 0);
         [ratio * root, (0.5 * ratio + slope) / root]
     }
 
-    /// γ and its slope at the distance y outside the same edge.
+    /// γ and its slope at the distance y outside an edge whose normal has the component [`along`](Self::along) the sliding.
     pub fn opening(&self, y: f64, along: f64) -> [f64; 2] {
         let root = y.sqrt();
         let [ratio, slope] = self.at(y, root, along, 1);
         [ratio * y * root, (1.5 * ratio + slope) * root]
     }
 
-    /// A ratio at a distance and its slope over the logarithm; 0: of the pressure, 1: of the gap.
+    /// Ratio at a distance and its slope over the logarithm, of the pressure (`side` 0) or of the gap (1).
     fn at(&self, distance: f64, root: f64, along: f64, side: usize) -> [f64; 2] {
-        let place = ((root - self.first) * self.per_step).clamp(0.0, ROOTS as f64 - 0.001);
+        let place = ((root - self.first) * self.per_step).clamp(0.0, ROOT_STEPS as f64 - 0.001);
         let k = place as usize;
         let rest = place - k as f64;
         let (own, next) = (self.roots[k][side], self.roots[k + 1][side]);
         let across = [0, 1].map(|c| own[c] + rest * (next[c] - own[c]));
-        let Some(Sliding { ratios, .. }) = self.sliding.as_ref().filter(|_| along != 0.0) else { return across };
+        let Some(SlidingEdge { ratios, .. }) = self.sliding.as_ref().filter(|_| along != 0.0) else { return across };
         let all = [across, self.logarithmic(&ratios[0], distance, side), self.logarithmic(&ratios[1], distance, side)];
         if all.iter().any(|[ratio, _]| *ratio <= 0.0) {
             return across;
@@ -139,138 +139,20 @@ impl Edge {
         [ratio, ratio * sum(|[ratio, slope]| slope / ratio)]
     }
 
-    /// The same from a table over the logarithm, linear in it.
+    /// Ratio at a distance and its slope over the logarithm, linear in a table of `ratios` over the logarithm.
     fn logarithmic(&self, ratios: &[[f64; 2]], distance: f64, side: usize) -> [f64; 2] {
-        let place = ((distance / self.shortest).ln() / STEP).clamp(0.0, ratios.len() as f64 - 1.001);
+        let place = ((distance / self.shortest).ln() / LOG_STEP).clamp(0.0, ratios.len() as f64 - 1.001);
         let k = place as usize;
         let (a, b) = (ratios[k][side], ratios[k + 1][side]);
-        [a + (place - k as f64) * (b - a), (b - a) / STEP]
+        [a + (place - k as f64) * (b - a), (b - a) / LOG_STEP]
     }
-}
-
-/// What one wavenumber adds.
-#[derive(Debug, Clone, Copy)]
-struct Wave {
-    /// q, 1/length.
-    wavenumber: f64,
-    /// ln |T|.
-    log: f64,
-    /// α.
-    phase: f64,
-}
-
-/// The two integrals of the transforms by the trapezoidal rule over ln q.
-struct Integrals {
-    /// q², and the weights of ln |T| and of α q, of each wave.
-    squares: Vec<f64>,
-    logs: Vec<f64>,
-    phases: Vec<f64>,
-    /// The first wave and the last one.
-    ends: [Wave; 2],
-    /// The factor of the phase is 1 for s² = `reference`; Σ of α q² over q² + this.
-    reference: f64,
-    whole: f64,
-}
-
-impl Integrals {
-    fn new(waves: &[Wave], longest: f64) -> Self {
-        let reference = longest.powi(-2);
-        let weight = |k: usize| if k == 0 || k + 1 == waves.len() { 0.5 * RULE } else { RULE };
-        let each =
-            |of: fn(&Wave) -> f64| -> Vec<f64> { waves.iter().enumerate().map(|(k, w)| weight(k) * of(w)).collect() };
-        let squares: Vec<f64> = waves.iter().map(|wave| wave.wavenumber * wave.wavenumber).collect();
-        let phases = each(|wave| wave.phase * wave.wavenumber * wave.wavenumber);
-        let whole = phases.iter().zip(&squares).map(|(phase, square)| phase / (square + reference)).sum();
-        let logs = each(|wave| wave.log * wave.wavenumber);
-        Self { squares, logs, phases, ends: [waves[0], waves[waves.len() - 1]], reference, whole }
-    }
-
-    /// Whether T is 1 and nothing slides: φ = √x and γ = y^{3/2}.
-    fn is_bare(&self) -> bool {
-        self.logs.iter().chain(&self.phases).all(|&part| part == 0.0)
-    }
-
-    /// ∫ ln T/(q² + s²) dq and ∫ α q/(q² + s²) dq less that at the reference, over the waves, for the square of s.
-    fn at(&self, square: Complex64) -> [Complex64; 2] {
-        let (a, b) = (square.re, square.im);
-        let mut sums = [[0.0; LANES]; 4];
-        vectorised!(simd => self.summed(simd, [a, b], &mut sums));
-        let [log_re, log_im, phase_re, phase_im] = sums.map(|lanes| lanes.iter().sum::<f64>());
-        [Complex64::new(log_re, -b * log_im), Complex64::new(phase_re - self.whole, -b * phase_im)]
-    }
-
-    /// 1/(q² + a + ib) = (q² + a − ib)/((q² + a)² + b²).
-    #[inline(always)]
-    fn summed<S: Simd>(&self, simd: S, [a, b]: [f64; 2], sums: &mut [[f64; LANES]; 4]) {
-        let mut totals = [splat(simd, 0.0); 4];
-        let [a, square] = [a, b * b].map(|x| splat(simd, x));
-        let mut at = 0;
-        while at < self.squares.len() {
-            let real = f64::group(simd, &self.squares, at, 1.0) + a;
-            let norm = real * real + square;
-            let log = f64::group(simd, &self.logs, at, 0.0) / norm;
-            let phase = f64::group(simd, &self.phases, at, 0.0) / norm;
-            totals[0] += log * real;
-            totals[1] += log;
-            totals[2] += phase * real;
-            totals[3] += phase;
-            at += LANES;
-        }
-        for (sum, total) in sums.iter_mut().zip(totals) {
-            sum.copy_from_slice(total.as_slice());
-        }
-    }
-
-    /// φ/√x and γ/x^{3/2} at the distance x.
-    fn ratios(&self, sum: &[(Complex64, f64)], x: f64) -> [f64; 2] {
-        let mut ratios = [0.0; 2];
-        let [low, high] = self.ends;
-        for &(beta, weight) in sum {
-            let s = beta / x;
-            let square = s * s;
-            let [integral, mut turned] = self.at(square);
-            // Beyond its ends the rule takes T as constant.
-            let below = (low.wavenumber / s).atan() * low.log;
-            let above = ((high.wavenumber / s).atan() - 0.5 * PI) * -high.log;
-            if high.phase != 0.0 || low.phase != 0.0 {
-                let log = |q: f64| 0.5 * ((q * q + square) / (q * q + self.reference)).ln();
-                let origin = 0.5 * (square / self.reference).ln();
-                turned += low.phase * (log(low.wavenumber) - origin) - high.phase * log(high.wavenumber);
-            }
-            let factor = ((integral * s + below + above) / PI).exp();
-            let phase = (turned / PI).exp();
-            let root = beta.sqrt();
-            // Γ(3/2) s^{−3/2} = Γ(3/2) x^{3/2} β^{−3/2}; the sum is divided by x, the ratio by √x.
-            ratios[0] += weight * (0.5 * PI.sqrt() / (beta * root) * phase / factor).re;
-            ratios[1] += weight * (0.75 * PI.sqrt() / (beta * beta * root) * phase * factor).re;
-        }
-        ratios
-    }
-}
-
-/// Points β and weights η of f(x) = Σ η Re f̂(β/x)/x.
-fn euler() -> Vec<(Complex64, f64)> {
-    let mut weights = vec![1.0; 2 * TERMS + 1];
-    weights[0] = 0.5;
-    let last = 0.5f64.powi(TERMS as i32);
-    weights[2 * TERMS] = last;
-    let mut binomial = 1.0;
-    for k in 1..TERMS {
-        binomial *= (TERMS - k + 1) as f64 / k as f64;
-        weights[2 * TERMS - k] = weights[2 * TERMS - k + 1] + last * binomial;
-    }
-    let scale = 10f64.powf(TERMS as f64 / 3.0);
-    let point = |(k, weight): (usize, f64)| {
-        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
-        (Complex64::new(TERMS as f64 * LN_10 / 3.0, PI * k as f64), sign * scale * weight)
-    };
-    weights.into_iter().enumerate().map(point).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
+    use std::f64::consts::PI;
 
     fn coated(young: f64, thickness: f64) -> TransferFunction {
         let [coating, substrate] = [young, 1.0].map(|young| Material::from_young(young, 0.3).unwrap());

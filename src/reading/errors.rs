@@ -7,7 +7,7 @@
 /// Quantities converge at second order, a cusp of the pressure slower; errors oscillate as the edge of contact moves
 /// among the samples, so that two grids can agree by chance. The estimate is therefore 1.5 to 4 times the largest of
 ///
-/// |q(h) − q(2h)|,  |q(h) − q(4h)|/4,  what n samples along a contact radius leave open:
+/// |q(h) − q(2h)|,  |q(h) − q(4h)|/4,  and the error by the law for n samples along a contact radius:
 ///
 /// | quantity | relative |
 /// |---|---|
@@ -19,28 +19,28 @@
 /// | mean gap of a topography | 0.05 n⁻² of the penetration |
 /// | area of a topography corrected by its perimeter | a quarter of the correction |
 /// | centre of the pressure | 0.005 n⁻² of the contact radius |
-/// | areas, radii, asymmetry, fraction in contact | what the reading of the boundary says of itself |
+/// | areas, radii, asymmetry, fraction in contact | the uncertainty of the reading of the boundary |
 ///
 /// The fraction in contact of a topography is read between the samples; where its spots are narrower than ten samples on the
-/// average, or many and without boundaries of their own, it is the one of that and the count corrected by the perimeter
-/// whose error by these laws is the smaller one.
+/// average, or many and without boundaries of their own, it is that or the count corrected by the perimeter, whichever has the
+/// smaller error by these laws.
 ///
 /// The numbers are read off seven hundred random cases solved again with four times the points; that the estimates hold
-/// in 95 % of others is shown in `validation/discretisation`. What is prescribed has no error, the peak under a tip is
+/// in 95 % of others is shown in `validation/discretisation`. A prescribed quantity has no error; the peak under a tip is
 /// infinite and has none either.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Errors {
-    /// Of the mean pressure.
+    /// Error of the mean pressure, in the unit of pressure.
     pub mean_pressure: Option<f64>,
-    /// Of the penetration.
+    /// Error of the penetration, a length.
     pub penetration: Option<f64>,
-    /// Of the fraction in contact.
+    /// Error of the fraction in contact.
     pub contact_fraction: Option<f64>,
-    /// Of the elastic energy.
+    /// Error of the elastic energy, a pressure times a cubed length.
     #[cfg_attr(feature = "serde", serde(default))]
     pub elastic_energy: Option<f64>,
-    /// Of the largest pressure.
+    /// Error of the largest pressure, in the unit of pressure.
     pub max_pressure: Option<f64>,
 }
 
@@ -48,27 +48,27 @@ pub struct Errors {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LevelErrors {
-    /// Of the force on one indenter.
+    /// Error of the force on one indenter, a pressure times an area.
     pub load: Option<f64>,
-    /// Of the share of the whole load.
+    /// Error of the share of the whole load.
     pub load_share: Option<f64>,
-    /// Of the peak pressure.
+    /// Error of the peak pressure, in the unit of pressure.
     pub max_pressure: Option<f64>,
-    /// Of the contact area of one indenter.
+    /// Error of the contact area of one indenter, a length squared.
     pub contact_area: Option<f64>,
-    /// Of √(area/π).
+    /// Error of the contact radius √(area/π), a length.
     pub contact_radius: Option<f64>,
-    /// Of a ring's inner radius.
+    /// Error of a ring's inner radius, a length.
     pub radius_inner: Option<f64>,
-    /// Of a ring's outer radius.
+    /// Error of a ring's outer radius, a length.
     pub radius_outer: Option<f64>,
-    /// Of the smallest boundary radius.
+    /// Error of the smallest boundary radius, a length.
     pub radius_min: Option<f64>,
-    /// Of the largest boundary radius.
+    /// Error of the largest boundary radius, a length.
     pub radius_max: Option<f64>,
-    /// Of (largest − smallest)/largest.
+    /// Error of the asymmetry (largest − smallest)/largest.
     pub asymmetry: Option<f64>,
-    /// Of x and y of the pressure's centre.
+    /// Errors of x and y of the pressure's centre, lengths.
     #[cfg_attr(feature = "serde", serde(default))]
     pub centre: [Option<f64>; 2],
 }

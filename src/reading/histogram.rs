@@ -1,29 +1,29 @@
-//! How often a quantity lies in each of several intervals.
+//! Histograms: the number of values of a quantity in each of several intervals.
 
 use std::borrow::Cow;
 
-/// Intervals of an even histogram.
+/// Number of intervals of an even histogram.
 const EVEN: usize = 64;
-/// Intervals to a decade of one by decades.
-const TO_A_DECADE: f64 = 8.0;
+/// Number of intervals in a decade of a logarithmic histogram.
+const PER_DECADE: f64 = 8.0;
 
-/// Counts in neighbouring intervals, the upper end of the last one counted.
+/// Counts in neighbouring intervals; the upper end belongs to the last one.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Histogram {
-    /// Of what.
+    /// Name of the quantity.
     pub quantity: Cow<'static, str>,
-    /// Ends of the intervals, ascending: one more than counts.
+    /// Ends of the intervals, ascending, in the unit of the quantity: one more than counts.
     pub ends: Vec<f64>,
-    /// How many values lie in each.
+    /// Number of values in each interval.
     pub counts: Vec<usize>,
-    /// Of how many in all: those that are in none count too.
+    /// Number of all values, those in no interval included.
     pub total: usize,
 }
 
 impl Histogram {
-    /// 64 equal intervals from 0 to the largest value; none without values above 0. `total` samples stand for the whole, so
-    /// that the integral of the [density](Self::densities) is the part of them that has a value.
+    /// Histogram of 64 equal intervals from 0 to the largest value; no intervals without values above 0. `total` is the number of
+    /// all samples: the integral of the [density](Self::densities) is the part of the samples that has a value.
     pub fn even(quantity: &'static str, values: impl Iterator<Item = f64> + Clone, total: usize) -> Self {
         let most = values.clone().fold(0.0, f64::max);
         if !(most > 0.0 && most.is_finite()) {
@@ -35,25 +35,25 @@ impl Histogram {
         Self { quantity: quantity.into(), ends, counts, total }
     }
 
-    /// Eight intervals to a decade from the smallest value on, each as many times as long as the one before; of values
-    /// above 0.
+    /// Histogram of values above 0, with eight intervals in a decade from the smallest value on, each longer than the one before by
+    /// a constant factor.
     pub fn by_decades(quantity: &'static str, values: impl Iterator<Item = f64> + Clone) -> Self {
         let total = values.clone().count();
         let least = values.clone().fold(f64::INFINITY, f64::min);
         if !(least > 0.0 && least.is_finite()) {
             return Self { quantity: quantity.into(), ends: Vec::new(), counts: Vec::new(), total };
         }
-        // The smallest spots have one sample, the next two: no interval begins at a value.
-        let first = least * 10f64.powf(-0.5 / TO_A_DECADE);
-        let place = |value: f64| (TO_A_DECADE * (value / first).log10()) as usize;
+        // The smallest spots have one sample, the next two: intervals begin between such values.
+        let first = least * 10f64.powf(-0.5 / PER_DECADE);
+        let place = |value: f64| (PER_DECADE * (value / first).log10()) as usize;
         let most = values.clone().map(place).max().unwrap_or(0);
-        let ends = (0..=most + 1).map(|k| first * 10f64.powf(k as f64 / TO_A_DECADE)).collect();
+        let ends = (0..=most + 1).map(|k| first * 10f64.powf(k as f64 / PER_DECADE)).collect();
         let mut counts = vec![0; most + 1];
         values.for_each(|value| counts[place(value)] += 1);
         Self { quantity: quantity.into(), ends, counts, total }
     }
 
-    /// Part of the whole per unit of the quantity, in each interval.
+    /// Density of each interval: part of all values over the length of the interval.
     pub fn densities(&self) -> Vec<f64> {
         let widths = self.ends.windows(2).map(|ends| ends[1] - ends[0]);
         self.counts.iter().zip(widths).map(|(count, width)| *count as f64 / (self.total as f64 * width)).collect()

@@ -1,39 +1,40 @@
-//! What is open inside contacts.
+//! Holes: open samples that one contact encloses.
 
-use crate::lattice::components::{Component, open_regions};
+use crate::lattice::components::{Component, components};
 use crate::lattice::{Connectivity, Grid};
 
-/// Label of a sample that lies in no hole.
-const NOBODY: u32 = u32::MAX;
+/// Label of a sample that belongs to no contact.
+pub const NO_CONTACT: u32 = u32::MAX;
 
-/// Open samples that one contact encloses.
+/// The holes of all contacts of a grid.
 pub struct Holes {
-    /// The contact around each sample; empty without holes.
+    /// Label of the contact around each sample; empty without holes.
     around: Vec<u32>,
-    /// Contacts that have a hole, ascending.
+    /// Labels of the contacts that have a hole, ascending.
     owners: Vec<u32>,
 }
 
 impl Holes {
-    /// Of a pressure; `label` tells contacts apart by their samples, and may leave some out.
+    /// The holes under a `pressure` given sample by sample; `label` gives the contact that a sample belongs to, by the flat index
+    /// of the sample, and `None` for contacts whose holes do not count.
     pub fn of(grid: &Grid, pressure: &[f64], label: impl Fn(usize) -> Option<u32>) -> Self {
-        let offsets = grid.neighbour_offsets(Connectivity::Edges);
+        let steps = grid.neighbour_offsets(Connectivity::Edges);
         let enclosing = |open: &Component| {
             let around = |index: usize| {
-                let both = offsets.iter().flat_map(|offset| [*offset, offset.map(|k| -k)]);
-                both.map(move |offset| grid.at_offset(offset, index))
+                let both = steps.iter().flat_map(|step| [*step, step.map(|k| -k)]);
+                both.map(move |step| grid.at_offset(step, index))
             };
             let mut beside = open.indices(grid).flatten().flat_map(around).filter(|&next| pressure[next] > 0.0);
             let owner = label(beside.next()?)?;
             beside.all(|index| label(index) == Some(owner)).then_some(owner)
         };
-        // What lies outside meets its own images, or several contacts.
-        let found: Vec<(u32, Component)> = open_regions(grid, pressure)
+        // Open samples outside the contacts meet their own images, or several contacts.
+        let found: Vec<(u32, Component)> = components(grid, Connectivity::Edges, |index| pressure[index] <= 0.0)
             .into_iter()
             .filter(|open| !open.wraps)
             .filter_map(|open| Some((enclosing(&open)?, open)))
             .collect();
-        let mut around = if found.is_empty() { Vec::new() } else { vec![NOBODY; grid.len()] };
+        let mut around = if found.is_empty() { Vec::new() } else { vec![NO_CONTACT; grid.len()] };
         for (owner, hole) in &found {
             hole.indices(grid).for_each(|run| around[run].fill(*owner));
         }
@@ -43,13 +44,13 @@ impl Holes {
         Self { around, owners }
     }
 
-    /// Whether a contact has a hole.
+    /// Whether the contact with a label has a hole.
     pub fn has(&self, owner: u32) -> bool {
         self.owners.binary_search(&owner).is_ok()
     }
 
-    /// The contact in whose hole a sample lies.
+    /// Label of the contact in whose hole a sample lies, by the flat index of the sample.
     pub fn around(&self, index: usize) -> Option<u32> {
-        self.around.get(index).copied().filter(|&owner| owner != NOBODY)
+        self.around.get(index).copied().filter(|&owner| owner != NO_CONTACT)
     }
 }

@@ -1,4 +1,4 @@
-//! What a tribologist reads off a solved contact, level by level and between the samples.
+//! Readings of a solved contact: loads, peaks, areas and boundaries level by level, between the samples, with their errors.
 //!
 //! A sample belongs to the indenter whose surface is nearest to it. Contacts of neighbouring indenters that touch have
 //! **merged**: loads and peak pressures still belong to levels, a radius has lost its meaning. A contact that is open in
@@ -8,19 +8,27 @@
 mod area;
 pub(crate) mod boundary;
 mod contact;
+mod contact_area;
+mod counted;
 mod edge;
+mod edge_transforms;
 mod errors;
 mod estimate;
 mod fraction;
+mod fractions;
 mod governing;
 mod histogram;
 mod holes;
 mod level;
+mod level_spots;
 mod peak;
 mod rough;
+#[cfg(feature = "cli")]
+mod section;
 mod spots;
 mod strength;
 mod stress;
+mod topography;
 mod touch;
 mod verdict;
 
@@ -33,6 +41,8 @@ pub use governing::{Governing, within_the_errors};
 pub use histogram::Histogram;
 pub use level::{FEW_SAMPLES, LevelReading, Uncertainty};
 pub use rough::{RoughReading, SpotSizes, stiffness};
+#[cfg(feature = "cli")]
+pub(crate) use section::{LargestInSection, SectionMeasure};
 pub use strength::{Criterion, Utilisation};
 pub use stress::{StressReading, tears, tips};
 pub use touch::{FirstTouch, first_touches};

@@ -1,18 +1,10 @@
-//! What is read of the contact of a topography, beside what is read of any contact: counted and corrected area, spots, gap
-//! and stiffness.
+//! The reading of the contact of a topography, beside the reading of any contact: counted and corrected area, spots, gap and
+//! stiffness.
 //!
-//! **Area.** Of N samples n are in contact, and of E pairs of neighbours one is: neighbours along the reduced basis of the
-//! samples' lattice, whichever vectors describe the cell (where three directions are tied, each counts by its weight).
-//! Counting takes every sample at the border for whole, and overestimates: V. A. Yastrebov, G. Anciaux & J.-F. Molinari
-//! (Tribol. Int. 114 (2017) 161–171) take off (π − 1 + ln 2)/24 · S_d Δx with the perimeter S_d along the edges of the
-//! samples, of which every pair has one, so that S_d Δx is E samples and
-//!
-//! A/A₀ = (n − (π − 1 + ln 2)/24 · E)/N.
-//!
-//! The factor is that of square samples, a mean over the directions of a border; on others it is taken over as it is.
-//!
-//! Where spots have fewer than some ten samples across, or are many without smooth boundaries, what can be read between the samples
-//! errs by more: of both [`Reading::contact_fraction`](super::Reading::contact_fraction) is then the one with the smaller error.
+//! **Area.** Samples in contact are counted, and the count is corrected by the perimeter of contact
+//! (V. A. Yastrebov, G. Anciaux & J.-F. Molinari, Tribol. Int. 114 (2017) 161–171).
+//! Where spots have fewer than some ten samples across, or are many without smooth boundaries, the reading between the samples
+//! errs by more: [`Reading::contact_fraction`](super::Reading::contact_fraction) is then the one of both with the smaller error.
 //!
 //! **Spots** are samples in contact whose cells share an edge or a corner, as the usual tools of the field join them; what is
 //! open joins at edges alone, so that a spot closed at corners keeps its hole. Cells of samples are parallelograms of the reduced
@@ -21,31 +13,22 @@
 //!
 //! **Stiffness.** [`stiffness`] is dp̄/dδ from neighbouring load steps: with the mean gap ū, dp̄/dδ = −dp̄/dū.
 
-use super::fraction::{Corrected, Fraction};
+use super::counted::CountedArea;
 use super::histogram::Histogram;
 use crate::lattice::Grid;
 use crate::lattice::components::SpotCounts;
 use crate::numeric::sums;
 use crate::spectral::Contact;
-use rayon::prelude::*;
-use std::f64::consts::{LN_2, PI};
-
-/// Part of what the correction by the perimeter takes off that it leaves open: the factor of a border depends on its
-/// directions.
-const BORDER: f64 = 0.25;
-
-/// (π − 1 + ln 2)/24.
-const PART: f64 = (PI - 1.0 + LN_2) / 24.0;
 
 /// Scalars and distributions of the contact of a topography.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RoughReading {
-    /// Samples in contact over all.
+    /// Samples in contact over all samples.
     pub counted_fraction: f64,
-    /// The same corrected by the perimeter.
+    /// Fraction of the cell in contact, counted and corrected by the perimeter.
     pub corrected_fraction: f64,
-    /// Its estimated discretisation error; `None` without a coarser grid.
+    /// Estimated discretisation error of the corrected fraction; `None` without a coarser grid.
     #[cfg_attr(feature = "serde", serde(default))]
     pub corrected_fraction_error: Option<f64>,
     /// Length of the contacts' borders along the samples' edges, over the cell's area: 1/length. A border without preferred
@@ -53,16 +36,16 @@ pub struct RoughReading {
     pub perimeter_density: f64,
     /// Contact spots, by their counted areas.
     pub spots: SpotSizes,
-    /// Mean gap over the cell, contact counted as none: a length.
+    /// Mean gap over the cell, zero in contact; a length.
     pub mean_gap: f64,
-    /// Its estimated discretisation error; `None` without a coarser grid.
+    /// Estimated discretisation error of the mean gap, a length; `None` without a coarser grid.
     #[cfg_attr(feature = "serde", serde(default))]
     pub mean_gap_error: Option<f64>,
-    /// dp̄/dδ, pressure per length, where other load steps tell it.
+    /// Normal stiffness dp̄/dδ, pressure per length; `None` without neighbouring load steps.
     pub stiffness: Option<f64>,
-    /// Its estimated error.
+    /// Estimated error of the stiffness, pressure per length.
     pub stiffness_error: Option<f64>,
-    /// Of pressure and gap over the samples, and of the areas of spots.
+    /// Histograms of pressure and gap over the samples, and of the areas of spots.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub histograms: Vec<Histogram>,
 }
@@ -71,38 +54,41 @@ pub struct RoughReading {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SpotSizes {
-    /// How many there are in the cell.
+    /// Number of spots in the cell.
     pub count: usize,
     /// Spots per area of the surface, 1/length².
     pub density: f64,
-    /// Their mean area.
+    /// Mean area of a spot.
     pub mean_area: f64,
-    /// Half of them are smaller.
+    /// Median of the areas.
     pub median_area: f64,
-    /// The area up to which, from the smallest on, spots carry half of the load.
+    /// Area up to which, from the smallest on, spots carry half of the load.
     pub half_load_area: f64,
-    /// Area of the largest.
+    /// Area of the largest spot.
     pub largest_area: f64,
-    /// Whether one reaches across the cell to an image of itself.
+    /// Whether a spot reaches across the cell to an image of itself.
     pub percolates: bool,
 }
 
 impl RoughReading {
-    /// Of a contact, without errors; `None` for indenters. [`Step::rough_reading`](crate::Step::rough_reading) has them.
+    /// Reading of a contact without estimated errors; `None` for indenters. [`Step::rough_reading`](crate::Step::rough_reading)
+    /// has them.
     pub fn of(contact: &Contact) -> Option<Self> {
         contact.problem().counterbody().topography()?;
+        Some(Self::with_counted(contact, &CountedArea::of(contact.grid(), contact.pressures())))
+    }
+
+    /// Reading of the contact of a topography whose samples in contact are counted already.
+    pub(super) fn with_counted(contact: &Contact, counted: &CountedArea) -> Self {
         let (grid, pressure, gap) = (contact.grid(), contact.pressures(), contact.gaps());
-        let total = grid.len() as f64;
-        let counted = pressure.iter().filter(|p| **p > 0.0).count();
-        let [pairs, length] = borders(grid, pressure);
         let (spots, areas) = spots(grid, contact.spots(None));
         let touching = pressure.iter().copied().filter(|p| *p > 0.0);
         let open = pressure.iter().zip(gap).filter(|(p, _)| **p <= 0.0).map(|(_, gap)| gap.max(0.0));
-        Some(Self {
-            counted_fraction: counted as f64 / total,
-            corrected_fraction: corrected(counted as f64, pairs, total).fraction.value,
-            corrected_fraction_error: None,
-            perimeter_density: length / grid.cell().area(),
+        Self {
+            counted_fraction: counted.fraction,
+            corrected_fraction: counted.corrected.value,
+            corrected_fraction_error: counted.error,
+            perimeter_density: counted.perimeter_density,
             spots,
             mean_gap: mean_gap(contact),
             mean_gap_error: None,
@@ -113,49 +99,17 @@ impl RoughReading {
                 Histogram::even("gap", open, grid.len()),
                 Histogram::by_decades("spot_area", areas.iter().copied()),
             ],
-        })
+        }
     }
 }
 
-/// Mean gap, 0 where there is contact.
+/// Mean gap over the cell, zero in contact; a length.
 pub(super) fn mean_gap(contact: &Contact) -> f64 {
     let (pressure, gap) = (contact.pressures(), contact.gaps());
     sums::of(gap.len(), |k| if pressure[k] > 0.0 { [0.0] } else { [gap[k].max(0.0)] })[0] / gap.len() as f64
 }
 
-/// The counted fraction in contact corrected by the perimeter.
-pub(super) fn corrected_fraction(grid: &Grid, pressure: &[f64]) -> Corrected {
-    let [pairs, _] = borders(grid, pressure);
-    corrected(pressure.iter().filter(|p| **p > 0.0).count() as f64, pairs, grid.len() as f64)
-}
-
-/// The same of so many samples `counted` in contact and pairs at their border, of a `total`.
-fn corrected(counted: f64, pairs: f64, total: f64) -> Corrected {
-    let value = (counted - PART * pairs).max(0.0) / total;
-    let fraction = Fraction { value, uncertainty: BORDER * (counted / total - value) };
-    Corrected { fraction, width: if counted > 0.0 { 4.0 * counted / pairs } else { 0.0 } }
-}
-
-/// Number of pairs of neighbours of which one is in contact, and length of the edges between them, along the other vector of
-/// the basis.
-fn borders(grid: &Grid, pressure: &[f64]) -> [f64; 2] {
-    let [n1, n2] = grid.points();
-    let row = |i: usize| &pressure[i * n2..(i + 1) * n2];
-    let differ = |a: &[f64], b: &[f64]| a.iter().zip(b).filter(|(a, b)| (**a > 0.0) != (**b > 0.0)).count();
-    let mut sum = [0.0; 2];
-    for direction in grid.directions() {
-        let [down, right] = [0, 1].map(|k| direction.step[k].rem_euclid(grid.points()[k] as i32) as usize);
-        let ends = |i: usize| {
-            let (own, other) = (row(i), row((i + down) % n1));
-            differ(&own[..n2 - right], &other[right..]) + differ(&own[n2 - right..], &other[..right])
-        };
-        let pairs = direction.weight * (0..n1).into_par_iter().map(ends).sum::<usize>() as f64;
-        sum = [sum[0] + pairs, sum[1] + pairs * direction.beside];
-    }
-    sum
-}
-
-/// Sizes of the spots, and their areas, ascending.
+/// Sizes of the spots, and the areas of all spots, ascending.
 fn spots(grid: &Grid, counts: &SpotCounts) -> (SpotSizes, Vec<f64>) {
     let areas: Vec<f64> = counts.sizes.iter().map(|(size, _)| *size as f64 * grid.sample_area()).collect();
     let [Some(&largest_area), Some(&median_area)] = [areas.last(), areas.get(areas.len() / 2)] else {
@@ -173,7 +127,8 @@ fn spots(grid: &Grid, counts: &SpotCounts) -> (SpotSizes, Vec<f64>) {
     (sizes, areas)
 }
 
-/// dp̄/dδ at each of several load steps [p̄, δ], and its estimated error; `None` where they do not tell it.
+/// Normal stiffness dp̄/dδ at each of several load steps [p̄, δ], and its estimated error; `None` where the steps do not determine
+/// it.
 ///
 /// The pressure of rough surfaces grows nearly as e^{δ/u₀}, so that δ is a smooth function of ln p̄: its derivative is that of
 /// the parabola through a step and its neighbours, and dp̄/dδ = p̄/(dδ/d ln p̄). Between two steps the derivative takes the
@@ -183,12 +138,12 @@ pub fn stiffness(steps: &[[f64; 2]]) -> Vec<Option<[f64; 2]>> {
     let mut path: Vec<[f64; 2]> =
         steps.iter().filter(|[p, _]| *p > 0.0 && p.is_finite()).map(|[p, depth]| [p.ln(), *depth]).collect();
     path.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    path.dedup_by(|next, own| next[0] - own[0] < APART);
+    path.dedup_by(|next, own| next[0] - own[0] < SAME_LOAD);
     let lengths: Vec<f64> = path.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
     let secants: Vec<f64> =
         path.windows(2).zip(&lengths).map(|(pair, length)| (pair[1][1] - pair[0][1]) / length).collect();
     let at = |&[pressure, _]: &[f64; 2]| {
-        let index = path.iter().position(|[x, _]| (x - pressure.ln()).abs() < APART).filter(|_| pressure > 0.0)?;
+        let index = path.iter().position(|[x, _]| (x - pressure.ln()).abs() < SAME_LOAD).filter(|_| pressure > 0.0)?;
         // The interval at the step, and the next one: at an end of the path both on one side.
         let [own, next] = match index {
             _ if secants.is_empty() => return None,
@@ -214,43 +169,21 @@ pub fn stiffness(steps: &[[f64; 2]]) -> Vec<Option<[f64; 2]>> {
     steps.iter().map(at).collect()
 }
 
-/// Steps whose ln p̄ differ by less are one.
-const APART: f64 = 1e-9;
+/// Difference of ln p̄ below which two load steps are one.
+const SAME_LOAD: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::Cell;
-    use crate::lattice::components::contact_spots;
-
-    /// Discs whose centres lie anywhere between samples. How well the correction does on contacts is shown in
-    /// `tests/library/roughness.rs`.
-    #[test]
-    fn the_border_of_a_disc_has_eight_radii_of_edges() {
-        let n = 64;
-        let grid = Grid::new(Cell::square(1.0).unwrap(), [n, n]).unwrap();
-        let radius = 0.23;
-        for shift in 0..16 {
-            let centre = [0.5 + 0.0041 * f64::from(shift), 0.5 - 0.0067 * f64::from(shift)];
-            let inside = |index: usize| {
-                let [s, t] = grid.fractions(index);
-                let (x, y) = (s - centre[0], t - centre[1]);
-                f64::from(u8::from(x * x + y * y < radius * radius))
-            };
-            let pressure: Vec<f64> = (0..grid.len()).map(inside).collect();
-            let [_, found] = borders(&grid, &pressure);
-            // An edge more or less at each of four ends.
-            assert!((found - 8.0 * radius).abs() < 4.1 / n as f64, "{found}");
-        }
-        assert_eq!(borders(&grid, &vec![1.0; n * n]), [0.0; 2]);
-    }
+    use crate::lattice::components::components;
+    use crate::lattice::{Cell, Connectivity};
 
     #[test]
     fn sizes_are_those_of_the_spots() {
         let grid = Grid::new(Cell::square(2.0).unwrap(), [8, 8]).unwrap();
         let mut pressure = [0.0; 64];
         let spots = |pressure: &[f64]| {
-            let found = contact_spots(&grid, pressure);
+            let found = components(&grid, Connectivity::EdgesAndCorners, |index| pressure[index] > 0.0);
             spots(&grid, &SpotCounts::of(&found, &grid, pressure))
         };
         assert_eq!(spots(&pressure).0, SpotSizes::default());
@@ -264,9 +197,6 @@ mod tests {
         assert_eq!((sizes.median_area, sizes.largest_area, sizes.half_load_area), (areas[1], areas[2], areas[0]));
         pressure[24..32].fill(1.0);
         assert!(spots(&pressure).0.percolates);
-        let mut one = [0.0; 64];
-        one[9] = 1.0;
-        assert_eq!(borders(&grid, &one), [4.0, 4.0 * 0.25]);
     }
 
     /// p = e^{δ/u₀} has p/u₀, and p = δ^{3/2} has (3/2) δ^{1/2}.
@@ -288,6 +218,6 @@ mod tests {
         assert_eq!(stiffness(&[[0.1, 0.2]]), [None]);
         assert_eq!(stiffness(&[[0.0, 0.0], [0.1, 0.2]]), [None, None]);
         let [value, error] = stiffness(&hertz[..2])[0].unwrap();
-        assert_eq!(value, error, "of two steps nothing tells the error");
+        assert_eq!(value, error, "two steps do not determine the error");
     }
 }

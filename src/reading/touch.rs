@@ -4,11 +4,11 @@
 //! it, between a negligible one and that of complete contact: on the grid of a solver and, with the same solutions, on the
 //! next coarser one.
 //!
-//! **Error.** Bisection leaves its bracket open. A contact starts with one sample, which may lie beside the apex, lower by s:
+//! **Error.** Bisection leaves a bracket. A contact starts with one sample, which may lie beside the apex, lower by s:
 //! with p̄ ~ δ^{(n+1)/n} under profiles rⁿ, n ≥ 1, that changes p̄ by at most 2 p̄ s/δ. The contacts that carry the load by then
 //! have N samples along the radius of the largest, and p̄ errs at a given δ by the law of [`Errors`](super::Errors). The
 //! coarser grid errs about four times as much; the change from it is taken for the error all the same, as it oscillates with
-//! the places of the samples. The estimate is half the bracket and 1.5 times the largest of all.
+//! the places of the samples. The estimate is half the bracket and 1.5 times the largest of these.
 
 use super::estimate::load_law;
 use super::spots::spots;
@@ -16,29 +16,28 @@ use crate::load::Load;
 use crate::spectral::{Contact, Solver};
 use std::f64::consts::PI;
 
-/// The pressure of first touch is enclosed within this ratio.
-const RATIO: f64 = 1.003;
-/// Fraction of the pressure of complete contact below which a touch counts as immediate.
+/// Largest ratio of the ends of the bracket of a first touch.
+const BRACKET_RATIO: f64 = 1.003;
+/// Part of the pressure of complete contact below which a touch counts as immediate.
 const NEGLIGIBLE: f64 = 1e-9;
-/// By how much the larger of what one grid and what two grids leave open is multiplied.
+/// Safety factor on the larger of the error by the samples and the change between the grids.
 const SAFETY: f64 = 1.5;
 
 /// The load at which a level first touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FirstTouch {
-    /// Mean pressure; 0 for what touches at once.
+    /// Mean pressure of the first touch; 0 for a level that touches under any load.
     pub mean_pressure: f64,
-    /// Its estimated error by the grid and the bisection; `None` where the level has no contact on
-    /// the coarser grid.
+    /// Estimated error of the mean pressure by the grid and the bisection; `None` where the level has no contact on the coarser grid.
     pub error: Option<f64>,
 }
 
-/// Load of first touch of each level; `None` for a level hidden behind others.
+/// Loads of first touch of all levels; `None` for a level hidden behind others.
 pub fn first_touches(solver: &mut Solver) -> Vec<Option<FirstTouch>> {
     let beside: Vec<Option<f64>> =
         (1..=solver.problem().counterbody().levels().len()).map(|level| beside_apex(solver, level)).collect();
-    let mut search = Search::new(solver, beside.len());
-    search.attempt(NEGLIGIBLE * search.most);
+    let mut search = TouchSearch::new(solver, beside.len());
+    search.attempt(NEGLIGIBLE * search.complete);
     for (level, _) in beside.iter().enumerate().filter(|(_, beside)| beside.is_some()) {
         for grid in 0..GRIDS {
             while let Some(pressure) = search.brackets[grid][level].middle().filter(|_| search.has(grid)) {
@@ -54,7 +53,7 @@ pub fn first_touches(solver: &mut Solver) -> Vec<Option<FirstTouch>> {
             let change = (coarser.pressure() - mean_pressure).abs();
             let bracket = if own.least > 0.0 { 0.5 * (own.most - own.least) } else { 0.0 };
             let enough = own.enough.filter(|_| own.least > 0.0);
-            let open = enough.map_or(0.0, |Enough { penetration, resolution }| {
+            let open = enough.map_or(0.0, |FirstContact { penetration, resolution }| {
                 let apex = 2.0 * beside / penetration;
                 mean_pressure * apex.max(load_law(resolution.max(1.0)))
             });
@@ -65,7 +64,7 @@ pub fn first_touches(solver: &mut Solver) -> Vec<Option<FirstTouch>> {
     beside.into_iter().enumerate().map(|(level, beside)| Some(touch(level, beside?))).collect()
 }
 
-/// How far the highest sample of a level (from 1) lies below its apex, a length; `None` where others hide it.
+/// Height by which the highest sample of a level (from 1) lies below its apex, a length; `None` for a level hidden behind others.
 fn beside_apex(solver: &Solver, level: usize) -> Option<f64> {
     let surface = solver.surface();
     let owned = surface.owners().iter().zip(surface.gaps());
@@ -76,61 +75,64 @@ fn beside_apex(solver: &Solver, level: usize) -> Option<f64> {
     below.reduce(f64::min)
 }
 
-/// The grid of the solver and the next coarser one.
+/// Number of grids: that of the solver and the next coarser one.
 const GRIDS: usize = 2;
 
-/// What encloses a load of first touch.
+/// The bracket of a load of first touch.
 #[derive(Debug, Clone, Copy)]
 struct Bracket {
-    /// A pressure that is not enough, and one that is.
+    /// Mean pressure without contact of the level.
     least: f64,
+    /// Mean pressure with contact of the level.
     most: f64,
-    /// How it stands under the least pressure that is known to be enough.
-    enough: Option<Enough>,
+    /// The contact under the least pressure that is known to be enough.
+    enough: Option<FirstContact>,
 }
 
-/// What carries a load.
+/// The contact that carries a load when a level begins to touch.
 #[derive(Debug, Clone, Copy)]
-struct Enough {
-    /// Length.
+struct FirstContact {
+    /// Penetration, a length.
     penetration: f64,
     /// Samples along the radius of the largest contact.
     resolution: f64,
 }
 
 impl Bracket {
-    /// The next pressure to try; `None` once the bracket is narrow, or the touch immediate.
+    /// The next mean pressure to solve; `None` once the bracket is narrow, or the touch immediate.
     fn middle(&self) -> Option<f64> {
-        (self.least > 0.0 && self.most > RATIO * self.least).then(|| (self.least * self.most).sqrt())
+        (self.least > 0.0 && self.most > BRACKET_RATIO * self.least).then(|| (self.least * self.most).sqrt())
     }
 
-    /// The pressure that it encloses.
+    /// Estimate of the mean pressure of first touch.
     fn pressure(&self) -> f64 {
         (self.least * self.most).sqrt()
     }
 }
 
-struct Search<'a> {
+/// The bisection for all levels on both grids.
+struct TouchSearch<'a> {
     solver: &'a mut Solver,
-    /// Pressure of complete contact.
-    most: f64,
-    /// Of each grid and each level.
+    /// Mean pressure of complete contact.
+    complete: f64,
+    /// Brackets of each grid and each level.
     brackets: [Vec<Bracket>; GRIDS],
-    /// How many grids were solved on.
+    /// Number of grids that were solved on.
     grids: usize,
 }
 
-impl<'a> Search<'a> {
+impl<'a> TouchSearch<'a> {
     fn new(solver: &'a mut Solver, levels: usize) -> Self {
-        let most = solver.full_contact_pressure();
-        let all = vec![Bracket { least: 0.0, most, enough: None }; levels];
-        Self { solver, most, brackets: [all.clone(), all], grids: 0 }
+        let complete = solver.full_contact_pressure();
+        let all = vec![Bracket { least: 0.0, most: complete, enough: None }; levels];
+        Self { solver, complete, brackets: [all.clone(), all], grids: 0 }
     }
 
     fn has(&self, grid: usize) -> bool {
         grid < self.grids
     }
 
+    /// Solves a mean pressure, and narrows the brackets of all levels on all grids.
     fn attempt(&mut self, pressure: f64) {
         let step = self.solver.solve(Load::MeanPressure(pressure));
         let contacts: Vec<&Contact> = std::iter::once(step.finest()).chain(step.coarser()).take(GRIDS).collect();
@@ -138,7 +140,7 @@ impl<'a> Search<'a> {
         for (brackets, contact) in self.brackets.iter_mut().zip(contacts) {
             let sites = contact.surface().sites();
             let spots = spots(contact, &contact.touching());
-            // Of each level the samples in contact under all its indenters.
+            // Samples in contact under all indenters of each level.
             let mut samples = vec![0.0; brackets.len()];
             let mut indenters = vec![0.0; brackets.len()];
             for (site, spot) in sites.iter().zip(&spots) {
@@ -152,7 +154,7 @@ impl<'a> Search<'a> {
                 if *samples == 0.0 {
                     bracket.least = bracket.least.max(pressure);
                 } else if pressure <= bracket.most {
-                    (bracket.most, bracket.enough) = (pressure, Some(Enough { penetration, resolution }));
+                    (bracket.most, bracket.enough) = (pressure, Some(FirstContact { penetration, resolution }));
                 }
             }
         }
@@ -187,7 +189,11 @@ mod tests {
             let touch = pressures[level];
             let mut load =
                 |pressure| Reading::of(solver.solve(Load::MeanPressure(pressure)).finest()).levels[level].load;
-            assert!(load(touch / RATIO) == 0.0 && load(touch * RATIO) > 0.0, "level {}: {touches:?}", level + 1);
+            assert!(
+                load(touch / BRACKET_RATIO) == 0.0 && load(touch * BRACKET_RATIO) > 0.0,
+                "level {}: {touches:?}",
+                level + 1
+            );
         }
     }
 }

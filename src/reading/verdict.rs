@@ -1,5 +1,5 @@
-//! Whether a criterion fails: with the utilisation u ± e it **fails** where u − e ≥ 1 and **holds** where u + e < 1; between,
-//! the grid leaves it **undecided**.
+//! The verdict on a criterion: with the utilisation u ± e it **fails** where u − e ≥ 1 and **holds** where u + e < 1; between it is
+//! **undecided** by the error of the grid.
 
 use std::fmt;
 
@@ -16,7 +16,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// Of what is taken up at `least` and at `most`, u − e and u + e.
+    /// Verdict from the `least` utilisation u − e and the `most` one u + e.
     pub fn of(least: f64, most: f64) -> Self {
         if least >= 1.0 {
             Self::Fails
@@ -27,7 +27,7 @@ impl Verdict {
         }
     }
 
-    /// Its name in outputs.
+    /// Name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Holds => "holds",

@@ -1,4 +1,4 @@
-//! How much the answer changes from one grid to the next finer one.
+//! Refinement: finer and finer grids until the results change by less than an accuracy.
 
 use super::StepRecord;
 use crate::lattice::Cell;
@@ -9,14 +9,14 @@ use crate::spectral::OtherGrids;
 use crate::stress::Peak;
 use std::fmt;
 
-/// Points along the shorter cell vector at which a refinement starts, fewer where the cell is too oblong for them.
+/// Points along the shorter cell vector of the first grid; fewer where the cell is too oblong for them.
 const FIRST_POINTS: usize = 96;
-/// Points along the longer cell vector beyond which it gives up.
+/// Largest number of points along the longer cell vector.
 const MOST_POINTS: usize = 4096;
-/// Points along the shorter cell vector of the first grid, at least.
+/// Least number of points along the shorter cell vector of the first grid.
 const LEAST_POINTS: usize = 12;
 
-/// `points` along the shorter cell vector, and as dense along the longer one.
+/// Numbers of points along the cell vectors: `points` along the shorter one, and as dense along the longer one.
 pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
     let lengths = cell.vectors().map(|a| a[0].hypot(a[1]));
     let shorter = lengths[0].min(lengths[1]);
@@ -24,13 +24,13 @@ pub fn balanced_points(cell: &Cell, points: usize) -> [usize; 2] {
 }
 
 /// Largest relative change between the load steps on two grids: of peak pressures (over the largest one), load shares,
-/// mean pressure and penetration, and of the largest stresses. What is infinite under a tip is left out.
+/// mean pressure and penetration, and of the largest stresses. Pressures and stresses that are infinite under a tip are left out.
 pub fn change(coarse: &[StepRecord], fine: &[StepRecord]) -> f64 {
     let pairs = coarse.iter().zip(fine);
     largest(pairs.flat_map(|(coarse, fine)| [step_change(&coarse.reading, &fine.reading), stress_change(coarse, fine)]))
 }
 
-/// A cell too oblong for any grid of the refinement.
+/// The error of a cell too oblong for any grid of a refinement.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the cell is {0:.0} times as long as wide: no grid of at most {MOST_POINTS} points along a side has {LEAST_POINTS} along the other; \
@@ -38,22 +38,22 @@ pub fn change(coarse: &[StepRecord], fine: &[StepRecord]) -> f64 {
 )]
 pub struct TooOblong(f64);
 
-/// Why a refinement ends.
+/// Reason for which a refinement ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum End {
+pub enum RefinementEnd {
     /// The last change is below the accuracy.
     Reached,
-    /// Changes **stagnate**: as fast as they fall, the better of the last two times, no grid in reach gets below the
-    /// accuracy.
+    /// The changes **stagnate**: if they go on falling as fast as in the better of the last two refinements, no grid in reach gets
+    /// below the accuracy.
     Stagnates,
     /// The next grid would have more than 4096 points along a side.
     Finest,
-    /// There is no room for the next grid, in memory or on disk.
+    /// Memory or disk does not suffice for the next grid.
     Room,
 }
 
-impl fmt::Display for End {
+impl fmt::Display for RefinementEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Reached => f.write_str("it is reached"),
@@ -64,14 +64,15 @@ impl fmt::Display for End {
     }
 }
 
-/// Finer and finer grids until results change by less than an accuracy, or for another reason to [`End`].
+/// Finer and finer grids, until the results change by less than an accuracy or for another reason to [`RefinementEnd`].
 #[derive(Debug, Clone)]
 pub struct Refinement {
     accuracy: f64,
     /// See [`Refinement::grids`].
     grids: Vec<[usize; 2]>,
-    /// Which of them is the present one.
+    /// Index of the present grid.
     at: usize,
+    /// Changes from grid to grid so far.
     changes: Vec<f64>,
 }
 
@@ -84,8 +85,7 @@ impl Refinement {
         Ok(Self { accuracy, grids: Self::grids(cell)?, at: 0, changes: Vec::new() })
     }
 
-    /// Every grid in reach on a cell, the first one at least: each twice as fine as the one before, as dense along both
-    /// cell vectors.
+    /// All grids in reach on a cell, at least one: each twice as fine as the one before, as dense along both cell vectors.
     ///
     /// # Errors
     /// [`TooOblong`] when there is none.
@@ -100,13 +100,13 @@ impl Refinement {
         Ok(grids.take_while(|points| points.iter().all(|&n| n <= MOST_POINTS)).collect())
     }
 
-    /// Goes on where another one was at the grid of `points`, after the changes that the grids before had brought.
+    /// Goes on from the grid of `points` of another refinement, with the changes that the grids before had brought.
     ///
     /// # Errors
-    /// [`OtherGrids`] when it has no such grid, or another number of changes before it.
+    /// [`OtherGrids`] when there is no such grid, or another number of changes before it.
     pub fn go_on(&mut self, points: [usize; 2], changes: &[f64]) -> Result<(), OtherGrids> {
         let at = self.grids.iter().position(|grid| *grid == points).ok_or(OtherGrids)?;
-        // The first grid has none to differ from.
+        // The first grid has no change.
         if changes.len() != at.saturating_sub(1) {
             return Err(OtherGrids);
         }
@@ -124,18 +124,18 @@ impl Refinement {
         self.grids[self.at]
     }
 
-    /// Goes on to the next grid, after the change that the present one brought (none on the first), unless it ends.
-    /// `fits` tells whether there is room for a grid.
-    pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<End> {
+    /// Goes on to the next grid, after the change that the present one brought (`None` on the first), and gives the reason where it
+    /// ends instead. `fits` says whether memory and disk suffice for a grid.
+    pub fn refine(&mut self, change: Option<f64>, fits: impl Fn([usize; 2]) -> bool) -> Option<RefinementEnd> {
         self.changes.extend(change);
         let finer = self.grids.get(self.at + 1);
         if self.changes.last().is_some_and(|&change| change < self.accuracy) {
-            return Some(End::Reached);
+            return Some(RefinementEnd::Reached);
         }
         match finer {
-            None => Some(End::Finest),
-            Some(_) if self.stagnates() => Some(End::Stagnates),
-            Some(&finer) if !fits(finer) => Some(End::Room),
+            None => Some(RefinementEnd::Finest),
+            Some(_) if self.stagnates() => Some(RefinementEnd::Stagnates),
+            Some(&finer) if !fits(finer) => Some(RefinementEnd::Room),
             Some(_) => {
                 self.at += 1;
                 None
@@ -148,14 +148,15 @@ impl Refinement {
         let fall = (second / first).min(last / second);
         let in_reach = self.grids.len() - self.at - 1;
         let best = last * fall.powi(in_reach as i32);
-        // What is not a number stagnates too.
+        // A change that is not a number stagnates too.
         best.partial_cmp(&self.accuracy) != Some(std::cmp::Ordering::Less)
     }
 }
 
+/// Largest relative change of the contact.
 fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
     if fine.grid_peak() <= 0.0 {
-        // Contact that has gone is no small change.
+        // A contact that vanishes is no small change.
         return if coarse.grid_peak() <= 0.0 { 0.0 } else { f64::INFINITY };
     }
     let peak = if fine.singular() { 0.0 } else { (fine.grid_peak() - coarse.grid_peak()).abs() };
@@ -168,8 +169,8 @@ fn step_change(coarse: &Reading, fine: &Reading) -> f64 {
     largest([peak / fine.grid_peak(), penetration, load].into_iter().chain(levels))
 }
 
-/// Of the largest τ₁, tension and von Mises, over the largest of them, and at least what a rival of the finer grid may exceed
-/// them by; 0 without stresses.
+/// Largest change of the largest τ₁, tension and von Mises, over the largest of them, and at least the excess of a rival peak of the
+/// finer grid by its error; 0 without stresses.
 fn stress_change(coarse: &StepRecord, fine: &StepRecord) -> f64 {
     let (Some(coarse), Some(fine)) = (&coarse.stress, &fine.stress) else { return 0.0 };
     let (coarse, fine) = (&coarse.overall, &fine.overall);
@@ -207,11 +208,11 @@ mod tests {
                 }
             }
         };
-        assert_eq!(run(&[1e-2, 3e-3, 9e-4, 1e-9], 8192), (768, End::Reached));
+        assert_eq!(run(&[1e-2, 3e-3, 9e-4, 1e-9], 8192), (768, RefinementEnd::Reached));
         // A logarithm changes as much from grid to grid.
-        assert_eq!(run(&[1e-2, 9.9e-3, 9.8e-3, 9.7e-3], 8192), (768, End::Stagnates));
-        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 8192), (3072, End::Finest));
-        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 1000), (768, End::Room));
+        assert_eq!(run(&[1e-2, 9.9e-3, 9.8e-3, 9.7e-3], 8192), (768, RefinementEnd::Stagnates));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 8192), (3072, RefinementEnd::Finest));
+        assert_eq!(run(&[1e-2, 5e-3, 2.5e-3, 1.3e-3, 1.1e-3, 1e-3], 1000), (768, RefinementEnd::Room));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! The engine of a run: load path, refinement to an accuracy, stresses, warnings.
 //!
-//! A [`Run`] says what is solved. A [`Recorder`] hears of every step as it is done, and keeps of it what it wants: the
-//! command line writes files, a study reads numbers, `()` keeps nothing. What comes out at the end is an [`Outcome`]. A
-//! recorder that knows what an earlier run has [`Finished`] lets this one go on from there.
+//! A [`Run`] is what is solved. A [`Recorder`] is called with every step as it is done: that of the command line writes files, that
+//! of a study reads numbers, `()` keeps nothing. The result is an [`Outcome`]. A recorder with the [`Finished`] part of an earlier
+//! run makes this one go on from there.
 //!
 //! ```
 //! use percoat::run::{Run, Sampling};
@@ -29,11 +29,13 @@ mod record;
 mod recorder;
 mod sampling;
 mod tapered;
+#[cfg(feature = "cli")]
+pub(crate) mod touches;
 pub(crate) mod warnings;
 
-pub use accuracy::{End, Refinement, TooOblong, balanced_points, change};
+pub use accuracy::{Refinement, RefinementEnd, TooOblong, balanced_points, change};
 pub use finished::{Finished, Last};
-pub use limit::{At, Limit, Limits, Shown, first, rivals};
+pub use limit::{At, Limit, LimitStep, Limits, first, rivals};
 pub use outcome::{BeyondFullContact, Outcome, RunError};
 pub use places::{Cut, StressRequest, Volume};
 pub use record::{Sliding, StepRecord};
@@ -55,21 +57,22 @@ use std::error::Error;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// Which grid of a refinement tells where contact becomes complete, if it has as many: 768 points are enough.
-const TELLING: usize = 3;
+/// Index of the grid of a refinement, if it has as many, on which the penetration of complete contact is checked: 768 points are
+/// enough.
+const CHECKED_GRID: usize = 3;
 
-/// What is solved: loads one after another, on one grid or on finer and finer ones.
+/// A run: loads solved one after another, on one grid or on finer and finer ones.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// What is pressed into what.
+    /// The bodies in contact.
     pub problem: Arc<Problem>,
-    /// The load steps, in their order.
+    /// The prescribed loads, in their order.
     pub loads: Vec<Load>,
-    /// The grid.
+    /// The grid, or the accuracy of a refinement.
     pub sampling: Sampling,
     /// Tolerance and limits of the solver.
     pub settings: Settings,
-    /// Stresses, where they are wanted.
+    /// The stresses to be computed, if any.
     pub stress: Option<StressRequest>,
 }
 
@@ -82,11 +85,11 @@ impl Run {
         Self { problem: problem.into(), loads, sampling, settings: Settings::default(), stress: None }
     }
 
-    /// Whether there are loads and a grid, and every prescribed penetration can be reached on it or, of a refinement, on a
-    /// fine one.
+    /// Checks that there are loads and a grid, and that every prescribed penetration can be reached: on the grid, or on a fine one of
+    /// a refinement.
     ///
     /// # Errors
-    /// [`RunError::NoLoads`], [`TooOblong`], [`BeyondFullContact`] for the first penetration that cannot, [`LatticeError`]
+    /// [`RunError::NoLoads`], [`TooOblong`], [`BeyondFullContact`] for the first penetration out of reach, [`LatticeError`]
     /// when there is no such grid.
     ///
     /// [`LatticeError`]: crate::lattice::LatticeError
@@ -94,7 +97,7 @@ impl Run {
         self.checked()
     }
 
-    /// The same, before a recorder hears of the run.
+    /// [`check`](Self::check) with the error type of a recorder.
     fn checked<E: Error + 'static>(&self) -> Result<(), RunError<E>> {
         if self.loads.is_empty() {
             return Err(RunError::NoLoads);
@@ -114,19 +117,19 @@ impl Run {
         Ok(())
     }
 
-    /// The first grid that tells something, if there is one.
+    /// Points of the grid on which complete contact is checked.
     fn checked_sampling<E: Error + 'static>(&self) -> Result<[usize; 2], RunError<E>> {
         let cell = self.problem.cell();
         let grids = self.sampling.grids(&cell)?;
-        let points = grids[TELLING.min(grids.len() - 1)];
+        let points = grids[CHECKED_GRID.min(grids.len() - 1)];
         Grid::new(cell, points)?;
         Ok(points)
     }
 
-    /// Solves all loads, on finer and finer grids where an accuracy is asked for, after a [check](Self::check).
+    /// Solves all loads after a [check](Self::check), on finer and finer grids where an accuracy is prescribed.
     ///
     /// # Errors
-    /// [`RunError`]; what the recorder heard of until then stands.
+    /// [`RunError`]; the calls of the recorder until then are complete.
     pub fn solve<R: Recorder>(&self, recorder: &mut R) -> Result<Outcome, RunError<R::Error>> {
         self.checked()?;
         let mut finished = recorder.finished();
@@ -169,13 +172,13 @@ impl Run {
         Ok(Outcome { steps, last, points, change, end, warnings })
     }
 
-    /// What the mean lateral stress is, where stresses are wanted or there are strengths to hold them against.
+    /// Convention for the mean lateral stress; `None` where neither stresses are computed nor strengths are given.
     fn mean_stress(&self) -> Option<MeanStress> {
         let has_strengths = || !Criterion::all(self.problem.half_space()).is_empty();
         self.stress.as_ref().map(|request| request.mean).or_else(|| has_strengths().then(MeanStress::default))
     }
 
-    /// All loads on one grid, after those that an earlier run has `finished`.
+    /// Solves all loads on one grid, after those that an earlier run has `finished`.
     fn on_grid<R: Recorder>(
         &self,
         points: [usize; 2],
@@ -190,7 +193,7 @@ impl Run {
         };
         let (mut last, tables) = (None, Arc::default());
         for &load in loads {
-            // Its memory goes before the next one takes as much.
+            // The memory of a step is freed before the next one needs as much.
             drop(last.take());
             let (record, step) = self.solve_load(&mut solver, &tables, load, saved.take(), recorder)?;
             records.push(record);
@@ -199,7 +202,7 @@ impl Run {
         Ok((records, last))
     }
 
-    /// One load, if it is not `saved`, with its stresses where they are wanted, which share the `tables` of all loads.
+    /// Solves one load, or restores it where it is `saved`, with its stresses, which share the `tables` of all loads.
     fn solve_load<R: Recorder>(
         &self,
         solver: &mut Solver,

@@ -1,9 +1,9 @@
 //! How a run ends: what it has found, or why it has not come to its end.
 
 use super::StepRecord;
-use super::accuracy::{End, TooOblong};
+use super::accuracy::{RefinementEnd, TooOblong};
 use crate::lattice::LatticeError;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::spectral::{OtherGrids, Step};
 use std::error::Error;
 
@@ -19,7 +19,7 @@ pub struct Outcome {
     /// Change against the next coarser grid, where an accuracy was asked for.
     pub change: Option<f64>,
     /// Why the refinement ended, where there was one.
-    pub end: Option<End>,
+    pub end: Option<RefinementEnd>,
     /// What a reader should know before trusting the numbers.
     pub warnings: Vec<String>,
 }
@@ -27,7 +27,7 @@ pub struct Outcome {
 impl Outcome {
     /// Whether the accuracy, if one was asked for, is reached.
     pub fn is_accurate(&self) -> bool {
-        self.end.is_none_or(|end| end == End::Reached)
+        self.end.is_none_or(|end| end == RefinementEnd::Reached)
     }
 
     /// Whether all steps converged, and the accuracy is reached.

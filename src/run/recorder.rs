@@ -1,4 +1,4 @@
-//! What hears of a run while it goes on, and says whether it may. It hears from the threads that solve.
+//! The recorder of a run: it is called while the run goes on, and decides whether it does.
 
 use super::{Finished, StepRecord};
 use crate::load::Load;
@@ -7,22 +7,22 @@ use crate::stress::StressField;
 use std::convert::Infallible;
 use std::error::Error;
 
-/// What hears of a run while it goes on.
+/// A recorder of a run. Its methods are called from the threads that solve.
 pub trait Recorder: Send {
-    /// Why it cannot go on.
+    /// Reason for which the run ends early.
     type Error: Error + Send + Sync + 'static;
 
-    /// What an earlier run of the same kind has finished, to go on from there. Asked once, before anything is solved.
+    /// The finished part of an earlier run, from which this one goes on. Called once, before the first load.
     fn finished(&mut self) -> Option<Finished> {
         None
     }
 
-    /// Whether there is room for a finer grid of `points`; without it a refinement ends.
+    /// Whether memory and disk suffice for a finer grid of `points`; if not, a refinement ends.
     fn fits(&self, _points: [usize; 2]) -> bool {
         true
     }
 
-    /// A grid begins. What was solved before is a coarser solution of the same steps.
+    /// Called when the run begins on a grid; the steps so far are those of a coarser grid.
     ///
     /// # Errors
     /// Ends the run.
@@ -30,15 +30,15 @@ pub trait Recorder: Send {
         Ok(())
     }
 
-    /// A load step begins.
+    /// Called when a load step begins.
     fn load(&mut self, _load: Load) {}
 
-    /// The time, seconds since any moment, for who wants to know how long a step takes: a run itself reads no clock.
+    /// Seconds since any fixed moment, from which the wall time of each step is taken; a run itself reads no clock.
     fn clock(&self) -> Option<f64> {
         None
     }
 
-    /// An iteration on the finest grid is done.
+    /// Called after each iteration on the finest grid.
     ///
     /// # Errors
     /// Ends the run.
@@ -46,7 +46,7 @@ pub trait Recorder: Send {
         Ok(())
     }
 
-    /// A load is solved; nothing is read off it yet. Not told of a load that an earlier run has solved.
+    /// Called when a load is solved, before its readings; not for a load that an earlier run has solved.
     ///
     /// # Errors
     /// Ends the run.
@@ -54,10 +54,10 @@ pub trait Recorder: Send {
         Ok(())
     }
 
-    /// The stresses of a step begin.
+    /// Called when the stresses of a step begin.
     fn stresses(&mut self) {}
 
-    /// The search for the largest stresses goes on; called many times a second.
+    /// Called many times a second while the largest stresses are searched.
     ///
     /// # Errors
     /// Ends the run.
@@ -65,7 +65,7 @@ pub trait Recorder: Send {
         Ok(())
     }
 
-    /// A step is done; `field` where stresses are wanted.
+    /// Called when a step is done, with its stress `field` where stresses are computed.
     ///
     /// # Errors
     /// Ends the run.
@@ -73,7 +73,7 @@ pub trait Recorder: Send {
         Ok(())
     }
 
-    /// All steps on a grid of `points` are done, with this change from the next coarser one.
+    /// Called when all steps on a grid of `points` are done, with their change from the next coarser grid.
     fn refined(&mut self, _points: [usize; 2], _change: f64) {}
 }
 

@@ -1,23 +1,23 @@
-//! How finely the cell is sampled.
+//! The sampling of the cell: a grid, or an accuracy.
 
 use super::accuracy::{Refinement, TooOblong};
 use crate::lattice::Cell;
 
-/// The grid of a run.
+/// The grids of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 pub enum Sampling {
-    /// Samples along a₁ and a₂.
+    /// One grid, with numbers of samples along a₁ and a₂.
     Points([usize; 2]),
-    /// Refine until peak pressures, loads, penetration and stresses change by less than this, relatively.
+    /// Finer and finer grids, until peak pressures, loads, penetration and stresses change by less than this, relatively.
     Accuracy(f64),
 }
 
 impl Sampling {
-    /// The grids of a run on a cell, the coarsest first: the one asked for, or [those of a refinement](Refinement::grids).
+    /// The grids of a run on a cell, the coarsest first: the given one, or [those of a refinement](Refinement::grids).
     ///
     /// # Errors
-    /// [`TooOblong`] when a refinement has none.
+    /// [`TooOblong`] when a refinement has no grid.
     pub fn grids(self, cell: &Cell) -> Result<Vec<[usize; 2]>, TooOblong> {
         match self {
             Self::Points(points) => Ok(vec![points]),

@@ -1,4 +1,4 @@
-//! What of the contact of a topography stands where a window tapers its heights.
+//! The parts of load and contact of a topography where a window tapers its heights.
 
 use crate::spectral::Contact;
 
@@ -6,14 +6,14 @@ use crate::spectral::Contact;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tapered {
-    /// Of the load, 0 to 1.
+    /// Part of the load, 0 to 1.
     pub load: f64,
-    /// Of the samples in contact, 0 to 1.
+    /// Part of the samples in contact, 0 to 1.
     pub area: f64,
 }
 
 impl Tapered {
-    /// Of a contact; `None` where no window tapers anything, and without contact.
+    /// Parts of a contact; `None` without a window or without contact.
     pub fn of(contact: &Contact) -> Option<Self> {
         let run_out = contact.problem().counterbody().topography()?.run_out()?;
         let (grid, pressure) = (contact.grid(), contact.pressure());

@@ -1,14 +1,13 @@
-//! What a reader should know before trusting the numbers of a run, a sentence each.
+//! Warnings about the results of a run, a sentence each.
 //!
 //! The theory is one of small strains and small slopes: under an indenter the strain is about the slope of its flank at
-//! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, numbers are those
-//! of a linear body that is not there.
+//! the edge of contact, f′(a), and p₀ about ½ E* f′(a). Beyond a slope of ½, a peak pressure of E*/3, a real body is not linear.
 
 use super::StepRecord;
-use super::accuracy::End;
+use super::accuracy::RefinementEnd;
 use crate::counterbody::Shape;
 use crate::counterbody::roughness::Window;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
 use crate::reading::FEW_SAMPLES;
@@ -19,13 +18,18 @@ use std::f64::consts::PI;
 pub(crate) const STEEP: f64 = 0.5;
 /// Peak pressure over E* beyond which strains are not small.
 pub(crate) const HIGH: f64 = 1.0 / 3.0;
-/// A larger part of load or contact on tapered heights than this is worth a warning.
-const AT_BORDER: f64 = 0.02;
-/// A larger error of the stresses on the surface than this is worth a warning.
-const WORTH_SAYING: f64 = 0.02;
+/// Part of load or contact on tapered heights from which on there is a warning.
+const TAPERED_PART: f64 = 0.02;
+/// Relative error of the stresses on the surface from which on there is a warning.
+const SURFACE_ERROR: f64 = 0.02;
 
-/// What is doubtful about the steps of a run; `end` and `change`: how a refinement ended, and its last change.
-pub(super) fn warnings(problem: &Problem, steps: &[StepRecord], end: Option<End>, change: Option<f64>) -> Vec<String> {
+/// Warnings about the steps of a run, about the `end` of its refinement and the last `change`.
+pub(super) fn warnings(
+    problem: &Problem,
+    steps: &[StepRecord],
+    end: Option<RefinementEnd>,
+    change: Option<f64>,
+) -> Vec<String> {
     let steps: Vec<Numbered> = (1..).zip(steps).collect();
     of_judged(problem, &steps, &steps, end, change)
 }
@@ -33,16 +37,15 @@ pub(super) fn warnings(problem: &Problem, steps: &[StepRecord], end: Option<End>
 /// A step with its number in the outputs.
 pub(super) type Numbered<'a> = (usize, &'a StepRecord);
 
-/// The same of steps that are no answers themselves but for the `judged`: of the others it matters only that they were
-/// solved.
+/// Warnings about the steps of a search: about the convergence of all, and about the results of those that are `judged`.
 pub(super) fn of_judged(
     problem: &Problem,
     all: &[Numbered],
     judged: &[Numbered],
-    end: Option<End>,
+    end: Option<RefinementEnd>,
     change: Option<f64>,
 ) -> Vec<String> {
-    let said = [
+    let warnings = [
         unresolved(all),
         not_converged(all),
         few_samples(judged),
@@ -53,10 +56,10 @@ pub(super) fn of_judged(
         steep_flank(problem, judged),
         high_pressure(problem, judged),
     ];
-    said.into_iter().flatten().collect()
+    warnings.into_iter().flatten().collect()
 }
 
-/// Numbers of the steps of which something is true, as a list; `None` without any.
+/// Numbers of the steps for which `of` is true, as a list; `None` without any.
 fn list(steps: &[Numbered], of: impl Fn(&StepRecord) -> bool) -> Option<String> {
     let numbers = steps.iter().filter(|(_, step)| of(step)).map(|(number, _)| number.to_string());
     Some(numbers.collect::<Vec<_>>().join(", ")).filter(|list| !list.is_empty())
@@ -85,7 +88,7 @@ fn few_samples(steps: &[Numbered]) -> Option<String> {
     ))
 }
 
-/// Few samples in the spots of a topography. Complete contact has no edge that samples would have to show.
+/// Few samples in the spots of a topography; complete contact has no edge to be resolved.
 fn small_spots(steps: &[Numbered]) -> Option<String> {
     let rough = |step: &StepRecord| {
         let reading = &step.reading;
@@ -101,18 +104,18 @@ fn small_spots(steps: &[Numbered]) -> Option<String> {
     ))
 }
 
-fn not_accurate(end: End, change: Option<f64>) -> Option<String> {
+fn not_accurate(end: RefinementEnd, change: Option<f64>) -> Option<String> {
     let reached = match change {
         Some(change) => format!("the last change was {change:.1e}"),
         None => "there is one grid only".to_owned(),
     };
-    (end != End::Reached).then(|| format!("grid.accuracy is not reached: {reached}, and {end}"))
+    (end != RefinementEnd::Reached).then(|| format!("grid.accuracy is not reached: {reached}, and {end}"))
 }
 
 fn rough_surface(steps: &[Numbered]) -> Option<String> {
     let worst = largest(steps.iter().filter_map(|(_, step)| Some(step.stress.as_ref()?.surface_error)));
-    // What is no number is not below.
-    if worst <= WORTH_SAYING {
+    // An error that is not a number is reported too.
+    if worst <= SURFACE_ERROR {
         return None;
     }
     Some(format!(
@@ -126,7 +129,7 @@ fn rough_surface(steps: &[Numbered]) -> Option<String> {
 fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let window = problem.counterbody().topography()?.run_out()?.window;
     let part = |step: &StepRecord| step.tapered.map_or(0.0, |own| own.load.max(own.area));
-    let list = list(steps, |step| part(step) > AT_BORDER)?;
+    let list = list(steps, |step| part(step) > TAPERED_PART)?;
     let worst = steps.iter().filter_map(|(_, step)| step.tapered).max_by(|a, b| a.load.total_cmp(&b.load))?;
     let advice = match window {
         Window::Hann => {
@@ -142,7 +145,7 @@ fn at_border(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     ))
 }
 
-/// The steepest flank in contact, beside cones, whose flank is their own.
+/// The steepest flank at an edge of contact; the slope of cones is given in the case.
 fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let levels = problem.counterbody().levels();
     let flanks = steps.iter().flat_map(|&(number, step)| {
@@ -160,7 +163,7 @@ fn steep_flank(problem: &Problem, steps: &[Numbered]) -> Option<String> {
 
 fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     let modulus = problem.half_space().surface_material().contact_modulus();
-    // A pressure that is infinite under a tip is beyond any measure.
+    // Pressures that are infinite under a tip are left out.
     let peaks = steps.iter().filter_map(|(number, step)| Some((number, step.reading.finite_peak()?)));
     let high = peaks.filter(|(_, pressure)| *pressure > HIGH * modulus);
     let (step, pressure) = high.max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -172,9 +175,9 @@ fn high_pressure(problem: &Problem, steps: &[Numbered]) -> Option<String> {
     ))
 }
 
-/// That the flank of a level is steep at the edge of a contact of radius a.
+/// Warning that the flank of a level is steep at the edge of a contact of radius a.
 pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String {
-    let told = match shape {
+    let size = match shape {
         Shape::Paraboloid { radius } => format!("{} of its radius {}", ratio(a / radius), number(radius)),
         Shape::Sphere { radius } if a >= radius => {
             format!("beyond the equator of its sphere of radius {}", number(radius))
@@ -183,13 +186,13 @@ pub(crate) fn flank(context: &str, level: usize, shape: Shape, a: f64) -> String
         _ => format!("where its flank has the slope {}", ratio(shape.slope(a))),
     };
     format!(
-        "{context}: the contact radius {} of level {level} is {told}: strains are not small any more; are radius, period, \
+        "{context}: the contact radius {} of level {level} is {size}: strains are not small any more; are radius, period, \
          load and moduli in consistent units?",
         number(a)
     )
 }
 
-/// A ratio with two digits.
+/// A ratio, with two decimals or two digits.
 pub(crate) fn ratio(x: f64) -> String {
     if (0.01..1000.0).contains(&x) { format!("{x:.2}") } else { format!("{x:.1e}") }
 }

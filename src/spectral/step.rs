@@ -5,7 +5,7 @@ use super::iteration::{Certificate, Report};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;
 use crate::load::Load;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::problem::Problem;
 use ndarray::{Array2, ArrayView2};
 use std::fmt;

@@ -8,7 +8,7 @@ use super::tensor::StressState;
 use crate::body::{Depth, HalfSpace, Interface, Interiors, Layer, MeanStress};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::spectral::Contact;
 use ndarray::ArrayView2;
 use std::fmt;

@@ -5,7 +5,7 @@ use crate::common;
 use common::one_level;
 use percoat::body::{InterfaceStrength, Strength};
 use percoat::reading::Criterion;
-use percoat::run::{At, End, Limit, Limits, Recorder, RunError, StepRecord};
+use percoat::run::{At, Limit, Limits, Recorder, RefinementEnd, RunError, StepRecord};
 use percoat::{
     Friction, HalfSpace, Interface, Lattice, Layer, Level, Load, Material, Problem, Run, Sampling, Shape, Solver, Step,
     StressField,
@@ -240,7 +240,7 @@ fn an_accuracy_refines_until_limits_change_by_less_or_there_is_no_room() {
     };
     let mut roomy = Heard { room: 1000, ..Heard::default() };
     let found = run(0.02).limits(&mut roomy).unwrap();
-    assert_eq!((found.end, found.converged()), (Some(End::Reached), true));
+    assert_eq!((found.end, found.converged()), (Some(RefinementEnd::Reached), true));
     assert!(found.change.is_some_and(|change| 0.0 < change && change < 0.02), "{:?}", found.change);
     assert!(roomy.grids.len() > 1 && roomy.steps > found.steps.len());
     // What is never reached has no load that could change.
@@ -251,11 +251,15 @@ fn an_accuracy_refines_until_limits_change_by_less_or_there_is_no_room() {
     let problem = Problem::new(one_level(Lattice::hexagonal(1.0, 1).unwrap(), level), body);
     let both = Run::new(problem, vec![Load::MeanPressure(0.01)], Sampling::Accuracy(0.02)).limits(&mut ()).unwrap();
     assert!(matches!(both.limits[1].at, At::Never { .. }), "{both}");
-    assert!(both.end == Some(End::Reached) && both.change.is_some_and(|change| change < 0.02), "{:?}", both.change);
+    assert!(
+        both.end == Some(RefinementEnd::Reached) && both.change.is_some_and(|change| change < 0.02),
+        "{:?}",
+        both.change
+    );
     assert!((loads(&both)[0] / loads(&found)[0] - 1.0).abs() < 2e-3, "{both} {found}");
     let mut narrow = Heard { room: 100, ..Heard::default() };
     let found = run(1e-6).limits(&mut narrow).unwrap();
-    assert_eq!((found.end, found.converged(), narrow.grids), (Some(End::Room), false, vec![96]));
+    assert_eq!((found.end, found.converged(), narrow.grids), (Some(RefinementEnd::Room), false, vec![96]));
     assert!(found.warnings.iter().any(|warning| warning.contains("grid.accuracy is not reached")));
 }
 

@@ -3,7 +3,7 @@
 use crate::common;
 
 use common::{PAPER, one_level, paraboloid};
-use percoat::run::{End, Outcome, Recorder, Run, RunError, Sampling, StepRecord, StressRequest, change};
+use percoat::run::{Outcome, Recorder, RefinementEnd, Run, RunError, Sampling, StepRecord, StressRequest, change};
 use percoat::{Cell, Lattice, Load, Method, Problem, Settings, Solver, Step, Stop, StressField};
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -123,7 +123,7 @@ fn a_refinement_goes_on_until_the_accuracy_is_reached_or_there_is_no_room() {
     let outcome = run(Sampling::Accuracy(1e-4)).solve(&mut diary).unwrap();
     let grids: Vec<&String> = diary.heard.iter().filter(|heard| heard.starts_with("grid")).collect();
     assert!(grids.len() > 2, "{:?}", diary.heard);
-    assert_eq!((outcome.end, outcome.is_accurate()), (Some(End::Reached), true));
+    assert_eq!((outcome.end, outcome.is_accurate()), (Some(RefinementEnd::Reached), true));
     assert!(outcome.change.unwrap() < 1e-4);
     let on = |points| run(Sampling::Points(points)).solve(&mut ()).unwrap().steps;
     let [n1, n2] = outcome.points;
@@ -132,7 +132,7 @@ fn a_refinement_goes_on_until_the_accuracy_is_reached_or_there_is_no_room() {
 
     let first = diary.heard[0].trim_start_matches("grid ").parse::<usize>().unwrap();
     let narrow = run(Sampling::Accuracy(1e-4)).solve(&mut Diary { room: 2 * first, ..Diary::default() }).unwrap();
-    assert_eq!((narrow.end, narrow.points[0], narrow.converged()), (Some(End::Room), 2 * first, false));
+    assert_eq!((narrow.end, narrow.points[0], narrow.converged()), (Some(RefinementEnd::Room), 2 * first, false));
     assert!(narrow.warnings.iter().any(|warning| warning.contains("accuracy")), "{:?}", narrow.warnings);
 }
 

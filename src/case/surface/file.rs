@@ -15,8 +15,8 @@ use super::unit::{self, KNOWN};
 use super::xyz::Points;
 use super::{npy, telltale, text, xyz};
 use crate::counterbody::roughness::{MAX_BORDER_JUMP, RunOut, Window, border_jumps, levelled, tapered};
+use crate::notation::number;
 use crate::numeric::array::field;
-use crate::numeric::number::number;
 use ndarray::Array2;
 
 /// How a file's heights become those of the case.

@@ -28,7 +28,7 @@ use super::value::ValueAt;
 use crate::counterbody::Topography;
 use crate::counterbody::roughness::{Spectrum, Window};
 use crate::lattice::Cell;
-use crate::numeric::number::number;
+use crate::notation::number;
 use crate::plain;
 use crate::run::Sampling;
 use fault::fits;

@@ -4,25 +4,24 @@ use crate::numeric::lanes::Real;
 use fearless_simd::prelude::*;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
-/// Largest radix there is a butterfly for.
+/// Largest radix with a butterfly.
 pub const LARGEST: usize = 13;
 
-/// Complex numbers, as many as a register holds of their parts.
+/// Complex numbers in two registers, one of real and one of imaginary parts.
 #[derive(Debug, Clone, Copy)]
 pub struct Complex<S: Simd, T: Real> {
     re: T::Register<S>,
     im: T::Register<S>,
 }
 
-/// e^{−2πi k/n} as its real and imaginary part.
+/// Root of unity e^{−2πi k/n}: real and imaginary part.
 pub fn root<T: Real>(k: usize, n: usize) -> [T; 2] {
     let angle = TAU * (k % n) as f64 / n as f64;
     [T::rounded(angle.cos()), T::rounded(-angle.sin())]
 }
 
 impl<S: Simd, T: Real> Complex<S, T> {
-    /// The numbers of a line from its number `at` on, real parts first; with `swapped` parts a transform is its own inverse
-    /// times R.
+    /// The numbers of a line from index `at` on, real parts first; with `swapped` parts a transform is its own inverse times R.
     #[inline(always)]
     pub fn load(simd: S, line: &[T], at: usize, swapped: bool) -> Self {
         let part = |from: usize| T::Register::<S>::from_slice(simd, &line[from..from + T::Register::<S>::LEN]);
@@ -30,6 +29,7 @@ impl<S: Simd, T: Real> Complex<S, T> {
         if swapped { Self { re: second, im: first } } else { Self { re: first, im: second } }
     }
 
+    /// Stores the numbers in a line from index `at` on, as [`load`](Self::load) reads them.
     #[inline(always)]
     pub fn store(self, line: &mut [T], at: usize, swapped: bool) {
         let (first, second) = if swapped { (self.im, self.re) } else { (self.re, self.im) };
@@ -38,13 +38,14 @@ impl<S: Simd, T: Real> Complex<S, T> {
         second.store_slice(&mut line[T::WIDTH + at..T::WIDTH + at + len]);
     }
 
+    /// Zeros.
     #[inline(always)]
     pub fn zero(simd: S) -> Self {
         let zero = T::Register::<S>::simd_from(simd, T::zero());
         Self { re: zero, im: zero }
     }
 
-    /// Times one complex number.
+    /// self · (re + i im), one complex number for all.
     #[inline(always)]
     pub fn times(self, [re, im]: [T; 2]) -> Self {
         let simd = self.re.token();
@@ -71,19 +72,19 @@ impl<S: Simd, T: Real> Complex<S, T> {
 
     /// self · (−i).
     #[inline(always)]
-    fn turned(self) -> Self {
+    fn times_minus_i(self) -> Self {
         Self { re: self.im, im: -self.re }
     }
 
     /// self · e^{−iπ/4}.
     #[inline(always)]
-    fn turned_half(self) -> Self {
+    fn times_root_of_minus_i(self) -> Self {
         let part = T::Register::<S>::simd_from(self.re.token(), T::rounded(FRAC_1_SQRT_2));
         Self { re: (self.re + self.im) * part, im: (self.im - self.re) * part }
     }
 }
 
-/// X from x, in place; `roots` are those of R, for radices without a form of their own.
+/// X from x, in place; `roots` are the roots of unity e^{−2πi k/R}, for radices without a form of their own.
 #[inline(always)]
 pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], roots: &[[T; 2]]) {
     match R {
@@ -96,7 +97,12 @@ pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], r
             }
             let [first, second, third, fourth] = differences;
             let even = four(sums);
-            let odd = four([first, second.turned_half(), third.turned(), fourth.turned_half().turned()]);
+            let odd = four([
+                first,
+                second.times_root_of_minus_i(),
+                third.times_minus_i(),
+                fourth.times_root_of_minus_i().times_minus_i(),
+            ]);
             [x[0], x[2], x[4], x[6]] = even;
             [x[1], x[3], x[5], x[7]] = odd;
         }
@@ -104,15 +110,15 @@ pub fn transform<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], r
     }
 }
 
-/// Those of R = 4.
+/// X for R = 4.
 #[inline(always)]
 fn four<S: Simd, T: Real>(x: [Complex<S, T>; 4]) -> [Complex<S, T>; 4] {
     let (even, odd) = (x[0].plus(x[2]), x[1].plus(x[3]));
-    let (level, turned) = (x[0].minus(x[2]), x[1].minus(x[3]).turned());
-    [even.plus(odd), level.plus(turned), even.minus(odd), level.minus(turned)]
+    let (even_difference, odd_difference) = (x[0].minus(x[2]), x[1].minus(x[3]).times_minus_i());
+    [even.plus(odd), even_difference.plus(odd_difference), even.minus(odd), even_difference.minus(odd_difference)]
 }
 
-/// An odd R: x_j and x_{R−j} enter by their sum and difference.
+/// X for odd R, in place: x_j and x_{R−j} enter by their sum and difference.
 #[inline(always)]
 fn odd<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], roots: &[[T; 2]]) {
     let first = x[0];
@@ -128,6 +134,6 @@ fn odd<S: Simd, T: Real, const R: usize>(x: &mut [Complex<S, T>; R], roots: &[[T
             even = even.plus_times(cosine, pairs[j]);
             odd = odd.plus_times(-sine, pairs[R - j]);
         }
-        (x[k], x[R - k]) = (even.plus(odd.turned()), even.minus(odd.turned()));
+        (x[k], x[R - k]) = (even.plus(odd.times_minus_i()), even.minus(odd.times_minus_i()));
     }
 }

@@ -1,9 +1,9 @@
-//! Transforms of a tile of columns at a time, forth, times a factor, and back.
+//! Transforms of a block of columns at a time, forward, times a factor, and inverse.
 //!
-//! Forth by decimation in frequency: a column of N = R M numbers becomes R columns of M, x_{j+qM} → Σ_q x_{j+qM}
+//! Forward by decimation in frequency: a column of N = R M numbers becomes R columns of M, x_{j+qM} → Σ_q x_{j+qM}
 //! e^{−2πi qk/R} e^{−2πi jk/N}, and so on; the components end in the order of their digits reversed, where they are
-//! multiplied. Back by decimation in time, the same steps the other way round, so that nothing is ever reordered. A
-//! number of points with a prime factor beyond the largest butterfly is left to the library, column by column, in double
+//! multiplied. Inverse by decimation in time, the stages in reverse order, so that nothing is ever reordered. Columns whose
+//! number of points has a prime factor beyond the largest butterfly are transformed by rustfft, column by column, in double
 //! precision.
 
 use super::butterflies::{Complex, LARGEST, root, transform};
@@ -12,33 +12,36 @@ use fearless_simd::prelude::*;
 use rustfft::{Fft, FftPlanner, num_complex::Complex64};
 use std::sync::Arc;
 
-/// Numbers of a line of a tile in double precision: the real, then the imaginary parts of one row in eight columns.
+/// Length of a line of a block in double precision: the real, then the imaginary parts of one row in eight columns.
 pub const LINE: usize = line::<f64>();
 
-/// The same in any precision: two lines of the cache.
+/// Length of a line of a block: the real, then the imaginary parts of one row in as many columns as take 64 bytes, two cache lines.
 pub const fn line<T: Real>() -> usize {
     2 * T::WIDTH
 }
 
-/// Plan for columns of so many numbers.
+/// Plan for columns of a number of points.
 #[derive(Clone)]
 pub enum Columns<T: Real> {
+    /// Stages of butterflies, in the order of the forward transform.
     Butterflies(Vec<Stage<T>>),
-    /// In double precision, whatever the columns are.
+    /// By rustfft in double precision, whatever the precision of the columns.
     Library {
+        /// Plan of the forward transform.
         forward: Arc<dyn Fft<f64>>,
+        /// Plan of the inverse transform.
         inverse: Arc<dyn Fft<f64>>,
     },
 }
 
-/// One splitting of columns of `radix` · `part` numbers into `radix` columns.
+/// A stage of a transform: columns of `radix` · `part` numbers are split into `radix` columns.
 #[derive(Clone)]
 pub struct Stage<T> {
     radix: usize,
     part: usize,
-    /// e^{−2πi jk/N}, j < part, 0 < k < radix.
+    /// Twiddle factors e^{−2πi jk/N}, j < part, 0 < k < radix.
     twiddles: Vec<[T; 2]>,
-    /// e^{−2πi k/radix}.
+    /// Roots of unity e^{−2πi k/radix}.
     roots: Vec<[T; 2]>,
 }
 
@@ -54,7 +57,7 @@ impl<T: Real> Columns<T> {
         }
     }
 
-    /// Plan for columns of `len` numbers, the product of these radices.
+    /// Plan for columns of `len` numbers, the product of the radices.
     fn by(len: usize, radices: Vec<usize>) -> Self {
         let stages = radices.into_iter().scan(len, |len, radix| {
             let (whole, part) = (*len, *len / radix);
@@ -66,7 +69,7 @@ impl<T: Real> Columns<T> {
         Self::Butterflies(stages.collect())
     }
 
-    /// The component that stands at each place between forth and back.
+    /// Index of the component at each place after the forward transform.
     pub fn order(&self, len: usize) -> Vec<usize> {
         let Self::Butterflies(stages) = self else { return (0..len).collect() };
         stages.iter().rev().fold(vec![0], |order, stage| {
@@ -74,14 +77,14 @@ impl<T: Real> Columns<T> {
         })
     }
 
-    /// The place of each component between forth and back.
+    /// Place of each component after the forward transform.
     pub fn places(&self, len: usize) -> Vec<usize> {
         let mut places = vec![0; len];
         self.order(len).into_iter().enumerate().for_each(|(place, component)| places[component] = place);
         places
     }
 
-    /// Complex numbers that a transform needs besides the lines.
+    /// Length of the working memory of a transform, in complex numbers.
     pub fn scratch(&self, len: usize) -> usize {
         match self {
             Self::Butterflies(_) => 0,
@@ -91,32 +94,32 @@ impl<T: Real> Columns<T> {
         }
     }
 
-    /// A tile of columns forth, in place.
+    /// Transforms a block of columns, in place.
     pub fn forward(&self, lines: &mut [T], scratch: &mut [Complex64]) {
         match self {
             Self::Butterflies(stages) => {
-                vectorised!(simd => through::<_, T, true, false>(simd, stages, 0, lines, &|_, _| ()));
+                vectorised!(simd => convolve::<_, T, true, false>(simd, stages, 0, lines, &|_, _| ()));
             }
             Self::Library { forward, .. } => by_column(&**forward, lines, scratch),
         }
     }
 
-    /// A tile of columns back, in place, times the number of their points.
+    /// Transforms a block of columns back, in place, times the number of their points.
     pub fn inverse(&self, lines: &mut [T], scratch: &mut [Complex64]) {
         match self {
             Self::Butterflies(stages) => {
-                vectorised!(simd => through::<_, T, false, true>(simd, stages, 0, lines, &|_, _| ()));
+                vectorised!(simd => convolve::<_, T, false, true>(simd, stages, 0, lines, &|_, _| ()));
             }
             Self::Library { inverse, .. } => by_column(&**inverse, lines, scratch),
         }
     }
 
-    /// A tile of columns forth, `between`, and back. What is done between is given some lines at a time, and the number of the
-    /// first one.
+    /// Transforms a block of columns, calls `between` with some of its lines at a time and the number of the first one, and
+    /// transforms it back.
     pub fn there_and_back(&self, lines: &mut [T], scratch: &mut [Complex64], between: &impl Fn(usize, &mut [T])) {
         match self {
             Self::Butterflies(stages) => {
-                vectorised!(simd => through::<_, T, true, true>(simd, stages, 0, lines, between));
+                vectorised!(simd => convolve::<_, T, true, true>(simd, stages, 0, lines, between));
             }
             Self::Library { forward, inverse } => {
                 by_column(&**forward, lines, scratch);
@@ -127,11 +130,11 @@ impl<T: Real> Columns<T> {
     }
 }
 
-/// Radices whose product is `len`; none when a prime factor has no butterfly.
+/// Radices whose product is `len`; `None` when a prime factor has no butterfly.
 ///
-/// The butterfly for eight keeps 16 registers and more at hand. Processors whose registers hold a `WIDTH` of numbers (`whole`)
-/// have 32 of them; the others mostly 16: there fours come first, and the eight of an odd power of two last, where no twiddles
-/// are needed.
+/// The butterfly for eight needs 16 registers and more. Processors whose registers hold a `WIDTH` of numbers (`whole`)
+/// have 32 of them; the others mostly 16: there fours come first, and the eight of an odd power of two last, where no twiddle
+/// factors are needed.
 fn radices(len: usize, whole: bool) -> Option<Vec<usize>> {
     assert!(len > 0, "a transform has points");
     let (mut rest, mut radices, mut last) = (len, Vec::new(), None);
@@ -158,13 +161,13 @@ fn whole_registers<T: Real>() -> bool {
     vectorised!(simd => of::<_, T>(simd))
 }
 
-/// Bytes that the nearest cache of a processor holds, with room for something else.
-const NEAR: usize = 32 * 1024;
+/// Bytes of a block that fit into the first-level cache beside other data.
+const FIRST_LEVEL_CACHE: usize = 32 * 1024;
 
-/// Columns forth, `between`, and back. What is too large for the nearest cache is split once, each part finished before the
-/// next is begun.
+/// Transforms columns forward, calls `between`, and transforms them back. Columns too large for the first-level cache are split
+/// once, and each part is finished before the next.
 #[inline(always)]
-fn through<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
+fn convolve<S: Simd, T: Real, const FORWARD: bool, const BACK: bool>(
     simd: S,
     stages: &[Stage<T>],
     first: usize,
@@ -172,35 +175,35 @@ fn through<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
     between: &impl Fn(usize, &mut [T]),
 ) {
     match stages.split_first() {
-        Some((stage, rest)) if size_of_val(lines) > NEAR => {
-            if FORTH {
-                split::<S, T, false>(simd, stage, lines);
+        Some((stage, rest)) if size_of_val(lines) > FIRST_LEVEL_CACHE => {
+            if FORWARD {
+                apply::<S, T, false>(simd, stage, lines);
             }
             for (number, part) in lines.chunks_exact_mut(stage.part * line::<T>()).enumerate() {
-                deeper::<S, T, FORTH, BACK>(simd, rest, first + number * stage.part, part, between);
+                convolve_part::<S, T, FORWARD, BACK>(simd, rest, first + number * stage.part, part, between);
             }
             if BACK {
-                split::<S, T, true>(simd, stage, lines);
+                apply::<S, T, true>(simd, stage, lines);
             }
         }
         _ => {
-            if FORTH {
+            if FORWARD {
                 for stage in stages {
-                    split::<S, T, false>(simd, stage, lines);
+                    apply::<S, T, false>(simd, stage, lines);
                 }
             }
             between(first, lines);
             if BACK {
                 for stage in stages.iter().rev() {
-                    split::<S, T, true>(simd, stage, lines);
+                    apply::<S, T, true>(simd, stage, lines);
                 }
             }
         }
     }
 }
 
-/// The same for a part; a function of its own, since it may call itself.
-fn deeper<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
+/// [`convolve`] for a part of split columns: a function of its own, so that it can be recursive.
+fn convolve_part<S: Simd, T: Real, const FORWARD: bool, const BACK: bool>(
     simd: S,
     stages: &[Stage<T>],
     first: usize,
@@ -209,29 +212,29 @@ fn deeper<S: Simd, T: Real, const FORTH: bool, const BACK: bool>(
 ) {
     simd.vectorize(
         #[inline(always)]
-        || through::<S, T, FORTH, BACK>(simd, stages, first, lines, between),
+        || convolve::<S, T, FORWARD, BACK>(simd, stages, first, lines, between),
     );
 }
 
-/// The splitting of every column, or (`BACK`) what undoes it.
+/// A stage of every column, or (`BACK`) its inverse.
 #[inline(always)]
-fn split<S: Simd, T: Real, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
+fn apply<S: Simd, T: Real, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
     match stage.radix {
-        2 => steps::<S, T, 2, BACK>(simd, stage, lines),
-        3 => steps::<S, T, 3, BACK>(simd, stage, lines),
-        4 => steps::<S, T, 4, BACK>(simd, stage, lines),
-        5 => steps::<S, T, 5, BACK>(simd, stage, lines),
-        7 => steps::<S, T, 7, BACK>(simd, stage, lines),
-        8 => steps::<S, T, 8, BACK>(simd, stage, lines),
-        11 => steps::<S, T, 11, BACK>(simd, stage, lines),
-        _ => steps::<S, T, LARGEST, BACK>(simd, stage, lines),
+        2 => apply_radix::<S, T, 2, BACK>(simd, stage, lines),
+        3 => apply_radix::<S, T, 3, BACK>(simd, stage, lines),
+        4 => apply_radix::<S, T, 4, BACK>(simd, stage, lines),
+        5 => apply_radix::<S, T, 5, BACK>(simd, stage, lines),
+        7 => apply_radix::<S, T, 7, BACK>(simd, stage, lines),
+        8 => apply_radix::<S, T, 8, BACK>(simd, stage, lines),
+        11 => apply_radix::<S, T, 11, BACK>(simd, stage, lines),
+        _ => apply_radix::<S, T, LARGEST, BACK>(simd, stage, lines),
     }
 }
 
-/// Forth: butterfly, then twiddles. Back: twiddles, then butterfly, with real and imaginary parts exchanged, which turns
-/// e^{−2πi…} into its conjugate. Twiddles of columns of one number are 1.
+/// A stage of radix R. Forward: butterfly, then twiddle factors. Back: twiddle factors, then butterfly, with real and imaginary
+/// parts exchanged, which makes e^{−2πi…} its conjugate. The twiddle factors of columns of one number are 1.
 #[inline(always)]
-fn steps<S: Simd, T: Real, const R: usize, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
+fn apply_radix<S: Simd, T: Real, const R: usize, const BACK: bool>(simd: S, stage: &Stage<T>, lines: &mut [T]) {
     let part = stage.part * line::<T>();
     for whole in lines.chunks_exact_mut(R * part) {
         let mut rest = whole;
@@ -250,9 +253,9 @@ fn steps<S: Simd, T: Real, const R: usize, const BACK: bool>(simd: S, stage: &St
     }
 }
 
-/// The butterflies of the lines that start at the number `at` of each part.
+/// Butterflies of the lines that start at index `at` of each part, with twiddle factors where `TWIDDLED`.
 #[inline(always)]
-fn butterflies<S: Simd, T: Real, const R: usize, const BACK: bool, const TURNED: bool>(
+fn butterflies<S: Simd, T: Real, const R: usize, const BACK: bool, const TWIDDLED: bool>(
     simd: S,
     roots: &[[T; 2]],
     twiddles: &[[T; 2]],
@@ -263,19 +266,19 @@ fn butterflies<S: Simd, T: Real, const R: usize, const BACK: bool, const TURNED:
     for lane in (0..T::WIDTH).step_by(T::Register::<S>::LEN) {
         for q in 0..R {
             x[q] = Complex::load(simd, &parts[q][at..at + line::<T>()], lane, BACK);
-            if BACK && TURNED && q > 0 {
+            if BACK && TWIDDLED && q > 0 {
                 x[q] = x[q].times(twiddles[q - 1]);
             }
         }
         transform::<S, T, R>(&mut x, roots);
         for q in 0..R {
-            let result = if BACK || !TURNED || q == 0 { x[q] } else { x[q].times(twiddles[q - 1]) };
+            let result = if BACK || !TWIDDLED || q == 0 { x[q] } else { x[q].times(twiddles[q - 1]) };
             result.store(&mut parts[q][at..at + line::<T>()], lane, BACK);
         }
     }
 }
 
-/// The library's transform of each column of a tile.
+/// Transforms each column of a block by rustfft.
 fn by_column<T: Real>(fft: &dyn Fft<f64>, lines: &mut [T], scratch: &mut [Complex64]) {
     let (column, scratch) = scratch.split_at_mut(lines.len() / line::<T>());
     for lane in 0..T::WIDTH {
@@ -308,7 +311,7 @@ mod tests {
         assert_eq!(radices(512, true), Some(vec![8, 8, 8]));
     }
 
-    /// Both ways of splitting, whichever this processor takes, against the sums that they stand for.
+    /// Components by the radices of either kind of processor, against direct sums.
     #[test]
     fn components_are_their_sums_by_either_radices() {
         let len = 96;

@@ -1,4 +1,4 @@
-//! Transforms of whole fields of any size, for what is done once and before anything is solved.
+//! Transforms of whole fields of any size, used once, outside of iterations.
 //!
 //! X_{k₁k₂} = (1/N₁N₂) Σ x_{j₁j₂} e^{−2πi(k₁j₁/N₁ + k₂j₂/N₂)} for 0 ≤ k₁ < N₁ and 0 ≤ k₂ ≤ N₂/2: of a real field the others
 //! are conjugates of these.
@@ -34,7 +34,7 @@ pub fn components(field: ArrayView2<'_, f64>) -> Array2<Complex<f64>> {
     values
 }
 
-/// The field of `n2` samples along a₂ with these components; of those that are their own conjugates the real part counts.
+/// The field of `n2` samples along a₂ with some components; of components that are their own conjugates the real part counts.
 pub fn field(components: Array2<Complex<f64>>, n2: usize) -> Array2<f64> {
     let plan = RealFftPlanner::new().plan_fft_inverse(n2);
     let mut values = columns(components, FftDirection::Inverse);
@@ -55,16 +55,16 @@ pub fn field(components: Array2<Complex<f64>>, n2: usize) -> Array2<f64> {
     field
 }
 
-/// Every column transformed, in standard layout again.
+/// Transforms every column; in standard layout.
 fn columns(values: Array2<Complex<f64>>, direction: FftDirection) -> Array2<Complex<f64>> {
     let plan: Arc<dyn Fft<f64>> = FftPlanner::new().plan_fft(values.nrows(), direction);
-    let mut turned = values.reversed_axes().as_standard_layout().into_owned();
-    let columns = turned.as_slice_mut().expect("in standard layout").par_chunks_mut(plan.len());
+    let mut transposed = values.reversed_axes().as_standard_layout().into_owned();
+    let columns = transposed.as_slice_mut().expect("in standard layout").par_chunks_mut(plan.len());
     columns.for_each_init(
         || vec![ZERO; plan.get_inplace_scratch_len()],
         |scratch, column| plan.process_with_scratch(column, scratch),
     );
-    turned.reversed_axes().as_standard_layout().into_owned()
+    transposed.reversed_axes().as_standard_layout().into_owned()
 }
 
 #[cfg(test)]

@@ -1,14 +1,14 @@
 //! Discrete Fourier transforms, several series of numbers at a time: as many as take 64 bytes, eight in double and sixteen in
 //! single precision.
 //!
-//! - `butterflies`: short ones, of series in the lanes of vectors;
-//! - `columns`: of complex columns, forth and back, without reordering between;
-//! - `rows`: of real rows, by the same steps;
+//! - `butterflies`: short transforms of series in the lanes of vectors;
+//! - `columns`: complex columns, forward and inverse, without reordering between;
+//! - `rows`: real rows, by the same stages;
 //! - `nonuniform`: sums of waves of any frequency at equally spaced points;
-//! - `field`: whole fields of any size by the library, done once.
+//! - `field`: whole fields of any size by rustfft, outside of iterations.
 //!
-//! A field is transformed by groups of so many rows, then by tiles of so many columns, which are lines of their real and
-//! imaginary parts, one line a row.
+//! A field is transformed by groups of as many rows, then by blocks of as many columns. A block consists of lines, one for each
+//! row, with the real and the imaginary parts of its columns.
 
 mod butterflies;
 mod columns;
@@ -20,7 +20,7 @@ pub use columns::{Columns, LINE, line};
 pub use nonuniform::Nonuniform;
 pub use rows::{Buffers, Rows};
 
-/// The least number ≥ `n` whose prime factors are 2, 3, 5 and 7, for which transforms are fast.
+/// Least number ≥ `n` whose prime factors are 2, 3, 5 and 7, for which transforms are fast.
 pub fn fast_points(n: usize) -> usize {
     (n.max(1)..).find(|&m| has_fast_factors(m)).unwrap_or(n)
 }

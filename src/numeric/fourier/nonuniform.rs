@@ -2,9 +2,9 @@
 //! (Dutt & Rokhlin 1993, Greengard & Lee 2004).
 //!
 //! Of F_j = Σ c e^{2πi xj/M}, x any numbers, each c is spread over the neighbours m of its x with the weights
-//! e^{−b(x−m)²}, and the transform of what they gather, divided by that of the Gaussian, is F. With W neighbours on each
-//! side and |j| ≤ P/2 the Gaussian is cut off at e^{−bW²}, and what looks alike on the M numbers m is left over as
-//! e^{−π²(1−P/M)/b}: equal for b = (π/W)√(1−P/M), 10⁻¹⁴ for W = 12 and M = 4P.
+//! e^{−b(x−m)²}; the transform of the sums on the M numbers m, divided by that of the Gaussian, is F. With W neighbours on each
+//! side and |j| ≤ P/2 the Gaussian is cut off at e^{−bW²}, and the aliases on the M numbers are of the order
+//! e^{−π²(1−P/M)/b}: both are equal for b = (π/W)√(1−P/M), 10⁻¹⁴ for W = 12 and M = 4P.
 
 use crate::numeric::lanes::{LANES, vectorised};
 use fearless_simd::{f64x8, prelude::*};
@@ -12,14 +12,16 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
 use std::f64::consts::PI;
 
-/// Neighbours on each side, and groups of eight on both.
+/// Neighbours on each side, W.
 const SIDE: usize = 12;
+/// Groups of eight neighbours on both sides.
 const GROUPS: usize = 2 * SIDE / LANES;
-/// Numbers m to each point.
-const FINER: usize = 4;
+/// Oversampling M/P.
+const OVERSAMPLING: usize = 4;
 
-/// K sums at a time.
+/// Sums of waves at equally spaced points, K at a time.
 pub struct Nonuniform<const K: usize> {
+    /// Number of points, P.
     points: usize,
     /// M.
     numbers: usize,
@@ -27,14 +29,14 @@ pub struct Nonuniform<const K: usize> {
     decay: f64,
     /// e^{−bl²}, −W < l ≤ W.
     gaussian: [f64; 2 * SIDE],
-    /// What the numbers −W ≤ m < M + W gather: K real and K imaginary parts.
+    /// Sums on the numbers −W ≤ m < M + W: K real and K imaginary parts.
     gathered: Vec<f64>,
 }
 
 impl<const K: usize> Nonuniform<K> {
-    /// At so many points, the number `points`/2 of which is the origin.
+    /// No waves yet, at a number of points; the one with the index `points`/2 is the origin.
     pub fn new(points: usize) -> Self {
-        let numbers = super::fast_points((FINER * points).max(2 * SIDE));
+        let numbers = super::fast_points((OVERSAMPLING * points).max(2 * SIDE));
         let decay = PI / SIDE as f64 * (1.0 - points as f64 / numbers as f64).sqrt();
         let gaussian = std::array::from_fn(|k| {
             let l = k as f64 - (SIDE - 1) as f64;
@@ -43,7 +45,7 @@ impl<const K: usize> Nonuniform<K> {
         Self { points, numbers, decay, gaussian, gathered: vec![0.0; 2 * K * (numbers + 2 * SIDE)] }
     }
 
-    /// Takes in waves c e^{2πi νj}, given as ν and c.
+    /// Adds waves c e^{2πi νj}, given as ν and c.
     pub fn add(&mut self, waves: impl Iterator<Item = (f64, [Complex64; K])>) {
         vectorised!(simd => gather(simd, self, waves));
     }
@@ -85,9 +87,9 @@ fn gather<S: Simd, const K: usize>(
     for group in 0..GROUPS {
         gaussian[group] = f64x8::from_slice(simd, &sums.gaussian[group * LANES..][..LANES]);
     }
-    for (turns, c) in waves {
-        // A hair below zero is a whole turn to rounding.
-        let x = (turns - turns.floor()) * sums.numbers as f64;
+    for (frequency, c) in waves {
+        // A frequency slightly below zero may be rounded to 1.
+        let x = (frequency - frequency.floor()) * sums.numbers as f64;
         let number = (x as usize).min(sums.numbers - 1);
         let f = x - number as f64;
         let (first, g1) = ((-sums.decay * f * f).exp(), (2.0 * sums.decay * f).exp());
@@ -147,7 +149,7 @@ mod tests {
                     let term =
                         |(turns, c): &(f64, [Complex64; 2])| (c[k] * Complex64::cis(TAU * (turns * j).fract())).re;
                     let exact: f64 = waves.iter().map(term).sum();
-                    // What is cut off, what looks alike, and x rounded to 2⁻⁵³ of M.
+                    // The cut-off, the aliases, and x rounded to 2⁻⁵³ of M.
                     let scale: f64 = waves.iter().map(|(_, c)| c[k].norm()).sum();
                     let error = scale * (1.4e-14 + PI * points as f64 * f64::EPSILON / 2.0);
                     assert!((sum[k] - exact).abs() < error, "{points} {point}: {} {exact}", sum[k]);

@@ -1,6 +1,6 @@
 //! The numbers of a sweep's results that a picture shows.
 
-use super::super::quantity::Quantity;
+use super::super::label::Label;
 use crate::reading::{Criterion, Verdict};
 use crate::run::StepRecord;
 use crate::sweep::{LimitValue, Row, SweepResult};
@@ -8,7 +8,7 @@ use crate::units::Units;
 
 /// A number of a result.
 pub struct Number {
-    pub quantity: Quantity,
+    pub quantity: Label,
     of: Of,
 }
 
@@ -34,7 +34,7 @@ pub enum Bound {
 }
 
 impl Number {
-    fn scalar(quantity: impl Into<Quantity>, of: fn(&StepRecord) -> Option<f64>) -> Self {
+    fn scalar(quantity: impl Into<Label>, of: fn(&StepRecord) -> Option<f64>) -> Self {
         Self { quantity: quantity.into(), of: Of::Scalar(of) }
     }
 

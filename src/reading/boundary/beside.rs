@@ -1,16 +1,14 @@
 //! The samples beside a rim, by the angle: a sector lies around each of the 360 angles of a line.
 //!
-//! Rows of samples lie along the axes of a contact, and these in the middle of a sector: which sector such a sample falls into
-//! does not hang on rounding.
-//!
-//! They are found once for all rounds of a fit, with a margin over which the rim may move.
+//! The axes of a contact lie in the middle of sectors, so that rounding does not decide which sector the samples of a row along an
+//! axis fall into. The samples are found once for all iterations of a fit, with a margin over which the rim may move.
 
 use super::rim::Rim;
 use super::spot::{Sample, Scale, Spot};
 use crate::numeric::closed_line::ANGLES;
 use std::f64::consts::TAU;
 
-/// How far a rim may move before its samples are found anew, in spacings.
+/// Distance in spacings over which a rim may move before its samples are found again.
 const MARGIN: f64 = 2.0;
 
 /// A sample beside a rim.
@@ -18,10 +16,11 @@ const MARGIN: f64 = 2.0;
 pub struct Point {
     /// Distance from the axis, a length.
     pub r: f64,
-    /// The index of the angle before it, and the part of the way to the next one.
+    /// Index of the angle before the sample.
     pub angle: u32,
+    /// Part of the way to the next angle, from 0 to 1.
     pub part: f64,
-    /// Its pressure, or 3E*g/4 where it is open.
+    /// Pressure, or 3E*g/4 of an open sample.
     pub value: f64,
 }
 
@@ -30,14 +29,16 @@ pub struct Beside<'a> {
     spot: &'a Spot<'a>,
     scale: &'a Scale<'a>,
     rim: Rim,
+    /// Largest distance of a sample from the rim, a length.
     reach: f64,
+    /// The rim around which the samples were found, lengths.
     radii: Vec<f64>,
-    /// Where the samples of each sector begin: those in contact, then those that are open.
+    /// Index of the first point of each sector in contact, then of the first open one.
     starts: Vec<usize>,
     points: Vec<Point>,
     /// Sectors with samples.
     filled: Vec<usize>,
-    /// Distance of the farthest sample in contact beyond the rim that is not near; 0 without one.
+    /// Distance outside the rim of the farthest sample in contact that is not near, a length; 0 without one.
     beyond: f64,
 }
 
@@ -59,7 +60,7 @@ impl<'a> Beside<'a> {
         beside
     }
 
-    /// Finds the samples beside `radii` where these have moved too far.
+    /// Finds the samples again where the rim has moved too far to `radii`.
     pub fn follow(&mut self, radii: &[f64]) {
         let margin = MARGIN * self.scale.spacing;
         if radii.iter().zip(&self.radii).any(|(now, then)| (now - then).abs() > margin) {
@@ -73,12 +74,12 @@ impl<'a> Beside<'a> {
         self.rim
     }
 
-    /// Grid and edge.
+    /// The samples of the contact.
     pub fn scale(&self) -> &'a Scale<'a> {
         self.scale
     }
 
-    /// How many samples there are.
+    /// Number of samples.
     pub fn len(&self) -> usize {
         self.points.len()
     }
@@ -88,13 +89,13 @@ impl<'a> Beside<'a> {
         &self.filled
     }
 
-    /// Samples of a sector: those in contact, or those that are open.
+    /// Samples of a sector in contact, or open ones.
     pub fn points(&self, sector: usize, open: bool) -> &[Point] {
         let own = 2 * sector + usize::from(open);
         &self.points[self.starts[own]..self.starts[own + 1]]
     }
 
-    /// How far a sample lies outside the rim `radii`, a length: of a hole where contact is.
+    /// Distance of a sample outside the rim `radii`, a length; outside a hole lies contact.
     pub fn distance(&self, point: &Point, radii: &[f64]) -> f64 {
         let k = point.angle as usize;
         let [radius, next] = [radii[k], radii[if k + 1 == ANGLES { 0 } else { k + 1 }]];
@@ -129,9 +130,9 @@ impl<'a> Beside<'a> {
                 _ => return,
             };
             let r = (x * x + y * y).sqrt();
-            let turned = y.atan2(x) * (ANGLES as f64 / TAU);
-            let place = if turned < 0.0 { turned + ANGLES as f64 } else { turned };
-            // Rounding may have made a full angle of it.
+            let angles = y.atan2(x) * (ANGLES as f64 / TAU);
+            let place = if angles < 0.0 { angles + ANGLES as f64 } else { angles };
+            // Rounding may make it the full angle.
             let angle = (place as u32).min(ANGLES as u32 - 1);
             let mut point = Point { r, angle, part: place - f64::from(angle), value: 0.0 };
             let distance = beside.distance(&point, &beside.radii);

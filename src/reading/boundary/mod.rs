@@ -6,8 +6,8 @@
 //! 3E*g/4 ≈ A(θ) [γ(d) + γ′(d) u(θ)] + (κ d + κ′ d²) γ(d)
 //!
 //! is fitted by least squares, A and the shift u (among near neighbours κ too) as short Fourier series, and ρ moves by u
-//! until it stands. The gap is smoother than the pressure and errs less; where neighbours leave no room for it the
-//! pressure inside, p ≈ A φ(d), joins with the same A. Neighbours nearer than the radius make a channel, whose gap is
+//! until it converges. The gap is smoother than the pressure and errs less; where neighbours leave too few open samples the
+//! pressure inside, p ≈ A φ(d), is fitted too, with the same A. Neighbours nearer than the radius make a channel, whose gap is
 //! that of one edge over a part of the way to its middle only.
 //!
 //! The samples next to the edge carry the discretisation error, which alternates from ring to ring: their weight rises
@@ -20,17 +20,20 @@
 //! A **ring** has a hole, read in the same way with inside and outside exchanged.
 
 mod beside;
+mod clearance;
 pub(crate) mod constants;
+mod counted_rim;
+mod equations;
 mod fit;
 mod rim;
-mod room;
 mod spot;
 
 pub use spot::{Sample, Scale, Spot};
 
 use crate::numeric::closed_line::{self, ANGLES, mean_radius};
 use constants::COUNTED_ERROR;
-use fit::{counted, located};
+use counted_rim::counted_rim;
+use fit::located;
 use rim::Rim;
 use std::f64::consts::{PI, TAU};
 
@@ -39,24 +42,23 @@ use std::f64::consts::{PI, TAU};
 pub struct Boundary {
     /// Radii at 360 equally spaced angles from θ = 0, the direction of x; lengths.
     pub radii: Vec<f64>,
-    /// Those of a hole, empty without one.
+    /// Radii of the hole at the same angles, lengths; empty without a hole.
     pub hole: Vec<f64>,
     /// Estimated error of the mean radius, a length.
     pub error: f64,
-    /// That of the mean radius of the hole, a length.
+    /// Estimated error of the mean radius of the hole, a length; 0 without one.
     pub hole_error: f64,
 }
 
 impl Boundary {
-    /// Boundary of a spot, and of its hole where it `is_ring`.
-    ///
-    /// `None` when the spot has too few samples for a fit, or no simple boundary around the axis.
+    /// Boundary of a spot, and of its hole where it `is_ring`; `None` for a spot with too few samples for a fit, or without a
+    /// simple boundary around the axis.
     pub(crate) fn locate(spot: &Spot<'_>, scale: &Scale<'_>, is_ring: bool) -> Option<Self> {
         let (radii, error) = located(spot, scale, Rim::Outer)?;
         let mut boundary = Self { radii, hole: Vec::new(), error, hole_error: 0.0 };
         if is_ring {
             (boundary.hole, boundary.hole_error) = located(spot, scale, Rim::Hole).unwrap_or_else(|| {
-                let (counted, _) = counted(spot, scale.sample_area, Rim::Hole);
+                let (counted, _) = counted_rim(spot, scale.sample_area, Rim::Hole);
                 (vec![mean_radius(&counted); ANGLES], COUNTED_ERROR * scale.spacing)
             });
         }

@@ -7,26 +7,26 @@ use crate::reading::edge::Edge;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Distance from the edge, in spacings, from which on samples are looked at.
+/// Distance from the edge, in spacings, from which on samples enter the fits.
 pub(super) const NEAREST: f64 = 0.3;
 
-/// Rows that are taken together.
-const ROWS: usize = 64;
+/// Runs of samples of one task.
+const RUNS_PER_TASK: usize = 64;
 
-/// What a sample is to a spot.
+/// Where a sample lies in relation to a spot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sample {
-    /// In contact, of this spot.
+    /// In contact, in this spot.
     Contact,
     /// Open, outside this spot and nearer to it than to others.
     Open,
     /// Open, enclosed by this spot.
     Hole,
-    /// Of another spot, or beside another one.
+    /// In another spot, or beside another one.
     Other,
 }
 
-/// A contact spot and what is around it.
+/// A contact spot and the samples around it.
 pub struct Spot<'a> {
     grid: &'a Grid,
     reduced: ReducedBasis,
@@ -34,21 +34,22 @@ pub struct Spot<'a> {
     alone: f64,
     /// The axis, lengths.
     centre: [f64; 2],
-    /// Distance of the farthest sample in contact.
+    /// Distance of the farthest sample in contact from the axis, a length.
     farthest: f64,
+    /// Where a sample lies, by its flat index.
     what: &'a (dyn Fn(usize) -> Sample + Sync),
 }
 
 impl<'a> Spot<'a> {
-    /// The spot around a `centre` (lengths), whose samples in contact are not farther from it than `farthest`; `what` a sample is
-    /// to it is said by its flat index.
+    /// The spot around a `centre` (lengths), whose samples in contact are not farther from it than `farthest`, a length; `what`
+    /// says where a sample lies, by its flat index.
     pub fn new(grid: &'a Grid, centre: [f64; 2], farthest: f64, what: &'a (dyn Fn(usize) -> Sample + Sync)) -> Self {
         let reduced = grid.cell().reduced();
         let [x, y] = reduced.short();
         Self { grid, reduced, alone: 0.499 * x.hypot(y), centre, farthest, what }
     }
 
-    /// Whether it has no samples that an image of its axis is nearer to.
+    /// Whether no sample in contact is nearer to an image of the axis.
     pub fn stands_alone(&self) -> bool {
         self.farthest < self.alone
     }
@@ -58,7 +59,7 @@ impl<'a> Spot<'a> {
         self.farthest
     }
 
-    /// What a sample `offset` from the axis (lengths) is: of the images of the axis the nearest one counts.
+    /// Where a sample lies, given its `offset` from the axis (lengths): [`Sample::Other`] if an image of the axis is nearer.
     fn what(&self, index: usize, offset: [f64; 2]) -> Sample {
         let [x, y] = offset;
         if x * x + y * y > self.alone * self.alone {
@@ -70,75 +71,76 @@ impl<'a> Spot<'a> {
         (self.what)(index)
     }
 
-    /// What the sample nearest to a place is, `offset` from the axis.
+    /// Where the sample nearest to a place lies, given the place's `offset` from the axis (lengths).
     pub fn at(&self, offset: [f64; 2]) -> Sample {
         let [n1, n2] = self.grid.points();
         let place = [self.centre[0] + offset[0], self.centre[1] + offset[1]];
         let [s, t] = self.grid.cell().fractions(place);
-        // Of places halfway between samples rounding does not decide.
+        // Places halfway between samples, as directions along the axes of a symmetric contact have them, take the next sample:
+        // rounding errors would make the choice differ between equal contacts.
         let nearest = |place: f64| (place + 1e-6).round() as i64;
         let (row, column) = (nearest(s * n1 as f64), nearest(t * n2 as f64));
         let index = row.rem_euclid(n1 as i64) as usize * n2 + column.rem_euclid(n2 as i64) as usize;
         self.what(index, offset)
     }
 
-    /// Of the samples at distances from the axis of at least `from` and less than `to`: `taken` of each block of rows, in
-    /// their order. It takes the flat index of a sample, its place from the axis and what it is.
+    /// Results of `take` over the samples at distances from the axis of at least the first and less than the second of two lengths,
+    /// one for each task, in their order. `take` is given the flat index of a sample, its offset from the axis and where it lies.
     pub fn taken<T: Send + Default>(
         &self,
         distances: [f64; 2],
         take: impl Fn(&mut T, usize, [f64; 2], Sample) + Sync,
     ) -> Vec<T> {
         let runs = annulus(self.grid, self.centre, distances);
-        let of_block = |runs: &[SampleRun]| {
+        let of_task = |runs: &[SampleRun]| {
             let mut taken = T::default();
             for (index, offset) in samples(self.grid, runs, self.centre) {
                 take(&mut taken, index, offset, self.what(index, offset));
             }
             taken
         };
-        runs.par_chunks(ROWS).map(of_block).collect()
+        runs.par_chunks(RUNS_PER_TASK).map(of_task).collect()
     }
 }
 
-/// The fields of a contact, its grid and the edge of its body.
+/// The samples of a contact, their spacing, and the edge of its body.
 #[derive(Debug, Clone, Copy)]
 pub struct Scale<'a> {
-    /// Area for which a sample stands.
+    /// Area of a sample, a length squared.
     pub sample_area: f64,
     /// Largest distance of neighbours, a length.
     pub spacing: f64,
-    /// Pressure, sample by sample.
+    /// Pressure, sample by sample, in the unit of Young's modulus.
     pub pressure: &'a [f64],
     /// Gap, sample by sample, lengths.
     pub gap: &'a [f64],
-    /// Contact modulus of the surface material.
+    /// Contact modulus of the surface material, E* = E/(1 − ν²).
     pub modulus: f64,
-    /// The edge on the half-space, at [`Scale::distances`].
+    /// Pressure and gap at an edge on the half-space, at [`Scale::distances`].
     pub edge: &'a Edge,
-    /// Whether the errors of boundaries are estimated.
+    /// Whether errors of boundaries are estimated.
     pub errors: bool,
 }
 
 impl Scale<'_> {
-    /// The least and the largest distance from an edge that boundaries on a grid look at, lengths.
+    /// The least and the largest distance from an edge of the samples that fits on a grid use, lengths.
     pub fn distances(grid: &Grid) -> [f64; 2] {
         let most = (grid.len() as f64 / PI).sqrt();
         [0.5 * NEAREST, WEIGHT_RISE + most.max(1.0).sqrt()].map(|distance| distance * grid.spacing())
     }
 
-    /// Samples along a radius.
+    /// Number of samples along a radius, a length.
     pub(super) fn resolution(&self, radius: f64) -> f64 {
         radius / self.sample_area.sqrt()
     }
 
-    /// Reach of a fit around a boundary of `radius`.
+    /// Largest distance from the edge of the samples that the fit of a boundary of `radius` uses, a length.
     pub(super) fn reach(&self, radius: f64) -> f64 {
         let resolution = self.resolution(radius);
         (WEIGHT_RISE + resolution.sqrt()).min(0.6 * resolution) * self.spacing
     }
 
-    /// 3E*g/4 at a sample: a pressure times a length.
+    /// 3E*g/4 at a sample, by its flat index: a pressure times a length.
     pub(super) fn opening(&self, index: usize) -> f64 {
         0.75 * self.modulus * self.gap[index].max(0.0)
     }

@@ -1,41 +1,32 @@
-//! What is found: where each criterion is reached, and how sure that is.
+//! The limit loads that were found, with their intervals and their order.
 
-use crate::friction::Friction;
-use crate::numeric::number::number;
 use crate::numeric::search::largest;
 use crate::problem::Problem;
-use crate::reading::{Criterion, within_the_errors};
-use crate::run::places::SECTION;
+use crate::reading::Criterion;
 use crate::run::warnings::{self, Numbered};
-use crate::run::{End, Run, StepRecord};
+use crate::run::{RefinementEnd, StepRecord};
 use crate::spectral::Step;
-use crate::stress::{StressField, SurfaceLine, VerticalSection};
 use std::cmp::Ordering;
-use std::f64::consts::PI;
-use std::fmt;
 
-/// Half the length of the [section](Limits::section) and its depth, in radii of a contact.
-const REACH: f64 = 3.0;
-const DEPTH: f64 = 2.0;
-/// Its depth at most, in the same unit, when it shall show all layers.
-const DEEPEST: f64 = 8.0;
+/// Relative error above which the ends of the interval of a limit are shown in place of the error.
+const WIDE: f64 = 0.3;
 
 /// Where a criterion is reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum At {
-    /// Residual stress alone reaches it, everywhere in its material.
+    /// By residual stress alone, everywhere in the material.
     Rest,
     /// Under a tip of the highest level, whose stress is infinite however small the load.
     Tip {
         /// x, y, z of the tip; lengths.
         position: [f64; 3],
     },
-    /// At this mean pressure.
+    /// At a mean pressure.
     Load {
-        /// p̄.
+        /// Mean pressure p̄, in the unit of Young's modulus.
         mean_pressure: f64,
-        /// Its estimated error by the grid, a pressure: the distance to the farther end of the interval; `None` where a
-        /// utilisation jumps, or the interval has no end.
+        /// Estimated error of the mean pressure by the grid, a pressure: the distance to the farther end of the interval; `None` where
+        /// a utilisation jumps, or the interval has no end.
         error: Option<f64>,
         /// The least mean pressures at which u + e and u − e reach 1, u the utilisation and e its error: 0 where u + e does at
         /// the least load that was solved, infinite where u − e never does.
@@ -43,19 +34,19 @@ pub enum At {
         /// x, y, z of the place that fails; lengths.
         position: [f64; 3],
     },
-    /// At less than this mean pressure, at which it is reached: by its error it may be so at the least load that was solved,
-    /// whose contact is a few samples wide.
+    /// Below a mean pressure: by the error of the utilisation the criterion may be reached under the least load that was solved, whose
+    /// contact is a few samples wide.
     Below {
-        /// p̄, the least at which u − e ≥ 1.
+        /// The least mean pressure p̄ at which u − e ≥ 1.
         mean_pressure: f64,
-        /// Utilisation u there.
+        /// Utilisation u at this mean pressure.
         utilisation: f64,
-        /// x, y, z of the place that fails under it; lengths.
+        /// x, y, z of the place that fails at this mean pressure; lengths.
         position: [f64; 3],
     },
-    /// Not up to complete contact, or the largest load that was solved.
+    /// Not reached up to complete contact, or up to the largest load that was solved.
     Never {
-        /// Up to this mean pressure.
+        /// Mean pressure up to which the criterion holds.
         up_to: f64,
         /// Whether contact is complete there.
         complete: bool,
@@ -66,7 +57,7 @@ pub enum At {
         /// Mean pressure of the largest utilisation.
         at: f64,
     },
-    /// Whether it is reached is undecided: the utilisation stays below 1, or cannot be told from 1 at any load, and the
+    /// Undecided: the utilisation stays below 1, or cannot be distinguished from 1 at any load, and the
     /// utilisation plus its error reaches 1.
     Undecided {
         /// The least mean pressure at which u + e may reach 1; 0 where it does at the least load that was solved.
@@ -101,36 +92,35 @@ pub struct Limit {
 /// All limit loads.
 #[derive(Debug, Clone)]
 pub struct Limits {
-    /// One of each criterion: yield and cracking from the surface down, then the interfaces.
+    /// The limit of each criterion: yield and cracking from the surface down, then the interfaces.
     pub limits: Vec<Limit>,
-    /// Every load that was solved on the last grid, by ascending mean pressure.
+    /// All loads that were solved on the last grid, by ascending mean pressure.
     pub steps: Vec<StepRecord>,
-    /// The first limit that is reached above the load 0, and the step there, with its record and its fields; `None` where
-    /// there is none.
-    pub shown: Option<Shown>,
+    /// The first limit that is reached above the load 0, with the step there, its record and its fields; `None` without such a limit.
+    pub shown: Option<LimitStep>,
     /// Mean pressure at which contact becomes complete on the last grid.
     pub complete: f64,
-    /// Largest relative change of the limits against the next coarser grid, where an accuracy was asked for.
+    /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
-    /// Why the refinement ended, where there was one.
-    pub end: Option<End>,
-    /// What a reader should know before trusting the numbers.
+    /// Reason for which the refinement ended, if there was one.
+    pub end: Option<RefinementEnd>,
+    /// Warnings about the results.
     pub warnings: Vec<String>,
 }
 
-/// The first limit above the load 0, and what was solved there.
+/// The step at the first limit above the load 0.
 #[derive(Debug, Clone)]
-pub struct Shown {
-    /// What fails, and where.
+pub struct LimitStep {
+    /// The limit, with the place that fails.
     pub limit: Limit,
-    /// Every scalar of the step.
+    /// Scalars of the step.
     pub record: StepRecord,
-    /// The step.
+    /// The step with its fields.
     pub step: Step,
 }
 
 impl Limit {
-    /// The mean pressure up to which it holds; infinite where it is never reached, or undecided.
+    /// Mean pressure up to which the criterion holds; infinite where it is never reached, or undecided.
     pub fn mean_pressure(&self) -> f64 {
         match self.at {
             At::Rest | At::Tip { .. } => 0.0,
@@ -139,7 +129,7 @@ impl Limit {
         }
     }
 
-    /// The mean pressures between which it is reached, by its error; infinite where it is never reached.
+    /// Mean pressures between which the criterion is reached, by its error; infinite where it is never reached.
     pub fn interval(&self) -> [f64; 2] {
         match self.at {
             At::Rest | At::Tip { .. } => [0.0; 2],
@@ -150,19 +140,19 @@ impl Limit {
         }
     }
 
-    /// Whether its interval has two ends, at most three tenths of the load away, so that the error alone says how sure it is.
+    /// Whether the interval has two ends, at most three tenths of the load away, so that the error alone describes it.
     pub fn is_sharp(&self) -> bool {
         let [from, to] = self.interval();
         from > 0.0 && to.is_finite() && self.spread().is_some_and(|part| part <= WIDE)
     }
 
-    /// Distance to the farther end of the interval over the load; `None` of what is not reached at a load.
-    fn spread(&self) -> Option<f64> {
+    /// Distance to the farther end of the interval over the load; `None` of a criterion that is not reached at a load.
+    pub(super) fn spread(&self) -> Option<f64> {
         let At::Load { mean_pressure, interval: [from, to], .. } = self.at else { return None };
         Some((mean_pressure - from).max(to - mean_pressure) / mean_pressure)
     }
 
-    /// Where it fails, or may fail, x, y, z; `None` where it does not, or everywhere.
+    /// Place x, y, z (lengths) that fails, or may fail; `None` where none does, or all of a material.
     pub fn position(&self) -> Option<[f64; 3]> {
         match self.at {
             At::Tip { position }
@@ -173,7 +163,7 @@ impl Limit {
         }
     }
 
-    /// The same one, which fails at another place.
+    /// The limit with another place that fails.
     pub(super) fn moved_to(self, place: [f64; 3]) -> Self {
         let mut moved = self;
         if let At::Load { position, .. } | At::Below { position, .. } = &mut moved.at {
@@ -182,8 +172,8 @@ impl Limit {
         moved
     }
 
-    /// Relative change of the load from the same criterion's limit on a coarser grid. What is reached on neither has none:
-    /// how near it comes in complete contact depends on how fine the grid is, which is where that ends.
+    /// Relative change of the load from the same criterion's limit on a coarser grid; 0 of a criterion that is reached on neither,
+    /// since the utilisation in complete contact depends on the grid on which contact becomes complete.
     fn change_from(&self, coarse: &Self) -> f64 {
         match (self.at, coarse.at) {
             (At::Rest, At::Rest) | (At::Tip { .. }, At::Tip { .. }) | (At::Never { .. }, At::Never { .. }) => 0.0,
@@ -255,7 +245,7 @@ impl Limits {
         contenders(&self.limits)
     }
 
-    /// The criteria of the [contenders](Self::contenders).
+    /// Criteria of the [contenders](Self::contenders).
     pub fn rivals(&self) -> Vec<Criterion> {
         rivals(&self.limits)
     }
@@ -271,7 +261,7 @@ impl Limits {
         largest(pairs.map(|(fine, coarse)| fine.change_from(coarse)))
     }
 
-    /// What is doubtful about them, steps numbered by ascending load.
+    /// Warnings about the limits, steps numbered by ascending load.
     pub(super) fn doubts(&self, problem: &Problem) -> Vec<String> {
         let all: Vec<Numbered> = (1..).zip(&self.steps).collect();
         let is_limit = |(_, step): &Numbered| {
@@ -287,79 +277,8 @@ impl Limits {
         warnings::of_judged(problem, &all, &judged, self.end, self.change)
     }
 
-    /// Whether all loads were solved, and the accuracy, if one was asked for, is reached.
+    /// Whether all loads were solved, and the accuracy, if one was prescribed, is reached.
     pub fn converged(&self) -> bool {
-        self.end.is_none_or(|end| end == End::Reached) && self.steps.iter().all(StepRecord::converged)
-    }
-
-    /// The stresses under the place that fails first under a load, at its limit: a cut along the sliding (else along x), a
-    /// contact's width to both sides and deep enough for it; `None` where nothing does.
-    pub fn section(&self, run: &Run) -> Option<VerticalSection> {
-        let Shown { limit, step, .. } = self.shown.as_ref()?;
-        let [x, y, z] = limit.position()?;
-        let (half_space, cell) = (run.problem.half_space(), run.problem.cell());
-        let direction = run.problem.friction().map_or([1.0, 0.0], Friction::direction);
-        let reading = step.reading();
-        let radius = (reading.contact_fraction * cell.area() / (PI * reading.contact_spots.max(1) as f64)).sqrt();
-        let reach = (REACH * radius).min(0.5 * cell.reduced().longer_side());
-        let coating = half_space.interface_depths().last().copied().unwrap_or(0.0);
-        let [rows, points] = SECTION;
-        let line = SurfaceLine { origin: [x, y], direction, span: [-reach, reach], points };
-        let depth = (DEPTH * radius).max(1.5 * z).max(1.25 * coating.min(DEEPEST * radius));
-        let mean = run.mean_stress().unwrap_or_default();
-        Some(StressField::new(step.finest(), mean).section(&line, &half_space.rows(depth, rows)))
-    }
-}
-
-impl Limits {
-    /// What fails first, in words, with pressures as `told` has them.
-    pub fn in_words(&self, told: impl Fn(f64) -> String) -> String {
-        let others: Vec<String> = self.rivals().iter().map(Criterion::to_string).collect();
-        let others = others.join(" or ");
-        let most = self.steps.last().map_or(0.0, |step| step.reading.mean_pressure);
-        let complete = if is_complete(most, self.complete) { ", where contact is complete" } else { "" };
-        let Some(limit) = self.first() else {
-            if others.is_empty() {
-                return format!("nothing fails up to the mean pressure {}{complete}", told(most));
-            }
-            let from = self.contenders().iter().map(|limit| limit.interval()[0]).fold(f64::INFINITY, f64::min);
-            let start = self.steps.first().map_or(0.0, |step| step.reading.mean_pressure);
-            let from = if from > 0.0 { told(from) } else { format!("below {}", told(start)) };
-            let to = told(most);
-            return format!(
-                "undecided: {others} may fail within its error at mean pressures from {from} to {to}{complete}"
-            );
-        };
-        let at = match limit.at {
-            At::Rest => ", without load, by residual stress alone".to_owned(),
-            At::Tip { .. } => ", under a tip however small the load".to_owned(),
-            At::Below { mean_pressure, .. } => format!(", at less than the mean pressure {}", told(mean_pressure)),
-            At::Load { mean_pressure, interval: [from, to], .. } => {
-                let part = limit.spread().unwrap_or(0.0);
-                let error = match (from > 0.0, to.is_finite()) {
-                    (true, true) if part <= TOLD => String::new(),
-                    (true, true) if limit.is_sharp() => format!(" ± {:.0} %", 100.0 * part),
-                    (true, true) => format!(", between {} and {} by its error", told(from), told(to)),
-                    (true, false) => format!(", not before {} and by its error perhaps never", told(from)),
-                    (false, true) => format!(", by its error anywhere below {}", told(to)),
-                    (false, false) => ", by its error anywhere or never".to_owned(),
-                };
-                format!(" at the mean pressure {}{error}", told(mean_pressure))
-            }
-            At::Never { .. } | At::Undecided { .. } => String::new(),
-        };
-        format!("first: {}{at}{}", limit.criterion, within_the_errors(&self.rivals()))
-    }
-}
-
-/// Relative errors above this are told beside what fails first.
-const TOLD: f64 = 0.005;
-/// Above this the ends of the interval are shown in place of the error.
-const WIDE: f64 = 0.3;
-
-/// What fails first, in words.
-impl fmt::Display for Limits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.in_words(number))
+        self.end.is_none_or(|end| end == RefinementEnd::Reached) && self.steps.iter().all(StepRecord::converged)
     }
 }

@@ -2,38 +2,42 @@
 //!
 //! Contact is not linear: a limit is found by solving. From the least load whose contact has a few samples along its radius on,
 //! the mean pressure is doubled until every criterion has failed by more than its error or contact is complete; the loads of the
-//! run play no part. With u the utilisation of a criterion and e its error, the limit is the least load at which u reaches 1,
+//! run are not used. With u the utilisation of a criterion and e its error, the limit is the least load at which u reaches 1,
 //! found by secants of ln u(ln p̄) with bisection as their safeguard, to 10⁻³ of the load. Its interval reaches from the least
 //! load at which u + e is 1 to the least one at which u − e is. A criterion of which u + e reaches 1 and u − e does not, and u
 //! stays below 1, is undecided. Every load that is solved counts for all criteria.
 //!
 //! Utilisations are not monotone: the tension at an edge and the opening of an interface rise and fall again. Between two
 //! loads u lies below lines of the steepest slope of that interval and its neighbours, times 1.5; where these reach 1 below the
-//! first crossing, the interval is halved until they do not, or its ends are 5 % apart (10 % for u + e). What stays open is
+//! first crossing, the interval is halved until they do not, or its ends are 5 % apart (10 % for u + e). The remaining uncertainty is
 //! part of the limit's interval. Where a level of a shape of its own begins to touch, loads are divided until its own
 //! load grows by a factor of four at most. A topography has spots that begin to touch at any load: a hump that is narrower than
-//! the slopes between the loads tell is not found.
+//! the slopes between the loads suggest is not found.
 //!
 //! Beyond complete contact the shape adds nothing, and stresses grow by those of a uniform pressure: no limit is searched for
 //! there. Shapes with ridges between them come into complete contact under an infinite pressure only; on a grid under a finite
 //! one, where the search ends.
 
+mod band;
 mod curve;
+mod enclosure;
 mod limits;
 #[cfg(feature = "serde")]
 mod record;
 mod search;
+mod section;
+mod words;
 
-pub use limits::{At, Limit, Limits, Shown, first, rivals};
+pub use limits::{At, Limit, LimitStep, Limits, first, rivals};
 
 use super::{Recorder, Refinement, Run, RunError, Sampling};
 use crate::reading::Criterion;
-use search::Search;
+use search::LimitSearch;
 use std::convert::Infallible;
 use std::error::Error;
 
 impl Run {
-    /// Whether limit loads can be looked for: there are strengths, and grids to solve on. The run's loads do not matter.
+    /// Checks that limit loads can be searched: there are strengths, and grids. The run's loads are not used.
     ///
     /// # Errors
     /// [`RunError::NoStrengths`], [`TooOblong`](super::TooOblong), [`LatticeError`](crate::lattice::LatticeError).
@@ -49,7 +53,7 @@ impl Run {
         Ok(())
     }
 
-    /// Looks for the limit loads of all criteria.
+    /// Searches the limit loads of all criteria.
     ///
     /// ```
     /// use percoat::*;
@@ -72,21 +76,21 @@ impl Run {
     /// # }
     /// ```
     ///
-    /// With [`Sampling::Accuracy`] the search is repeated on finer grids until the limits change by less. Of the run's loads and
-    /// stress request only the mean lateral stress enters.
+    /// With [`Sampling::Accuracy`] the search is repeated on finer grids until the limits change by less. The run's loads are not used,
+    /// and of its stress request only the convention for the mean lateral stress is.
     ///
     /// # Errors
     /// [`RunError`], see [`check_limits`](Self::check_limits).
     pub fn limits<R: Recorder>(&self, recorder: &mut R) -> Result<Limits, RunError<R::Error>> {
         self.checked_for_limits()?;
         let mut limits = match self.sampling {
-            Sampling::Points(points) => Search::on_grid(self, points, recorder)?,
+            Sampling::Points(points) => LimitSearch::on_grid(self, points, recorder)?,
             Sampling::Accuracy(accuracy) => {
                 let mut refinement = Refinement::new(&self.problem.cell(), accuracy)?;
                 let mut coarse: Option<Limits> = None;
                 loop {
                     let points = refinement.points();
-                    let mut limits = Search::on_grid(self, points, recorder)?;
+                    let mut limits = LimitSearch::on_grid(self, points, recorder)?;
                     limits.change = coarse.take().map(|coarse| limits.change_from(&coarse));
                     if let Some(change) = limits.change {
                         recorder.refined(points, change);
@@ -95,7 +99,7 @@ impl Run {
                     if limits.end.is_some() {
                         break limits;
                     }
-                    // Its fields go before the next grid takes as much and more.
+                    // The memory of its fields is freed before the next grid needs as much and more.
                     limits.shown = None;
                     coarse = Some(limits);
                 }

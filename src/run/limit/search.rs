@@ -1,8 +1,8 @@
-//! The search on one grid, load by load.
+//! The search for the limits on one grid, load by load.
 
-use super::curve::{Band, Crossing};
+use super::band::{Crossing, UtilisationBand};
 use super::limits::is_complete;
-use super::{At, Limit, Limits, Shown};
+use super::{At, Limit, LimitStep, Limits};
 use crate::load::Load;
 use crate::reading::{Criterion, Reading, Utilisation};
 use crate::run::{Recorder, Run, RunError, StepRecord};
@@ -11,43 +11,44 @@ use crate::stress::Tables;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Doublings and halvings of the first load at most.
+/// Largest number of doublings and of halvings of the first load.
 const DOUBLINGS: usize = 40;
-/// Loads to find one limit at most; bisection alone takes ten from a factor of two on.
+/// Largest number of loads for one limit; bisection alone takes ten from a factor of two on.
 const TRIALS: usize = 40;
-/// Samples along the radius of a contact whose stresses are read.
+/// Least number of samples along the radius of a contact for its stresses to be read.
 const LEAST_SAMPLES: f64 = 3.0;
-/// Rounds over all criteria: loads that were solved for one may be an earlier crossing of another.
+/// Largest number of rounds over all criteria: loads that were solved for one may show an earlier crossing of another.
 const ROUNDS: usize = 4;
-/// Loads that differ by less are one.
-const SAME: f64 = 1e-12;
+/// Relative difference below which two loads are one.
+const SAME_LOAD: f64 = 1e-12;
 /// The first load over that of complete contact.
 const START: f64 = 1.0 / 1024.0;
-/// Between neighbouring loads that of an indenter of a shape of its own grows to this many times at most.
+/// Largest ratio of the load on an indenter with a shape of its own between neighbouring loads.
 const GROWTH: f64 = 4.0;
-/// Mean pressures that are closer, relatively, are not divided where a level begins to touch.
+/// Relative difference of mean pressures below which they are not divided where a level begins to touch.
 const TOUCHING: f64 = 1e-3;
 
-/// A search that goes on.
-pub(super) struct Search<'a, R: Recorder> {
+/// A search on one grid.
+pub(super) struct LimitSearch<'a, R: Recorder> {
     run: &'a Run,
     solver: Solver,
-    /// What the stresses of all loads share.
+    /// Tables that the stresses of all loads share.
     tables: Arc<Tables>,
+    /// Mean pressure at which contact becomes complete; infinite for a flat surface.
     complete: f64,
-    /// By ascending mean pressure.
+    /// The solved loads, by ascending mean pressure.
     steps: Vec<StepRecord>,
-    /// The last one that was solved.
+    /// The step of the load that was solved last.
     last: Option<Step>,
     recorder: &'a mut R,
 }
 
-impl<'a, R: Recorder> Search<'a, R> {
-    /// The limits of a run on a grid of `points`.
+impl<'a, R: Recorder> LimitSearch<'a, R> {
+    /// Searches the limits of a run on a grid of `points`.
     pub fn on_grid(run: &'a Run, points: [usize; 2], recorder: &'a mut R) -> Result<Limits, RunError<R::Error>> {
         let mut solver = Solver::new(Arc::clone(&run.problem), points, run.settings)?;
         recorder.begin(&solver).map_err(RunError::Recorder)?;
-        // A flat surface is in complete contact under any load, and more of it changes what fails all the same.
+        // A flat surface is in complete contact under any load, but its stresses grow with the load all the same.
         let complete = Some(solver.full_contact_pressure()).filter(|pressure| *pressure > 0.0);
         let complete = complete.unwrap_or(f64::INFINITY);
         let mut search =
@@ -80,10 +81,10 @@ impl<'a, R: Recorder> Search<'a, R> {
         let shown = match first {
             Some(limit) => {
                 let record = search.solve(limit.mean_pressure())?.clone();
-                // Of places alike by symmetry rounding takes one or the other: the place is that of the step that is shown.
+                // Rounding decides between places that are equal by symmetry: the place is that of the step that is shown.
                 let limit = limit.moved_to(search.utilisation(&record, limit.criterion).position);
                 limits.limits.iter_mut().filter(|own| own.criterion == limit.criterion).for_each(|own| *own = limit);
-                search.last.take().map(|step| Shown { limit, record, step })
+                search.last.take().map(|step| LimitStep { limit, record, step })
             }
             None => None,
         };
@@ -92,23 +93,23 @@ impl<'a, R: Recorder> Search<'a, R> {
 
     /// Solves a load and keeps its record.
     fn solve(&mut self, mean_pressure: f64) -> Result<&StepRecord, RunError<R::Error>> {
-        // Its memory goes before the next one takes as much.
+        // The memory of a step is freed before the next one needs as much.
         self.last = None;
         let load = Load::MeanPressure(mean_pressure);
         let (record, step) = self.run.solve_load(&mut self.solver, &self.tables, load, None, self.recorder)?;
         self.last = Some(step);
-        // What is read off a step has the load to rounding.
-        let before = |other: &StepRecord| other.reading.mean_pressure < mean_pressure * (1.0 - SAME);
+        // The mean pressure of a reading is the load to rounding.
+        let before = |other: &StepRecord| other.reading.mean_pressure < mean_pressure * (1.0 - SAME_LOAD);
         let place = self.steps.partition_point(before);
         match self.steps.get_mut(place) {
-            Some(same) if same.reading.mean_pressure <= mean_pressure * (1.0 + SAME) => *same = record,
+            Some(same) if same.reading.mean_pressure <= mean_pressure * (1.0 + SAME_LOAD) => *same = record,
             _ => self.steps.insert(place, record),
         }
         Ok(&self.steps[place])
     }
 
-    /// The first load: a part of that of complete contact. Where contact is complete under any load, a strength: there
-    /// stresses are proportional to the load.
+    /// Mean pressure of the first load: a part of that of complete contact, or the least strength where contact is complete under any
+    /// load and stresses are proportional to it.
     fn start(&self) -> f64 {
         if self.complete.is_finite() {
             return START * self.complete;
@@ -127,7 +128,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         let mut highest = lowest;
         self.solve(lowest)?;
         for _ in 0..DOUBLINGS {
-            // Where contact is complete under any load, down to where everything holds.
+            // Where contact is complete under any load, loads are halved until everything holds.
             let holds = |search: &Self| {
                 let failed = |&criterion: &Criterion| search.band(criterion).upper.first_failure() == Some(0);
                 search.complete.is_infinite() && !sought.iter().any(failed)
@@ -153,7 +154,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         Ok(())
     }
 
-    /// Whether the contact of the best resolved level, or that of a topography, has samples enough for its stresses.
+    /// Whether the contact of the best resolved level, or that of a topography, has enough samples for its stresses.
     fn is_readable(&self, reading: &Reading) -> bool {
         let [n1, n2] = self.solver.grid().points();
         let whole = (reading.contact_fraction * (n1 * n2) as f64 / PI).sqrt();
@@ -167,7 +168,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         for _ in 0..TRIALS {
             let holds = |index: usize| {
                 let holds =
-                    |&criterion: &Criterion| self.band(criterion).lower.0[..=index].iter().all(|[_, u]| *u < 1.0);
+                    |&criterion: &Criterion| self.band(criterion).lower.samples[..=index].iter().all(|[_, u]| *u < 1.0);
                 sought.iter().any(holds)
             };
             let rough = (1..self.steps.len()).find(|&above| holds(above - 1) && self.grows_apart(above));
@@ -200,9 +201,9 @@ impl<'a, R: Recorder> Search<'a, R> {
         (0..levels.len()).any(|own| drops[own] > 0.0 && is_new(own) && grows(own))
     }
 
-    /// What the loads that were solved take up of a criterion.
-    fn band(&self, criterion: Criterion) -> Band {
-        Band::new(self.steps.iter().map(|record| {
+    /// Utilisation of a criterion under the loads that were solved.
+    fn band(&self, criterion: Criterion) -> UtilisationBand {
+        UtilisationBand::new(self.steps.iter().map(|record| {
             let Utilisation { value, error, .. } = self.utilisation(record, criterion);
             [record.reading.mean_pressure, value, error.unwrap_or(0.0)]
         }))
@@ -215,14 +216,14 @@ impl<'a, R: Recorder> Search<'a, R> {
         levels.into_iter().any(|(level, drop)| drop == 0.0 && level.shape().singular_peak())
     }
 
-    /// What a step takes up of a criterion; without contact what residual stress does.
+    /// Utilisation of a criterion in a step; without contact that by residual stress.
     fn utilisation(&self, record: &StepRecord, criterion: Criterion) -> Utilisation {
         let value = criterion.at_rest(self.run.problem.half_space());
         let at_rest = Utilisation::new(criterion, value, None, [0.0; 3]);
         record.utilisation(criterion).copied().unwrap_or(at_rest)
     }
 
-    /// Solves loads until it is known where a criterion is reached.
+    /// Solves loads until the limit of a criterion is known.
     fn find(&mut self, criterion: Criterion) -> Result<(), RunError<R::Error>> {
         for trial in 0..TRIALS {
             // Every third load bisects the interval around the root.
@@ -232,7 +233,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         Ok(())
     }
 
-    /// Where a criterion is reached, by the loads that were solved.
+    /// Limit of a criterion, by the loads that were solved.
     fn found(&self, criterion: Criterion) -> At {
         let band = self.band(criterion);
         let taken = |index: usize| self.utilisation(&self.steps[index], criterion);
@@ -242,7 +243,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         let undecided = |at: usize| {
             let Utilisation { value: utilisation, error, position, .. } = taken(at);
             // At another load it may be larger still.
-            let most = band.upper.0.iter().map(|[_, u]| *u).fold(f64::NEG_INFINITY, f64::max);
+            let most = band.upper.samples.iter().map(|[_, u]| *u).fold(f64::NEG_INFINITY, f64::max);
             let error = error.map(|error| error.max(most - utilisation));
             let at = load(at);
             if from.is_infinite() {
@@ -254,7 +255,7 @@ impl<'a, R: Recorder> Search<'a, R> {
         match band.value.first_failure() {
             None => undecided(band.value.largest()),
             Some(0) => match band.lower.first_failure() {
-                // At no load is u − e ≥ 1: what it takes up there may be an error.
+                // Under no load is u − e ≥ 1: the utilisation there may be an error.
                 None => undecided(0),
                 Some(sure) => {
                     let Utilisation { value, position, .. } = taken(sure);
@@ -267,7 +268,7 @@ impl<'a, R: Recorder> Search<'a, R> {
             Some(above) => {
                 let enclosure = band.value.enclosure(above);
                 let nearest = taken(if enclosure.first_is_nearer() { above - 1 } else { above });
-                // By how much the grid moves a jump is not known, and its place is that of the load that has failed.
+                // The error of a jump by the grid is not known; its place is that of the load that fails.
                 let jumps = enclosure.slope().is_none();
                 let position = if jumps { taken(above).position } else { nearest.position };
                 let error = (mean_pressure - from).max(to - mean_pressure);

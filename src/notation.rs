@@ -1,6 +1,6 @@
-//! Numbers as a person reads them.
+//! Numbers in messages: five significant digits.
 
-/// Five significant digits, without exponent where that is short.
+/// A number with five significant digits, without exponent from 0.001 to 999999.
 pub fn number(x: f64) -> String {
     // The exponent after rounding: 0.0099999999 is 0.010000.
     let scientific = format!("{x:.4e}");

@@ -1,33 +1,33 @@
-//! A quantity as an axis or a caption names it: words, symbol and unit.
+//! Labels of quantities on axes and in captions: words, symbol and unit.
 
 use super::number::short;
 use crate::units::{Prefixed, Unit, Units};
 
-/// What an axis shows.
+/// The label of a quantity.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Quantity {
-    /// Its words and its symbol.
+pub struct Label {
+    /// Words and symbol.
     text: String,
     unit: Unit,
 }
 
-impl Quantity {
-    /// The unit for numbers of a size.
+impl Label {
+    /// The unit with the prefix for numbers of a size.
     pub(super) fn unit(&self, size: f64) -> Prefixed {
         self.unit.prefixed(size)
     }
 
-    /// Its words and its symbol.
+    /// Words and symbol.
     pub(super) fn text(&self) -> &str {
         &self.text
     }
 
-    /// The same where its words stand elsewhere: a label of its unit alone.
+    /// The label with the unit alone, for a quantity that is named elsewhere.
     pub(super) fn wordless(&self) -> Self {
         Self { text: String::new(), unit: self.unit.clone() }
     }
 
-    /// The text with a unit.
+    /// Words, symbol and unit.
     pub(super) fn label(&self, unit: &Prefixed) -> String {
         match (self.text.is_empty(), unit.name.is_empty()) {
             (true, _) => unit.name.clone(),
@@ -37,27 +37,27 @@ impl Quantity {
     }
 }
 
-impl From<&str> for Quantity {
+impl From<&str> for Label {
     fn from(text: &str) -> Self {
         text.to_owned().into()
     }
 }
 
-impl From<String> for Quantity {
+impl From<String> for Label {
     fn from(text: String) -> Self {
         Self { text, unit: Unit::None }
     }
 }
 
 impl Units {
-    /// A length as an axis names it.
-    pub(super) fn length_of(&self, words: &str, symbol: &str) -> Quantity {
-        quantity(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
+    /// Label of a length.
+    pub(super) fn length_of(&self, words: &str, symbol: &str) -> Label {
+        label(words, symbol, self.length(), "unit\u{a0}of\u{a0}length")
     }
 
-    /// A pressure as an axis names it.
-    pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Quantity {
-        quantity(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
+    /// Label of a pressure.
+    pub(super) fn pressure_of(&self, words: &str, symbol: &str) -> Label {
+        label(words, symbol, self.pressure(), "unit\u{a0}of\u{a0}E")
     }
 
     /// Lengths in a list of parameters: h/l = 0.5, h = 3 µm or h = 3.
@@ -71,14 +71,14 @@ impl Units {
     }
 }
 
-fn quantity(words: &str, symbol: &str, unit: &Unit, unknown: &str) -> Quantity {
+fn label(words: &str, symbol: &str, unit: &Unit, unknown: &str) -> Label {
     let symbol = match unit {
         Unit::None => format!("{symbol}\u{a0}({unknown})"),
         Unit::Relative(to) => format!("{symbol}/{to}"),
         Unit::Named(_) | Unit::Si { .. } => symbol.to_owned(),
     };
     let text = if words.is_empty() { symbol } else { format!("{words} {symbol}") };
-    Quantity { text, unit: unit.clone() }
+    Label { text, unit: unit.clone() }
 }
 
 fn equals_in(unit: &Unit, symbol: &str, values: &[f64]) -> String {
@@ -86,13 +86,13 @@ fn equals_in(unit: &Unit, symbol: &str, values: &[f64]) -> String {
     let shown: Vec<f64> = values.iter().map(|&x| prefixed.shown(x)).collect();
     match unit {
         Unit::Relative(to) => equals(&format!("{symbol}/{to}"), &shown),
-        // Nothing needs no unit.
+        // Zero needs no unit.
         _ if values.iter().all(|x| *x == 0.0) => equals(symbol, &shown),
         _ => prefixed.behind(&equals(symbol, &shown)),
     }
 }
 
-/// A symbol and its values, which no line break parts from the first one.
+/// A symbol and its values; no line break separates the symbol from the first value.
 pub(super) fn equals(symbol: &str, values: &[f64]) -> String {
     let values: Vec<String> = values.iter().map(|&x| short(x)).collect();
     format!("{}\u{a0}=\u{a0}{}", symbol.replace(' ', "\u{a0}"), values.join(", "))
@@ -120,7 +120,7 @@ mod tests {
     #[test]
     fn axes_have_the_prefix_with_which_their_numbers_read_well() {
         let si = units(2.0).named(Some("m"), Some("Pa"));
-        let named = |quantity: Quantity, size: f64| {
+        let named = |quantity: Label, size: f64| {
             let unit = quantity.unit(size);
             (plain(&quantity.label(&unit)), unit.shown(size))
         };

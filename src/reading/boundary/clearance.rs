@@ -1,19 +1,19 @@
-//! How far what is open around a rim belongs to it, by directions.
+//! The clearance of a rim: the distance over which samples lie open beside it, by directions.
 
 use super::rim::Rim;
 use super::spot::{Sample, Spot};
 use crate::numeric::closed_line::{ANGLES, angle, mean_radius};
 
-/// Sectors in which neighbours stand nearer or farther.
+/// Number of sectors with a clearance of their own.
 pub const SECTORS: usize = 24;
 
-/// Room over the radius from which on no neighbour is felt.
+/// Clearance over the mean radius from which on neighbours do not change the gap at the rim.
 const FAR: f64 = 0.7;
 
-/// How far samples lie open beside the rim `radii` in each of equal sectors, out to twice its mean radius; lengths, infinite
-/// where no neighbour is felt.
-pub fn room(spot: &Spot<'_>, rim: Rim, radii: &[f64], spacing: f64) -> [f64; SECTORS] {
-    let mut room = [0.0f64; SECTORS];
+/// Distance over which samples lie open beside the rim `radii` in each of equal sectors, out to twice the mean radius; lengths,
+/// infinite where neighbours are far.
+pub fn clearance(spot: &Spot<'_>, rim: Rim, radii: &[f64], spacing: f64) -> [f64; SECTORS] {
+    let mut clearance = [0.0f64; SECTORS];
     let mean = mean_radius(radii);
     for (index, radius) in radii.iter().enumerate() {
         let (sine, cosine) = angle(index).sin_cos();
@@ -29,9 +29,9 @@ pub fn room(spot: &Spot<'_>, rim: Rim, radii: &[f64], spacing: f64) -> [f64; SEC
             }
             Rim::Hole => steps(*radius).find(is_open).map(|r| radius - r),
         };
-        let sector = &mut room[index * SECTORS / ANGLES];
+        let sector = &mut clearance[index * SECTORS / ANGLES];
         *sector = sector.max(own.unwrap_or(0.0));
     }
-    let unbounded = |room: f64| rim == Rim::Outer && room > FAR * mean;
-    room.map(|room| if unbounded(room) { f64::INFINITY } else { room })
+    let unbounded = |clearance: f64| rim == Rim::Outer && clearance > FAR * mean;
+    clearance.map(|clearance| if unbounded(clearance) { f64::INFINITY } else { clearance })
 }

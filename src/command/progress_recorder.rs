@@ -1,4 +1,4 @@
-//! A run that is recorded, as the person who waits for it sees it.
+//! The recorder of a run that writes files and shows the progress.
 
 use super::allowed::Allowed;
 use super::interruption::{self, Saved};
@@ -10,8 +10,8 @@ use crate::run::{Finished, Recorder, Run, StepRecord};
 use crate::spectral::Checkpoint;
 use crate::{Load, Solver, Step, StressField, VerticalSection};
 
-/// Records a run and shows how far it is.
-pub struct Shown<'a> {
+/// Records a run and shows its progress.
+pub struct ProgressRecorder<'a> {
     recording: Recording<'a>,
     claim: &'a RunFolder,
     allowed: Allowed<'a>,
@@ -21,8 +21,8 @@ pub struct Shown<'a> {
     progress: Progress,
 }
 
-impl<'a> Shown<'a> {
-    /// Of a run that records itself, in the folder it has claimed.
+impl<'a> ProgressRecorder<'a> {
+    /// Recorder of a run with its recording and the claimed folder.
     pub fn new(
         recording: Recording<'a>,
         claim: &'a RunFolder,
@@ -34,7 +34,7 @@ impl<'a> Shown<'a> {
         Self { recording, claim, allowed, common, steps, progress: Progress::new("step", steps, 0, common) }
     }
 
-    /// As [`Recording::finish`].
+    /// Finishes the recording, as [`Recording::finish`].
     pub fn finish(self) -> Result<(Option<VerticalSection>, Clock), OutputError> {
         self.progress.say("writing fields");
         let finished = self.recording.finish();
@@ -42,13 +42,13 @@ impl<'a> Shown<'a> {
         finished
     }
 
-    /// What a signal to end is answered with.
+    /// The steps on disk, for the answer to a signal.
     fn saved(&self) -> Saved {
         Saved::Steps { done: self.recording.steps(), of: self.steps, folder: self.claim.staging() }
     }
 }
 
-impl Recorder for Shown<'_> {
+impl Recorder for ProgressRecorder<'_> {
     type Error = OutputError;
 
     fn finished(&mut self) -> Option<Finished> {
@@ -67,7 +67,7 @@ impl Recorder for Shown<'_> {
         if self.common.verbose {
             self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
         }
-        // While the steps of a coarser grid move aside, a signal waits.
+        // A signal is answered after the steps of a coarser grid have moved aside.
         let mut saved = interruption::hold();
         self.recording.begin(solver)?;
         *saved = self.saved();

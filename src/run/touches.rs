@@ -1,13 +1,13 @@
-//! Where along a run each level touches first, as far as its load steps tell.
+//! The loads of first touch of the levels along a run, estimated from its load steps.
 //!
-//! The load of a profile c rⁿ goes as the (n + 1)/n-th power of what the indenter has gone in, and so does about the mean
-//! pressure that others of the same profile bear: P^{n/(n+1)} over p̄^{n/(n+1)} is nearly a straight line, which the two
-//! steps behind the touch lead back to zero, between the last step without load and the first with it.
+//! The load of a profile c rⁿ is proportional to the (n + 1)/n-th power of its penetration, and so is about the mean
+//! pressure on the other levels of that profile: P^{n/(n+1)} over p̄^{n/(n+1)} is nearly a straight line. Through the two
+//! steps after the touch it is extrapolated to zero load, between the last step without load and the first one with it.
 
+use super::StepRecord;
 use crate::problem::Problem;
-use crate::run::StepRecord;
 
-/// Mean pressure of first touch of each level that first carries load between two steps, with the level.
+/// Number and mean pressure of first touch of each level whose first touch lies between two steps.
 pub fn touches(problem: &Problem, steps: &[StepRecord]) -> Vec<(usize, f64)> {
     let finite = |step: &&StepRecord| step.reading.mean_pressure.is_finite();
     let mut steps: Vec<&StepRecord> = steps.iter().filter(finite).collect();
@@ -17,7 +17,7 @@ pub fn touches(problem: &Problem, steps: &[StepRecord]) -> Vec<(usize, f64)> {
     let touch = |exponent: f64, is_highest: bool, level: usize| {
         let load = |step: &StepRecord| step.reading.levels.get(level - 1).map_or(0.0, |own| own.load);
         let first = steps.iter().position(|step| load(step) > 0.0).filter(|&first| first > 0)?;
-        // What touches from the beginning has no load of first touch.
+        // A level that touches from the beginning has no load of first touch.
         let before = steps[first - 1].reading.mean_pressure;
         let power = exponent / (exponent + 1.0);
         let at = |step: &StepRecord| [step.reading.mean_pressure, load(step)].map(|x| x.powf(power));
