@@ -14,8 +14,8 @@ use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};
 use crate::output::summary::summary;
 use crate::output::{
-    self, CannotGoOn, Clock, Plan, Recording, RunFolder, disk, is_beside, solved_plan, steps_of, table,
-    unlike_published, write_scalars,
+    self, CannotGoOn, Clock, Plan, Recording, RunFolder, damaged_results, disk, is_beside, solved_plan, steps_of,
+    table, write_scalars,
 };
 use crate::picture::Snapshot;
 use crate::plain;
@@ -51,10 +51,10 @@ pub fn run(
     let mut room = Room::on_this_machine(&folder);
     // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
     // takes over that load.
-    let goes_on = options.resume || RunFolder::has_solved_alone(&folder);
+    let goes_on = options.resume || output::has_solved_alone(&folder);
     if goes_on {
         // What stands there already takes no room again.
-        room.disk = room.disk.saturating_add(RunFolder::gathered(&folder));
+        room.disk = room.disk.saturating_add(output::staged_bytes(&folder));
     }
     let allowed = Allowed::within(&case, room, job)?;
     run.check()?;
@@ -69,7 +69,7 @@ pub fn run(
         && !was_begun
         && let Some((ending, summary)) = finished(&case, &folder, run.loads.len(), !options.no_fields)
     {
-        claim.leave()?;
+        claim.abandon()?;
         if !common.quiet {
             tell!("note: {} is finished; leave --resume out to solve it again", plain::path(&folder));
         }
@@ -169,7 +169,7 @@ fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(E
         return None;
     }
     let planned = solved_plan(case, steps, fields).names;
-    let unlike = unlike_published(folder);
+    let unlike = damaged_results(folder);
     if let Some((name, reason)) = unlike.iter().find(|(name, _)| planned.contains(name)) {
         tell!("warning: {} {reason}; all steps are solved again", plain::path(&folder.join(name)));
         return None;

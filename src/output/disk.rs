@@ -196,6 +196,10 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the system, also where a file cannot have two; [`io::ErrorKind::AlreadyExists`] where anything has that name.
 pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    if super::journal::refuses_links(second) {
+        return Err(io::ErrorKind::Unsupported.into());
+    }
     fs::hard_link(file, second)?;
     #[cfg(test)]
     note(Change::Linked(file, second));

@@ -47,6 +47,10 @@ pub(crate) struct Journal {
     pub(super) told: Vec<String>,
     /// Whether it takes everything for not synced.
     pub(super) ignores_syncs: bool,
+    /// What a kill would leave after each change, where that is wanted.
+    pub(super) kills: Option<Vec<Image>>,
+    /// Whether files can have two names.
+    pub(super) has_links: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -89,6 +93,26 @@ pub(super) fn note(change: Change<'_>) {
     }
 }
 
+/// Whether the file system of a path, as its journal says, gives a file one name alone.
+pub(super) fn refuses_links(path: &Path) -> bool {
+    let journals = JOURNALS.lock().unwrap().clone();
+    journals.iter().map(|journal| journal.lock().unwrap()).any(|own| path.starts_with(&own.root) && !own.has_links)
+}
+
+/// Adds what stands in a folder to an image.
+fn read(root: &Path, below: &Path, image: &mut Image) {
+    for entry in fs::read_dir(root.join(below)).unwrap().map(Result::unwrap) {
+        let path = below.join(entry.file_name());
+        if entry.file_type().unwrap().is_dir() {
+            read(root, &path, image);
+            image.insert(path, None);
+        } else {
+            let content = fs::read(entry.path()).unwrap();
+            image.insert(path, Some(content));
+        }
+    }
+}
+
 impl Journal {
     /// Begins one of an empty folder that is on the disk; it ends when this is dropped by all but the list.
     pub(crate) fn begin(root: &Path) -> Arc<Mutex<Self>> {
@@ -102,6 +126,8 @@ impl Journal {
             known: BTreeSet::new(),
             told: Vec::new(),
             ignores_syncs: false,
+            kills: None,
+            has_links: true,
         }));
         JOURNALS.lock().unwrap().push(Arc::clone(&journal));
         journal
@@ -206,6 +232,11 @@ impl Journal {
     }
 
     fn remember(&mut self) {
+        if let Some(kills) = &mut self.kills {
+            let mut there = Image::new();
+            read(&self.root, Path::new(""), &mut there);
+            kills.push(there);
+        }
         let mut seed = 2_463_534_242 + self.told.len() as u64;
         let mut coin = || {
             seed ^= seed << 13;

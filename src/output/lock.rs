@@ -5,13 +5,13 @@
 
 use super::OutputError;
 use super::disk;
-use super::layout::{FolderError, own};
+use super::folder_error::FolderError;
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 
-/// Name of the file.
-pub(super) const NAME: &str = "lock";
+/// Name of the file in an output folder.
+pub(super) const NAME: &str = ".percoat/lock";
 /// What stands before the number.
 const BEFORE: &str = "process ";
 /// Bytes of the longest content.
@@ -22,7 +22,7 @@ const LONGEST: u64 = 40;
 /// # Errors
 /// [`FolderError`], also of a file that is somebody else's.
 pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
-    let path = own(folder, NAME);
+    let path = folder.join(NAME);
     let failed = |error| OutputError::new(&path, error);
     let opened = match disk::create(&path) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => disk::open_to_change(&path),
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn a_lock_of_somebody_else_is_told_by_its_content_and_by_its_other_name() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(NAME);
+        let path = folder.path().join("lock");
         let foreign = |content: &str| {
             fs::write(&path, content).unwrap();
             is_foreign(&path)

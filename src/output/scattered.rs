@@ -64,13 +64,16 @@ fn placed(file: &str) -> Option<(&str, Place)> {
 #[cfg(test)]
 mod tests {
     use super::super::Files;
+    use super::super::staging::create;
     use super::super::steps::StepArrays;
     use super::*;
 
     #[test]
     fn an_archive_gives_the_entries_of_its_steps_again_byte_for_byte() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut arrays = StepArrays::new(folder.path(), "some").unwrap();
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("unfinished");
+        create(&folder, &[]).unwrap();
+        let mut arrays = StepArrays::new(&folder, "contact").unwrap();
         let mut files = Files::default();
         for step in 0..3 {
             arrays.next_step();
@@ -85,10 +88,10 @@ mod tests {
             files.append(arrays.left());
         }
         arrays.finish(|_| Ok(())).unwrap();
-        assert!(files.damaged(folder.path()).is_some());
-        scatter(folder.path(), "some", files.names()).unwrap();
-        assert_eq!(files.damaged(folder.path()), None);
-        let others = ["some.partial/c.0001.npy", "some.partial/a.x.npy", "other.partial/a.0001.npy"];
-        assert!(scatter(folder.path(), "some", others.into_iter()).is_err(), "there is no array c");
+        assert!(files.damaged(&folder).is_some());
+        scatter(&folder, "contact", files.names()).unwrap();
+        assert_eq!(files.damaged(&folder), None);
+        let others = ["contact.partial/c.0001.npy", "contact.partial/a.x.npy", "other.partial/a.0001.npy"];
+        assert!(scatter(&folder, "contact", others.into_iter()).is_err(), "there is no array c");
     }
 }

@@ -3,9 +3,9 @@
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
 use super::checksum::Checksum;
-use super::gathered::remove_waiting;
 use super::npy::{complete, header, npy, values};
 use super::npz::Archive;
+use super::staging::remove_own;
 use super::{Draft, Files, OutputError, disk, make_folder, write_file};
 use crate::plain;
 use std::fs;
@@ -169,7 +169,7 @@ impl StepArrays {
         })?;
         // The archive has its name before what it is made of goes.
         disk::sync_folder(&self.folder).map_err(|error| OutputError::new(&self.folder, error))?;
-        remove_waiting(&self.partial()).map(|_| ())
+        remove_own(&self.folder, &format!("{}.partial", self.name)).map(|_| ())
     }
 }
 

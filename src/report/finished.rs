@@ -1,7 +1,7 @@
 //! What a folder holds of finished results.
 
 use super::ReportError;
-use crate::output::{disk, is_beside, unlike_published};
+use crate::output::{damaged_results, disk, is_beside};
 use serde_json::Value;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ impl Finished {
             None => None,
         };
         let [run, limit] = ["summary.json", "limit.json"].map(|name| json(&folder.join(name)));
-        let unlike = unlike_published(folder);
+        let unlike = damaged_results(folder);
         let finished = Self { folder: folder.to_owned(), run: run?, limit: limit?, sweep, unlike };
         if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
             let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| disk::is_folder(&folder.join(name)));
