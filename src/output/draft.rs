@@ -6,7 +6,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file under a temporary name in its folder, then renames it: it is there whole or not at all, also after a power
-/// cut. That its name is on the disk is left to who names it as finished, with the folder's other names.
+/// cut. Its name is brought to the disk later, with the folder's other names, before anything lists it as finished.
 ///
 /// # Errors
 /// [`OutputError`] with the path; nothing is left behind.
@@ -29,6 +29,7 @@ pub(super) struct Draft {
 }
 
 impl Draft {
+    /// An empty one for a file at `path`.
     pub(super) fn new(path: &Path) -> Result<Self, OutputError> {
         /// Temporary names that may be taken, by a process of the same number that was killed.
         const TAKEN: usize = 100;
@@ -74,7 +75,7 @@ impl Drop for Draft {
     }
 }
 
-/// Removes what failed; a leftover that cannot be removed changes nothing about the first error.
+/// Removes a file that failed; that it cannot be removed changes nothing about the first error.
 fn remove(temporary: &Path) {
     let _ = disk::remove(temporary);
 }

@@ -35,9 +35,9 @@ type Name = (usize, String);
 pub(crate) struct Journal {
     root: PathBuf,
     things: Vec<Thing>,
-    /// What the running system sees.
+    /// Names as the running system has them.
     seen: BTreeMap<Name, usize>,
-    /// What has come to the disk.
+    /// Names that have come to the disk.
     durable: BTreeMap<Name, usize>,
     /// Changes of names that have not, each with all names it changes.
     pending: Vec<Vec<(Name, Option<usize>)>>,
@@ -45,7 +45,7 @@ pub(crate) struct Journal {
     known: BTreeSet<Image>,
     /// What has been noted, in words.
     pub(super) told: Vec<String>,
-    /// Whether it takes everything for not synced.
+    /// Whether syncing does nothing.
     pub(super) ignores_syncs: bool,
     /// What a kill would leave after each change, where that is wanted.
     pub(super) kills: Option<Vec<Image>>,
@@ -73,7 +73,7 @@ enum Lost {
 
 static JOURNALS: Mutex<Vec<Arc<Mutex<Journal>>>> = Mutex::new(Vec::new());
 
-/// Tells the journal of the folder in which a change is, if there is one.
+/// Adds a change to the journal of the folder in which it is, if there is one.
 pub(super) fn note(change: Change<'_>) {
     use Change::{Appended, Created, CreatedFolder, Linked, Moved, Removed, Synced, SyncedFolder};
     let (Created(path)

@@ -1,11 +1,11 @@
 //! `steps.jsonl`: every step of an unfinished run, one line each, appended as it is done.
 //!
 //! A line is the step as it will stand in `summary.json`, with what a run that goes on needs besides: its number and load, which
-//! run it is of, the files that it has left with their checksums, and a [seal](super::seal) of the line itself. Whatever ends
+//! run it is of, the files that it has left with their checksums, and a [checksum](super::trailer) of the line itself. Whatever ends
 //! the run, the lines that end are whole steps: a step is finished where its line ends.
 
 use super::disk::{self, Appended};
-use super::seal::{sealed, unsealed};
+use super::trailer::{with_checksum, without_checksum};
 use super::{Files, OutputError, recorded, write_file, write_text};
 use crate::load::Load;
 use crate::reading::Histogram;
@@ -104,7 +104,7 @@ impl StepsLog {
         self.steps += 1;
         let place = Place { step: self.steps, run: self.run.clone(), load: load.into() };
         let line = serde_json::to_string(&Line { place, record, peaks, histograms, files });
-        let line = sealed(&line.expect("a step is numbers and texts under names")) + "\n";
+        let line = with_checksum(&line.expect("a step is numbers and texts under names")) + "\n";
         let failed = |error| OutputError::new(&self.path, error);
         match &mut self.file {
             Some(file) => file.add(line.as_bytes()).map_err(failed),
@@ -123,7 +123,7 @@ impl StepsLog {
 
 /// A line of a log, if it is as it was written.
 pub(super) fn logged(line: &str) -> Result<Logged, String> {
-    let object = unsealed(line).map_err(|error| error.to_string())?;
+    let object = without_checksum(line).map_err(|error| error.to_string())?;
     let value: Value = serde_json::from_str(&object).map_err(|error| error.to_string())?;
     let place = Place::deserialize(&value).map_err(|error| error.to_string())?;
     let files = Files::deserialize(&value["files"]).map_err(|error| error.to_string())?;
@@ -157,7 +157,7 @@ pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
 }
 
 /// The whole lines of a log: whatever a kill or a full disk left of one more is none. Bytes that are not
-/// UTF-8 become U+FFFD, so that the seal of their line no longer fits.
+/// UTF-8 become U+FFFD, so that the checksum of their line no longer fits.
 ///
 /// # Errors
 /// When it cannot be read.

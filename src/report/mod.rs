@@ -30,11 +30,11 @@ mod ranges;
 mod resolution;
 mod rows;
 mod run;
-mod seal;
 mod sweep;
 mod table;
+mod trailer;
 mod units;
 
 pub use error::ReportError;
 pub use page::{Page, page};
-pub use seal::is_own;
+pub use trailer::is_own;

@@ -1,11 +1,11 @@
 //! `sweep.jsonl`: every combination that is done, one line each, appended when it is.
 //!
 //! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
-//! A line says which sweep it is of and ends with a [seal](crate::output::seal()): one that is not as it was written is no row.
+//! A line says which sweep it is of and ends with a [checksum](crate::output::with_checksum): one that is not as it was written is no row.
 
 use super::row::Row;
 use crate::output::disk::{self, Appended};
-use crate::output::{OutputError, SWEEP_LOG as LOG, sealed, unsealed, whole_lines, write_text};
+use crate::output::{OutputError, SWEEP_LOG as LOG, whole_lines, with_checksum, without_checksum, write_text};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt;
@@ -92,7 +92,7 @@ impl Log {
 
     fn line(&self, row: &Row) -> String {
         let line = serde_json::to_string(&Line { sweep: self.sweep.clone(), row });
-        sealed(&line.expect("a row is numbers and texts under names")) + "\n"
+        with_checksum(&line.expect("a row is numbers and texts under names")) + "\n"
     }
 }
 
@@ -121,7 +121,7 @@ pub fn read(path: &Path) -> io::Result<Vec<Result<Logged, Damage>>> {
 
 fn logged(line: usize, text: &str) -> Result<Logged, Damage> {
     let damage = |reason: String| Damage { line, reason };
-    let object = unsealed(text).map_err(|error| damage(error.to_string()))?;
+    let object = without_checksum(text).map_err(|error| damage(error.to_string()))?;
     let Line { sweep, row }: Line<Row> =
         serde_json::from_str(&object).map_err(|error| damage(format!("it is no row of a sweep: {error}")))?;
     row.checked().map_err(damage)?;
@@ -173,14 +173,14 @@ mod tests {
         let path = folder.path().join(LOG);
         let whole = std::fs::read_to_string(&path).unwrap();
         let lines: Vec<&str> = whole.split_inclusive('\n').collect();
-        let without_seal = lines[1].rsplit_once(",\"seal\"").unwrap().0.to_owned() + "}\n";
+        let unsigned = lines[1].rsplit_once(",\"seal\"").unwrap().0.to_owned() + "}\n";
         let failed = Row { status: Status::Failed, ..row(2) };
         let log = Log { path: path.clone(), sweep: "1-2".to_owned(), file: None };
         for (second, damaged, words) in [
             (lines[1].replace("0.30000000000000004", "0.30000000000000005"), &[2][..], "changed or damaged"),
             (lines[1].replace("0.30000000000000004", "null"), &[2], "changed or damaged"),
-            (without_seal, &[2], "no checksum"),
-            (sealed("{\"steps\":3}") + "\n", &[2], "no row of a sweep"),
+            (unsigned, &[2], "no checksum"),
+            (with_checksum("{\"steps\":3}") + "\n", &[2], "no row of a sweep"),
             (lines[0].to_owned(), &[1, 2], "combination 1 stands on line"),
             (log.line(&failed), &[2], "has results"),
         ] {

@@ -3,7 +3,7 @@
 use super::combinations::Combinations;
 use super::row::{Row, Status};
 use crate::output::columns::csv;
-use crate::output::{checksum, seal};
+use crate::output::{checksum, digest};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
@@ -33,7 +33,7 @@ impl Asked<'_> {
     /// What every line of its log says: equal only for parts of one sweep by one version of percoat.
     pub fn identity(&self) -> String {
         let Self { title, case, task, fingerprint, of } = self;
-        seal(&format!("{}\n{task} {of} {fingerprint}\n{title}\n{case}", env!("CARGO_PKG_VERSION")))
+        digest(&format!("{}\n{task} {of} {fingerprint}\n{title}\n{case}", env!("CARGO_PKG_VERSION")))
     }
 }
 
