@@ -8,7 +8,7 @@ use super::layout::{LIST, OWN, is_staging, staging};
 use super::lock::lock;
 use super::manifest::{self, published};
 use super::plan::Plan;
-use super::staging::{create, discard, remove_retired, set_aside};
+use super::staging::{create, discard, plan_more, remove_retired, set_aside};
 use super::writer::Writer;
 use super::{At, OutputError, disk, publication};
 use std::fs::File;
@@ -59,7 +59,12 @@ impl RunFolder {
             refusal?;
             settle(&staging)?;
         }
-        claimed.set_aside = if claimed.resumed { aside } else { claimed.begin_anew()?.or(aside) };
+        if claimed.resumed {
+            plan_more(&staging, &claimed.plan.names)?;
+        } else {
+            aside = claimed.begin_anew()?.or(aside);
+        }
+        claimed.set_aside = aside;
         Ok(claimed)
     }
 

@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_that_only_a_summary_tells_of_are_set_aside() {
+    fn steps_that_a_summary_alone_records_are_set_aside() {
         let place = tempfile::tempdir().unwrap();
         let claim = RunFolder::claim(place.path(), plan()).unwrap();
         make_folder(&claim.staging().join("contact.partial")).unwrap();
@@ -190,6 +190,27 @@ mod tests {
         write_text(&next.staging().join("checkpoint.npz"), "solved").unwrap();
         write_text(&next.staging().join("steps.jsonl"), "{}\n").unwrap();
         assert!(!has_solved_alone(place.path()));
+    }
+
+    #[test]
+    fn a_run_that_goes_on_may_write_more_files_than_the_interrupted_one() {
+        let place = tempfile::tempdir().unwrap();
+        let claim = |names: [&str; 2]| {
+            let names = names.map(str::to_owned).to_vec();
+            RunFolder::claim(place.path(), Plan { names, resumes: true, ..plan() }).unwrap()
+        };
+        let first = claim(["old.png", "summary.json"]);
+        for (name, text) in [("old.png", "drawn"), ("steps.jsonl", "{}\n")] {
+            write_text(&first.staging().join(name), text).unwrap();
+        }
+        drop(first);
+        let next = claim(["new.png", "summary.json"]);
+        assert!(next.resumes() && next.staging().join("old.png").is_file());
+        for name in ["new.png", "summary.json"] {
+            write_text(&next.staging().join(name), "new").unwrap();
+        }
+        assert_eq!(next.publish().unwrap(), None, "nothing is a user's");
+        assert_eq!(names(place.path()).unwrap(), [OWN, "new.png", "summary.json"]);
     }
 
     /// Killed between any two of the changes with which a finer grid begins: old coarser steps go, the log first; fields

@@ -4,6 +4,7 @@
 //! happens at once; those whose folder is not synced are there or not, each by itself, but those of one name one after the
 //! other. [`Journal::images`] has what may stand there, after every change.
 
+use super::image::{self, Image};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,9 +24,6 @@ pub(super) enum Change<'a> {
     Synced(&'a Path),
     SyncedFolder(&'a Path),
 }
-
-/// A folder as it may stand there: files with their content by their names, folders without.
-pub(crate) type Image = BTreeMap<PathBuf, Option<Vec<u8>>>;
 
 /// A name in a folder, by the folder's number.
 type Name = (usize, String);
@@ -97,20 +95,6 @@ pub(super) fn note(change: Change<'_>) {
 pub(super) fn refuses_links(path: &Path) -> bool {
     let journals = JOURNALS.lock().unwrap().clone();
     journals.iter().map(|journal| journal.lock().unwrap()).any(|own| path.starts_with(&own.root) && !own.has_links)
-}
-
-/// Adds what stands in a folder to an image.
-fn read(root: &Path, below: &Path, image: &mut Image) {
-    for entry in fs::read_dir(root.join(below)).unwrap().map(Result::unwrap) {
-        let path = below.join(entry.file_name());
-        if entry.file_type().unwrap().is_dir() {
-            read(root, &path, image);
-            image.insert(path, None);
-        } else {
-            let content = fs::read(entry.path()).unwrap();
-            image.insert(path, Some(content));
-        }
-    }
 }
 
 impl Journal {
@@ -233,9 +217,7 @@ impl Journal {
 
     fn remember(&mut self) {
         if let Some(kills) = &mut self.kills {
-            let mut there = Image::new();
-            read(&self.root, Path::new(""), &mut there);
-            kills.push(there);
+            kills.push(image::read(&self.root));
         }
         let mut seed = 2_463_534_242 + self.told.len() as u64;
         let mut coin = || {
@@ -306,15 +288,5 @@ fn apply(names: &mut BTreeMap<Name, usize>, change: &[(Name, Option<usize>)]) {
             Some(own) => names.insert(name.clone(), *own),
             None => names.remove(name),
         };
-    }
-}
-
-/// Puts an image on the disk.
-pub(super) fn lay(image: &Image, root: &Path) {
-    for (path, content) in image {
-        match content {
-            None => fs::create_dir_all(root.join(path)).unwrap(),
-            Some(content) => fs::write(root.join(path), content).unwrap(),
-        }
     }
 }

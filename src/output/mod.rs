@@ -49,6 +49,8 @@ mod folder;
 mod folder_error;
 mod foreign;
 mod histograms;
+#[cfg(test)]
+mod image;
 mod interrupted;
 #[cfg(test)]
 pub(crate) mod journal;

@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_header_that_is_not_that_of_the_array_is_refused_whatever_it_tells() {
+    fn a_header_that_is_not_that_of_the_array_is_refused_whatever_it_says() {
         let mut file = Vec::new();
         npy(&mut file, &[2, 3], (0..6).map(f64::from)).unwrap();
         assert_eq!(shape(&file[..]).unwrap(), [2, 3]);

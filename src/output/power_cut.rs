@@ -1,7 +1,8 @@
 //! A power cut at any moment leaves what a kill leaves: whatever had come to the disk by then is laid out again, and the next
 //! run goes on with it.
 
-use super::journal::{Image, Journal, lay};
+use super::image::{Image, lay};
+use super::journal::Journal;
 use super::layout::names;
 use super::*;
 use crate::case::{Case, Source};

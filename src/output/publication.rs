@@ -106,7 +106,8 @@ fn sync_folders<'a>(folder: &Path, names: impl Iterator<Item = &'a str>) -> Resu
 
 #[cfg(test)]
 mod tests {
-    use super::super::journal::{Image, Journal, lay};
+    use super::super::image::{Image, lay};
+    use super::super::journal::Journal;
     use super::super::layout::names;
     use super::super::{RunFolder, Scope, write_text};
     use super::*;
@@ -262,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn what_somebody_puts_beside_a_result_that_is_gathered_is_neither_published_nor_lost() {
+    fn foreign_files_in_a_staging_folder_are_neither_published_nor_lost() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
         let foreign = |staging: &Path| {

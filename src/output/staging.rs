@@ -8,7 +8,8 @@
 use super::disk::{self, found};
 use super::files::is_inside;
 use super::layout::{COARSER, COMBINATIONS, DECIDED, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
-use super::{At, OutputError, checkpoint, steps_log};
+use super::{At, OutputError, checkpoint, steps_log, write_text};
+use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs::{self, Metadata};
 use std::io::{self, Write};
@@ -100,23 +101,39 @@ impl Entry {
 /// Makes a staging folder for files of the `planned` names.
 pub(super) fn create(staging: &Path, planned: &[String]) -> Result<(), OutputError> {
     disk::create_folder(staging).at(staging)?;
-    let (mark, version) = (staging.join(MARK), env!("CARGO_PKG_VERSION"));
-    let names = serde_json::to_string(planned).expect("names are texts");
+    let mark = staging.join(MARK);
     let mut file = disk::create(&mark).at(&mark)?;
-    writeln!(file, "A run of percoat {version} that is not finished.\n{names}").at(&mark)?;
-    disk::sync(&file, &mark).at(&mark)?;
+    file.write_all(marking(planned).as_bytes()).and_then(|()| disk::sync(&file, &mark)).at(&mark)?;
     // The mark is on the disk before anything that it makes percoat's.
     disk::sync_folder(staging).at(staging)?;
     staging.parent().map_or(Ok(()), disk::sync_folder).at(staging)
 }
 
+/// Adds names to those that are planned in a staging folder.
+pub(super) fn plan_more(staging: &Path, names: &[String]) -> Result<(), OutputError> {
+    let planned = planned(staging);
+    let known: BTreeSet<&String> = planned.iter().collect();
+    let more: Vec<String> = names.iter().filter(|name| !known.contains(name)).cloned().collect();
+    if more.is_empty() { Ok(()) } else { write_text(&staging.join(MARK), &marking(&[planned, more].concat())) }
+}
+
+/// The content of a mark.
+fn marking(planned: &[String]) -> String {
+    let names = serde_json::to_string(planned).expect("names are texts");
+    format!("A run of percoat {} that is not finished.\n{names}\n", env!("CARGO_PKG_VERSION"))
+}
+
+/// The names in the mark of a staging folder.
+fn planned(staging: &Path) -> Vec<String> {
+    let text = disk::read_text(&staging.join(MARK)).unwrap_or_default();
+    let names = text.split_once('\n').and_then(|(_, names)| serde_json::from_str::<Vec<String>>(names).ok());
+    names.unwrap_or_default().into_iter().filter(|name| is_inside(name)).collect()
+}
+
 /// What stands in a staging folder, the content of a folder before itself; folders of users are not entered. In a folder
 /// without a mark nothing is percoat's.
 pub(super) fn entries(staging: &Path) -> Result<Vec<Entry>, OutputError> {
-    let text = disk::read_text(&staging.join(MARK)).unwrap_or_default();
-    let names = text.split_once('\n').and_then(|(_, names)| serde_json::from_str::<Vec<String>>(names).ok());
-    let planned: Vec<String> = names.unwrap_or_default().into_iter().filter(|name| is_inside(name)).collect();
-    let is_marked = is_staging(staging);
+    let (planned, is_marked) = (planned(staging), is_staging(staging));
     let planned = |path: &Path| {
         let name = planned.iter().map(Path::new).find(|name| name.starts_with(path))?;
         Some(if name == path { Item::File } else { Item::Folder })
