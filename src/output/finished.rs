@@ -7,6 +7,7 @@
 use super::checkpoint::{self, RunPosition};
 use super::disk;
 use super::layout::COARSER;
+use super::log::whole_lines;
 use super::steps_log::{self, Logged, logged};
 use super::unpack::unpack;
 use crate::plain;
@@ -113,7 +114,7 @@ impl Log<'_> {
     /// The first `count` steps of at most so many.
     fn steps(&self, count: usize, most: usize) -> Result<Vec<Logged>, CannotGoOn> {
         let damaged = |reason: String| CannotGoOn::Damaged { path: self.path.to_owned(), reason };
-        let lines = match steps_log::whole_lines(self.path) {
+        let lines = match whole_lines(self.path) {
             // Before the second step there is none.
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             lines => lines.map_err(|error| damaged(error.to_string()))?,

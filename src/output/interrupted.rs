@@ -1,6 +1,7 @@
 //! An interrupted run: what a kill or a power cut has left in its staging folder, and the steps that a finer grid leaves behind.
 
 use super::layout::{COARSER, SWEEP_LOG, is_staging, names, staging};
+use super::log::{cut, has_whole_line};
 use super::staging::{Item, entries, remove_own, set_aside};
 use super::writer::Writer;
 use super::{At, OutputError, checkpoint, disk, steps_log};
@@ -37,7 +38,7 @@ pub(super) fn has_finished(staging: &Path) -> bool {
 /// Whether steps have been finished on one grid: its log has a whole line. A summary counts too: earlier versions of percoat
 /// wrote it after every step, and no log.
 pub(super) fn has_steps(folder: &Path) -> bool {
-    [steps_log::NAME, SWEEP_LOG].iter().any(|name| steps_log::has_whole_line(&folder.join(name)))
+    [steps_log::NAME, SWEEP_LOG].iter().any(|name| has_whole_line(&folder.join(name)))
         || disk::is_file(&folder.join("summary.json"))
 }
 
@@ -52,7 +53,7 @@ pub(super) fn settle(staging: &Path) -> Result<(), OutputError> {
         let path = staging.join(&entry.path);
         disk::remove(&path).at(&path)?;
     }
-    [log, coarser_log, staging.join(SWEEP_LOG)].iter().try_for_each(|log| steps_log::cut(log))
+    [log, coarser_log, staging.join(SWEEP_LOG)].iter().try_for_each(|log| cut(log))
 }
 
 /// Removes the fields of a grid on which no step was finished. Returns where files of a user are now that stood there.
