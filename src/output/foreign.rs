@@ -6,7 +6,7 @@ use super::files::Files;
 use super::folder_error::FolderError;
 use super::layout::{LIST, OWN, RETIRED, is_staging, names, staging};
 use super::plan::Plan;
-use super::staging::{Entry, entries};
+use super::staging::{Entry, Item, entries};
 use super::writer::Writer;
 use super::{At, lock, manifest};
 use std::fs::Metadata;
@@ -39,7 +39,7 @@ pub(super) fn refuse_in_own_places(folder: &Path, writer: Writer) -> Result<(), 
 pub(super) fn refuse_in_staging(staging: &Path) -> Result<(), FolderError> {
     for Entry { path, there, item } in entries(staging)? {
         if let Some(item) = item {
-            expect(&staging.join(path), &there, item.is_folder())?;
+            expect(&staging.join(path), &there, item == Item::Folder)?;
         }
     }
     Ok(())

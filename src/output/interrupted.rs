@@ -1,8 +1,8 @@
 //! An interrupted run: what a kill or a power cut has left in its staging folder, and the steps that a finer grid leaves behind.
 
-use super::layout::{COARSER, SWEEP_LOG, is_staging, names, staging};
+use super::layout::{COARSER, MARK, SWEEP_LOG, is_staging, staging};
 use super::log::{cut, has_whole_line};
-use super::staging::{Item, entries, remove_own, set_aside};
+use super::staging::{Entry, entries, remove_or_set_aside, remove_own};
 use super::writer::Writer;
 use super::{At, OutputError, checkpoint, disk, steps_log};
 use std::path::{Path, PathBuf};
@@ -82,25 +82,23 @@ pub(super) fn move_to_coarser(staging: &Path, output: &Path) -> Result<Option<Pa
     Ok(aside)
 }
 
-/// Removes a folder in a staging folder. Returns where it is now if a user has put something into it.
-fn remove_or_set_aside(staging: &Path, name: &str, output: &Path) -> Result<Option<PathBuf>, OutputError> {
-    if remove_own(staging, name)? { Ok(None) } else { set_aside(&staging.join(name), output).map(Some) }
-}
-
 /// Moves the steps of a grid to `coarser/`, the log as the last: what it lists is there when it comes.
 fn move_steps(staging: &Path) -> Result<(), OutputError> {
     let coarser = staging.join(COARSER);
     let settled = || disk::sync_folder(&coarser).and_then(|()| disk::sync_folder(staging)).at(&coarser);
-    for name in names(staging)? {
-        let (path, to) = (staging.join(&name), coarser.join(&name));
-        match Item::at(Path::new(&name)) {
-            Some(Item::StepFile) => disk::replace(&path, &to).at(&path)?,
-            Some(Item::StepFolder) => {
-                // The rest of the grid before.
-                remove_own(staging, &format!("{COARSER}/{name}"))?;
-                disk::move_to(&path, &to).at(&path)?;
-            }
-            _ => {}
+    let stays = [MARK, checkpoint::NAME, steps_log::NAME, COARSER].map(Path::new);
+    let moves = |entry: &&Entry| {
+        let is_at_top = entry.path.iter().count() == 1 && !stays.contains(&entry.path.as_path());
+        is_at_top && entry.is_own() && !entry.is_temporary()
+    };
+    for Entry { path: name, there, .. } in entries(staging)?.iter().filter(moves) {
+        let (path, to) = (staging.join(name), coarser.join(name));
+        if there.is_file() {
+            disk::replace(&path, &to).at(&path)?;
+        } else {
+            // The rest of the grid before.
+            remove_own(staging, &format!("{COARSER}/{}", name.display()))?;
+            disk::move_to(&path, &to).at(&path)?;
         }
     }
     settled()?;
@@ -111,7 +109,7 @@ fn move_steps(staging: &Path) -> Result<(), OutputError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::{MARK, OWN};
+    use super::super::layout::{OWN, names};
     use super::super::{Plan, RunFolder, Writer, make_folder, write_text};
     use super::*;
     use std::fs;

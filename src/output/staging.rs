@@ -18,47 +18,31 @@ use std::path::{Path, PathBuf};
 /// What percoat keeps under a name in a staging folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Item {
-    /// A file of the whole run, or of a combination.
     File,
-    /// A folder that other items stand in.
     Folder,
-    /// A file of the steps on one grid.
-    StepFile,
-    /// A folder with the arrays of the steps on one grid.
-    StepFolder,
 }
 
-impl Item {
-    pub(super) fn is_folder(self) -> bool {
-        matches!(self, Self::Folder | Self::StepFolder)
-    }
-
-    /// What percoat keeps under a path relative to a staging folder; `None`: nothing, the path is a user's.
-    pub(super) fn at(path: &Path) -> Option<Self> {
-        let parts: Option<Vec<&str>> = path.iter().map(OsStr::to_str).collect();
-        match parts?[..] {
-            [MARK | DECIDED] => Some(Self::File),
-            [COARSER, ref rest @ ..] if !rest.is_empty() => Self::of_steps(rest),
-            [COMBINATIONS, number] => is_number(number).then_some(Self::Folder),
-            [COMBINATIONS, number, ref rest @ ..] if is_number(number) => Self::of_steps(rest),
-            ref parts => Self::of_steps(parts),
+/// What percoat keeps under a path relative to a staging folder, by the parts of the path; `None`: nothing, the path is a user's.
+fn item(parts: &[&str]) -> Option<Item> {
+    match *parts {
+        // A combination is solved in an output folder of its own.
+        [COMBINATIONS, _, MARK, ..] => None,
+        [COMBINATIONS, number, ref rest @ ..] if is_number(number) && !rest.is_empty() => item(rest),
+        [COARSER, ref rest @ ..] if !rest.is_empty() => item(rest),
+        [COMBINATIONS, name] => is_number(name).then_some(Item::Folder),
+        [COARSER | COMBINATIONS | "contact.partial" | "stress.partial"] => Some(Item::Folder),
+        [MARK | DECIDED | checkpoint::NAME | steps_log::NAME | SWEEP_LOG | "sweep.csv" | "sweep.json"] => {
+            Some(Item::File)
         }
-    }
-
-    /// What percoat keeps beside the steps of one grid.
-    fn of_steps(parts: &[&str]) -> Option<Self> {
-        match *parts {
-            ["case.toml" | "summary.json" | "curve.csv" | "histograms.csv" | "contact.npz" | "stress.npz"] => {
-                Some(Self::StepFile)
-            }
-            ["contact.partial" | "stress.partial"] => Some(Self::StepFolder),
-            [steps_log::NAME | checkpoint::NAME | SWEEP_LOG | "sweep.csv" | "sweep.json"] => Some(Self::File),
-            [COARSER | COMBINATIONS] => Some(Self::Folder),
-            [name] | ["contact.partial" | "stress.partial", name] if is_temporary(name) => Some(Self::File),
-            [name] if name.starts_with("stress.") && name.ends_with(".vts") => Some(Self::StepFile),
-            ["contact.partial" | "stress.partial", name] if name.ends_with(".npy") => Some(Self::File),
-            _ => None,
+        ["case.toml" | "summary.json" | "curve.csv" | "histograms.csv" | "contact.npz" | "stress.npz"] => {
+            Some(Item::File)
         }
+        [name] if name.starts_with("stress.") && name.ends_with(".vts") => Some(Item::File),
+        [name] => is_temporary(name).then_some(Item::File),
+        ["contact.partial" | "stress.partial", name] => {
+            (name.ends_with(".npy") || is_temporary(name)).then_some(Item::File)
+        }
+        _ => None,
     }
 }
 
@@ -81,6 +65,7 @@ fn is_temporary(name: &str) -> bool {
 pub(super) struct Entry {
     /// Its path relative to the staging folder.
     pub(super) path: PathBuf,
+    /// What stands there, links not followed.
     pub(super) there: Metadata,
     /// What percoat keeps under that path.
     pub(super) item: Option<Item>,
@@ -94,7 +79,7 @@ impl Entry {
 
     /// Whether it is percoat's: a file or a folder itself, where percoat keeps one.
     pub(super) fn is_own(&self) -> bool {
-        self.item.is_some_and(|item| if item.is_folder() { self.there.is_dir() } else { self.there.is_file() })
+        self.item.is_some_and(|item| if item == Item::Folder { self.there.is_dir() } else { self.there.is_file() })
     }
 }
 
@@ -138,7 +123,10 @@ pub(super) fn entries(staging: &Path) -> Result<Vec<Entry>, OutputError> {
         let name = planned.iter().map(Path::new).find(|name| name.starts_with(path))?;
         Some(if name == path { Item::File } else { Item::Folder })
     };
-    let item = |path: &Path| Item::at(path).or_else(|| planned(path)).filter(|_| is_marked);
+    let item = |path: &Path| {
+        let parts: Option<Vec<&str>> = path.iter().map(OsStr::to_str).collect();
+        item(&parts.filter(|_| is_marked)?).or_else(|| planned(path))
+    };
     let mut entries = Vec::new();
     if disk::is_folder(staging) {
         walk(staging, Path::new(""), &item, &mut entries).at(staging)?;
@@ -159,8 +147,8 @@ fn walk(root: &Path, below: &Path, item: &dyn Fn(&Path) -> Option<Item>, entries
     Ok(())
 }
 
-/// Removes what percoat keeps in a staging folder at a path and below it (empty: all but the mark). Returns whether
-/// nothing of a user is left there.
+/// Removes what percoat keeps in a staging folder at a path and below it (empty: all of it). Returns whether nothing of a
+/// user is left there, and the folder is gone.
 pub(super) fn remove_own(staging: &Path, within: &str) -> Result<bool, OutputError> {
     let mut is_gone = true;
     let is_within = |entry: &&Entry| entry.path.starts_with(within) && entry.path != Path::new(MARK);
@@ -177,10 +165,23 @@ pub(super) fn remove_own(staging: &Path, within: &str) -> Result<bool, OutputErr
             }
         }
     }
+    if is_gone && within.is_empty() {
+        // The mark goes last, so that a folder that is removed halfway stays percoat's.
+        if is_staging(staging) {
+            disk::sync_folder(staging).and_then(|()| disk::remove(&staging.join(MARK))).at(staging)?;
+        }
+        disk::remove_folder(staging).at(staging)?;
+    }
     Ok(is_gone)
 }
 
-/// Removes a staging folder. Returns where it is now if a user has put something into it.
+/// Removes what percoat keeps in a staging folder at a path and below it. Returns where it is now if a user has put something
+/// into it.
+pub(super) fn remove_or_set_aside(staging: &Path, within: &str, output: &Path) -> Result<Option<PathBuf>, OutputError> {
+    if remove_own(staging, within)? { Ok(None) } else { set_aside(&staging.join(within), output).map(Some) }
+}
+
+/// Removes a staging folder, in one move. Returns where it is now if a user has put something into it.
 pub(super) fn discard(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
     disk::move_to(staging, &output.join(RETIRED)).at(staging)?;
     // A decision that goes ahead of its folder would leave a result which seems undecided.
@@ -188,22 +189,10 @@ pub(super) fn discard(staging: &Path, output: &Path) -> Result<Option<PathBuf>, 
     remove_retired(output)
 }
 
-/// Removes what is percoat's of a staging folder that is being removed. Returns where it is now if a user has put something
-/// into it.
+/// Ends the removal of a staging folder.
 pub(super) fn remove_retired(output: &Path) -> Result<Option<PathBuf>, OutputError> {
-    let (retired, mark) = (output.join(RETIRED), output.join(RETIRED).join(MARK));
-    if !disk::is_folder(&retired) {
-        return Ok(None);
-    }
-    if !remove_own(&retired, "")? {
-        return set_aside(&retired, output).map(Some);
-    }
-    // The mark goes last, so that a folder that is removed halfway stays percoat's.
-    if disk::is_file(&mark) {
-        disk::sync_folder(&retired).and_then(|()| disk::remove(&mark)).at(&mark)?;
-    }
-    disk::remove_folder(&retired).at(&retired)?;
-    Ok(None)
+    let retired = output.join(RETIRED);
+    if disk::is_folder(&retired) { remove_or_set_aside(&retired, "", output) } else { Ok(None) }
 }
 
 /// Moves a folder to `interrupted-1/` in the output folder, or the next free number: where it is now.
