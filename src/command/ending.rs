@@ -14,9 +14,9 @@ use std::path::PathBuf;
 /// How a command that did its work ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// As it should.
+    /// All of it is done.
     Done,
-    /// A check of the validation fails.
+    /// A study of the validation fails.
     #[cfg(feature = "validate")]
     Failed,
     /// Everything computed is written and marked.
@@ -29,7 +29,7 @@ impl Ending {
         if converged { Self::Done } else { Self::NotConverged }
     }
 
-    /// What the shell is told.
+    /// Exit code of the process.
     pub fn code(self) -> u8 {
         match self {
             Self::Done => 0,
@@ -46,7 +46,7 @@ pub enum Failure {
     /// The case is refused.
     #[error("{}", .0.render(terminal::coloured()).trim_end())]
     Case(#[from] CaseError),
-    /// The command line, or what it asks for, is refused.
+    /// The command line, or the work that it describes, is refused.
     #[error("{0}")]
     Refused(String),
     /// A file cannot be read.
@@ -86,7 +86,7 @@ impl From<FolderError> for Failure {
 impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failure {
     fn from(error: RunError<E>) -> Self {
         match error {
-            // Its own words say more than that the run cannot be recorded.
+            // The recorder's error says more than that the run cannot be recorded.
             RunError::Recorder(error) => error.into(),
             refused => Self::refused(refused),
         }
@@ -114,16 +114,16 @@ impl Failure {
         Self::Refused(reason.to_string())
     }
 
-    /// Says why, on standard error.
+    /// Prints the reason on standard error.
     pub fn tell(&self) {
         match self {
-            // Its colours are percoat's own, its texts are plain.
+            // Control sequences of a case's text are removed where it is rendered; the colours are percoat's.
             Self::Case(_) => terminal::print_line(&self.to_string()),
             _ => tell!("error: {}", plain::line(&self.to_string())),
         }
     }
 
-    /// What the shell is told.
+    /// Exit code of the process.
     pub fn code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Refused(_) => 2,

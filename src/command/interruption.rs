@@ -1,7 +1,7 @@
 //! Ctrl-C, SIGTERM, a hang-up and the end of the time allowed (`ulimit -t`): the command ends at once and says what it has saved.
 
 use super::terminal::{self, tell};
-use crate::output::{OutputError, RunFolder};
+use crate::output::{self, OutputError, RunFolder};
 use crate::plain;
 use std::fmt;
 use std::io::IsTerminal;
@@ -9,30 +9,30 @@ use std::path::{Path, PathBuf};
 use std::process::exit;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What a shell calls the end of a program by Ctrl-C.
+/// Exit code of a program that Ctrl-C ends, as shells have it.
 const INTERRUPTED: i32 = 130;
 
 static SAVED: Mutex<Saved> = Mutex::new(Saved::Nothing);
 
-/// What stands on disk.
+/// What of the command's result is on the disk.
 #[derive(Debug)]
 pub enum Saved {
-    /// Nothing that a run would have written.
+    /// Nothing.
     Nothing,
     /// Load steps of an unfinished run.
     Steps { done: usize, of: usize, folder: PathBuf },
     /// Combinations of an unfinished sweep.
     Combinations { done: usize, of: usize, folder: PathBuf },
-    /// All of it.
+    /// The whole result.
     Result(PathBuf),
 }
 
 impl Saved {
-    /// Whether anything of the run is on disk.
+    /// Whether any of it is on the disk.
     fn anything(&self) -> bool {
         match self {
             Self::Nothing => false,
-            Self::Steps { folder, .. } => RunFolder::has_begun(folder),
+            Self::Steps { folder, .. } => output::has_begun(folder),
             Self::Combinations { done, .. } => *done > 0,
             Self::Result(_) => true,
         }
@@ -47,7 +47,7 @@ impl fmt::Display for Saved {
             }
             Self::Steps { done, of, folder } => {
                 write!(f, "{done} of {of} steps saved in {}", plain::path(folder))?;
-                if let Some(path) = RunFolder::coarser(folder) {
+                if let Some(path) = output::coarser(folder) {
                     write!(f, ", all of them on a coarser grid in {}", plain::path(&path))?;
                 }
                 f.write_str("; the same command with --resume goes on from there")
@@ -66,10 +66,10 @@ impl fmt::Display for Saved {
     }
 }
 
-/// From now on a signal to end is answered with what is saved. A signal that is ignored, as under nohup or behind `&` in
-/// a script, stays so, see [`watched`].
+/// From now on a signal to end prints what is saved, and ends the process. A signal that is ignored, as under nohup or behind
+/// `&` in a script, stays so, see [`watched`].
 pub fn watch() {
-    // A command that cannot watch ends as any other program does.
+    // Without this the signal ends the process at once, as it does any other program.
     #[cfg(unix)]
     if let Ok(mut signals) = signal_hook::iterator::Signals::new(watched()) {
         let handle = signals.handle();
@@ -89,7 +89,8 @@ pub fn outlive_large_files() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
-/// Signals to end that are not ignored. Where the system does not tell which are, a hang-up alone is taken for ignored.
+/// Numbers of the signals to end that are not ignored. Where the system does not say which are, a hang-up alone is taken for
+/// ignored.
 #[cfg(unix)]
 fn watched() -> Vec<i32> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
@@ -111,12 +112,12 @@ fn answer() {
     exit(INTERRUPTED);
 }
 
-/// What is saved; a signal waits as long as it is held.
+/// The record of what is saved; a signal is answered when the guard is dropped.
 pub fn hold() -> MutexGuard<'static, Saved> {
     SAVED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Puts a result into its `folder`, in the place of the one before; a signal waits until it is there.
+/// Publishes a result in its `folder`, in the place of the one before; a signal is answered afterwards.
 pub fn publish(claim: RunFolder, folder: &Path, quiet: bool) -> Result<(), OutputError> {
     let mut saved = hold();
     let aside = claim.publish()?;
@@ -126,7 +127,7 @@ pub fn publish(claim: RunFolder, folder: &Path, quiet: bool) -> Result<(), Outpu
     Ok(())
 }
 
-/// Says what is saved of a run that fails.
+/// Prints what is saved of a run that fails, if anything is.
 pub fn tell_saved() {
     let saved = hold();
     if saved.anything() {

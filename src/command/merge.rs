@@ -6,7 +6,7 @@ use super::options::Saying;
 use super::pictures::PictureOptions;
 use super::sweep;
 use super::terminal::{self, tell};
-use crate::output::{RunFolder, SWEEP_LOG, disk, unlike_published};
+use crate::output::{RunFolder, SWEEP_LOG, damaged_results, disk};
 use crate::plain;
 use crate::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ pub fn run(
     let parts: Vec<Vec<Part>> = folders.iter().map(|folder| parts(folder)).collect::<Result<_, _>>()?;
     let first = parts[0][0].description.clone();
     for (own, folder) in parts.iter().zip(folders) {
-        if let Some(key) = own.iter().find_map(|own| unlike(&own.description, &first)) {
+        if let Some(key) = own.iter().find_map(|own| difference(&own.description, &first)) {
             return Err(Failure::refused(format!(
                 "{} and {} are not parts of one sweep: `{key}` in their sweep.json differs",
                 plain::path(&folders[0]),
@@ -65,8 +65,8 @@ pub fn run(
     Ok(sweep::ending(&rows))
 }
 
-/// What a part says otherwise of the whole sweep than another: the key.
-fn unlike(own: &Description, other: &Description) -> Option<&'static str> {
+/// The first key of `sweep.json` that describes the whole sweep and differs between two parts.
+fn difference(own: &Description, other: &Description) -> Option<&'static str> {
     let [own, other] = [own, other].map(|it| {
         let of = it.of.to_string();
         [
@@ -81,7 +81,7 @@ fn unlike(own: &Description, other: &Description) -> Option<&'static str> {
     own.iter().zip(&other).find(|(own, other)| own != other).map(|((key, _), _)| *key)
 }
 
-/// What a folder holds of a sweep: a finished part, an unfinished one, or both of one.
+/// The parts of a sweep in a folder: a finished one, an unfinished one, or both of the same sweep.
 fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
     let unfinished = folder.join(UNFINISHED);
     if let (Some((name, reason)), true) = (damaged(folder), disk::is_file(&folder.join("sweep.json"))) {
@@ -113,12 +113,12 @@ fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
     }
 }
 
-/// A file of a finished part that is not as percoat wrote it there.
+/// Name and damage of a file of a finished part that is not as percoat wrote it there.
 fn damaged(folder: &Path) -> Option<(String, String)> {
-    unlike_published(folder).into_iter().find(|(name, _)| ["sweep.json", SWEEP_LOG].contains(&name.as_str()))
+    damaged_results(folder).into_iter().find(|(name, _)| ["sweep.json", SWEEP_LOG].contains(&name.as_str()))
 }
 
-/// The folder in which all parts stand.
+/// The folder that holds the folders of all parts.
 fn common_parent(folders: &[PathBuf]) -> Result<PathBuf, Failure> {
     let parents: Vec<Option<&Path>> = folders.iter().map(|folder| folder.parent()).collect();
     match parents[0] {
@@ -130,12 +130,11 @@ fn common_parent(folders: &[PathBuf]) -> Result<PathBuf, Failure> {
     }
 }
 
-/// The numbers of combinations that are not there, the first some.
+/// The numbers of missing combinations, the first twelve of them.
 fn missing(rows: &[Row], of: usize) -> String {
-    /// Numbers told.
-    const TOLD: usize = 12;
+    const LISTED: usize = 12;
     let there: std::collections::BTreeSet<usize> = rows.iter().map(|row| row.combination).collect();
     let missing: Vec<String> = (1..=of).filter(|number| !there.contains(number)).map(|n| n.to_string()).collect();
-    let more = if missing.len() > TOLD { ", …" } else { "" };
-    missing[..missing.len().min(TOLD)].join(", ") + more
+    let more = if missing.len() > LISTED { ", …" } else { "" };
+    missing[..missing.len().min(LISTED)].join(", ") + more
 }

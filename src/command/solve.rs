@@ -14,8 +14,8 @@ use super::terminal::{self, tell};
 use crate::case::resources::Job;
 use crate::case::{Case, Room, plausibility};
 use crate::output::{
-    self, CannotGoOn, Clock, Plan, Recording, RunFolder, Summary, disk, is_beside, solved_plan, table,
-    unlike_published, write_scalars,
+    self, CannotGoOn, Clock, Plan, Recording, RunFolder, Summary, damaged_results, disk, is_beside, solved_plan, table,
+    write_scalars,
 };
 use crate::picture::Snapshot;
 use crate::plain;
@@ -50,7 +50,7 @@ pub fn run(
     let steps = run.loads.len();
     // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
     // takes over that load.
-    let resumes = options.resume || RunFolder::has_solved_alone(&folder);
+    let resumes = options.resume || output::has_solved_alone(&folder);
     let room = room(&folder, resumes);
     let allowed = Allowed::within(&case, room, Job::Solve { pictures: pictures.wanted(), fields })?;
     run.check()?;
@@ -63,7 +63,7 @@ pub fn run(
         && !was_begun
         && let Some((ending, summary)) = finished(&case, &folder, steps, fields)
     {
-        results.claim.leave()?;
+        results.claim.abandon()?;
         if !common.quiet {
             tell!("note: {} is finished; leave --resume out to solve it again", plain::path(&folder));
         }
@@ -96,7 +96,7 @@ pub fn run(
 /// Memory and disk of this machine for a run into a folder. Files of an earlier run that is resumed take no room again.
 fn room(folder: &Path, resumes: bool) -> Room {
     let room = Room::on_this_machine(folder);
-    if resumes { Room { disk: room.disk.saturating_add(RunFolder::gathered(folder)), ..room } } else { room }
+    if resumes { Room { disk: room.disk.saturating_add(output::staged_bytes(folder)), ..room } } else { room }
 }
 
 /// Draws the pictures of the last step, and of the steps before it.
@@ -177,7 +177,7 @@ fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(E
         return None;
     }
     let planned = solved_plan(case, steps, fields).names;
-    let unlike = unlike_published(folder);
+    let unlike = damaged_results(folder);
     if let Some((name, reason)) = unlike.iter().find(|(name, _)| planned.contains(name)) {
         tell!("warning: {} {reason}; all steps are solved again", plain::path(&folder.join(name)));
         return None;

@@ -8,7 +8,7 @@ use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder, write_tex
 use crate::picture::Format;
 use crate::plain;
 use crate::validation::paper::table;
-use crate::validation::{self, Report, STUDIES, Study, differences};
+use crate::validation::{self, Outcome, Report, STUDIES, Study, differences};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -17,13 +17,7 @@ use std::time::Instant;
 const PAGE: &str = "paper/README.md";
 
 pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Result<Ending, Failure> {
-    let studies: Vec<&'static Study> = match name {
-        Some(name) => validation::named(name),
-        None => STUDIES.iter().collect(),
-    };
-    if let (Some(name), true) = (name, studies.is_empty()) {
-        return Err(unknown(name));
-    }
+    let studies = chosen(name)?;
     let expected = expected
         .map(|path| std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error }));
     let expected = expected.transpose()?;
@@ -34,41 +28,19 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     interruption::watch();
     let mut claim = RunFolder::claim(&folder, may_write(&folder, &path, within, &studies))?;
     // Without a study of the paper that comes to its end there is no new page.
-    claim.keeps(PAGE.to_owned());
+    claim.keep(PAGE.to_owned());
     terminal::tell_aside(claim.set_aside(), options.quiet);
-    let progress = !options.quiet && !options.verbose && terminal::moves();
     let started = Instant::now();
-    let mut report = Report::default();
-    let mut outcomes = Vec::new();
-    for (number, study) in (1..).zip(&studies) {
-        let started = Instant::now();
-        if progress {
-            terminal::clear_line();
-            let _ = write!(std::io::stderr(), "study {number} of {}: {}", studies.len(), study.name);
-        }
-        let result = (study.run)();
-        if options.verbose {
-            tell!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
-        }
-        match &result {
-            Ok(outcome) => outcomes.push((study.name, outcome.clone())),
-            // What it has shown before stays.
-            Err(_) => claim.keeps(format!("{}/", study.name)),
-        }
-        report.add(study, result);
-    }
-    if progress {
-        terminal::clear_line();
-    }
+    let (report, outcomes) = carry_out(&studies, &mut claim, options);
     let markdown = report.markdown();
     let statements = report.statements();
-    let result = Gathered(claim.staging());
-    result.text(&path, &markdown)?;
+    let staged = Staged(claim.staging());
+    staged.text(&path, &markdown)?;
     for (study, outcome) in &outcomes {
-        result.study(study, outcome)?;
+        staged.study(study, outcome)?;
     }
     if !statements.is_empty() {
-        result.text(PAGE, &table::renewed(&statements))?;
+        staged.text(PAGE, &table::renewed(&statements))?;
     }
     interruption::publish(claim, &folder, options.quiet)?;
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
@@ -86,25 +58,59 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     Ok(if report.holds() && as_expected { Ending::Done } else { Ending::Failed })
 }
 
-/// What there is to run.
-pub fn list(name: Option<&str>) -> Result<Ending, Failure> {
-    let studies: Vec<&Study> = name.map_or_else(|| STUDIES.iter().collect(), validation::named);
-    if let (Some(name), true) = (name, studies.is_empty()) {
-        return Err(unknown(name));
+/// Runs the studies one after another: their report, and the outcome of each that came to its end. What a study that failed has
+/// shown before stays in the folder.
+fn carry_out(
+    studies: &[&'static Study],
+    claim: &mut RunFolder,
+    options: &Studies,
+) -> (Report, Vec<(&'static str, Outcome)>) {
+    let progress = !options.quiet && !options.verbose && terminal::moves();
+    let (mut report, mut outcomes) = (Report::default(), Vec::new());
+    for (number, study) in (1..).zip(studies) {
+        let started = Instant::now();
+        if progress {
+            terminal::clear_line();
+            let _ = write!(std::io::stderr(), "study {number} of {}: {}", studies.len(), study.name);
+        }
+        let result = (study.run)();
+        if options.verbose {
+            tell!("{}: {:.1} s", study.name, started.elapsed().as_secs_f64());
+        }
+        match &result {
+            Ok(outcome) => outcomes.push((study.name, outcome.clone())),
+            Err(_) => claim.keep(format!("{}/", study.name)),
+        }
+        report.add(study, result);
     }
+    if progress {
+        terminal::clear_line();
+    }
+    (report, outcomes)
+}
+
+/// Prints the studies that there are: all, or those of a name.
+pub fn list(name: Option<&str>) -> Result<Ending, Failure> {
     let mut out = terminal::out();
-    for study in studies {
+    for study in chosen(name)? {
         writeln!(out, "{:<18} {}", study.name, study.title)?;
     }
     Ok(Ending::Done)
 }
 
-fn unknown(name: &str) -> Failure {
-    let names: Vec<&str> = STUDIES.iter().map(|study| study.name).collect();
-    Failure::Refused(format!("there is no study {name}; there are {}", names.join(", ")))
+/// The studies of a name, or all of them.
+fn chosen(name: Option<&str>) -> Result<Vec<&'static Study>, Failure> {
+    let studies = name.map_or_else(|| STUDIES.iter().collect(), validation::named);
+    match name {
+        Some(name) if studies.is_empty() => {
+            let names: Vec<&str> = STUDIES.iter().map(|study| study.name).collect();
+            Err(Failure::Refused(format!("there is no study {name}; there are {}", names.join(", "))))
+        }
+        _ => Ok(studies),
+    }
 }
 
-/// What the studies may write, known before they are run.
+/// The files that the studies may write, before they are run.
 fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) -> Plan {
     let mut names = vec![report.to_owned()];
     let of_study = |study: &&Study| study.files.iter().map(|file| format!("{}/{file}", study.name)).collect::<Vec<_>>();
@@ -112,17 +118,17 @@ fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) ->
     let mut adopted = Vec::new();
     if studies.iter().any(|study| study.name.starts_with("paper/")) {
         names.push(PAGE.to_owned());
-        // Who edits the text around the table builds the page into the program before the table is renewed.
+        // The page with an edited text around the table is built into the program before the table is renewed.
         let page = disk::read_text(&folder.join(PAGE)).unwrap_or_default();
         adopted.extend(table::is_around(&page).then(|| PAGE.to_owned()));
     }
     Plan { names, adopted, scope: Scope { within, except: Vec::new() }, ..Plan::new(Writer::Validate) }
 }
 
-/// Files of a result where it is gathered.
-struct Gathered(PathBuf);
+/// The staging folder of the result.
+struct Staged(PathBuf);
 
-impl Gathered {
+impl Staged {
     fn text(&self, name: &str, text: &str) -> Result<(), Failure> {
         let path = self.0.join(name);
         make_folder(path.parent().unwrap_or(&self.0))?;
@@ -130,7 +136,7 @@ impl Gathered {
     }
 
     /// The figures and data of a study.
-    fn study(&self, study: &str, outcome: &validation::Outcome) -> Result<(), Failure> {
+    fn study(&self, study: &str, outcome: &Outcome) -> Result<(), Failure> {
         let folder = self.0.join(study);
         make_folder(&folder)?;
         for (name, figure) in &outcome.figures {

@@ -1,7 +1,7 @@
-//! `checkpoint.npz`: what the solver knew after the last load of an unfinished run that is saved, and where in the run that was.
+//! `checkpoint.npz`: the state of the solver after the last saved load of an unfinished run, and the position in the run.
 //!
-//! It is replaced by the next one at once, and comes before what is read off its step. Writing them takes a small part of
-//! the time of a run with several loads; what is solved in between is solved again by the run that goes on.
+//! It is replaced by the next one at once, and is written before the readings of its step. Writing checkpoints takes a small
+//! part of the time of a run with several loads; what is solved between two is solved again by the run that goes on.
 
 use super::npy::vector;
 use super::npz::Archive;
@@ -18,15 +18,15 @@ use zip::ZipArchive;
 
 /// Name of the file.
 pub(super) const NAME: &str = "checkpoint.npz";
-/// Entry of the archive that says where it was.
-const PLACE: &str = "place.json";
-/// What is solved between two checkpoints takes so many times the time of writing one, at least.
+/// Entry of the archive with the position in the run.
+const POSITION: &str = "place.json";
+/// Least time between two checkpoints, as a multiple of the time of writing one.
 const SHARE: u32 = 20;
 
-/// Where a run was.
+/// The position of a checkpoint in its run.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Place {
-    /// Of what decides about the result.
+pub(super) struct RunPosition {
+    /// [Fingerprint](super::fingerprint) of the run.
     pub(super) fingerprint: String,
     /// The grid.
     pub(super) points: [usize; 2],
@@ -34,12 +34,12 @@ pub(super) struct Place {
     pub(super) refined: bool,
     /// Number of loads solved on it.
     pub(super) steps: usize,
-    /// What the solver says of the last, if there is one.
-    solved: Option<Solved>,
+    /// The report of the last one, if there is one.
+    solved: Option<SolvedLoad>,
 }
 
 #[derive(Debug, Clone, Serialize, Deserialize)]
-struct Solved {
+struct SolvedLoad {
     stop: Stop,
     #[serde(flatten)]
     route: Route,
@@ -56,7 +56,7 @@ pub(super) struct Checkpoints {
     pub(super) fingerprint: String,
     /// Number of all loads.
     loads: usize,
-    /// What the grids so far have brought.
+    /// Changes of the readings from each grid to the next one.
     pub(super) changes: Vec<f64>,
     /// When the run began.
     began: Instant,
@@ -72,14 +72,14 @@ impl Checkpoints {
 
     /// Saves that a finer grid begins.
     pub(super) fn begin_finer(&mut self, folder: &Path, points: [usize; 2]) -> Result<(), OutputError> {
-        self.write(folder, Place { points, refined: true, steps: 0, ..self.place() }, None)?;
+        self.write(folder, RunPosition { points, refined: true, steps: 0, ..self.place() }, None)?;
         // A log without a checkpoint of its grid is that of the grid before: the first step is saved before it is logged.
         self.written = None;
         Ok(())
     }
 
-    /// Saves what the solver knows after the step of this number, from 1, unless the last time was a moment ago; `refined`
-    /// tells whether there is a coarser grid. The first and the last step on a grid are always saved, but for a run of one
+    /// Saves the state of the solver after the step of this number, from 1, unless the last checkpoint is recent; `refined`:
+    /// whether there is a coarser grid. The first and the last step on a grid are always saved, but for a run of one
     /// load that has just begun.
     pub(super) fn save(
         &mut self,
@@ -98,22 +98,27 @@ impl Checkpoints {
         if skipped {
             return Ok(());
         }
-        let place = Place { points, refined, steps, solved: Some(Solved::of(last)), ..self.place() };
+        let place = RunPosition { points, refined, steps, solved: Some(SolvedLoad::of(last)), ..self.place() };
         self.write(folder, place, Some((last, seconds)))
     }
 
     /// Before anything is solved.
-    fn place(&self) -> Place {
+    fn place(&self) -> RunPosition {
         let fingerprint = self.fingerprint.clone();
-        Place { fingerprint, points: [0; 2], refined: false, steps: 0, solved: None }
+        RunPosition { fingerprint, points: [0; 2], refined: false, steps: 0, solved: None }
     }
 
-    fn write(&mut self, folder: &Path, place: Place, last: Option<(&Checkpoint, f64)>) -> Result<(), OutputError> {
+    fn write(
+        &mut self,
+        folder: &Path,
+        place: RunPosition,
+        last: Option<(&Checkpoint, f64)>,
+    ) -> Result<(), OutputError> {
         let began = Instant::now();
         let place = serde_json::to_string(&place).expect("a place is numbers and texts under names");
         write_file(&folder.join(NAME), |writer| {
             let mut archive = Archive::new(writer);
-            archive.text(PLACE, &place)?;
+            archive.text(POSITION, &place)?;
             archive.array("changes", &[self.changes.len()], self.changes.iter().copied())?;
             last.map_or(Ok(()), |(checkpoint, seconds)| add(&mut archive, checkpoint, seconds))?;
             archive.finish()
@@ -123,7 +128,7 @@ impl Checkpoints {
     }
 }
 
-impl Solved {
+impl SolvedLoad {
     fn of(checkpoint: &Checkpoint) -> Self {
         let Report { stop, route, iterations, outer, .. } = checkpoint.report;
         let (coarser, grids) = (checkpoint.coarser, checkpoint.grids.len());
@@ -143,48 +148,47 @@ fn add<W: Write + Seek>(archive: &mut Archive<W>, checkpoint: &Checkpoint, secon
     Ok(())
 }
 
-/// A checkpoint alone, for who keeps it elsewhere than in a folder; [`Solver::restore`](crate::Solver::restore) gives its
-/// step again.
+/// Writes a checkpoint alone, which can be kept anywhere; [`Solver::restore`](crate::Solver::restore) makes its step of it.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write_checkpoint(writer: impl Write + Seek, checkpoint: &Checkpoint) -> io::Result<()> {
-    let solved = serde_json::to_string(&Solved::of(checkpoint)).expect("numbers and texts under names");
+    let solved = serde_json::to_string(&SolvedLoad::of(checkpoint)).expect("numbers and texts under names");
     let mut archive = Archive::new(writer);
-    archive.text(PLACE, &solved)?;
+    archive.text(POSITION, &solved)?;
     add(&mut archive, checkpoint, 0.0)?;
     archive.finish()
 }
 
-/// The same, read back.
+/// Reads a checkpoint that [`write_checkpoint`] has written.
 ///
 /// # Errors
 /// Those of the reader, and what is no such checkpoint.
 pub fn read_checkpoint(reader: impl Read + Seek) -> io::Result<Checkpoint> {
     let mut saved = Saved::new(reader)?;
-    let solved: Solved = saved.place()?;
+    let solved: SolvedLoad = saved.place()?;
     saved.has_only(1, Some(&solved))?;
     Ok(saved.last(&solved)?.checkpoint)
 }
 
-/// What was saved of a run: where it was, the changes that its grids have brought, and the last load.
-pub(super) fn read(path: &Path) -> io::Result<(Place, Vec<f64>, Option<Last>)> {
+/// The checkpoint of a run: its position, the changes from grid to grid, and the last load.
+pub(super) fn read(path: &Path) -> io::Result<(RunPosition, Vec<f64>, Option<Last>)> {
     let mut saved = Saved::new(BufReader::new(disk::open(path)?))?;
-    let place: Place = saved.place()?;
+    let place: RunPosition = saved.place()?;
     saved.has_only(2, place.solved.as_ref())?;
     let changes = saved.array("changes", true)?;
     let last = place.solved.as_ref().map(|solved| saved.last(solved)).transpose()?;
     Ok((place, changes, last))
 }
 
-/// How long writing takes, by a disk that is not slow.
+/// Time that writing takes on a disk of ordinary speed.
 fn foreseen(last: &Checkpoint) -> Duration {
     const BYTES_PER_SECOND: f64 = 1e9;
     let samples: usize = last.grids.iter().map(|own| own.pressure.len()).sum();
     Duration::from_secs_f64(16.0 * samples as f64 / BYTES_PER_SECOND)
 }
 
-/// A checkpoint that is read back: every entry to its end, where its checksum is looked at.
+/// A checkpoint that is read back: every entry to its end, where `zip` compares its checksum.
 struct Saved<R> {
     zip: ZipArchive<R>,
     /// Length of the file, bytes: no entry is longer.
@@ -203,9 +207,9 @@ impl<R: Read + Seek> Saved<R> {
     }
 
     /// Refuses more entries than so many and those of a solved load; fewer are missed where they are read.
-    fn has_only(&self, others: usize, solved: Option<&Solved>) -> io::Result<()> {
+    fn has_only(&self, others: usize, solved: Option<&SolvedLoad>) -> io::Result<()> {
         const OF_A_GRID: usize = 3;
-        let of = |solved: &Solved| solved.grids.saturating_mul(OF_A_GRID).saturating_add(1);
+        let of = |solved: &SolvedLoad| solved.grids.saturating_mul(OF_A_GRID).saturating_add(1);
         let (found, wanted) = (self.zip.len(), solved.map_or(0, of).saturating_add(others));
         if found == wanted { Ok(()) } else { Err(unlike(format!("it has {found} entries instead of {wanted}"))) }
     }
@@ -221,7 +225,7 @@ impl<R: Read + Seek> Saved<R> {
     }
 
     fn place<T: DeserializeOwned>(&mut self) -> io::Result<T> {
-        let (_, mut entry) = self.entry(PLACE)?;
+        let (_, mut entry) = self.entry(POSITION)?;
         let mut text = String::new();
         entry.read_to_string(&mut text)?;
         Ok(serde_json::from_str(&text)?)
@@ -241,8 +245,8 @@ impl<R: Read + Seek> Saved<R> {
         self.array(name, finite)?.try_into().map_err(|_| unlike(format!("its entry `{name}.npy` has another length")))
     }
 
-    fn last(&mut self, solved: &Solved) -> io::Result<Last> {
-        let Solved { stop, route, .. } = *solved;
+    fn last(&mut self, solved: &SolvedLoad) -> io::Result<Last> {
+        let SolvedLoad { stop, route, .. } = *solved;
         let finite = stop.solved();
         let [convolutions, residual, seconds] = self.numbers("numbers", finite)?;
         let report = Report { stop, route, iterations: solved.iterations, outer: solved.outer, residual };
@@ -297,7 +301,7 @@ mod tests {
 
         let mut spoilt = bytes.get_ref().clone();
         spoilt[bytes.get_ref().len() / 2] ^= 1;
-        assert!(read(&spoilt).is_err(), "a checksum tells");
+        assert!(read(&spoilt).is_err(), "a checksum differs");
         assert!(read(&bytes.get_ref()[..1000]).is_err());
     }
 }

@@ -3,7 +3,7 @@
 
 use std::io::{self, Read, Write};
 
-/// A checksum to which bytes are added piece by piece.
+/// Length and checksum of bytes that are added piece by piece.
 #[derive(Debug, Clone)]
 pub(super) struct Checksum {
     length: u64,
@@ -38,7 +38,7 @@ impl Checksum {
         self.rest[..rest.len()].copy_from_slice(rest);
     }
 
-    /// Passes bytes on to a writer, and adds those that it takes.
+    /// A writer that passes bytes on to `writer`, and adds those that it takes.
     pub(super) fn through<W: Write>(&mut self, writer: W) -> Added<'_, W> {
         Added { sum: self, writer }
     }
@@ -59,7 +59,7 @@ fn hashed(hash: u64, word: [u8; WORD]) -> u64 {
     hash ^ hash >> 32
 }
 
-/// A writer, all of whose bytes are added to a checksum.
+/// A writer whose bytes are added to a checksum.
 #[derive(Debug)]
 pub(super) struct Added<'a, W> {
     sum: &'a mut Checksum,
@@ -78,7 +78,7 @@ impl<W: Write> Write for Added<'_, W> {
     }
 }
 
-/// Length and checksum of a file.
+/// Length and checksum of all that a reader gives, bytes.
 ///
 /// # Errors
 /// When the file cannot be read.

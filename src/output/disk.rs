@@ -1,6 +1,6 @@
-//! The disk, as percoat touches it where results stand: what is not percoat's is neither read, written nor removed.
+//! The file system, as percoat uses it where results stand: what is not percoat's is neither read, written nor removed.
 //!
-//! A file is taken for itself: no link in its place is followed, and a pipe, a socket or a device in its place is refused
+//! Only a file itself is opened: no link in its place is followed, and a pipe, a socket or a device in its place is refused
 //! before it can block ([`open`]). What is to be new is created new ([`create`]); a finished file takes the place of a file
 //! or of nothing, never that of a link or a folder ([`replace`]). Nothing is removed but files and empty folders, by their
 //! names. Folders that lead to an output folder are the user's, and may be links.
@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 #[cfg(test)]
 use super::journal::{Change, note};
 
-/// What stands at a path itself, if anything does.
+/// Metadata of what stands at a path itself, if anything does; a link is not followed.
 pub(crate) fn found(path: &Path) -> io::Result<Option<Metadata>> {
     match fs::symlink_metadata(path) {
         Ok(found) => Ok(Some(found)),
@@ -37,7 +37,7 @@ pub(crate) fn is_folder(path: &Path) -> bool {
     found(path).is_ok_and(|found| found.is_some_and(|own| own.is_dir()))
 }
 
-/// What something is, in words.
+/// The kind of a file, in words.
 pub(crate) fn kind(own: &Metadata) -> &'static str {
     match own.file_type() {
         kind if kind.is_symlink() => "a link",
@@ -131,7 +131,7 @@ impl Appended {
 pub(crate) fn sync(file: &File, path: &Path) -> io::Result<()> {
     #[cfg(test)]
     note(Change::Synced(path));
-    // Unit tests ask their journal what a power cut would leave.
+    // In unit tests the journal says what a power cut would leave.
     if cfg!(test) { Ok(()) } else { unless_refused(file.sync_data()) }
 }
 
@@ -149,13 +149,13 @@ pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     match File::open(folder) {
         Ok(folder) => unless_refused(folder.sync_all()),
-        // Who may write into a folder and not list it cannot have its names brought to the disk.
+        // A folder that may be written and not listed cannot be opened.
         Err(error) if error.kind() == io::ErrorKind::PermissionDenied => Ok(()),
         Err(error) => Err(error),
     }
 }
 
-/// Some file systems bring nothing to a disk on demand.
+/// Success where a file system brings nothing to the disk on demand.
 fn unless_refused(synced: io::Result<()>) -> io::Result<()> {
     match synced {
         Err(error) if [io::ErrorKind::Unsupported, io::ErrorKind::InvalidInput].contains(&error.kind()) => Ok(()),
@@ -169,7 +169,7 @@ fn unless_refused(synced: io::Result<()>) -> io::Result<()> {
 /// Those of the system, and anything but a file in that place.
 pub(crate) fn replace(from: &Path, to: &Path) -> io::Result<()> {
     if let Some(own) = found(to)?.filter(|own| !own.is_file()) {
-        return Err(stranger(&own));
+        return Err(not_a_file(&own));
     }
     fs::rename(from, to)?;
     #[cfg(test)]
@@ -196,6 +196,10 @@ pub(crate) fn move_to(from: &Path, to: &Path) -> io::Result<()> {
 /// # Errors
 /// Those of the system, also where a file cannot have two; [`io::ErrorKind::AlreadyExists`] where anything has that name.
 pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
+    #[cfg(test)]
+    if super::journal::refuses_links(second) {
+        return Err(io::ErrorKind::Unsupported.into());
+    }
     fs::hard_link(file, second)?;
     #[cfg(test)]
     note(Change::Linked(file, second));
@@ -208,7 +212,7 @@ pub(crate) fn link(file: &Path, second: &Path) -> io::Result<()> {
 /// Those of the system, and anything but a file in its place.
 pub(crate) fn remove(path: &Path) -> io::Result<()> {
     if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
-        return Err(stranger(&own));
+        return Err(not_a_file(&own));
     }
     fs::remove_file(path)?;
     #[cfg(test)]
@@ -261,16 +265,16 @@ pub(crate) fn make_folder(path: &Path) -> io::Result<Vec<PathBuf>> {
 fn open_as(path: &Path, options: &mut OpenOptions) -> io::Result<File> {
     // Even opening a device or a pipe can do something.
     if let Some(own) = found(path)?.filter(|own| !own.is_file()) {
-        return Err(stranger(&own));
+        return Err(not_a_file(&own));
     }
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(options, libc::O_NOFOLLOW | libc::O_NONBLOCK);
     let file = options.open(path)?;
     let own = file.metadata()?;
-    if own.is_file() { Ok(file) } else { Err(stranger(&own)) }
+    if own.is_file() { Ok(file) } else { Err(not_a_file(&own)) }
 }
 
-fn stranger(own: &Metadata) -> io::Error {
+fn not_a_file(own: &Metadata) -> io::Error {
     let what = format!("it is {}, and percoat takes only a file itself there: move it away", kind(own));
     io::Error::new(io::ErrorKind::InvalidInput, what)
 }
@@ -283,7 +287,7 @@ mod tests {
 
     /// A link to a file, one to nothing, a folder, a socket, and a device behind a link.
     #[cfg(unix)]
-    fn strangers(folder: &Path) -> Vec<PathBuf> {
+    fn no_files(folder: &Path) -> Vec<PathBuf> {
         let path = |name: &str| folder.join(name);
         fs::write(path("mine.txt"), "mine").unwrap();
         symlink(path("mine.txt"), path("link")).unwrap();
@@ -299,7 +303,7 @@ mod tests {
     fn only_a_file_itself_is_opened_replaced_and_removed() {
         let folder = tempfile::tempdir().unwrap();
         let own = folder.path().join("own");
-        for path in strangers(folder.path()) {
+        for path in no_files(folder.path()) {
             fs::write(&own, "own").unwrap();
             let refused = [
                 open(&path).map(drop),

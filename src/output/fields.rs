@@ -1,6 +1,6 @@
 //! `contact.npz`: the fields of every load step.
 
-use super::steps::StepArrays;
+use super::step_arrays::StepArrays;
 use super::{Files, OutputError};
 use crate::counterbody::Surface;
 use crate::spectral::Step;
@@ -17,17 +17,17 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    /// No steps yet on the grid of `surface`; `folder` is where the result is gathered. Refused when there are fields already.
+    /// No steps yet on the grid of `surface`; `folder` is the staging folder. Refused when there are fields already.
     pub(super) fn new(folder: &Path, surface: Arc<Surface>) -> Result<Self, OutputError> {
         Ok(Self { arrays: StepArrays::new(folder, "contact")?, surface })
     }
 
-    /// The same where an earlier run has left those of so many `steps`, see [`StepArrays::go_on`].
+    /// The fields of the first `steps` load steps, as an interrupted run has left them, see [`StepArrays::go_on`].
     pub(super) fn go_on(folder: &Path, surface: Arc<Surface>, steps: usize) -> Result<Self, OutputError> {
         Ok(Self { arrays: StepArrays::go_on(folder, "contact", steps)?, surface })
     }
 
-    /// Puts the fields of the next step on disk; its `mean_pressure` is known. Returns what it has left there.
+    /// Writes the fields of the next step, whose mean pressure is `mean_pressure`. Returns the files that it has left.
     pub(super) fn add(&mut self, step: &Step, mean_pressure: f64) -> Result<Files, OutputError> {
         self.arrays.next_step();
         self.arrays.add("mean_pressure", &[], [mean_pressure])?;
@@ -45,7 +45,7 @@ impl Fields {
         self.arrays.sync()
     }
 
-    /// Gathers all steps in `contact.npz`, with the places of the samples and whose they are; what waits stays if that fails.
+    /// Gathers all steps in `contact.npz`, with position and level of each sample; the waiting files stay if that fails.
     pub(super) fn finish(self) -> Result<(), OutputError> {
         let surface = &self.surface;
         let grid = surface.grid();

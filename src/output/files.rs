@@ -1,33 +1,84 @@
-//! Files that belong together, each with its length and checksum: what a step or a combination has left.
+//! Files that belong together, each with its length and checksum: what a step or a combination has left, or a whole result.
+//!
+//! A file is percoat's as long as its length and checksum are those listed. Everything else is a user's: a file that is
+//! not listed, one that was changed since, and a folder or a link in its place.
 
-use super::checksum::Checksum;
-use super::layout::own;
-use super::manifest::{Manifest, Standing, Writer, Written};
+use super::checksum::{Checksum, checksum};
+use super::disk::{self, found};
+use super::writer::Writer;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// Files by their names within a folder, as they were written.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct Files(BTreeMap<String, Written>);
+pub struct Files(BTreeMap<String, FileRecord>);
 
-impl Files {
-    /// Those that a writer has published in a folder.
-    pub(super) fn published(folder: &Path, writer: Writer) -> Self {
-        let list = Manifest::read(&own(folder, "written.json"));
-        Self(list.files(writer).map(|(name, file)| (name.clone(), file.clone())).collect())
+/// A file as it was written: by which command, how many bytes, and their checksum.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct FileRecord {
+    by: Writer,
+    bytes: u64,
+    checksum: String,
+}
+
+/// Whose a name in a folder is, by a list of files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ownership {
+    /// Nothing has that name.
+    Absent,
+    /// The file is as percoat wrote it.
+    AsWritten,
+    /// Written by percoat and changed since.
+    Changed,
+    /// Not listed as a file of percoat.
+    Foreign,
+}
+
+impl FileRecord {
+    /// The file at `path` as it is now.
+    pub(super) fn of(path: &Path, by: Writer) -> io::Result<Self> {
+        Ok(Self::new(checksum(&mut disk::open(path)?)?, by))
     }
 
+    fn new((bytes, checksum): (u64, u64), by: Writer) -> Self {
+        Self { by, bytes, checksum: format!("{checksum:016x}") }
+    }
+}
+
+impl Ownership {
+    /// Why the name cannot be given to a new file, if it is a user's.
+    pub(super) fn refusal(self) -> Option<&'static str> {
+        match self {
+            Self::Absent | Self::AsWritten => None,
+            Self::Changed => Some("was changed since percoat wrote it"),
+            Self::Foreign => Some("is not listed as a result of percoat (in .percoat/written.json)"),
+        }
+    }
+}
+
+impl Files {
     /// Adds a file of a step whose bytes have been added to a checksum.
     pub(super) fn add(&mut self, name: String, sum: Checksum) {
-        self.0.insert(name, Written::added(sum, Writer::Solve));
+        self.0.insert(name, FileRecord::new(sum.finish(), Writer::Solve));
+    }
+
+    /// Adds a file, in the place of one of its name.
+    pub(super) fn insert(&mut self, name: &str, file: FileRecord) {
+        self.0.insert(name.to_owned(), file);
     }
 
     /// Adds those of another list.
     pub(super) fn append(&mut self, mut other: Self) {
         self.0.append(&mut other.0);
+    }
+
+    /// Those whose name and writer fulfil a condition.
+    pub(super) fn filtered(mut self, condition: impl Fn(&str, Writer) -> bool) -> Self {
+        self.0.retain(|name, file| condition(name, file.by));
+        self
     }
 
     /// Whether there are none.
@@ -45,31 +96,86 @@ impl Files {
         self.0.keys().map(String::as_str)
     }
 
+    /// Whose the name is in `folder`.
+    pub(super) fn ownership(&self, folder: &Path, name: &str) -> io::Result<Ownership> {
+        // A link or a file in the place of a folder that leads to the name is a user's.
+        for part in parents(name) {
+            if found(&folder.join(part))?.is_some_and(|there| !there.is_dir()) {
+                return Ok(Ownership::Foreign);
+            }
+        }
+        let path = folder.join(name);
+        Ok(match (found(&path)?, self.0.get(name)) {
+            (None, _) => Ownership::Absent,
+            (Some(_), None) => Ownership::Foreign,
+            (Some(there), Some(file)) => {
+                let is_same = there.is_file() && there.len() == file.bytes && FileRecord::of(&path, file.by)? == *file;
+                if is_same { Ownership::AsWritten } else { Ownership::Changed }
+            }
+        })
+    }
+
+    /// What is the matter with a file that does not stand in the folder as it was written; one that the disk no longer gives
+    /// is damaged too.
+    pub(super) fn damage(&self, folder: &Path, name: &str) -> Option<String> {
+        match self.ownership(folder, name) {
+            Ok(Ownership::AsWritten) => None,
+            Ok(Ownership::Absent) => Some("is missing".to_owned()),
+            Ok(Ownership::Changed | Ownership::Foreign) => {
+                Some("is not as it was written: its length or checksum is another one".to_owned())
+            }
+            Err(error) => Some(format!("cannot be read: {error}")),
+        }
+    }
+
     /// The first one that is not in the folder as it was written, and what is the matter with it.
     pub fn damaged(&self, folder: &Path) -> Option<(&str, String)> {
-        let mut list = Manifest::empty();
-        self.0.iter().for_each(|(name, file)| list.add(name, file.clone()));
-        self.names().find_map(|name| Some((name, damage(list.standing(folder, name))?)))
+        self.names().find_map(|name| Some((name, self.damage(folder, name)?)))
     }
 }
 
-/// What is the matter with a file that percoat wrote; one that the disk does not give any more is damaged too.
-fn damage(standing: io::Result<Standing>) -> Option<String> {
-    match standing {
-        Ok(Standing::Written) => None,
-        Ok(Standing::Absent) => Some("is missing".to_owned()),
-        Ok(Standing::Changed | Standing::Foreign) => {
-            Some("is not as it was written: its length or checksum is another one".to_owned())
+/// The folders that lead to a name, innermost first, relative to the folder in which it stands.
+pub(super) fn parents(name: &str) -> impl Iterator<Item = &Path> {
+    Path::new(name).ancestors().skip(1).filter(|part| !part.as_os_str().is_empty())
+}
+
+/// Whether a name leads to a place in its folder, or in one below it.
+pub(super) fn is_inside(name: &str) -> bool {
+    !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn only_what_is_listed_and_unchanged_is_percoats() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let mut files = Files::default();
+        for name in ["kept", "changed", "replaced", "gone"] {
+            fs::write(path(name), "content").unwrap();
+            files.insert(name, FileRecord::of(&path(name), Writer::Solve).unwrap());
         }
-        Err(error) => Some(format!("cannot be read: {error}")),
+        fs::write(path("changed"), "CONTENT").unwrap();
+        fs::remove_file(path("replaced")).unwrap();
+        fs::create_dir(path("replaced")).unwrap();
+        fs::remove_file(path("gone")).unwrap();
+        fs::write(path("mine"), "content").unwrap();
+        for name in ["mine/below", "linked/below", "folder/below"] {
+            files.insert(name, FileRecord::of(&path("kept"), Writer::Solve).unwrap());
+        }
+        fs::create_dir(path("folder")).unwrap();
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(path("folder"), path("linked")).unwrap();
+        #[cfg(not(unix))]
+        fs::write(path("linked"), "").unwrap();
+        let ownership = |name: &str| files.ownership(folder.path(), name).unwrap();
+        let found = ["kept", "changed", "replaced", "gone", "mine"].map(ownership);
+        let below = ["mine/below", "linked/below", "folder/below"].map(ownership);
+        use Ownership::{Absent, AsWritten, Changed, Foreign};
+        assert_eq!(found, [AsWritten, Changed, Changed, Absent, Foreign]);
+        assert_eq!(below, [Foreign, Foreign, Absent], "below a file, a link and a folder");
     }
-}
-
-/// Files that percoat has published in the folder itself, not below it, and that do not stand there as it wrote them, each with
-/// what is the matter with it.
-pub fn unlike_published(folder: &Path) -> Vec<(String, String)> {
-    let list = Manifest::read(&own(folder, "written.json"));
-    let writers = Writer::ALL.into_iter().filter(|writer| *writer != Writer::Report);
-    let names = writers.flat_map(|writer| list.names(writer)).filter(|name| !name.contains('/'));
-    names.filter_map(|name| Some((name.to_owned(), damage(list.standing(folder, name))?))).collect()
 }

@@ -1,10 +1,10 @@
-//! What decides about a result, as one word: equal for two runs that end the same.
+//! The fingerprint of a run: one word of all that decides about its result, equal for two runs with the same result.
 
 use super::checksum;
 use crate::case::Case;
 use std::io::Read;
 
-/// Of a whole case with its surface, what is done with it, and this version of percoat.
+/// Length and checksum of a whole case with its surface, of the task, and of this version of percoat.
 pub fn fingerprint(case: &Case, task: &str) -> String {
     let heights = case.counterbody().topography().map(|own| own.heights());
     let points = heights.as_ref().map(|own| own.dim());

@@ -1,14 +1,15 @@
 //! What an unfinished run has finished, as far as it is whole.
 //!
 //! A run goes on with what an earlier one has left only where all of it is as it was written: the checkpoint with every entry, the
-//! lines of the log in their order with their seals, the files that they name with their checksums, all of this very run and its
+//! lines of the log in their order with their checksums, the files that they name with their checksums, all of this very run and its
 //! loads. Where anything is not, no step before can be given again bit for bit, and all are solved again.
 
-use super::checkpoint::{self, Place};
+use super::checkpoint::{self, RunPosition};
 use super::disk;
 use super::layout::COARSER;
-use super::scattered::scatter;
+use super::log::whole_lines;
 use super::steps_log::{self, Logged, logged};
+use super::unpack::unpack;
 use crate::plain;
 use crate::run::{Finished, Last, Refinement, Run, Sampling, StepRecord};
 use std::io;
@@ -66,7 +67,12 @@ pub fn finished(folder: &Path, fingerprint: &str, run: &Run) -> Result<Option<Fi
 }
 
 /// Refuses a checkpoint that no run of these loads and grids has saved; the grid before, of a refinement.
-fn plausible(place: &Place, changes: &[f64], last: Option<&Last>, run: &Run) -> Result<Option<[usize; 2]>, String> {
+fn plausible(
+    place: &RunPosition,
+    changes: &[f64],
+    last: Option<&Last>,
+    run: &Run,
+) -> Result<Option<[usize; 2]>, String> {
     let [n1, n2] = place.points;
     let other = || format!("it is of {n1} × {n2} samples after {} changes of the grid", changes.len());
     let before = match run.sampling {
@@ -108,7 +114,7 @@ impl Log<'_> {
     /// The first `count` steps of at most so many.
     fn steps(&self, count: usize, most: usize) -> Result<Vec<Logged>, CannotGoOn> {
         let damaged = |reason: String| CannotGoOn::Damaged { path: self.path.to_owned(), reason };
-        let lines = match steps_log::whole_lines(self.path) {
+        let lines = match whole_lines(self.path) {
             // Before the second step there is none.
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             lines => lines.map_err(|error| damaged(error.to_string()))?,
@@ -148,7 +154,7 @@ fn whole(folder: &Path, steps: &[Logged]) -> Result<(), CannotGoOn> {
             continue;
         }
         let names = steps.iter().flat_map(|step| step.files.names());
-        scatter(folder, archive, names).map_err(|error| CannotGoOn::Damaged { path, reason: error.to_string() })?;
+        unpack(folder, archive, names).map_err(|error| CannotGoOn::Damaged { path, reason: error.to_string() })?;
     }
     for step in steps {
         if let Some((name, reason)) = step.files.damaged(folder) {

@@ -4,6 +4,7 @@
 //! happens at once; those whose folder is not synced are there or not, each by itself, but those of one name one after the
 //! other. [`Journal::images`] has what may stand there, after every change.
 
+use super::image::{self, Image};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -24,9 +25,6 @@ pub(super) enum Change<'a> {
     SyncedFolder(&'a Path),
 }
 
-/// A folder as it may stand there: files with their content by their names, folders without.
-pub(crate) type Image = BTreeMap<PathBuf, Option<Vec<u8>>>;
-
 /// A name in a folder, by the folder's number.
 type Name = (usize, String);
 
@@ -35,9 +33,9 @@ type Name = (usize, String);
 pub(crate) struct Journal {
     root: PathBuf,
     things: Vec<Thing>,
-    /// What the running system sees.
+    /// Names as the running system has them.
     seen: BTreeMap<Name, usize>,
-    /// What has come to the disk.
+    /// Names that have come to the disk.
     durable: BTreeMap<Name, usize>,
     /// Changes of names that have not, each with all names it changes.
     pending: Vec<Vec<(Name, Option<usize>)>>,
@@ -45,8 +43,12 @@ pub(crate) struct Journal {
     known: BTreeSet<Image>,
     /// What has been noted, in words.
     pub(super) told: Vec<String>,
-    /// Whether it takes everything for not synced.
+    /// Whether syncing does nothing.
     pub(super) ignores_syncs: bool,
+    /// What a kill would leave after each change, where that is wanted.
+    pub(super) kills: Option<Vec<Image>>,
+    /// Whether files can have two names.
+    pub(super) has_links: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -69,7 +71,7 @@ enum Lost {
 
 static JOURNALS: Mutex<Vec<Arc<Mutex<Journal>>>> = Mutex::new(Vec::new());
 
-/// Tells the journal of the folder in which a change is, if there is one.
+/// Adds a change to the journal of the folder in which it is, if there is one.
 pub(super) fn note(change: Change<'_>) {
     use Change::{Appended, Created, CreatedFolder, Linked, Moved, Removed, Synced, SyncedFolder};
     let (Created(path)
@@ -89,6 +91,12 @@ pub(super) fn note(change: Change<'_>) {
     }
 }
 
+/// Whether the file system of a path, as its journal says, gives a file one name alone.
+pub(super) fn refuses_links(path: &Path) -> bool {
+    let journals = JOURNALS.lock().unwrap().clone();
+    journals.iter().map(|journal| journal.lock().unwrap()).any(|own| path.starts_with(&own.root) && !own.has_links)
+}
+
 impl Journal {
     /// Begins one of an empty folder that is on the disk; it ends when this is dropped by all but the list.
     pub(crate) fn begin(root: &Path) -> Arc<Mutex<Self>> {
@@ -102,6 +110,8 @@ impl Journal {
             known: BTreeSet::new(),
             told: Vec::new(),
             ignores_syncs: false,
+            kills: None,
+            has_links: true,
         }));
         JOURNALS.lock().unwrap().push(Arc::clone(&journal));
         journal
@@ -206,6 +216,9 @@ impl Journal {
     }
 
     fn remember(&mut self) {
+        if let Some(kills) = &mut self.kills {
+            kills.push(image::read(&self.root));
+        }
         let mut seed = 2_463_534_242 + self.told.len() as u64;
         let mut coin = || {
             seed ^= seed << 13;
@@ -275,15 +288,5 @@ fn apply(names: &mut BTreeMap<Name, usize>, change: &[(Name, Option<usize>)]) {
             Some(own) => names.insert(name.clone(), *own),
             None => names.remove(name),
         };
-    }
-}
-
-/// Puts an image on the disk.
-pub(super) fn lay(image: &Image, root: &Path) {
-    for (path, content) in image {
-        match content {
-            None => fs::create_dir_all(root.join(path)).unwrap(),
-            Some(content) => fs::write(root.join(path), content).unwrap(),
-        }
     }
 }

@@ -1,28 +1,29 @@
-//! `.percoat/lock`: the file that a run locks to have its output folder for itself. It holds the number of the process.
+//! `.percoat/lock`: the file that a run locks so that no other one writes into its output folder. It holds the number of the
+//! process.
 //!
 //! Only a file that nothing but percoat can have written is written into: one that it has just created, or one with the
 //! number of a process, or the beginning of one, that has no second name.
 
 use super::OutputError;
 use super::disk;
-use super::layout::{FolderError, own};
+use super::folder_error::FolderError;
 use std::fs::{File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 
-/// Name of the file.
-pub(super) const NAME: &str = "lock";
-/// What stands before the number.
+/// Name of the file in an output folder.
+pub(super) const NAME: &str = ".percoat/lock";
+/// The text before the number.
 const BEFORE: &str = "process ";
 /// Bytes of the longest content.
 const LONGEST: u64 = 40;
 
-/// Has the folder for this process as long as the file is open; the system ends that however the process ends.
+/// Locks a folder for this process as long as the file is open; the system ends that however the process ends.
 ///
 /// # Errors
-/// [`FolderError`], also of a file that is somebody else's.
+/// [`FolderError`], also where the file is a user's.
 pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
-    let path = own(folder, NAME);
+    let path = folder.join(NAME);
     let failed = |error| OutputError::new(&path, error);
     let opened = match disk::create(&path) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => disk::open_to_change(&path),
@@ -36,7 +37,7 @@ pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
             let owner = owner.map(|own| String::from_utf8_lossy(&own).trim().to_owned()).unwrap_or_default();
             return Err(FolderError::Busy { folder: folder.to_owned(), owner });
         }
-        // Some network file systems have no locks; their users are on their own.
+        // Some network file systems have no locks: there two runs can meet in a folder.
         Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
         Err(TryLockError::Error(error)) => return Err(failed(error).into()),
     }
@@ -48,13 +49,13 @@ pub(super) fn lock(folder: &Path) -> Result<File, FolderError> {
     Ok(file)
 }
 
-/// Whether a file in the place of the lock is somebody else's: by its content, or because it has another name elsewhere.
+/// Whether a file in the place of the lock is a user's: by its content, or because it has another name elsewhere.
 pub(super) fn is_foreign(path: &Path) -> bool {
     let Ok(file) = disk::open(path) else { return false };
     has_other_name(&file) || !content(&file).is_ok_and(|content| is_own(&content))
 }
 
-/// What a lock says, and a little of anything else.
+/// The content of a lock, and the beginning of any other file.
 fn content(mut file: &File) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     file.rewind()?;
@@ -62,7 +63,7 @@ fn content(mut file: &File) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Whether it is the number of a process, or what a kill or a power cut leaves of it.
+/// Whether a content is the number of a process, or what a kill or a power cut leaves of it.
 fn is_own(content: &[u8]) -> bool {
     let whole = content.len() < LONGEST as usize;
     let Ok(text) = str::from_utf8(content) else { return false };
@@ -87,9 +88,9 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn a_lock_of_somebody_else_is_told_by_its_content_and_by_its_other_name() {
+    fn a_users_file_in_the_place_of_the_lock_is_recognised_by_its_content_and_by_its_other_name() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join(NAME);
+        let path = folder.path().join("lock");
         let foreign = |content: &str| {
             fs::write(&path, content).unwrap();
             is_foreign(&path)

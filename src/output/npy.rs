@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// Values that are written at a time.
 const CHUNK: usize = 1 << 13;
 
-/// Writes one array as `.npy`, in the byte order of the machine, which the header tells.
+/// Writes one array as `.npy`, values in C order and in the byte order of the machine, which the header says.
 pub(super) fn npy<T: AutoSerialize + Pod>(
     mut writer: impl Write,
     shape: &[usize],
@@ -28,7 +28,7 @@ pub(super) fn npy<T: AutoSerialize + Pod>(
     complete(shape, count)
 }
 
-/// The same in memory: the content of a `.npy` file.
+/// The content of a `.npy` file of numbers, values in C order.
 ///
 /// # Errors
 /// When there are fewer or more values than the shape says.
@@ -38,7 +38,8 @@ pub fn npy_bytes(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::
     Ok(bytes)
 }
 
-/// The same, written where it stays: beside the bytes nothing is taken. `values` are as many as the shape says.
+/// The content of a `.npy` file of numbers, values in C order, as many as the shape says. It is written where it stays, without
+/// a second copy in memory.
 ///
 /// # Errors
 /// When there is no header of such a shape.
@@ -46,7 +47,7 @@ pub fn npy_shared(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io:
     let (mut head, mut values, mut value) = (Vec::new(), values.into_iter(), [0; size_of::<f64>()]);
     header::<f64>(&mut head, shape)?;
     let (begin, end) = (head.len(), head.len() + size_of_val(&value) * shape.iter().product::<usize>());
-    // The length of a mapped range is known: the bytes are collected without a detour.
+    // A mapped range has a known length: its bytes are collected in place.
     let byte = |at: usize| {
         let Some(at) = at.checked_sub(begin) else { return head[at] };
         let at = at % value.len();
@@ -58,7 +59,7 @@ pub fn npy_shared(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io:
     Ok((0..end).map(byte).collect())
 }
 
-/// What stands before the values of an array. The library would write those one by one, which takes longer than the disk.
+/// Writes the header of an array. `npyz` would write the values one by one too, which takes longer than the disk.
 pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> io::Result<()> {
     let sizes: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
     let header = npyz::WriteOptions::new_header_only().dtype(T::default_dtype()).shape(&sizes);
@@ -67,7 +68,7 @@ pub(super) fn header<T: AutoSerialize>(writer: impl Write, shape: &[usize]) -> i
 }
 
 /// The values of an array of this shape as [`npy`] has written it, and nothing behind them. The header must be the one that
-/// such an array has, byte for byte: no length that it tells is believed.
+/// such an array has, byte for byte: no length in it is trusted.
 ///
 /// # Errors
 /// Another header, fewer or more values; those of the reader.
@@ -100,7 +101,7 @@ pub(super) fn vector(mut reader: impl Read, bytes: u64) -> io::Result<Vec<f64>> 
     values((&begin[..]).chain(reader), &[usize::try_from(count).map_err(|_| unlike("it is too long".to_owned()))?])
 }
 
-/// The shape that the header of an array of numbers tells, behind which the reader then stands.
+/// The shape in the header of an array of numbers. The reader then stands behind the header.
 ///
 /// # Errors
 /// When it is no header as [`header`] writes it; those of the reader.
@@ -166,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn a_header_that_is_not_that_of_the_array_is_refused_whatever_it_tells() {
+    fn a_header_that_is_not_that_of_the_array_is_refused_whatever_it_says() {
         let mut file = Vec::new();
         npy(&mut file, &[2, 3], (0..6).map(f64::from)).unwrap();
         assert_eq!(shape(&file[..]).unwrap(), [2, 3]);

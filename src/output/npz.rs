@@ -8,18 +8,18 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::rc::Rc;
 use zip::write::SimpleFileOptions;
 
-/// An `.npz` archive that is being written.
+/// An `.npz` archive under construction.
 pub(super) struct Archive<W: Write + Seek> {
-    zip: zip::ZipWriter<Calm<W>>,
+    zip: zip::ZipWriter<KeepsFirstError<W>>,
     failure: Failure,
 }
 
-/// What the system said when a write failed.
+/// The error of the first write that failed.
 type Failure = Rc<RefCell<Option<io::Error>>>;
 
-/// A file that takes everything in silence once it has failed: zip ends an archive even when it is given up, and would
-/// print what it thinks of it.
-struct Calm<W> {
+/// A file that keeps its first error and takes everything after it without a word: `zip` ends an archive even when it is
+/// dropped, and would print the error.
+struct KeepsFirstError<W> {
     file: W,
     position: u64,
     end: u64,
@@ -31,7 +31,7 @@ impl<W: Write + Seek> Archive<W> {
     /// An empty archive.
     pub(super) fn new(writer: W) -> Self {
         let failure = Failure::default();
-        let file = Calm { file: writer, position: 0, end: 0, failed: false, failure: Rc::clone(&failure) };
+        let file = KeepsFirstError { file: writer, position: 0, end: 0, failed: false, failure: Rc::clone(&failure) };
         Self { zip: zip::ZipWriter::new(file), failure }
     }
 
@@ -64,9 +64,9 @@ impl<W: Write + Seek> Archive<W> {
     }
 }
 
-impl<W> Calm<W> {
-    /// What the file gives, or what it would if it had not failed.
-    fn ask<T>(&mut self, file: impl FnOnce(&mut W) -> io::Result<T>, otherwise: T) -> T {
+impl<W> KeepsFirstError<W> {
+    /// The result of an operation on the file, or `otherwise` once one has failed.
+    fn attempt<T>(&mut self, file: impl FnOnce(&mut W) -> io::Result<T>, otherwise: T) -> T {
         if self.failed {
             return otherwise;
         }
@@ -78,28 +78,28 @@ impl<W> Calm<W> {
     }
 }
 
-impl<W: Write> Write for Calm<W> {
+impl<W: Write> Write for KeepsFirstError<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.ask(|file| file.write_all(bytes), ());
+        self.attempt(|file| file.write_all(bytes), ());
         self.position += bytes.len() as u64;
         self.end = self.end.max(self.position);
         Ok(bytes.len())
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.ask(W::flush, ());
+        self.attempt(W::flush, ());
         Ok(())
     }
 }
 
-impl<W: Seek> Seek for Calm<W> {
+impl<W: Seek> Seek for KeepsFirstError<W> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         let otherwise = match to {
             SeekFrom::Start(position) => Some(position),
             SeekFrom::Current(by) => self.position.checked_add_signed(by),
             SeekFrom::End(by) => self.end.checked_add_signed(by),
         };
-        self.position = self.ask(|file| file.seek(to), otherwise.ok_or(io::ErrorKind::InvalidInput)?);
+        self.position = self.attempt(|file| file.seek(to), otherwise.ok_or(io::ErrorKind::InvalidInput)?);
         Ok(self.position)
     }
 }
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disk_that_is_full_at_any_byte_is_told_as_the_system_tells_it() {
+    fn a_disk_that_is_full_at_any_byte_is_the_error_of_the_system() {
         let mut whole = Disk(io::Cursor::default(), u64::MAX);
         archive(&mut whole).unwrap();
         let bytes = whole.0.get_ref().len() as u64;

@@ -1,15 +1,16 @@
 //! A power cut at any moment leaves what a kill leaves: whatever had come to the disk by then is laid out again, and the next
 //! run goes on with it.
 
-use super::journal::{Image, Journal, lay};
+use super::image::{Image, lay};
+use super::journal::Journal;
 use super::layout::names;
-use super::publication::Publication;
 use super::*;
 use crate::case::{Case, Source};
 use crate::run::{Finished, Recorder, StepRecord};
 use crate::spectral::{Checkpoint, Solver, Step};
 use crate::stress::StressField;
 use std::collections::BTreeMap;
+use std::fs;
 use std::sync::{Arc, Mutex};
 
 const PLAN: [&str; 4] = ["case.toml", "curve.csv", "study/figure.png", "summary.json"];
@@ -90,7 +91,7 @@ fn were_nothing_brought_to_the_disk_results_would_be_lost() {
     let lost = replaced(Writer::Solve, &old, &new, true).iter().any(|image| {
         let place = laid(image);
         // A list that is empty decides nothing.
-        let completed = Publication::new(place.path(), Writer::Solve).complete();
+        let completed = publication::complete(place.path(), Writer::Solve);
         completed.is_err() || !wanted.contains(&result(place.path()))
     });
     assert!(lost, "the journal sees what is not synced");

@@ -1,9 +1,9 @@
 //! What a solved case leaves beside its pictures.
 
-use super::folder::Plan;
 use super::histograms::histograms;
-use super::manifest::Writer;
+use super::plan::Plan;
 use super::summary::{Summary, curve};
+use super::writer::Writer;
 use super::{OutputError, Timing, write_text};
 use crate::case::Case;
 use crate::run::Outcome;

@@ -2,7 +2,7 @@
 //! VTK file of the volume for each.
 
 use super::clock::{Clock, Phase};
-use super::steps::{GrowingEntry, StepArrays};
+use super::step_arrays::{GrowingEntry, StepArrays};
 use super::volume::added_volume;
 use super::{Files, OutputError};
 use crate::body::{Depth, HalfSpace};

@@ -1,7 +1,7 @@
 //! What a folder holds of finished results.
 
 use super::ReportError;
-use crate::output::{LimitFile, SWEEP_LOG, Summary, Unreadable, disk, is_beside, unlike_published};
+use crate::output::{LimitFile, SWEEP_LOG, Summary, Unreadable, damaged_results, disk, is_beside};
 use crate::sweep::{Description, Part, Row};
 use serde_json::Value;
 use std::io::ErrorKind;
@@ -43,7 +43,7 @@ impl Finished {
         let sweep = part.map(|part| Swept { description: part.description.clone(), rows: part.rows() });
         let run = record(&folder.join("summary.json"), Summary::read)?;
         let limit = record(&folder.join("limit.json"), LimitFile::read)?;
-        let unlike = unlike_published(folder);
+        let unlike = damaged_results(folder);
         let finished = Self { folder: folder.to_owned(), run, limit, sweep, unlike };
         if finished.run.is_none() && finished.limit.is_none() && finished.sweep.is_none() {
             let unfinished = ["unfinished", "unfinished-sweep"].iter().any(|name| disk::is_folder(&folder.join(name)));

@@ -29,11 +29,11 @@ mod part;
 mod ranges;
 mod resolution;
 mod run;
-mod seal;
 mod sweep;
 mod table;
+mod trailer;
 mod units;
 
 pub use error::ReportError;
 pub use page::{Page, page};
-pub use seal::is_own;
+pub use trailer::is_own;

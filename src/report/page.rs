@@ -3,7 +3,7 @@
 use super::finished::Finished;
 use super::markup::{Markup, tag, void, with};
 use super::part::Part;
-use super::seal::sealed;
+use super::trailer::with_trailer;
 use super::{ReportError, limit, run, sweep};
 use std::path::Path;
 
@@ -34,7 +34,7 @@ pub fn page(folder: &Path) -> Result<Page, ReportError> {
     }
     finished.whole()?;
     let missing = finished.doubts();
-    Ok(Page { html: sealed(&written(&parts, &missing)), missing })
+    Ok(Page { html: with_trailer(&written(&parts, &missing)), missing })
 }
 
 fn written(parts: &[Part], missing: &[String]) -> String {

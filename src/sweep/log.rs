@@ -1,25 +1,22 @@
 //! `sweep.jsonl`: every combination that is done, one line each, appended when it is.
 //!
 //! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
-//! A line says which sweep it is of and ends with a [seal](crate::output::seal()): one that is not as it was written is no row.
+//! A line says which sweep it is of and ends with a [checksum](crate::output::with_checksum): one that is not as it was written is no row.
 
 use super::row::Row;
-use crate::output::disk::{self, Appended};
-use crate::output::{OutputError, SWEEP_LOG as LOG, sealed, unsealed, whole_lines, write_text};
+use crate::output::{LineLog, OutputError, SWEEP_LOG as LOG, whole_lines, with_checksum, without_checksum};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The log of a sweep that goes on.
 #[derive(Debug)]
 pub struct Log {
-    path: PathBuf,
-    /// See [`Asked::identity`](super::Description::identity).
+    lines: LineLog,
+    /// See [`Description::identity`](super::Description::identity).
     sweep: String,
-    /// Open from the first row on.
-    file: Option<Appended>,
 }
 
 /// A line: the row, and of which sweep it is.
@@ -63,9 +60,10 @@ impl Log {
     /// # Errors
     /// When it cannot be written.
     pub fn begin(folder: &Path, sweep: &str, known: &[Row]) -> Result<Self, OutputError> {
-        let mut log = Self { path: folder.join(LOG), sweep: sweep.to_owned(), file: None };
+        let lines = known.iter().map(|row| line(sweep, row)).collect();
+        let mut log = Self { lines: LineLog::after(folder.join(LOG), lines), sweep: sweep.to_owned() };
         if !known.is_empty() {
-            log.open(&known.iter().map(|row| log.line(row)).collect::<String>())?;
+            log.lines.add("")?;
         }
         Ok(log)
     }
@@ -75,25 +73,14 @@ impl Log {
     /// # Errors
     /// When it cannot be written.
     pub fn add(&mut self, row: &Row) -> Result<(), OutputError> {
-        let line = self.line(row);
-        match &mut self.file {
-            Some(file) => file.add(line.as_bytes()).map_err(|error| OutputError::new(&self.path, error)),
-            None => self.open(&line),
-        }
+        self.lines.add(&line(&self.sweep, row))
     }
+}
 
-    /// The file and its first lines come at once.
-    fn open(&mut self, text: &str) -> Result<(), OutputError> {
-        write_text(&self.path, text)?;
-        let failed = |error| OutputError::new(&self.path, error);
-        self.file = Some(Appended::open(&self.path).map_err(failed)?);
-        self.path.parent().map_or(Ok(()), disk::sync_folder).map_err(failed)
-    }
-
-    fn line(&self, row: &Row) -> String {
-        let line = serde_json::to_string(&Line { sweep: self.sweep.clone(), row });
-        sealed(&line.expect("a row is numbers and texts under names")) + "\n"
-    }
+/// The line of a row, with its checksum.
+fn line(sweep: &str, row: &Row) -> String {
+    let line = serde_json::to_string(&Line { sweep: sweep.to_owned(), row });
+    with_checksum(&line.expect("a row is numbers and texts under names")) + "\n"
 }
 
 /// The whole lines of a log: rows, or what is the matter with them. Of a combination that stands there twice no line is a row.
@@ -121,7 +108,7 @@ pub fn read(path: &Path) -> io::Result<Vec<Result<Logged, Damage>>> {
 
 fn logged(line: usize, text: &str) -> Result<Logged, Damage> {
     let damage = |reason: String| Damage { line, reason };
-    let object = unsealed(text).map_err(|error| damage(error.to_string()))?;
+    let object = without_checksum(text).map_err(|error| damage(error.to_string()))?;
     let Line { sweep, row }: Line<Row> =
         serde_json::from_str(&object).map_err(|error| damage(format!("it is no row of a sweep: {error}")))?;
     row.checked().map_err(damage)?;
@@ -135,6 +122,7 @@ mod tests {
     use super::super::row::Status;
     use super::*;
     use crate::output::Files;
+    use std::io::Write;
 
     fn row(combination: usize) -> Row {
         Row {
@@ -157,8 +145,9 @@ mod tests {
         let mut log = Log::begin(folder.path(), "1-2", &[row(1)]).unwrap();
         log.add(&row(2)).unwrap();
         // Killed within a letter.
-        log.file.as_mut().unwrap().add(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
         let path = folder.path().join(LOG);
+        let mut file = std::fs::File::options().append(true).open(&path).unwrap();
+        file.write_all(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
         assert_eq!(rows(&path), [row(1), row(2)]);
         // Going on cuts it off.
         let mut log = Log::begin(folder.path(), "1-2", &rows(&path)).unwrap();
@@ -174,16 +163,15 @@ mod tests {
         let path = folder.path().join(LOG);
         let whole = std::fs::read_to_string(&path).unwrap();
         let lines: Vec<&str> = whole.split_inclusive('\n').collect();
-        let without_seal = lines[1].rsplit_once(",\"seal\"").unwrap().0.to_owned() + "}\n";
+        let unsigned = lines[1].rsplit_once(",\"seal\"").unwrap().0.to_owned() + "}\n";
         let failed = Row { status: Status::Failed, ..row(2) };
-        let log = Log { path: path.clone(), sweep: "1-2".to_owned(), file: None };
         for (second, damaged, words) in [
             (lines[1].replace("0.30000000000000004", "0.30000000000000005"), &[2][..], "changed or damaged"),
             (lines[1].replace("0.30000000000000004", "null"), &[2], "changed or damaged"),
-            (without_seal, &[2], "no checksum"),
-            (sealed("{\"steps\":3}") + "\n", &[2], "no row of a sweep"),
+            (unsigned, &[2], "no checksum"),
+            (with_checksum("{\"steps\":3}") + "\n", &[2], "no row of a sweep"),
             (lines[0].to_owned(), &[1, 2], "combination 1 stands on line"),
-            (log.line(&failed), &[2], "has results"),
+            (line("1-2", &failed), &[2], "has results"),
         ] {
             std::fs::write(&path, [lines[0], &second, lines[2]].concat()).unwrap();
             let found = read(&path).unwrap();

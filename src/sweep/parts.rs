@@ -3,7 +3,7 @@
 use super::log::{Damage, Logged, read};
 use super::row::Row;
 use super::table::Description;
-use crate::output::{SWEEP_LOG, disk, is_gathering};
+use crate::output::{SWEEP_LOG, disk, is_staging};
 use crate::plain;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -104,7 +104,7 @@ impl Part {
             Ok(own)
         };
         let lines = lines.into_iter().map(line).collect::<Result<Vec<_>, _>>()?;
-        if !is_gathering(place) && whole != description.combinations {
+        if !is_staging(place) && whole != description.combinations {
             let wanted = description.combinations;
             return Err(damaged(&log, format!(" has {whole} lines, and sweep.json beside it tells of {wanted}")));
         }

@@ -4,7 +4,7 @@ use super::combinations::Combinations;
 use super::row::{Row, Status};
 use super::task::Task;
 use crate::output::columns::{Cells, csv, names};
-use crate::output::{checksum, seal};
+use crate::output::{checksum, digest};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
@@ -122,7 +122,7 @@ impl Description {
     /// What every line of its log says: equal only for parts of one sweep by one version of percoat.
     pub fn identity(&self) -> String {
         let Self { percoat, title, case, task, fingerprint, of, .. } = self;
-        seal(&format!("{percoat}\n{} {of} {fingerprint}\n{title}\n{case}", task.name()))
+        digest(&format!("{percoat}\n{} {of} {fingerprint}\n{title}\n{case}", task.name()))
     }
 
     /// The file.

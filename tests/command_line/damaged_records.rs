@@ -4,7 +4,7 @@
 use crate::damages::{BLOWS, CASE, copy, ending_with, ends, flipped, relined, replaced, resealed, rezipped, strike};
 use crate::mortal::{case, run};
 use crate::program::{Answer, Desk, Folder};
-use percoat::output::{self, CannotGoOn, unsealed};
+use percoat::output::{self, CannotGoOn, without_checksum};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -156,7 +156,7 @@ fn a_log_that_is_not_as_it_was_written_is_not_believed_line_by_line() {
         ("a text for a number", "line 2", Box::new(edited("\"iterations\":", "\"iterations\":\"x\",\"was\":"))),
         ("null for a number", "line 2", Box::new(edited("\"residual\":", "\"residual\":null,\"was\":"))),
         ("not a number", "line 2", Box::new(edited("\"convolutions\":", "\"convolutions\":NaN,\"was\":"))),
-        ("an earlier version", "no checksum", Box::new(|lines| lines[0] = unsealed(&lines[0]).unwrap())),
+        ("an earlier version", "no checksum", Box::new(|lines| lines[0] = without_checksum(&lines[0]).unwrap())),
         ("another step", "step 3", Box::new(sealed_anew("step", 3.into()))),
         ("another run", "another run", Box::new(sealed_anew("run", "1-2".into()))),
         ("no run", "another run", Box::new(sealed_anew("run", Value::Null))),

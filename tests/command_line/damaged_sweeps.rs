@@ -2,7 +2,7 @@
 
 use crate::damages::{BLOWS, CASE, VALUES, copy, ends, relined, resealed, strike};
 use crate::program::{Desk, Folder};
-use percoat::output::unsealed;
+use percoat::output::without_checksum;
 use std::fs;
 use std::path::Path;
 
@@ -80,7 +80,7 @@ fn a_combination_that_is_damaged_is_solved_again_and_the_others_are_not() {
         lines[1] = lines[1].replacen("\"iterations\":", "\"iterations\":\"x\",\"was\":", 1);
     });
     lines("a line twice", "stands on line", 2, &|lines| lines.push(lines[0].clone()));
-    lines("an earlier version", "no checksum", 2, &|lines| lines[0] = unsealed(&lines[0]).unwrap());
+    lines("an earlier version", "no checksum", 2, &|lines| lines[0] = without_checksum(&lines[0]).unwrap());
     lines("nothing of a combination", "line 2", 2, &|lines| {
         lines[1] = resealed(&lines[1], |row| row["results"] = serde_json::json!([]));
     });
@@ -166,7 +166,7 @@ fn parts_that_are_damaged_or_of_another_sweep_are_refused_with_file_line_and_wha
     lines("another sweep", &["sweep.jsonl", "line 2"], &|lines| {
         lines[1] = foreign.lines().next().unwrap().to_owned();
     });
-    lines("an earlier version", &["sweep.jsonl", "line 1"], &|lines| lines[0] = unsealed(&lines[0]).unwrap());
+    lines("an earlier version", &["sweep.jsonl", "line 1"], &|lines| lines[0] = without_checksum(&lines[0]).unwrap());
     lines("a combination that is none", &["sweep.jsonl", "line 2"], &|lines| {
         lines[1] = resealed(&lines[1], |row| row["combination"] = 7.into());
     });

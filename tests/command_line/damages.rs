@@ -1,7 +1,7 @@
 //! What can happen to files: every kind of damage, and how a command may end after it.
 
 use crate::program::Answer;
-use percoat::output::{sealed, unsealed};
+use percoat::output::{with_checksum, without_checksum};
 use serde_json::Value;
 use std::fs;
 use std::io::{Cursor, Read, Write};
@@ -86,9 +86,9 @@ pub fn relined(path: &Path, change: impl FnOnce(&mut Vec<String>)) {
 
 /// A line with a seal that fits, whatever its content has become.
 pub fn resealed(line: &str, change: impl FnOnce(&mut Value)) -> String {
-    let mut value: Value = serde_json::from_str(&unsealed(line).unwrap()).unwrap();
+    let mut value: Value = serde_json::from_str(&without_checksum(line).unwrap()).unwrap();
     change(&mut value);
-    sealed(&value.to_string())
+    with_checksum(&value.to_string())
 }
 
 /// An archive with other entries; `None` leaves one out.

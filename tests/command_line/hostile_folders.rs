@@ -292,20 +292,18 @@ fn what_stands_in_the_place_of_percoats_own_folder_lock_or_list_is_kept_whatever
 #[test]
 fn what_stands_where_results_are_made_and_go_is_kept() {
     let nothing = Before::Nothing;
-    let at: [(&[&str], &[&str]); 7] = [
-        (&[".percoat/new", ".percoat/placing"], &["solve", "compare"]),
+    let at: [(&[&str], &[&str]); 6] = [
         (&["unfinished", ".percoat/retired"], &["solve", "resume"]),
-        (&["unfinished-sweep", ".percoat/retired-sweep"], &["sweep", "sweep-resume"]),
-        (&[".percoat/check", ".percoat/retired-check"], &["check"]),
-        (&[".percoat/compare", ".percoat/retired-compare"], &["compare"]),
-        (&[".percoat/limit", ".percoat/retired-limit"], &["limit"]),
+        (&["unfinished-sweep", ".percoat/retired"], &["sweep", "sweep-resume"]),
+        (&[".percoat/check", ".percoat/retired"], &["check"]),
+        (&[".percoat/compare", ".percoat/retired"], &["compare"]),
+        (&[".percoat/limit", ".percoat/retired"], &["limit"]),
         (&[".percoat/validate"], &["solve"]),
     ];
     let rows: Vec<_> = at.iter().map(|(places, commands)| (nothing, *places, *commands, &ATTACKS[..])).collect();
     try_all(&rows, 80);
-    let reading =
-        [".percoat/new", ".percoat/placing", ".percoat/report", ".percoat/retired-report", "unfinished-sweep"];
-    try_all(&[(Before::Finished, &reading, &READING, &ATTACKS)], 40);
+    let reading = [".percoat/retired", ".percoat/report", "unfinished-sweep"];
+    try_all(&[(Before::Finished, &reading, &READING, &ATTACKS)], 25);
 }
 
 #[test]

@@ -3,29 +3,29 @@
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
 use super::checksum::Checksum;
-use super::gathered::remove_waiting;
 use super::npy::{complete, header, npy, values};
 use super::npz::Archive;
-use super::{Draft, Files, OutputError, disk, make_folder, write_file};
+use super::staging::remove_own;
+use super::{At, Draft, Files, OutputError, disk, make_folder, write_file};
 use crate::plain;
 use std::fs;
 use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-/// An archive that is being gathered on disk.
+/// Arrays of the load steps so far, one file an entry, and the archive that they become.
 #[derive(Debug)]
 pub(super) struct StepArrays {
     folder: PathBuf,
     name: &'static str,
-    arrays: Vec<Entry>,
+    arrays: Vec<StepArray>,
     steps: usize,
-    /// What the present step has left so far, by its names in the folder.
+    /// Files that the present step has left so far, by their names in the folder.
     left: Files,
 }
 
-/// What each step adds to an array.
+/// An array, and what each step adds to it.
 #[derive(Debug)]
-struct Entry {
+struct StepArray {
     array: String,
     /// Shape of the entry without its parts.
     shape: Vec<usize>,
@@ -33,7 +33,7 @@ struct Entry {
     parts: Option<usize>,
 }
 
-/// A part of a step's entry of an array, that is being written.
+/// A part of a step's entry of an array, under construction.
 #[derive(Debug)]
 pub(super) struct GrowingEntry {
     file: Draft,
@@ -44,17 +44,16 @@ pub(super) struct GrowingEntry {
 }
 
 impl StepArrays {
-    /// Nothing yet of the archive `<name>.npz` in `folder`, where the result is gathered. Refused when `<name>.partial/` is
-    /// there already, whoever made it.
+    /// No steps yet of the archive `<name>.npz` in the staging folder `folder`. Refused when `<name>.partial/` is there already.
     pub(super) fn new(folder: &Path, name: &'static str) -> Result<Self, OutputError> {
         let arrays = Self::after(folder, name, 0);
         let partial = arrays.partial();
         make_folder(folder)?;
-        disk::create_folder(&partial).map_err(|error| OutputError::new(&partial, error))?;
+        disk::create_folder(&partial).at(&partial)?;
         Ok(arrays)
     }
 
-    /// The same where an earlier run has left the entries of so many `steps`, all of them
+    /// The arrays of the first `steps` load steps, as an interrupted run has left them, all of them
     /// [whole](super::finished::finished).
     pub(super) fn go_on(folder: &Path, name: &'static str, steps: usize) -> Result<Self, OutputError> {
         let arrays = Self::after(folder, name, steps);
@@ -74,7 +73,7 @@ impl StepArrays {
         partial(&self.folder, self.name)
     }
 
-    /// Where the entry of an array for a step (from 1), or a part of it (from 1), waits.
+    /// The file of a step's entry of an array (steps from 1), or of a part of it (from 1).
     fn waiting(&self, array: &str, step: usize, part: Option<usize>) -> PathBuf {
         let part = part.map_or(String::new(), |part| format!(".{part:03}"));
         self.partial().join(format!("{array}.{step:04}{part}.npy"))
@@ -86,7 +85,7 @@ impl StepArrays {
         self.steps
     }
 
-    /// Puts the present step's entry of an array on disk. Every step has the same arrays of the same shapes.
+    /// Writes the present step's entry of an array. Every step has the same arrays of the same shapes.
     pub(super) fn add(
         &mut self,
         array: &str,
@@ -124,7 +123,7 @@ impl StepArrays {
         self.left.add(format!("{}.partial/{name}", self.name), sum);
     }
 
-    /// What the present step has left, with its checksums.
+    /// Files that the present step has left, with their checksums.
     pub(super) fn left(&mut self) -> Files {
         std::mem::take(&mut self.left)
     }
@@ -132,14 +131,14 @@ impl StepArrays {
     fn enter(&mut self, array: &str, part: Option<usize>, shape: &[usize]) {
         match self.arrays.iter_mut().find(|entry| entry.array == array) {
             Some(entry) => entry.parts = entry.parts.max(part),
-            None => self.arrays.push(Entry { array: array.to_owned(), shape: shape.to_vec(), parts: part }),
+            None => self.arrays.push(StepArray { array: array.to_owned(), shape: shape.to_vec(), parts: part }),
         }
     }
 
-    /// Brings the names of the present step's entries to the disk, where their content is.
+    /// Brings the names of the present step's entries to the disk; their content is there.
     pub(super) fn sync(&self) -> Result<(), OutputError> {
         let partial = self.partial();
-        disk::sync_folder(&partial).map_err(|error| OutputError::new(&partial, error))
+        disk::sync_folder(&partial).at(&partial)
     }
 
     /// Gathers all steps in the archive, after the arrays that `constants` adds; the waiting files stay if that fails.
@@ -150,7 +149,7 @@ impl StepArrays {
         write_file(&self.archive(), |writer| {
             let mut archive = Archive::new(writer);
             constants(&mut archive)?;
-            for Entry { array, shape, parts } in &self.arrays {
+            for StepArray { array, shape, parts } in &self.arrays {
                 let numbers: Vec<Option<usize>> = parts.map_or(vec![None], |parts| (1..=parts).map(Some).collect());
                 let files = (1..=self.steps)
                     .flat_map(|step| numbers.iter().map(move |&part| (step, part)))
@@ -168,8 +167,8 @@ impl StepArrays {
             archive.finish()
         })?;
         // The archive has its name before what it is made of goes.
-        disk::sync_folder(&self.folder).map_err(|error| OutputError::new(&self.folder, error))?;
-        remove_waiting(&self.partial()).map(|_| ())
+        disk::sync_folder(&self.folder).at(&self.folder)?;
+        remove_own(&self.folder, &format!("{}.partial", self.name)).map(|_| ())
     }
 }
 
@@ -182,12 +181,12 @@ impl GrowingEntry {
     }
 }
 
-/// Where the entries of an archive in a folder wait.
+/// The folder of the entries of an archive in a folder.
 pub(super) fn partial(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.partial"))
 }
 
-/// The values of an entry of this shape; an error tells which.
+/// The values of an entry of this shape; an error names its file.
 fn read(path: &Path, shape: &[usize]) -> io::Result<Vec<f64>> {
     let read = disk::open(path).and_then(|file| values(BufReader::new(file), shape));
     read.map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", plain::path(path))))

@@ -1,101 +1,115 @@
-//! What a run that was killed has left where its result is gathered, and the steps that a finer grid leaves behind.
+//! An interrupted run: what a kill or a power cut has left in its staging folder, and the steps that a finer grid leaves behind.
 
-use super::gathered::{is_moved, is_partial, remove_own, remove_temporary, remove_waiting, set_aside};
-use super::layout::{COARSER, SWEEP_LOG, names};
-use super::{OutputError, checkpoint, disk, steps_log};
+use super::layout::{COARSER, MARK, SWEEP_LOG, is_staging, staging};
+use super::log::{cut, has_whole_line};
+use super::staging::{Entry, entries, remove_or_set_aside, remove_own};
+use super::writer::Writer;
+use super::{At, OutputError, checkpoint, disk, steps_log};
 use std::path::{Path, PathBuf};
 
-/// Whether anything has been solved, be it a load of which nothing is read off yet.
-pub(super) fn has_begun(staging: &Path) -> bool {
+/// Whether anything is saved in a staging folder, on any grid, be it a load of which nothing is read off yet.
+pub fn has_begun(staging: &Path) -> bool {
     has_finished(staging) || disk::is_file(&staging.join(checkpoint::NAME))
 }
 
-/// Whether a step or a combination has been finished where a result is gathered, on its grid or a coarser one.
-pub(super) fn has_finished(staging: &Path) -> bool {
-    let coarser = staging.join(COARSER);
-    has_steps(staging) || disk::is_folder(&coarser) && has_steps(&coarser)
+/// Whether an interrupted `solve` into a folder has saved the solution of a load and finished no step: nothing that could be set
+/// aside, and something with which a run of the same case can go on.
+pub fn has_solved_alone(folder: &Path) -> bool {
+    let staging = staging(folder, Writer::Solve);
+    disk::is_folder(&staging) && is_staging(&staging) && has_begun(&staging) && !has_finished(&staging)
 }
 
-/// Whether steps have been finished on one grid: its log has a whole line. A summary is one too: earlier versions of percoat
+/// Size of what an interrupted `solve` has left in its staging folder, bytes.
+pub fn staged_bytes(folder: &Path) -> u64 {
+    let entries = entries(&staging(folder, Writer::Solve)).unwrap_or_default();
+    entries.iter().filter(|entry| entry.there.is_file()).map(|entry| entry.there.len()).sum()
+}
+
+/// The folder of the steps on a coarser grid in a staging folder, if there is one.
+pub fn coarser(staging: &Path) -> Option<PathBuf> {
+    Some(staging.join(COARSER)).filter(|path| disk::is_folder(path))
+}
+
+/// Whether a step or a combination has been finished, on the present grid or a coarser one.
+pub(super) fn has_finished(staging: &Path) -> bool {
+    has_steps(staging) || coarser(staging).is_some_and(|coarser| has_steps(&coarser))
+}
+
+/// Whether steps have been finished on one grid: its log has a whole line. A summary counts too: earlier versions of percoat
 /// wrote it after every step, and no log.
 pub(super) fn has_steps(folder: &Path) -> bool {
-    [steps_log::NAME, SWEEP_LOG].iter().any(|name| steps_log::has_whole_line(&folder.join(name)))
+    [steps_log::NAME, SWEEP_LOG].iter().any(|name| has_whole_line(&folder.join(name)))
         || disk::is_file(&folder.join("summary.json"))
 }
 
-/// Puts in order what a run that was killed has left where its result is gathered: files that were being written go, logs
-/// end with their last whole line, and steps of a coarser grid that were on the way to `coarser/` come there.
+/// Puts a staging folder in order: temporary files go, logs end with their last whole line, and steps of a coarser grid that
+/// were on the way to `coarser/` come there. No item of percoat may be of a wrong kind there.
 pub(super) fn settle(staging: &Path) -> Result<(), OutputError> {
-    let coarser = staging.join(COARSER);
-    let log = |folder: &Path| disk::is_file(&folder.join(steps_log::NAME));
-    if disk::is_folder(&coarser) && !log(&coarser) && log(staging) {
-        move_steps(staging, &coarser)?;
+    let [log, coarser_log] = [staging, &staging.join(COARSER)].map(|folder| folder.join(steps_log::NAME));
+    if coarser(staging).is_some() && !disk::is_file(&coarser_log) && disk::is_file(&log) {
+        move_steps(staging)?;
     }
-    for folder in [staging, &coarser].into_iter().filter(|folder| disk::is_folder(folder)) {
-        remove_temporary(folder)?;
-        for name in [steps_log::NAME, SWEEP_LOG] {
-            steps_log::cut(&folder.join(name))?;
-        }
+    for entry in entries(staging)?.iter().filter(|entry| entry.is_temporary()) {
+        let path = staging.join(&entry.path);
+        disk::remove(&path).at(&path)?;
     }
-    Ok(())
+    [log, coarser_log, staging.join(SWEEP_LOG)].iter().try_for_each(|log| cut(log))
 }
 
-/// Moves the steps of a grid to `coarser/`, in the place of those of one before. What somebody else has put there is moved
-/// aside in the output folder: where to.
-pub(super) fn move_aside(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
-    let failed = |path: &Path| {
-        let path = path.to_owned();
-        move |error| OutputError::new(&path, error)
-    };
-    // That the finer grid has begun is saved before.
-    disk::sync_folder(staging).map_err(failed(staging))?;
+/// Removes the fields of a grid on which no step was finished. Returns where files of a user are now that stood there.
+pub(super) fn remove_fields(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
+    let mut aside = None;
+    for name in ["contact.partial", "stress.partial"] {
+        aside = remove_or_set_aside(staging, name, output)?.or(aside);
+    }
+    Ok(aside)
+}
+
+/// Moves finished steps to `coarser/`, in the place of those of the grid before. Returns where files of a user are now that
+/// stood there.
+pub(super) fn move_to_coarser(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
+    // That the finer grid has begun is on the disk before.
+    disk::sync_folder(staging).at(staging)?;
     let coarser = staging.join(COARSER);
     // A folder without a log is one on its way, see `settle`.
     let log = coarser.join(steps_log::NAME);
     if disk::is_file(&log) {
-        disk::remove(&log).and_then(|()| disk::sync_folder(&coarser)).map_err(failed(&log))?;
+        disk::remove(&log).and_then(|()| disk::sync_folder(&coarser)).at(&log)?;
     }
-    let aside = if remove_own(&coarser, &|_| false)? { None } else { set_aside(&coarser, output)? };
-    disk::create_folder(&coarser).map_err(failed(&coarser))?;
-    move_steps(staging, &coarser)?;
+    let aside = remove_or_set_aside(staging, COARSER, output)?;
+    disk::create_folder(&coarser).at(&coarser)?;
+    move_steps(staging)?;
     Ok(aside)
 }
 
-/// Removes fields of a grid on which no step was finished. What somebody else has put there is moved aside in the output
-/// folder: where to.
-pub(super) fn remove_begun(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
-    let mut aside = None;
-    for name in names(staging)?.iter().filter(|name| is_partial(name)) {
-        let partial = staging.join(name);
-        if !remove_waiting(&partial)? {
-            aside = set_aside(&partial, output)?;
-        }
-    }
-    Ok(aside)
-}
-
-/// Moves the steps of a grid where those of the coarser one stand, the log as the last: what it lists is there when it comes.
-fn move_steps(staging: &Path, coarser: &Path) -> Result<(), OutputError> {
-    let both = || [coarser, staging].into_iter().try_for_each(disk::sync_folder);
-    let settled = |done: std::io::Result<()>| done.map_err(|error| OutputError::new(coarser, error));
-    for name in names(staging)?.iter().filter(|name| is_moved(name)) {
+/// Moves the steps of a grid to `coarser/`, the log as the last: what it lists is there when it comes.
+fn move_steps(staging: &Path) -> Result<(), OutputError> {
+    let coarser = staging.join(COARSER);
+    let settled = || disk::sync_folder(&coarser).and_then(|()| disk::sync_folder(staging)).at(&coarser);
+    let stays = [MARK, checkpoint::NAME, steps_log::NAME, COARSER].map(Path::new);
+    let moves = |entry: &&Entry| {
+        let is_at_top = entry.path.iter().count() == 1 && !stays.contains(&entry.path.as_path());
+        is_at_top && entry.is_own() && !entry.is_temporary()
+    };
+    for Entry { path: name, there, .. } in entries(staging)?.iter().filter(moves) {
         let (path, to) = (staging.join(name), coarser.join(name));
-        // What a grid before has left there.
-        if is_partial(name) {
-            remove_waiting(&to)?;
+        if there.is_file() {
+            disk::replace(&path, &to).at(&path)?;
+        } else {
+            // The rest of the grid before.
+            remove_own(staging, &format!("{COARSER}/{}", name.display()))?;
+            disk::move_to(&path, &to).at(&path)?;
         }
-        let moved = if disk::is_folder(&path) { disk::move_to(&path, &to) } else { disk::replace(&path, &to) };
-        moved.map_err(|error| OutputError::new(&path, error))?;
     }
-    settled(both())?;
+    settled()?;
     let log = staging.join(steps_log::NAME);
-    disk::replace(&log, &coarser.join(steps_log::NAME)).map_err(|error| OutputError::new(&log, error))?;
-    settled(both())
+    disk::replace(&log, &coarser.join(steps_log::NAME)).at(&log)?;
+    settled()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::layout::{MARK, OWN};
+    use super::super::layout::{OWN, names};
     use super::super::{Plan, RunFolder, Writer, make_folder, write_text};
     use super::*;
     use std::fs;
@@ -126,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_that_only_a_summary_tells_of_are_set_aside() {
+    fn steps_that_a_summary_alone_records_are_set_aside() {
         let place = tempfile::tempdir().unwrap();
         let claim = RunFolder::claim(place.path(), plan()).unwrap();
         make_folder(&claim.staging().join("contact.partial")).unwrap();
@@ -167,14 +181,35 @@ mod tests {
         let first = claim(false);
         write_text(&first.staging().join("checkpoint.npz"), "solved").unwrap();
         drop(first);
-        assert!(RunFolder::has_solved_alone(place.path()));
+        assert!(has_solved_alone(place.path()));
         let mut next = claim(true);
         assert!(next.resumes() && next.staging().join("checkpoint.npz").is_file());
         assert_eq!(next.begin_anew().unwrap(), None);
         assert_eq!(names(place.path()).unwrap(), [OWN, "unfinished"]);
         write_text(&next.staging().join("checkpoint.npz"), "solved").unwrap();
         write_text(&next.staging().join("steps.jsonl"), "{}\n").unwrap();
-        assert!(!RunFolder::has_solved_alone(place.path()));
+        assert!(!has_solved_alone(place.path()));
+    }
+
+    #[test]
+    fn a_run_that_goes_on_may_write_more_files_than_the_interrupted_one() {
+        let place = tempfile::tempdir().unwrap();
+        let claim = |names: [&str; 2]| {
+            let names = names.map(str::to_owned).to_vec();
+            RunFolder::claim(place.path(), Plan { names, resumes: true, ..plan() }).unwrap()
+        };
+        let first = claim(["old.png", "summary.json"]);
+        for (name, text) in [("old.png", "drawn"), ("steps.jsonl", "{}\n")] {
+            write_text(&first.staging().join(name), text).unwrap();
+        }
+        drop(first);
+        let next = claim(["new.png", "summary.json"]);
+        assert!(next.resumes() && next.staging().join("old.png").is_file());
+        for name in ["new.png", "summary.json"] {
+            write_text(&next.staging().join(name), "new").unwrap();
+        }
+        assert_eq!(next.publish().unwrap(), None, "nothing is a user's");
+        assert_eq!(names(place.path()).unwrap(), [OWN, "new.png", "summary.json"]);
     }
 
     /// Killed between any two of the changes with which a finer grid begins: old coarser steps go, the log first; fields

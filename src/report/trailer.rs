@@ -1,18 +1,17 @@
-//! The last line of a page: whoever meets the file knows by it that percoat wrote all of it and nobody has changed it since.
+//! The last line of a report, by which percoat recognises the file later as its own: unchanged since it was written.
 
-use crate::output::{disk, seal};
+use crate::output::{Trailer, disk};
 use std::io;
 use std::path::Path;
 
-const BEFORE: &str = "<!-- end of a report of percoat, checksum ";
-const AFTER: &str = " -->\n";
+const TRAILER: Trailer = Trailer { before: "<!-- end of a report of percoat, checksum ", after: " -->\n" };
 
-/// The page with its seal.
-pub(super) fn sealed(page: &str) -> String {
-    format!("{page}{BEFORE}{}{AFTER}", seal(page))
+/// The page with its last line.
+pub(super) fn with_trailer(page: &str) -> String {
+    TRAILER.added(page)
 }
 
-/// Whether the file is a report of percoat that nobody has changed.
+/// Whether the file is a report of percoat that has not been changed.
 ///
 /// # Errors
 /// When it cannot be read.
@@ -21,12 +20,7 @@ pub fn is_own(path: &Path) -> io::Result<bool> {
         return Ok(false);
     }
     let bytes = disk::read(path)?;
-    let own = || {
-        let text = str::from_utf8(&bytes).ok()?;
-        let (page, end) = text.rsplit_once(BEFORE)?;
-        Some(end.strip_suffix(AFTER)? == seal(page))
-    };
-    Ok(own().unwrap_or(false))
+    Ok(str::from_utf8(&bytes).is_ok_and(|text| TRAILER.removed(text).is_ok()))
 }
 
 #[cfg(test)]
@@ -38,14 +32,14 @@ mod tests {
     fn a_page_is_percoats_until_a_letter_is_changed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("report.html");
-        let page = sealed("<p>0.05 ± 0.01</p>\n");
+        let page = with_trailer("<p>0.05 ± 0.01</p>\n");
         let is = |text: &str| {
             fs::write(&path, text).unwrap();
             is_own(&path).unwrap()
         };
         assert!(is(&page));
         assert!(!is(&page.replace("0.01", "0.02")) && !is(&format!("{page}\n")) && !is("mine") && !is(""));
-        assert!(!is(&page[..page.len() - AFTER.len()]));
+        assert!(!is(&page[..page.len() - TRAILER.after.len()]));
         assert!(is_own(folder.path()).is_ok_and(|own| !own));
     }
 }

@@ -1,10 +1,10 @@
-//! An archive taken apart again into the entries of its steps.
+//! An archive of arrays unpacked into the entries of its steps.
 //!
 //! A run that is killed after its fields were gathered, and before they were published, has left the archive alone. The next
-//! one goes on with the last step, and so with the entries of the steps before, which are what their checksums are of.
+//! one goes on with the entries of the steps before the last, of which there are checksums.
 
 use super::npy::{header, shape};
-use super::steps::partial;
+use super::step_arrays::partial;
 use super::{disk, make_folder, write_file};
 use std::collections::BTreeMap;
 use std::io::{self, BufReader, Read};
@@ -12,19 +12,19 @@ use std::path::Path;
 use zip::ZipArchive;
 
 /// An entry by its step, and its part where it comes in several.
-type Place = (usize, Option<usize>);
+type Index = (usize, Option<usize>);
 
-/// Puts the entries of these names (`<archive>.partial/<array>.NNNN.npy`) where they waited before the archive was made of
+/// Writes the entries of these names (`<archive>.partial/<array>.NNNN.npy`), as they stood before the archive was made of
 /// them; those of other archives are left out. The archive stays.
 ///
 /// # Errors
 /// When it cannot be read, or has no such entries.
-pub(super) fn scatter<'a>(folder: &Path, archive: &str, names: impl Iterator<Item = &'a str>) -> io::Result<()> {
-    let mut arrays: BTreeMap<&str, BTreeMap<Place, &str>> = BTreeMap::new();
+pub(super) fn unpack<'a>(folder: &Path, archive: &str, names: impl Iterator<Item = &'a str>) -> io::Result<()> {
+    let mut arrays: BTreeMap<&str, BTreeMap<Index, &str>> = BTreeMap::new();
     for name in names {
         let entry = name.strip_prefix(archive).and_then(|rest| rest.strip_prefix(".partial/"));
-        if let Some((array, place)) = entry.and_then(placed) {
-            arrays.entry(array).or_default().insert(place, name);
+        if let Some((array, index)) = entry.and_then(index_of) {
+            arrays.entry(array).or_default().insert(index, name);
         }
     }
     let mut zip = ZipArchive::new(BufReader::new(disk::open(&folder.join(format!("{archive}.npz")))?))?;
@@ -49,8 +49,8 @@ pub(super) fn scatter<'a>(folder: &Path, archive: &str, names: impl Iterator<Ite
     Ok(())
 }
 
-/// Array and place of an entry by the name of its file.
-fn placed(file: &str) -> Option<(&str, Place)> {
+/// Array and index of an entry by the name of its file.
+fn index_of(file: &str) -> Option<(&str, Index)> {
     let mut parts = file.strip_suffix(".npy")?.split('.');
     let (array, step) = (parts.next()?, parts.next()?.parse().ok()?);
     let part = parts.next().map(|part| part.parse().ok());
@@ -64,13 +64,16 @@ fn placed(file: &str) -> Option<(&str, Place)> {
 #[cfg(test)]
 mod tests {
     use super::super::Files;
-    use super::super::steps::StepArrays;
+    use super::super::staging::create;
+    use super::super::step_arrays::StepArrays;
     use super::*;
 
     #[test]
     fn an_archive_gives_the_entries_of_its_steps_again_byte_for_byte() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut arrays = StepArrays::new(folder.path(), "some").unwrap();
+        let place = tempfile::tempdir().unwrap();
+        let folder = place.path().join("unfinished");
+        create(&folder, &[]).unwrap();
+        let mut arrays = StepArrays::new(&folder, "contact").unwrap();
         let mut files = Files::default();
         for step in 0..3 {
             arrays.next_step();
@@ -85,10 +88,10 @@ mod tests {
             files.append(arrays.left());
         }
         arrays.finish(|_| Ok(())).unwrap();
-        assert!(files.damaged(folder.path()).is_some());
-        scatter(folder.path(), "some", files.names()).unwrap();
-        assert_eq!(files.damaged(folder.path()), None);
-        let others = ["some.partial/c.0001.npy", "some.partial/a.x.npy", "other.partial/a.0001.npy"];
-        assert!(scatter(folder.path(), "some", others.into_iter()).is_err(), "there is no array c");
+        assert!(files.damaged(&folder).is_some());
+        unpack(&folder, "contact", files.names()).unwrap();
+        assert_eq!(files.damaged(&folder), None);
+        let others = ["contact.partial/c.0001.npy", "contact.partial/a.x.npy", "other.partial/a.0001.npy"];
+        assert!(unpack(&folder, "contact", others.into_iter()).is_err(), "there is no array c");
     }
 }

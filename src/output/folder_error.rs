@@ -1,0 +1,38 @@
+//! The reasons why a run cannot have an output folder.
+
+use super::OutputError;
+use std::path::PathBuf;
+
+/// Why a run cannot have an output folder.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// A user's file or folder would be replaced.
+    #[error("{} {reason}, and this run would replace it: choose another folder with -o, or move it away", path.display())]
+    Foreign {
+        /// The file or folder.
+        path: PathBuf,
+        /// Whose it is.
+        reason: &'static str,
+    },
+    /// A link, a pipe, or a folder in the place of a file (or the reverse), where percoat keeps something of its own.
+    #[error("{} is {found}, where percoat keeps {expected} of its own: move it away, or choose another folder with -o", path.display())]
+    WrongKind {
+        /// Its path.
+        path: PathBuf,
+        /// What stands there, in words.
+        found: &'static str,
+        /// What percoat keeps there, in words.
+        expected: &'static str,
+    },
+    /// Another run writes into the folder.
+    #[error("another run ({owner}) is writing into {}: wait for it, or choose another folder with -o", folder.display())]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// The other run's process, as its lock says.
+        owner: String,
+    },
+    /// The folder cannot be read or written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}

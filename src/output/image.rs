@@ -1,0 +1,36 @@
+//! The content of a folder in memory, for the tests: what a kill or a power cut leaves.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A folder as it may stand on the disk: files with their content by their names, folders without.
+pub(crate) type Image = BTreeMap<PathBuf, Option<Vec<u8>>>;
+
+/// The image of a folder.
+pub(super) fn read(root: &Path) -> Image {
+    fn add(root: &Path, below: &Path, image: &mut Image) {
+        for entry in fs::read_dir(root.join(below)).unwrap().map(Result::unwrap) {
+            let path = below.join(entry.file_name());
+            if entry.file_type().unwrap().is_dir() {
+                add(root, &path, image);
+                image.insert(path, None);
+            } else {
+                image.insert(path, Some(fs::read(entry.path()).unwrap()));
+            }
+        }
+    }
+    let mut image = Image::new();
+    add(root, Path::new(""), &mut image);
+    image
+}
+
+/// Writes an image to the disk.
+pub(super) fn lay(image: &Image, root: &Path) {
+    for (path, content) in image {
+        match content {
+            None => fs::create_dir_all(root.join(path)).unwrap(),
+            Some(content) => fs::write(root.join(path), content).unwrap(),
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! A log of lines, `steps.jsonl` or `sweep.jsonl`: an object of JSON a line, with its [checksum](super::trailer), appended when
+//! its step or combination is done.
+//!
+//! The first lines and the name of the file come at once, and each later line is on the disk when it has been added. Whatever ends
+//! the program, the lines that end are whole; the beginning of one more is cut off before the log is used again.
+
+use super::disk::{self, Appended};
+use super::{At, OutputError, write_file, write_text};
+use std::io::{self, BufRead, BufReader, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// A log to which lines are added.
+#[derive(Debug)]
+pub(crate) struct LineLog {
+    path: PathBuf,
+    /// Lines with which the file begins; none: the file must not be there.
+    known: Option<String>,
+    /// Open from the first line on.
+    file: Option<Appended>,
+}
+
+impl LineLog {
+    /// A log that begins. Its first line is refused when a file is there already.
+    pub(crate) fn new(path: PathBuf) -> Self {
+        Self { path, known: None, file: None }
+    }
+
+    /// A log that goes on after some whole lines; they and the next one replace the file.
+    pub(crate) fn after(path: PathBuf, known: String) -> Self {
+        Self { path, known: Some(known), file: None }
+    }
+
+    /// Adds whole lines.
+    ///
+    /// # Errors
+    /// [`OutputError`] with the path.
+    pub(crate) fn add(&mut self, lines: &str) -> Result<(), OutputError> {
+        if let Some(file) = &mut self.file {
+            return file.add(lines.as_bytes()).at(&self.path);
+        }
+        if self.known.is_none() && disk::found(&self.path).at(&self.path)?.is_some() {
+            return Err(OutputError::new(&self.path, ErrorKind::AlreadyExists.into()));
+        }
+        write_text(&self.path, &(self.known.take().unwrap_or_default() + lines))?;
+        self.file = Some(Appended::open(&self.path).at(&self.path)?);
+        self.path.parent().map_or(Ok(()), disk::sync_folder).at(&self.path)
+    }
+}
+
+/// Whether a log is there and has a whole line.
+pub(super) fn has_whole_line(path: &Path) -> bool {
+    let line = disk::open(path).and_then(|file| {
+        let mut line = Vec::new();
+        BufReader::new(file).read_until(b'\n', &mut line)?;
+        Ok(line)
+    });
+    line.is_ok_and(|line| line.ends_with(b"\n"))
+}
+
+/// Cuts off what a kill or a full disk has left of one more line than are whole; a log without a whole line is removed.
+pub(super) fn cut(path: &Path) -> Result<(), OutputError> {
+    if !disk::is_file(path) {
+        return Ok(());
+    }
+    let bytes = disk::read(path).at(path)?;
+    match bytes.iter().rposition(|byte| *byte == b'\n') {
+        None => disk::remove(path).at(path),
+        // The file may have another name elsewhere, whose content is not percoat's to cut.
+        Some(end) if end + 1 < bytes.len() => write_file(path, |writer| writer.write_all(&bytes[..=end])),
+        Some(_) => Ok(()),
+    }
+}
+
+/// The whole lines of a log, without what a kill or a full disk has left of one more. Bytes that are not UTF-8 become U+FFFD, so
+/// that the checksum of their line no longer fits.
+///
+/// # Errors
+/// When it cannot be read.
+pub fn whole_lines(path: &Path) -> io::Result<Vec<String>> {
+    let mut bytes = disk::read(path)?;
+    bytes.truncate(bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |end| end + 1));
+    Ok(String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect())
+}

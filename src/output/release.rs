@@ -1,0 +1,32 @@
+//! A solved folder that becomes part of another result, as those of a sweep's combinations do: it gives up what percoat keeps for
+//! itself there.
+
+use super::files::Files;
+use super::layout::{LIST, OWN, names, staging};
+use super::manifest::published;
+use super::writer::Writer;
+use super::{At, OutputError, disk, lock};
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// Gives up a solved folder, and returns the files of its result. What percoat has not put into `.percoat` stays there.
+///
+/// # Errors
+/// [`OutputError`] with the path.
+pub fn release(folder: &Path) -> Result<Files, OutputError> {
+    let files = published(folder).filtered(|_, by| by == Writer::Solve);
+    for path in [LIST, lock::NAME].map(|name| folder.join(name)).iter().filter(|path| disk::is_file(path)) {
+        disk::remove(path).at(path)?;
+    }
+    let own = folder.join(OWN);
+    match disk::remove_folder(&own) {
+        Err(error) if [ErrorKind::NotFound, ErrorKind::DirectoryNotEmpty].contains(&error.kind()) => Ok(files),
+        removed => removed.and_then(|()| disk::sync_folder(folder)).at(&own).map(|()| files),
+    }
+}
+
+/// Whether a folder was [released](release), or half so when its run was killed: it holds a result and no list.
+pub fn is_released(folder: &Path) -> bool {
+    let is_result = |name: &String| *name != OWN && folder.join(name) != staging(folder, Writer::Solve);
+    !disk::is_file(&folder.join(LIST)) && names(folder).is_ok_and(|names| names.iter().any(is_result))
+}

@@ -1,0 +1,224 @@
+//! The staging folder, in which a run gathers its result: which names percoat itself uses there. What has another name is a
+//! user's, and is neither published nor removed.
+//!
+//! A staging folder has a [mark](MARK) from its beginning to its end, with the names that the run may write. Only in a marked
+//! folder are files percoat's by their names. A folder that goes is moved to `.percoat/retired` at once and removed there; what
+//! a user has put into it, and finished steps, are kept in `interrupted-1/` or the next free number.
+
+use super::disk::{self, found};
+use super::files::is_inside;
+use super::layout::{COARSER, COMBINATIONS, DECIDED, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
+use super::{At, OutputError, checkpoint, steps_log, write_text};
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::fs::{self, Metadata};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// What percoat keeps under a name in a staging folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Item {
+    File,
+    Folder,
+}
+
+/// What percoat keeps under a path relative to a staging folder, by the parts of the path; `None`: nothing, the path is a user's.
+fn item(parts: &[&str]) -> Option<Item> {
+    match *parts {
+        // A combination is solved in an output folder of its own.
+        [COMBINATIONS, _, MARK, ..] => None,
+        [COMBINATIONS, number, ref rest @ ..] if is_number(number) && !rest.is_empty() => item(rest),
+        [COARSER, ref rest @ ..] if !rest.is_empty() => item(rest),
+        [COMBINATIONS, name] => is_number(name).then_some(Item::Folder),
+        [COARSER | COMBINATIONS | "contact.partial" | "stress.partial"] => Some(Item::Folder),
+        [MARK | DECIDED | checkpoint::NAME | steps_log::NAME | SWEEP_LOG | "sweep.csv" | "sweep.json"] => {
+            Some(Item::File)
+        }
+        ["case.toml" | "summary.json" | "curve.csv" | "histograms.csv" | "contact.npz" | "stress.npz"] => {
+            Some(Item::File)
+        }
+        [name] if name.starts_with("stress.") && name.ends_with(".vts") => Some(Item::File),
+        [name] => is_temporary(name).then_some(Item::File),
+        ["contact.partial" | "stress.partial", name] => {
+            (name.ends_with(".npy") || is_temporary(name)).then_some(Item::File)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a name is that of a combination.
+fn is_number(name: &str) -> bool {
+    name.len() >= 4 && name.bytes().all(|byte| byte.is_ascii_digit())
+}
+
+/// Whether a name is a temporary one: `.NAME.PROCESS.tmp`, or `.NAME.PROCESS.NUMBER.tmp`.
+fn is_temporary(name: &str) -> bool {
+    let middle =
+        name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp")).and_then(|name| name.rsplit_once('.'));
+    middle.is_some_and(|(name, number)| {
+        !name.is_empty() && !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit())
+    })
+}
+
+/// A file or folder in a staging folder.
+#[derive(Debug)]
+pub(super) struct Entry {
+    /// Its path relative to the staging folder.
+    pub(super) path: PathBuf,
+    /// What stands there, links not followed.
+    pub(super) there: Metadata,
+    /// What percoat keeps under that path.
+    pub(super) item: Option<Item>,
+}
+
+impl Entry {
+    /// Whether it is a file that was being written.
+    pub(super) fn is_temporary(&self) -> bool {
+        self.is_own() && self.path.file_name().and_then(OsStr::to_str).is_some_and(is_temporary)
+    }
+
+    /// Whether it is percoat's: a file or a folder itself, where percoat keeps one.
+    pub(super) fn is_own(&self) -> bool {
+        self.item.is_some_and(|item| if item == Item::Folder { self.there.is_dir() } else { self.there.is_file() })
+    }
+}
+
+/// Makes a staging folder for files of the `planned` names.
+pub(super) fn create(staging: &Path, planned: &[String]) -> Result<(), OutputError> {
+    disk::create_folder(staging).at(staging)?;
+    let mark = staging.join(MARK);
+    let mut file = disk::create(&mark).at(&mark)?;
+    file.write_all(marking(planned).as_bytes()).and_then(|()| disk::sync(&file, &mark)).at(&mark)?;
+    // The mark is on the disk before anything that it makes percoat's.
+    disk::sync_folder(staging).at(staging)?;
+    staging.parent().map_or(Ok(()), disk::sync_folder).at(staging)
+}
+
+/// Adds names to those that are planned in a staging folder.
+pub(super) fn plan_more(staging: &Path, names: &[String]) -> Result<(), OutputError> {
+    let planned = planned(staging);
+    let known: BTreeSet<&String> = planned.iter().collect();
+    let more: Vec<String> = names.iter().filter(|name| !known.contains(name)).cloned().collect();
+    if more.is_empty() { Ok(()) } else { write_text(&staging.join(MARK), &marking(&[planned, more].concat())) }
+}
+
+/// The content of a mark.
+fn marking(planned: &[String]) -> String {
+    let names = serde_json::to_string(planned).expect("names are texts");
+    format!("A run of percoat {} that is not finished.\n{names}\n", env!("CARGO_PKG_VERSION"))
+}
+
+/// The names in the mark of a staging folder.
+fn planned(staging: &Path) -> Vec<String> {
+    let text = disk::read_text(&staging.join(MARK)).unwrap_or_default();
+    let names = text.split_once('\n').and_then(|(_, names)| serde_json::from_str::<Vec<String>>(names).ok());
+    names.unwrap_or_default().into_iter().filter(|name| is_inside(name)).collect()
+}
+
+/// What stands in a staging folder, the content of a folder before itself; folders of users are not entered. In a folder
+/// without a mark nothing is percoat's.
+pub(super) fn entries(staging: &Path) -> Result<Vec<Entry>, OutputError> {
+    let (planned, is_marked) = (planned(staging), is_staging(staging));
+    let planned = |path: &Path| {
+        let name = planned.iter().map(Path::new).find(|name| name.starts_with(path))?;
+        Some(if name == path { Item::File } else { Item::Folder })
+    };
+    let item = |path: &Path| {
+        let parts: Option<Vec<&str>> = path.iter().map(OsStr::to_str).collect();
+        item(&parts.filter(|_| is_marked)?).or_else(|| planned(path))
+    };
+    let mut entries = Vec::new();
+    if disk::is_folder(staging) {
+        walk(staging, Path::new(""), &item, &mut entries).at(staging)?;
+    }
+    Ok(entries)
+}
+
+fn walk(root: &Path, below: &Path, item: &dyn Fn(&Path) -> Option<Item>, entries: &mut Vec<Entry>) -> io::Result<()> {
+    for name in fs::read_dir(root.join(below))? {
+        let path = below.join(name?.file_name());
+        let Some(there) = found(&root.join(&path))? else { continue };
+        let entry = Entry { item: item(&path), path, there };
+        if entry.there.is_dir() && entry.is_own() {
+            walk(root, &entry.path, item, entries)?;
+        }
+        entries.push(entry);
+    }
+    Ok(())
+}
+
+/// Removes what percoat keeps in a staging folder at a path and below it (empty: all of it). Returns whether nothing of a
+/// user is left there, and the folder is gone.
+pub(super) fn remove_own(staging: &Path, within: &str) -> Result<bool, OutputError> {
+    let mut is_gone = true;
+    let is_within = |entry: &&Entry| entry.path.starts_with(within) && entry.path != Path::new(MARK);
+    for entry in entries(staging)?.iter().filter(is_within) {
+        let path = staging.join(&entry.path);
+        if !entry.is_own() {
+            is_gone = false;
+        } else if entry.there.is_file() {
+            disk::remove(&path).at(&path)?;
+        } else {
+            match disk::remove_folder(&path) {
+                Err(error) if error.kind() == io::ErrorKind::DirectoryNotEmpty => is_gone = false,
+                removed => removed.at(&path)?,
+            }
+        }
+    }
+    if is_gone && within.is_empty() {
+        // The mark goes last, so that a folder that is removed halfway stays percoat's.
+        if is_staging(staging) {
+            disk::sync_folder(staging).and_then(|()| disk::remove(&staging.join(MARK))).at(staging)?;
+        }
+        disk::remove_folder(staging).at(staging)?;
+    }
+    Ok(is_gone)
+}
+
+/// Removes what percoat keeps in a staging folder at a path and below it. Returns where it is now if a user has put something
+/// into it.
+pub(super) fn remove_or_set_aside(staging: &Path, within: &str, output: &Path) -> Result<Option<PathBuf>, OutputError> {
+    if remove_own(staging, within)? { Ok(None) } else { set_aside(&staging.join(within), output).map(Some) }
+}
+
+/// Removes a staging folder, in one move. Returns where it is now if a user has put something into it.
+pub(super) fn discard(staging: &Path, output: &Path) -> Result<Option<PathBuf>, OutputError> {
+    disk::move_to(staging, &output.join(RETIRED)).at(staging)?;
+    // A decision that goes ahead of its folder would leave a result which seems undecided.
+    disk::sync_folder(output).and_then(|()| disk::sync_folder(&output.join(OWN))).at(staging)?;
+    remove_retired(output)
+}
+
+/// Ends the removal of a staging folder.
+pub(super) fn remove_retired(output: &Path) -> Result<Option<PathBuf>, OutputError> {
+    let retired = output.join(RETIRED);
+    if disk::is_folder(&retired) { remove_or_set_aside(&retired, "", output) } else { Ok(None) }
+}
+
+/// Moves a folder to `interrupted-1/` in the output folder, or the next free number: where it is now.
+pub(super) fn set_aside(folder: &Path, output: &Path) -> Result<PathBuf, OutputError> {
+    let mut paths = (1..).map(|number: usize| output.join(format!("interrupted-{number}")));
+    let aside = paths.find(|path| fs::symlink_metadata(path).is_err()).expect("numbers are not used up");
+    disk::move_to(folder, &aside).and_then(|()| disk::sync_folder(output)).at(&aside)?;
+    Ok(aside)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_names_that_percoat_gives_to_what_it_is_writing_are_temporary() {
+        for (name, is) in [
+            (".curve.csv.17.tmp", true),
+            (".curve.csv.17.2.tmp", true),
+            (".notes.tmp", false),
+            (".17.tmp", false),
+            (".notes.draft.tmp", false),
+            ("curve.csv.17.tmp", false),
+            (".curve.csv..tmp", false),
+        ] {
+            assert_eq!(is_temporary(name), is, "{name}");
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! The commands that leave a result in an output folder.
+
+use serde::{Deserialize, Serialize};
+
+/// A command that leaves a result in an output folder. Each replaces its own files alone, and the report that shows them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Writer {
+    /// `percoat solve`.
+    Solve,
+    /// `percoat check`.
+    Check,
+    /// `percoat compare`.
+    Compare,
+    /// `percoat limit`.
+    Limit,
+    /// `percoat validate`.
+    Validate,
+    /// `percoat sweep`, and `percoat merge`.
+    Sweep,
+    /// `percoat report`.
+    Report,
+}
+
+impl Writer {
+    /// All commands.
+    pub const ALL: [Self; 7] =
+        [Self::Solve, Self::Check, Self::Compare, Self::Limit, Self::Validate, Self::Sweep, Self::Report];
+
+    /// Whether a new result makes the report beside it wrong, which shows the one before.
+    pub(super) fn outdates_report(self) -> bool {
+        [Self::Solve, Self::Limit, Self::Sweep].contains(&self)
+    }
+}
