@@ -68,7 +68,7 @@ pub struct Comparison {
     pub grid_error: Deviation,
     /// Circles under the rule of the task.
     pub circles: Vec<CircleComparison>,
-    /// The same circles under the other rule.
+    /// The circles under the other rule.
     pub other_rule: Vec<CircleComparison>,
     /// The first circle with the lattice sum outside; `None` without mutual effect, or where all circles have it.
     pub lattice_sum: Option<CircleComparison>,

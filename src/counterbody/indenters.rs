@@ -31,7 +31,7 @@ impl Site {
     }
 }
 
-/// Indenters at several levels on the sites of a lattice: level m + 1 stands on `lattice().sites()[m]`.
+/// Indenters at several levels on the sites of a lattice: level m + 1 is on `lattice().sites()[m]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Indenters {
     lattice: Lattice,

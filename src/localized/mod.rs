@@ -21,7 +21,7 @@
 //! - [`mesh`], `press`: elements and the contact of one spot; [`spot`], `edge_ratios`, `outline`: its readings;
 //! - [`System`]: the indenters and the half-space; [`Setup`]: circles and elements;
 //! - [`Coupled`], `passes`, `exchange`: level by level to one penetration and one load; [`Localized`]: on meshes that fit the contacts;
-//! - [`Solution`]: its readings, and the additional displacement w_a of Eq. (8); [`stress`]: the stresses below;
+//! - [`Solution`]: its readings, and the additional displacement w_a of Eq. (8); [`stress`], `subsurface`: the stresses below;
 //! - [`isolated`]: indenters without mutual effect.
 
 pub(crate) mod circle;
@@ -43,6 +43,7 @@ mod solver;
 pub mod spot;
 pub mod square;
 pub mod stress;
+mod subsurface;
 mod system;
 mod tables;
 

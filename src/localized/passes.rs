@@ -3,7 +3,7 @@
 //! Each pass presses every spot to the present penetration δ against the displacement by the other levels inside its
 //! circle, each with its pressures of the last pass, and by p̄, or by the lattice, outside it. Then the levels exchange loads
 //! (`exchange.rs`) so that all have one penetration and carry p̄ together, Eq. (5). Only the shapes of the pressures lag one
-//! pass behind, so that some eight passes are enough however many indenters stand in the circle. A level comes into contact
+//! pass behind, so that some eight passes are enough however many indenters are in the circle. A level comes into contact
 //! when a pass finds it penetrated, and leaves it when its load would be tensile.
 //!
 //! A penetration beyond complete contact has no solution (`press.rs`), and a Newton step of the exchange may lead there. Under

@@ -12,7 +12,7 @@ use super::depth_response::{DepthResponse, StressComponents};
 use super::expansion::Expansion;
 use super::field::StressField;
 use super::measure::StressMeasure;
-use super::search::Candidate;
+use super::plane_search::Candidate;
 use super::tensor::StressState;
 use crate::body::Depth;
 

@@ -10,6 +10,7 @@
 use super::constants::{
     CHANGE_OVER_ERROR, CREST_SAFETY, CUSP_ERROR, EDGE_ERROR, EXACT_EDGES, EXPONENT_ERROR, OTHER_WIDTHS, USUAL_TENSION,
 };
+use super::cubic::CubicInterpolation;
 use super::field::{REACH, StressField};
 use super::measure::{MATERIAL_MEASURES, RunningMaxima, StressMeasure};
 use super::peak::Peak;
@@ -65,13 +66,6 @@ type EdgeBand<T> = Vec<Vec<(usize, T)>>;
 
 /// σ_xx, σ_yy, σ_xy and p near an edge, sharpened, and the weight of the series itself beside them.
 type Sharp = ([f64; 4], f64);
-
-/// Cubic interpolation at a point between the samples: indices and weights of the four rows and columns around it.
-#[derive(Debug)]
-struct CubicInterpolation {
-    rows: [(usize, f64); 4],
-    columns: [(usize, f64); 4],
-}
 
 /// State at a point of the surface.
 #[derive(Debug, Clone, Copy)]
@@ -330,33 +324,5 @@ impl SurfaceReading {
         ordered.sort_by(|a, b| b.0.total_cmp(&a.0));
         let edges = ordered.iter().take(EXACT_EDGES).map(|(_, edge)| (Location::Edge, edge.place));
         [(Location::Open, sample)].into_iter().chain(edges).collect()
-    }
-}
-
-impl CubicInterpolation {
-    /// At the fractions s, t of a₁ and a₂.
-    fn new([n1, n2]: [usize; 2], [s, t]: [f64; 2]) -> Self {
-        let around = |x: f64, n: usize| {
-            let f = x - x.floor();
-            let weights = [
-                -f * (f - 1.0) * (f - 2.0) / 6.0,
-                (f + 1.0) * (f - 1.0) * (f - 2.0) / 2.0,
-                -(f + 1.0) * f * (f - 2.0) / 2.0,
-                (f + 1.0) * f * (f - 1.0) / 6.0,
-            ];
-            let index = |k: usize| (x.floor() as i64 + k as i64 - 1).rem_euclid(n as i64) as usize;
-            std::array::from_fn(|k| (index(k), weights[k]))
-        };
-        Self { rows: around(s * n1 as f64, n1), columns: around(t * n2 as f64, n2) }
-    }
-
-    /// Value of a row of a field at the point's place along the row.
-    fn across(&self, row: &[f64]) -> f64 {
-        self.columns.iter().map(|&(j, weight)| weight * row[j]).sum()
-    }
-
-    /// Value of a field, rows of n₂ samples, at the point.
-    fn value(&self, field: &[f64], n2: usize) -> f64 {
-        self.rows.iter().map(|&(i, weight)| weight * self.across(&field[i * n2..(i + 1) * n2])).sum()
     }
 }

@@ -12,35 +12,13 @@
 use super::constants::{EQUAL_BY_SYMMETRY, MISSED_BY_SAMPLES, RISE_BETWEEN_PLANES, SHALLOW};
 use super::contender::{Contender, Contenders};
 use super::crest::Crest;
-use super::depth_response::StressComponents;
 use super::field::{REACH, StressField};
 use super::maxima::{ContenderLists, Maxima};
-use super::measure::{MATERIAL_MEASURES, RunningMaxima, StressMeasure};
+use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
-use super::smoothed_surface::SurfaceStresses;
+use super::plane_search::{Candidate, SEARCH_REACH};
 use super::tensor::StressState;
-use super::transform::Transform;
 use crate::body::{Depth, Layer};
-use crate::numeric::fourier::fast_points;
-use crate::numeric::search::first_largest;
-use std::sync::Arc;
-
-/// Ratio of successive distances from a face.
-const DEPTH_RATIO: f64 = 1.35;
-/// qz beyond which waves are neglected in the search: they have e^{−25} of their pressure.
-pub(super) const SEARCH_REACH: f64 = 25.0;
-/// qz beyond which waves are neglected on planes, whose largest samples the search starts from.
-const PLANE_REACH: f64 = 10.0;
-
-/// The sample of a plane where a measure is largest.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Candidate {
-    pub value: f64,
-    pub depth: Depth,
-    pub place: [f64; 2],
-    /// Half the distance to the neighbouring samples, a length.
-    pub step: f64,
-}
 
 /// The largest samples of a plane.
 #[derive(Debug)]
@@ -227,71 +205,6 @@ impl StressField {
             cell.point([i / points[0] as f64, j / points[1] as f64])
         };
         (0..16).map(sample).collect()
-    }
-
-    /// Depths at which planes are searched, ascending, faces first and last.
-    fn search_depths(&self, material: usize, [small, large]: [f64; 2]) -> Vec<f64> {
-        let (top, bottom) = self.half_space().faces(material);
-        let least = 0.1 * if small > 0.0 { small } else { self.grid().spacing() };
-        // Stresses decrease below some six radii, or the cell, and a few coating thicknesses.
-        let reach = 6.0 * large.min(self.grid().cell().reduced().longer_side()) + 3.0 * top;
-        let most = if bottom.is_finite() { 0.5 * (bottom - top) } else { reach };
-        let mut depths = vec![top];
-        let mut distance = least;
-        while distance < most.min(reach) {
-            depths.push(top + distance);
-            if bottom.is_finite() {
-                depths.push(bottom - distance);
-            }
-            distance *= DEPTH_RATIO;
-        }
-        if bottom.is_finite() {
-            depths.extend([0.5 * (top + bottom), bottom]);
-        }
-        depths.sort_by(f64::total_cmp);
-        depths.dedup();
-        depths
-    }
-
-    /// The largest sample of a plane by each measure.
-    fn candidates(&self, depth: Depth, radius: f64, measures: &[StressMeasure]) -> Vec<(StressMeasure, Candidate)> {
-        let grid = self.grid();
-        let lengths = grid.cell().vectors().map(|[x, y]| x.hypot(y));
-        let points = [0, 1].map(|k| {
-            let (n, length) = (grid.points()[k], lengths[k]);
-            let needed = (PLANE_REACH * length / (std::f64::consts::PI * depth.z)).max(8.0 * length / radius);
-            if needed < n as f64 { fast_points(needed.ceil() as usize).min(n) } else { n }
-        });
-        let largest_of_rows = self.largest_of_rows(depth, &Transform::new(points), measures);
-        let [n1, n2] = points.map(|n| n as f64);
-        let candidate = |(index, &measure): (usize, &StressMeasure)| {
-            let of_rows = || largest_of_rows.iter().map(|row| row[index]);
-            let (i, value) = first_largest(of_rows().map(|(_, value)| value)).unwrap_or((0, f64::NEG_INFINITY));
-            let j = of_rows().nth(i).map_or(0, |(j, _)| j);
-            let place = grid.cell().point([i as f64 / n1, j as f64 / n2]);
-            (measure, Candidate { value, depth, place, step: 0.5 * (lengths[0] / n1).min(lengths[1] / n2) })
-        };
-        measures.iter().enumerate().map(candidate).collect()
-    }
-
-    /// Index and value of the largest of each measure in each row of a plane.
-    fn largest_of_rows(
-        &self,
-        depth: Depth,
-        transform: &Transform,
-        measures: &[StressMeasure],
-    ) -> Vec<Vec<(usize, f64)>> {
-        let (response, found) = (self.depth_response(depth, PLANE_REACH), RunningMaxima::new(measures));
-        if depth == Depth::SURFACE {
-            let traction = self.traction();
-            let columns =
-                self.series.on_plane(transform, Vec::new(), &SurfaceStresses::new(&Arc::new(response), |_| 1.0));
-            return columns.map(|_, row| {
-                found.add(row[0].len(), |j| StressState::on_surface(row.map(|component| component[j]), traction))
-            });
-        }
-        let columns = self.series.on_plane(transform, Vec::new(), &StressComponents(&response));
-        columns.map(|_, row| found.add(row[0].len(), |j| StressState::from_stresses(row.map(|component| component[j]))))
     }
 
     /// The maximum on a face near a candidate, and the state there: by the exact sum between the samples, or the sample itself
