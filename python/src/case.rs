@@ -6,7 +6,7 @@ use crate::work;
 use ::toml::Value;
 use numpy::PyArrayLikeDyn;
 use percoat::case::resources::{Job, bytes, refusal};
-use percoat::case::{self, Room, Source, SurfaceSection, available_memory, embedded};
+use percoat::case::{self, Room, Source, available_memory, embedded};
 use percoat::output::{self, Check};
 use pyo3::exceptions::{PyMemoryError, PyTypeError};
 use pyo3::prelude::*;
@@ -124,7 +124,7 @@ impl Case {
             files: self.source.files.clone(),
             ..Source::default()
         };
-        if let Some(SurfaceSection::File { heights, .. }) = &self.own.surface
+        if let Some(heights) = self.own.surface.as_ref().and_then(|surface| surface.heights.as_ref())
             && !source.files.contains_key(heights)
         {
             let bytes = std::fs::read(heights).map_err(|error| unreadable(Path::new(heights), &error))?;

@@ -1,6 +1,6 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
-use super::{Case, LayerSection, LoadSection, sizes, sublayers};
+use super::{Case, LayerSection, sizes, sublayers};
 use crate::body::{Interface, Layer, Material, MeanStress};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
@@ -43,7 +43,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
 /// The layers of the half-space as the case has them: `layers[0]`, or one of its sublayers.
 fn names(layers: &[LayerSection]) -> impl Iterator<Item = String> {
     layers.iter().enumerate().flat_map(|(number, layer)| {
-        let (of, graded) = (layer.sublayers(), layer.grading().is_some());
+        let (of, graded) = (layer.sublayers(), layer.graded.is_some());
         let name = move |sublayer| match graded {
             true => format!("layers[{number}], its sublayer {sublayer} of {of}"),
             false => format!("layers[{number}]"),
@@ -53,7 +53,7 @@ fn names(layers: &[LayerSection]) -> impl Iterator<Item = String> {
 }
 
 fn pressures(case: &Case) -> Option<String> {
-    let (half_space, LoadSection::MeanPressure(loads)) = (case.half_space(), &case.load) else { return None };
+    let (half_space, loads) = (case.half_space(), case.load.mean_pressures()?);
     let highest = loads.iter().copied().fold(0.0, f64::max);
     let layers = half_space.layers().iter().map(|layer| layer.material());
     let materials = layers.zip(names(&case.layers)).chain([(half_space.substrate(), SUBSTRATE.to_owned())]);
@@ -208,7 +208,7 @@ fn topography(topography: &Topography) -> Option<String> {
 
 /// Springs that give way under the mean friction: what lies above them drifts by μp̄/k_t against what lies below.
 fn drifting(case: &Case, cell: Cell) -> Vec<String> {
-    let (Some(friction), LoadSection::MeanPressure(loads)) = (case.problem().friction(), &case.load) else {
+    let (Some(friction), Some(loads)) = (case.problem().friction(), case.load.mean_pressures()) else {
         return Vec::new();
     };
     let traction = friction.coefficient() * loads.iter().copied().fold(0.0, f64::max);

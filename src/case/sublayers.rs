@@ -21,7 +21,7 @@ const WORTH_SAYING: f64 = 0.1 / (FEW_SAMPLES * FEW_SAMPLES);
 
 /// Estimated largest relative error of the surface compliance by the sublayers of graded layers; `None` without any.
 pub fn sublayer_error(case: &Case) -> Option<f64> {
-    case.layers.iter().any(|layer| layer.grading().is_some()).then_some(())?;
+    case.layers.iter().any(|layer| layer.graded.is_some()).then_some(())?;
     let finer = layers::refined(&case.layers, &case.substrate)?;
     let cell = case.counterbody().cell();
     let longer = cell.reduced().longer_side();

@@ -4,7 +4,6 @@ use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use super::super::error::Refusal;
-use super::super::node::Value;
 use super::super::reader::TableAt;
 use super::super::source::Source;
 use super::super::value::ValueAt;
@@ -13,7 +12,7 @@ use super::header::{Header, HeightsUnit, Length};
 use super::text::Table;
 use super::unit::{self, KNOWN};
 use super::xyz::Points;
-use super::{npy, telltale, text, xyz};
+use super::{SurfaceSection, Taper, npy, telltale, text, xyz};
 use crate::counterbody::roughness::{JUMP, RunOut, Window, border_jumps, levelled, tapered};
 use crate::numeric::array::field;
 use crate::numeric::number::number;
@@ -71,23 +70,17 @@ const FORMATS: &str =
     "`.npy` (NumPy), `.csv`, `.txt` or `.dat` (a matrix of numbers), `.xyz` (x y z, one point a line)";
 
 impl Treatment {
-    /// Of the section; `length` is the case's unit, where it names one.
-    pub fn read(section: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
-        let scale = section.value("scale")?.number()?;
-        let given = section.optional("unit");
-        let unit = given.as_ref().map_or(Ok(1.0), |value| unit_of(value, length))?;
-        let name = given.map(|value| value.text().map(str::to_owned)).transpose()?;
-        let level = section.value("level")?.boolean()?;
-        let window = section.value("window")?;
-        let window = match &window.node.value {
-            Value::Text(_) => match window.word()? {
-                "hann" => Some(Window::Hann),
-                _ => Some(Window::Tukey),
-            },
-            _ => window.boolean()?.then_some(Window::Tukey),
-        };
-        let own_scale = section.optional("scale").map(|_| scale);
-        Ok(Self { scale: scale * unit, unit, own_scale, name, level, window })
+    /// Of a section that stands in a `table`; `length` is the case's unit, where it names one.
+    pub fn of(own: &SurfaceSection, table: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
+        let unit = table.optional("unit").map_or(Ok(1.0), |value| unit_of(&value, length))?;
+        Ok(Self {
+            scale: own.scale.unwrap_or(1.0) * unit,
+            unit,
+            own_scale: own.scale,
+            name: own.unit.clone(),
+            level: own.level.unwrap_or(false),
+            window: own.window.and_then(|Taper(window)| window),
+        })
     }
 
     /// The same of a file that says what its heights are in; `length` is the case's unit, where it names one.

@@ -15,14 +15,13 @@ mod text;
 mod unit;
 mod xyz;
 
-use serde::Serialize;
-
 use super::error::Refusal;
 use super::grid;
-use super::keys::CARRIED;
+use super::keys::{CARRIED, Form, Key, Range, Unit};
 use super::lattice::{LatticeSection, build_cell};
 use super::node::Value;
 use super::reader::TableAt;
+use super::section::{KeyValue, Words, section, words};
 use super::source::Source;
 use super::value::ValueAt;
 use crate::counterbody::Topography;
@@ -34,9 +33,11 @@ use crate::run::Sampling;
 use fault::fits;
 use file::{FromFile, Treatment};
 use ndarray::Array2;
+use random::RANDOM;
+use serde::Serialize;
 use std::path::Path;
 
-pub use random::{RandomSection, RmsKey};
+pub use random::RandomSection;
 
 /// Which index of `heights[i, j]` runs where.
 pub const ORIENTATION: &str = "   a₂ ↑  [0, n₂−1]  …  [n₁−1, n₂−1]    heights[i, j], larger = nearer to the body
@@ -44,54 +45,99 @@ pub const ORIENTATION: &str = "   a₂ ↑  [0, n₂−1]  …  [n₁−1, n₂�
       │    [0, 0]   …    [n₁−1, 0]     j: along a₂; the numbers of a line
       └──────────────────────→ a₁      an image with its first row on top: image[::-1].T";
 
-/// The section `[surface]`, with its unit in `scale` and its period in [`LatticeSection`].
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-#[non_exhaustive]
-pub enum SurfaceSection {
-    /// Heights from a file.
-    File {
-        /// Its path, absolute, so that a copy of the case still finds it; its name, if it is in memory.
-        heights: String,
-        /// Factor of its heights, beside that of their unit.
-        scale: f64,
-        /// What its heights are in, where the case or the file says so.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        unit: Option<String>,
-        /// Whether its mean plane is taken away.
-        level: bool,
-        /// How its border is tapered, if it is.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        window: Option<Window>,
-        /// Whether the file is a text that does not say what its lines are, so that they were taken to run along a₁.
-        #[serde(skip)]
-        lines_along_a1: bool,
-    },
-    /// Heights from a seed.
-    Random {
-        /// The section `[surface.random]`.
-        random: RandomSection,
-    },
+const SIZE: Form = Form::Number(Range::Size);
+
+/// What has nothing to act on beside `random`.
+const OF_A_FILE: &str = "of a file, not of a random surface";
+
+section! {
+    /// The section `[surface]`: complete, with an absolute path and its factor; its period stands in [`LatticeSection`].
+    pub struct SurfaceSection = SURFACE {
+        /// a file of heights, `.npy`, `.csv`, `.txt`, `.dat` or `.xyz`, relative to the case file
+        pub heights: Option<String> = Key::new(&[Form::Text("the path of a file")], "\"surface.npy\""),
+        /// factor of its heights, negative to turn them over
+        pub scale: Option<f64> =
+            Key::new(&[Form::Number(Range::Factor)], "1e-3").default("1").rule(OF_A_FILE),
+        /// what the heights of the file are in
+        pub unit: Option<String> = Key::new(&[Form::Text("a unit of length")], "\"nm\"")
+            .otherwise("the case's own")
+            .rule("m, cm, mm, µm, nm, pm, Å, in or mil; needs `units.length`; of a file, not of a random surface"),
+        /// lengths of the whole surface along a₁ and a₂
+        pub period: Option<Sides> =
+            Key::new(&[SIZE, Form::Tuple("two of them, [L1, L2]", &[SIZE; 2])], "[20.0, 10.0]")
+                .unit(Unit::Length)
+                .otherwise("that of a file of points, or of `lattice`")
+                .rule("in place of [lattice]")
+                .never_written(),
+        /// the distance of its samples along a₁ and a₂
+        pub pixel: Option<Sides> = Key::new(&[SIZE, Form::Tuple("two of them, [d1, d2]", &[SIZE; 2])], "0.1")
+            .unit(Unit::Length)
+            .otherwise("follows from `period`")
+            .instead_of("period")
+            .rule("in place of [lattice]; of a file, not of a random surface")
+            .never_written(),
+        /// whether its mean plane is taken away
+        pub level: Option<bool> = Key::new(&[Form::Boolean], "true").default("false").rule(OF_A_FILE),
+        /// tapers its border; true is "tukey"
+        pub window: Option<Taper> =
+            Key::new(&[Form::Boolean, Form::Word(Window::WORDS)], "\"tukey\"").default("false").rule(OF_A_FILE),
+        /// a self-affine surface
+        pub random: Option<RandomSection> =
+            Key::new(&[Form::Table(&RANDOM)], "{ hurst = 0.8, shortest = 0.25, rms_slope = 0.1 }")
+                .instead_of("heights"),
+    }
+    beside {
+        /// Whether its file is a text that does not say what its lines are, so that they were taken to run along a₁.
+        pub lines_along_a1: bool,
+    }
+}
+
+words! { Window { Hann = "hann", Tukey = "tukey", } }
+
+/// A taper of the border; none where the key is false.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Taper(pub Option<Window>);
+
+impl KeyValue for Taper {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match &value.node.value {
+            Value::Text(_) => Window::read(value).map(Some),
+            _ => value.boolean().map(|tapers| tapers.then_some(Window::Tukey)),
+        }
+        .map(Self)
+    }
+}
+
+/// Lengths along a₁ and a₂.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Sides([f64; 2]);
+
+impl KeyValue for Sides {
+    /// A length for both directions, or one for each.
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match &value.node.value {
+            Value::List(_) => value.numbers(),
+            _ => value.number().map(|side| [side; 2]),
+        }
+        .map(Self)
+    }
 }
 
 impl SurfaceSection {
     /// What a generated surface is; `None` of one from a file.
     pub fn random(&self) -> Option<&RandomSection> {
-        match self {
-            Self::Random { random } => Some(random),
-            Self::File { .. } => None,
-        }
+        self.random.as_ref()
     }
 
     /// Which way the lines of its file were taken to run, a sentence, where the file does not say so.
     pub fn lines(&self) -> Option<String> {
-        match self {
-            Self::File { heights, lines_along_a1: true, .. } => Some(format!(
-                "{}: its lines run along a₁, the numbers of a line along a₂; of an image, whose lines run along x, give image[::-1].T",
-                plain::path(Path::new(heights))
-            )),
-            Self::File { .. } | Self::Random { .. } => None,
-        }
+        let heights = self.heights.as_ref().filter(|_| self.lines_along_a1)?;
+        Some(format!(
+            "{}: its lines run along a₁, the numbers of a line along a₂; of an image, whose lines run along x, give image[::-1].T",
+            plain::path(Path::new(heights))
+        ))
     }
 }
 
@@ -129,12 +175,13 @@ pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, R
 }
 
 fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
+    let own_section = SurfaceSection::read_table(section)?;
     let length = around.length.as_deref();
-    let treatment = Treatment::read(section, length)?;
+    let treatment = Treatment::of(&own_section, section, length)?;
     let FromFile { heights: stored, run_out, period: own, treatment, lines_along_a1, doubts } =
         file::read(around.source, heights, treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
-    let (lattice, cell) = cell(section, around, points, own)?;
+    let (lattice, cell) = cell(&own_section, section, around, points, own)?;
     let across = across(points, cell);
     let sampling = grid::read(&around.grid, Some(points))?;
     let (on_grid, lost) = match sampling {
@@ -143,12 +190,22 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     };
     let squeezed = own.and_then(|own| squeezed(own, cell));
     let name = heights.text()?;
-    let heights = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
+    let path = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
     let topography = topography(section, cell, on_grid)?;
     let topography = run_out.into_iter().fold(topography, Topography::with_run_out);
     let Treatment { own_scale, name: unit, level, window, .. } = treatment;
     Ok(Read {
-        section: SurfaceSection::File { heights, scale: own_scale.unwrap_or(1.0), unit, level, window, lines_along_a1 },
+        section: SurfaceSection {
+            heights: Some(path),
+            scale: Some(own_scale.unwrap_or(1.0)),
+            unit,
+            period: None,
+            pixel: None,
+            level: Some(level),
+            window: window.map(|window| Taper(Some(window))),
+            random: None,
+            lines_along_a1,
+        },
         lattice,
         topography,
         sampling,
@@ -190,9 +247,10 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
         let message = format!("`{}` has no place beside `surface.random`: it belongs to a file's heights", value.path);
         return Err(Refusal::new(value.node.place, message, "not used here").help("remove it"));
     }
-    let (lattice, cell) = cell(section, around, [1, 1], None)?;
     let table = random.table_or("write it as a section, [surface.random]")?;
-    let own = RandomSection::read(&table, cell)?;
+    let own_section = SurfaceSection::read_table(section)?;
+    let (lattice, cell) = cell(&own_section, section, around, [1, 1], None)?;
+    let own = RandomSection::read_in(&table, cell)?;
     let surface = own.surface();
     let sampling = grid::read(&around.grid, None)?;
     let refuse = |error: String| Refusal::new(table.place, format!("`surface.random`: {error}"), "no such surface");
@@ -207,7 +265,7 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
         .map_err(|error| refuse(error.to_string()))?;
     let lost = loss([spectrum.rms_slope(), whole], points);
     Ok(Read {
-        section: SurfaceSection::Random { random: own },
+        section: SurfaceSection { period: None, random: Some(own), ..own_section },
         lattice,
         topography: topography(section, cell, spectrum.into_heights())?,
         sampling,
@@ -217,52 +275,40 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
 
 /// The cell: `[lattice]`, or what the section or its file says of the period.
 fn cell(
+    own: &SurfaceSection,
     section: &TableAt<'_>,
     around: &Around<'_>,
     points: [usize; 2],
-    own: Option<[f64; 2]>,
+    of_file: Option<[f64; 2]>,
 ) -> Result<(LatticeSection, Cell), Refusal> {
     let [period, pixel] = ["period", "pixel"].map(|key| section.optional(key));
-    let sides = match (&around.lattice, period, pixel) {
-        (None, Some(_), Some(pixel)) => return Err(section.both(["period", "pixel"], pixel.node.place)),
-        (Some(_), Some(value), _) | (Some(_), None, Some(value)) => {
+    if let Some(table) = &around.lattice {
+        if let Some(value) = period.or(pixel) {
             let message = format!("`{}` and [lattice] exclude each other: both say how large the cell is", value.path);
             return Err(Refusal::new(value.node.place, message, "the cell is known"));
         }
-        (Some(table), None, None) => {
-            let lattice = LatticeSection::read(table)?;
-            return Ok((lattice, build_cell(&lattice, table)?));
+        let lattice = LatticeSection::read_table(table)?;
+        return Ok((lattice, build_cell(&lattice, table)?));
+    }
+    let sides = match (own.period, own.pixel) {
+        (Some(_), Some(_)) => {
+            return Err(section.both(["period", "pixel"], pixel.map_or(section.place, |pixel| pixel.node.place)));
         }
-        (None, Some(period), None) => sides(&period)?,
-        (None, None, Some(pixel)) => {
-            let [d1, d2] = sides(&pixel)?;
-            [d1 * points[0] as f64, d2 * points[1] as f64]
-        }
-        (None, None, None) => own.ok_or_else(|| {
+        (Some(Sides(sides)), None) => sides,
+        (None, Some(Sides([d1, d2]))) => [d1 * points[0] as f64, d2 * points[1] as f64],
+        (None, None) => of_file.ok_or_else(|| {
             Refusal::new(section.place, "`surface.period` is missing, and so is [lattice]", "how large is the cell?").help(
                 "add period = L or [L1, L2], the lengths of the whole file along a₁ and a₂; or pixel = d, the distance of \
                  its samples; or a section [lattice]",
             )
         })?,
     };
-    let [l1, l2] = sides;
     if let Some(side) = sides.iter().find(|side| !CARRIED.contains(*side)) {
         let message = format!("`surface`: a side of the cell is {side}; it must be between 1e-60 and 1e60");
         return Err(Refusal::new(section.place, message, "no cell"));
     }
-    let lattice = match l1 == l2 {
-        true => LatticeSection::Square { period: l1 },
-        false => LatticeSection::Oblique { a1: [l1, 0.0], a2: [0.0, l2] },
-    };
+    let lattice = LatticeSection::rectangle(sides);
     Ok((lattice, build_cell(&lattice, section)?))
-}
-
-/// A length for both directions, or one for each.
-fn sides(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
-    match &value.node.value {
-        Value::List(_) => value.numbers(),
-        _ => value.number().map(|side| [side; 2]),
-    }
 }
 
 /// Heights of a file on another grid, and what of their slope that grid cannot hold.
