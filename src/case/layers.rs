@@ -8,16 +8,22 @@ use super::reader::TableAt;
 use super::section::{demanded, section};
 use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Strength};
 
+/// Most letters of a material's name.
+const LETTERS: usize = 40;
+
 const SIZE: Form = Form::Number(Range::Size);
 const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
 
 // What layers and the substrate have alike.
+const NAME: Key = Key::new(&[Form::Name("a name", LETTERS)], "\"TiN\"").otherwise("its number");
 const YIELD: Key = Key::new(&[SIZE], "8.0").unit(Unit::Pressure).otherwise("never reached");
 const TENSILE: Key = Key::new(&[SIZE], "2.0").unit(Unit::Pressure).otherwise("never reached");
 
 section! {
     /// One section of `[[layers]]`, from the surface down.
     pub struct LayerSection = LAYER, rules consistent {
+        /// name of the material, which stands in place of its number in tables and pictures
+        pub name: Option<String> = NAME,
         /// the thickness of the layer
         pub thickness: f64 = Key::new(&[SIZE], "0.5").unit(Unit::Length),
         /// shear modulus over that of the substrate, χ
@@ -57,6 +63,8 @@ section! {
     pub struct SubstrateSection = SUBSTRATE, misplaced [
         ("shear_ratio", "`shear_ratio` relates a layer to the substrate, whose modulus is `young`")
     ] {
+        /// name of the material, which stands in place of its number in tables and pictures
+        pub name: Option<String> = NAME,
         /// Young's modulus
         pub young: f64 = Key::new(&[SIZE], "210.0").unit(Unit::Pressure),
         /// Poisson's ratio
