@@ -5,8 +5,9 @@ use crate::toml;
 use crate::work;
 use ::toml::Value;
 use numpy::PyArrayLikeDyn;
-use percoat::case::resources::{Job, bytes, refusal};
-use percoat::case::{self, Room, Source, available_memory, embedded};
+use percoat::case::resources::{Job, refusal};
+use percoat::case::{self, Source, embedded};
+use percoat::machine::{Capacity, available_memory, bytes};
 use percoat::output::{self, Check};
 use pyo3::exceptions::{PyMemoryError, PyTypeError};
 use pyo3::prelude::*;
@@ -111,8 +112,8 @@ impl Case {
     }
 
     /// Room for a job, which is refused where there is not enough.
-    pub fn allow(&self, job: Job) -> PyResult<Room> {
-        let room = Room { disk: u64::MAX, ..Room::on_this_machine(Path::new(".")) };
+    pub fn allow(&self, job: Job) -> PyResult<Capacity> {
+        let room = Capacity { disk: u64::MAX, ..Capacity::on_this_machine(Path::new(".")) };
         refusal(&self.own, room, job).map_or(Ok(room), |why| Err(refused(why)))
     }
 

@@ -4,8 +4,9 @@ use crate::case;
 use crate::errors::refused;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use percoat::body::TransferFunction;
-use percoat::case::{CARRIED, half_space};
+use percoat::case::half_space;
 use percoat::output::{self, Traction};
+use percoat::units::CARRIED;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 

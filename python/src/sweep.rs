@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use crate::toml::{value, written};
 use crate::work;
 use ::toml::Value;
-use percoat::case::Room;
+use percoat::machine::Capacity;
 use percoat::sweep::{Axis, Combinations, Group, Row, Study, Task, table};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -49,7 +49,7 @@ pub fn sweep(
     let combinations = Combinations::product(&groups).map_err(refused)?;
     let task = if limit { Task::Limit } else { Task::Solve };
     let rows = work::run(py, threads, progress, move |listener| {
-        let room = Room { disk: u64::MAX, ..Room::on_this_machine(Path::new(".")) };
+        let room = Capacity { disk: u64::MAX, ..Capacity::on_this_machine(Path::new(".")) };
         let study = Study::new(&source, &fixed, &combinations, task, room).map_err(|error| error.to_string())?;
         let study = study.stopped_by(listener.stop().clone());
         let (of, mut rows) = (combinations.all.len(), Vec::<Row>::new());

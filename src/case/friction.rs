@@ -1,8 +1,8 @@
 //! `[friction]`: the indenters slide.
 
 use super::error::Refusal;
+use super::feasibility::magnitude;
 use super::keys::{Form, Key, Range};
-use super::magnitude;
 use super::reader::TableAt;
 use super::section::section;
 use crate::friction::{Friction, FrictionError};

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::error::{CaseError, Refusal};
+use super::feasibility::magnitude;
 use super::friction::FRICTION;
 use super::grading::LAYERS;
 use super::grid::GRID;
@@ -25,7 +26,7 @@ use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection, UnitsSection,
 };
-use super::{grid, lattice, layers, magnitude, overrides};
+use super::{grid, lattice, layers, overrides};
 use crate::body::{HalfSpace, MeanStress};
 use crate::comparison::Task;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};

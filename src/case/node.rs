@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::Refusal;
 use super::place::Place;
+use crate::plain;
 
 /// A value and where it was written.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +91,7 @@ impl Value {
         match self {
             Self::Text(text) => format!("the text {text:?}"),
             Self::Integer(value) => value.to_string(),
-            Self::Float(value) => plain(*value),
+            Self::Float(value) => plain::float(*value),
             Self::Boolean(value) => value.to_string(),
             Self::Date(date) => format!("the date {date}"),
             Self::List(items) if items.is_empty() => "an empty list".to_owned(),
@@ -99,16 +100,6 @@ impl Value {
             Self::Table(table) if table.entries.is_empty() => "an empty table".to_owned(),
             Self::Table(_) => "a table".to_owned(),
         }
-    }
-}
-
-/// A number as a person would write it.
-pub(super) fn plain(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&size) {
-        value.to_string().replace("NaN", "nan")
-    } else {
-        format!("{value:e}")
     }
 }
 

@@ -6,7 +6,7 @@ use super::error::Refusal;
 use super::keys::Keys;
 use super::node::{Entry, Node, Table, Value};
 use super::place::Place;
-use super::words::nearest;
+use super::suggestions::nearest;
 
 /// Parts of the longest path; the longest of a case has four.
 const DEEPEST: usize = 16;

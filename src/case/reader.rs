@@ -6,8 +6,8 @@ use super::error::Refusal;
 use super::keys::{Absent, Form, Key, Keys};
 use super::node::{Entry, Node, Table, Value};
 use super::place::Place;
+use super::suggestions::{alternatives, nearest};
 use super::value::ValueAt;
-use super::words::{alternatives, nearest};
 
 /// A table without entries, for a section that is not there.
 static EMPTY: Table = Table { entries: Vec::new() };

@@ -7,7 +7,7 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::pipes::{Pipes, is_pipe};
+use super::named_pipes::{Pipes, is_pipe};
 
 /// Text of a case and where it comes from.
 #[derive(Debug, Clone, PartialEq, Default)]

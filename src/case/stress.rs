@@ -3,8 +3,8 @@
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
+use super::feasibility::magnitude;
 use super::keys::{Form, Key, Range, Unit};
-use super::magnitude;
 use super::node::Value;
 use super::reader::TableAt;
 use super::section::{KeyValue, Words, demanded, section, words};

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use super::error::Refusal;
 use super::keys::{self, Form, Key, Keys};
 use super::node::{Node, Value};
-use super::words::{alternatives, nearest};
+use super::suggestions::{alternatives, nearest};
 use crate::plain;
 
 /// A value of the case with its path, such as `layers[0].poisson`, its key and the forms it may have.

@@ -11,7 +11,8 @@ use super::progress::Progress;
 use super::shown::Shown;
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
-use crate::case::{Case, Room, plausibility};
+use crate::case::{Case, plausibility};
+use crate::machine::Capacity;
 use crate::output::summary::summary;
 use crate::output::{
     self, CannotGoOn, Clock, Plan, Recording, RunFolder, disk, is_beside, solved_plan, steps_of, table,
@@ -48,7 +49,7 @@ pub fn run(
     let folder = output_folder(common, &name)?;
     let run = case.run();
     let job = Job::Solve { pictures: pictures.wanted(), fields: !options.no_fields };
-    let mut room = Room::on_this_machine(&folder);
+    let mut room = Capacity::on_this_machine(&folder);
     // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
     // takes over that load.
     let goes_on = options.resume || RunFolder::has_solved_alone(&folder);

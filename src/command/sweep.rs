@@ -7,7 +7,8 @@ use super::options::{Common, Saying};
 use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::terminal::{self, tell};
-use crate::case::{Case, Room, Source};
+use crate::case::{Case, Source};
+use crate::machine::Capacity;
 use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer, disk, write_text};
 use crate::picture;
 use crate::plain;
@@ -90,7 +91,7 @@ pub fn run(
     if let (Some((part, of)), None) = (options.shard, &common.output) {
         folder.push(format!("shard-{part}-of-{of}"));
     }
-    let (room, task) = (Room::on_this_machine(&folder), if options.limit { Task::Limit } else { Task::Solve });
+    let (room, task) = (Capacity::on_this_machine(&folder), if options.limit { Task::Limit } else { Task::Solve });
     let study = Study::new(&source, &fixed, &combinations, task, room)?;
     let study = if options.keep_fields { study.keeping_fields() } else { study };
     interruption::watch();

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::super::words::{alternatives, nearest};
+use super::super::suggestions::{alternatives, nearest};
 use super::key::{Absent, Form, Key, Keys};
 use crate::case::model::CASE;
 

@@ -18,7 +18,6 @@ mod unit;
 
 pub use explanation::{Explanation, UnknownKey, explain};
 pub use page::overview;
-pub use range::CARRIED;
 pub use schema::schema;
 
 pub(super) use form::told;

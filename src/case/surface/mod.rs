@@ -1,145 +1,38 @@
 //! `[surface]`: one period of any topography, from a file or a seed.
 //!
-//! `file` reads one of the formats (`npy`, `text`, `xyz`; `fault` says what is wrong with any) in its `unit`, `random` has
-//! the keys of a generated surface. Which index runs where is drawn in [`ORIENTATION`].
+//! `file` brings heights of any format ([`crate::heights`]) into the case's unit, `random` has the keys of a generated surface.
+//! Which index runs where is drawn in [`ORIENTATION`].
 
-mod commas;
-mod fault;
 mod file;
-mod header;
-mod lines;
-mod npy;
 mod random;
-mod telltale;
-mod text;
-mod unit;
-mod xyz;
+mod section;
 
 use super::error::Refusal;
 use super::grid;
-use super::keys::{CARRIED, Form, Key, Range, Unit};
 use super::lattice::{LatticeSection, build_cell};
-use super::node::Value;
 use super::reader::TableAt;
-use super::section::{KeyValue, Words, section, words};
 use super::source::Source;
 use super::value::ValueAt;
 use crate::counterbody::Topography;
-use crate::counterbody::roughness::{Spectrum, Window};
+use crate::counterbody::roughness::Spectrum;
+use crate::heights::fits;
 use crate::lattice::Cell;
 use crate::numeric::number::number;
-use crate::plain;
 use crate::run::Sampling;
-use fault::fits;
+use crate::units::CARRIED;
 use file::{FromFile, Treatment};
 use ndarray::Array2;
-use random::RANDOM;
-use serde::Serialize;
-use std::path::Path;
 
 pub use random::RandomSection;
+pub use section::{Sides, SurfaceSection, Taper};
+
+pub(super) use section::SURFACE;
 
 /// Which index of `heights[i, j]` runs where.
 pub const ORIENTATION: &str = "   a₂ ↑  [0, n₂−1]  …  [n₁−1, n₂−1]    heights[i, j], larger = nearer to the body
       │      ⋮               ⋮         i: along a₁; the lines of a text file
       │    [0, 0]   …    [n₁−1, 0]     j: along a₂; the numbers of a line
       └──────────────────────→ a₁      an image with its first row on top: image[::-1].T";
-
-const SIZE: Form = Form::Number(Range::Size);
-
-/// What has nothing to act on beside `random`.
-const OF_A_FILE: &str = "of a file, not of a random surface";
-
-section! {
-    /// The section `[surface]`: complete, with an absolute path and its factor; its period stands in [`LatticeSection`].
-    pub struct SurfaceSection = SURFACE {
-        /// a file of heights, `.npy`, `.csv`, `.txt`, `.dat` or `.xyz`, relative to the case file
-        pub heights: Option<String> = Key::new(&[Form::Text("the path of a file")], "\"surface.npy\""),
-        /// factor of its heights, negative to turn them over
-        pub scale: Option<f64> =
-            Key::new(&[Form::Number(Range::Factor)], "1e-3").default("1").rule(OF_A_FILE),
-        /// what the heights of the file are in
-        pub unit: Option<String> = Key::new(&[Form::Text("a unit of length")], "\"nm\"")
-            .otherwise("the case's own")
-            .rule("m, cm, mm, µm, nm, pm, Å, in or mil; needs `units.length`; of a file, not of a random surface"),
-        /// lengths of the whole surface along a₁ and a₂
-        pub period: Option<Sides> =
-            Key::new(&[SIZE, Form::Tuple("two of them, [L1, L2]", &[SIZE; 2])], "[20.0, 10.0]")
-                .unit(Unit::Length)
-                .otherwise("that of a file of points, or of `lattice`")
-                .rule("in place of [lattice]")
-                .never_written(),
-        /// the distance of its samples along a₁ and a₂
-        pub pixel: Option<Sides> = Key::new(&[SIZE, Form::Tuple("two of them, [d1, d2]", &[SIZE; 2])], "0.1")
-            .unit(Unit::Length)
-            .otherwise("follows from `period`")
-            .instead_of("period")
-            .rule("in place of [lattice]; of a file, not of a random surface")
-            .never_written(),
-        /// whether its mean plane is taken away
-        pub level: Option<bool> = Key::new(&[Form::Boolean], "true").default("false").rule(OF_A_FILE),
-        /// tapers its border; true is "tukey"
-        pub window: Option<Taper> =
-            Key::new(&[Form::Boolean, Form::Word(Window::WORDS)], "\"tukey\"").default("false").rule(OF_A_FILE),
-        /// a self-affine surface
-        pub random: Option<RandomSection> =
-            Key::new(&[Form::Table(&RANDOM)], "{ hurst = 0.8, shortest = 0.25, rms_slope = 0.1 }")
-                .instead_of("heights"),
-    }
-    beside {
-        /// Whether its file is a text that does not say what its lines are, so that they were taken to run along a₁.
-        pub lines_along_a1: bool,
-    }
-}
-
-words! { Window { Hann = "hann", Tukey = "tukey", } }
-
-/// A taper of the border; none where the key is false.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(transparent)]
-pub struct Taper(pub Option<Window>);
-
-impl KeyValue for Taper {
-    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
-        match &value.node.value {
-            Value::Text(_) => Window::read(value).map(Some),
-            _ => value.boolean().map(|tapers| tapers.then_some(Window::Tukey)),
-        }
-        .map(Self)
-    }
-}
-
-/// Lengths along a₁ and a₂.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(transparent)]
-pub struct Sides([f64; 2]);
-
-impl KeyValue for Sides {
-    /// A length for both directions, or one for each.
-    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
-        match &value.node.value {
-            Value::List(_) => value.numbers(),
-            _ => value.number().map(|side| [side; 2]),
-        }
-        .map(Self)
-    }
-}
-
-impl SurfaceSection {
-    /// What a generated surface is; `None` of one from a file.
-    pub fn random(&self) -> Option<&RandomSection> {
-        self.random.as_ref()
-    }
-
-    /// Which way the lines of its file were taken to run, a sentence, where the file does not say so.
-    pub fn lines(&self) -> Option<String> {
-        let heights = self.heights.as_ref().filter(|_| self.lines_along_a1)?;
-        Some(format!(
-            "{}: its lines run along a₁, the numbers of a line along a₂; of an image, whose lines run along x, give image[::-1].T",
-            plain::path(Path::new(heights))
-        ))
-    }
-}
 
 /// What a topography is read with.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ mod schema;
 use super::key::{Absent, Key, Keys};
 use super::{UnknownKey, explain, overview};
 use crate::case::model::CASE;
-use crate::case::words::joined;
+use crate::case::suggestions::joined;
 use bases::Bases;
 
 /// "instead of `a`: what it is; a note".

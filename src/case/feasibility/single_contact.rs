@@ -1,7 +1,7 @@
 //! What estimates by the formulas of single contacts foresee of a case, for those who have not solved it.
 
-use super::Case;
 use crate::body::HalfSpace;
+use crate::case::Case;
 use crate::counterbody::{Level, Shape};
 use crate::lattice::Grid;
 use crate::numeric::number::number;

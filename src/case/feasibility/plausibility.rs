@@ -1,7 +1,8 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
-use super::{Case, LayerSection, sizes, sublayers};
+use super::{si_sizes, sublayers};
 use crate::body::{Interface, Layer, Material, MeanStress};
+use crate::case::{Case, LayerSection};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
 use crate::numeric::number::number;
@@ -22,7 +23,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(case).into_iter().collect();
     doubts.extend(moduli(case));
-    doubts.extend(sizes::doubts(case, &materials(case).collect::<Vec<_>>()));
+    doubts.extend(si_sizes::doubts(case, &materials(case).collect::<Vec<_>>()));
     doubts.extend(strengths(case));
     doubts.extend(friction(case));
     doubts.extend(drifting(case, cell));
@@ -256,14 +257,14 @@ fn slipping(case: &Case, cell: Cell) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::embedded;
     use super::*;
+    use crate::case::embedded;
 
     fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let case = Case::read(&embedded::source(name).unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"));
         // That a grid is coarse at the lowest load says nothing of the case's sense.
-        let foreseen = super::super::foreseen(&case, &[]).into_iter().filter(|doubt| !doubt.contains("grid.points"));
+        let foreseen = crate::case::foreseen(&case, &[]).into_iter().filter(|doubt| !doubt.contains("grid.points"));
         of_case(&case).into_iter().chain(foreseen).collect()
     }
 

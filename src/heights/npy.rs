@@ -104,7 +104,7 @@ impl Head {
 const WANTED: &str = "needed: heights of shape (n1, n2) and type float64, float32 or an integer, written by numpy.save";
 
 /// Read a file of `bytes` bytes.
-pub(super) fn read(mut reader: impl Read, bytes: u64) -> Result<Heights, Fault> {
+pub fn read(mut reader: impl Read, bytes: u64) -> Result<Heights, Fault> {
     read_heights(&mut reader, bytes).map_err(|fault| if fault.help.is_none() { fault.help(WANTED) } else { fault })
 }
 
