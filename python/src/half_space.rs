@@ -42,7 +42,11 @@ impl HalfSpace {
             return Ok(Self { transfer: TransferFunction::new(&own), own, text });
         }
         let own = half_space(&source).map_err(refused)?;
-        Ok(Self { transfer: TransferFunction::new(&own), own, text: source.text })
+        let text = match &source.values {
+            Some(values) => toml::to_string(values).map_err(refused)?,
+            None => source.text,
+        };
+        Ok(Self { transfer: TransferFunction::new(&own), own, text })
     }
 
     /// ŵ/p̂ at wavenumbers, a length over a pressure.

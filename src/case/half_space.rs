@@ -4,7 +4,6 @@ use super::Source;
 use super::error::{CaseError, Refusal};
 use super::layers::{self, LayerSection, SubstrateSection};
 use super::model::CASE;
-use super::node::Table;
 use super::place::Place;
 use super::reader::TableAt;
 use crate::body::HalfSpace;
@@ -14,11 +13,14 @@ use crate::body::HalfSpace;
 /// # Errors
 /// [`CaseError`] as of a case; any other section is refused.
 pub fn half_space(source: &Source) -> Result<HalfSpace, CaseError> {
-    read(source).map_err(|refusal| CaseError::new(source, &[], refusal))
+    read(source).map_err(|refusal| match source.as_text() {
+        Some(text) => CaseError::new(&text, &[], read(&text).err().unwrap_or(refusal)),
+        None => CaseError::new(source, &[], refusal),
+    })
 }
 
 fn read(source: &Source) -> Result<HalfSpace, Refusal> {
-    let root = Table::parse(&source.text)?;
+    let root = source.tree()?;
     let end = source.text.trim_end().len();
     let root = TableAt::root(&root, &CASE, Place::new(0, end..end));
     root.only()?;

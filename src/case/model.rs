@@ -14,7 +14,6 @@ use super::levels::LEVELS;
 use super::load::LOAD;
 use super::localized::LOCALIZED;
 use super::material_names::MaterialNames;
-use super::node::Table;
 use super::place::Place;
 use super::reader::TableAt;
 use super::section::{KeyValue, section};
@@ -96,7 +95,11 @@ impl Case {
     /// # Errors
     /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
     pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
-        read(source, overrides).map_err(|refusal| CaseError::new(source, overrides, refusal))
+        read(source, overrides).map_err(|refusal| match source.as_text() {
+            // Only a text has lines to show: that of values is made, and refused in turn, where they are.
+            Some(text) => CaseError::new(&text, overrides, read(&text, overrides).err().unwrap_or(refusal)),
+            None => CaseError::new(source, overrides, refusal),
+        })
     }
 
     /// The case as TOML, complete with its defaults; it reads back equal.
@@ -192,7 +195,7 @@ fn readable(line: &str) -> String {
 }
 
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
-    let mut root = Table::parse(&source.text)?;
+    let mut root = source.tree()?;
     for (number, text) in (1..).zip(overrides) {
         overrides::apply(text, number, &mut root, &CASE)?;
     }

@@ -1,6 +1,7 @@
 //! A case as a tree of values that know where they were written.
 //!
-//! The tree is converted once from the TOML parser's; afterwards overrides change it and the reader reads it.
+//! The tree is converted once from the TOML parser's, or made of values that stand in no text; afterwards overrides change it and
+//! the reader reads it.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -100,6 +101,34 @@ impl Value {
             Self::Table(table) if table.entries.is_empty() => "an empty table".to_owned(),
             Self::Table(_) => "a table".to_owned(),
         }
+    }
+}
+
+/// The tree of values that stand in no text.
+impl From<&toml::Table> for Table {
+    fn from(values: &toml::Table) -> Self {
+        let entry = |(key, value): (&String, &toml::Value)| Entry {
+            key: key.clone(),
+            key_place: Place::NOWHERE,
+            node: Node::from(value),
+        };
+        Self { entries: values.iter().map(entry).collect() }
+    }
+}
+
+/// A value that stands in no text.
+impl From<&toml::Value> for Node {
+    fn from(value: &toml::Value) -> Self {
+        let value = match value {
+            toml::Value::String(text) => Value::Text(text.clone()),
+            toml::Value::Integer(value) => Value::Integer(*value),
+            toml::Value::Float(value) => Value::Float(*value),
+            toml::Value::Boolean(value) => Value::Boolean(*value),
+            toml::Value::Datetime(date) => Value::Date(date.to_string()),
+            toml::Value::Array(items) => Value::List(items.iter().map(Self::from).collect()),
+            toml::Value::Table(table) => Value::Table(Table::from(table)),
+        };
+        Self { value, place: Place::NOWHERE }
     }
 }
 

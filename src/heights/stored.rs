@@ -1,5 +1,6 @@
 //! Heights as any of the formats stores them, upright: axis 0 along a₁, axis 1 along a₂.
 
+use ndarray::ArrayD;
 use std::io::BufRead;
 use std::path::Path;
 
@@ -59,14 +60,24 @@ impl Stored {
             None if reader.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"\x93NUMPY")) => Format::Npy,
             None => Format::Text,
         };
-        let mut stored = match format {
+        let stored = match format {
             Format::Npy => npy::read(reader, bytes).and_then(of_array),
             Format::Xyz => xyz::read(reader, bytes).map(|(points, header)| Self::points(points, &header)),
             Format::Text => text::read(reader, bytes).and_then(of_table),
         }?;
-        suspicious_values::no_data(&stored.heights)?;
-        stored.doubts.extend(suspicious_values::doubts(&stored.heights));
-        Ok(stored)
+        stored.checked()
+    }
+
+    /// Heights of an array in memory.
+    pub fn of(array: &ArrayD<f64>) -> Result<Self, Fault> {
+        npy::of_array(array).and_then(of_array)?.checked()
+    }
+
+    /// Refused with numbers that are no heights, doubted with those that hardly are.
+    fn checked(mut self) -> Result<Self, Fault> {
+        suspicious_values::no_data(&self.heights)?;
+        self.doubts.extend(suspicious_values::doubts(&self.heights));
+        Ok(self)
     }
 
     fn points(Points { heights, period }: Points, header: &Header) -> Self {

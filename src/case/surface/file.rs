@@ -160,6 +160,9 @@ pub(super) fn read(
 /// What stands in a file; refused when there is no such file, or none of a format that is known.
 fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<Stored, Fault>, Refusal> {
     let shown = path.display();
+    if let Some(array) = source.arrays.get(written.text()?) {
+        return Ok(Stored::of(array));
+    }
     let format = Format::of(path);
     if format.is_none() && !source.is_pipe(written.text()?) {
         let message = format!("`{}`: {shown} has an ending by which no format is known", written.path);
