@@ -21,7 +21,7 @@
 //!
 //! ```text
 //! numeric → notation → lattice → body → counterbody → friction → problem → load → spectral → stress → reading → localized → run
-//! → comparison → plain → units → case → output → sweep → picture → report → validation → command
+//! → comparison → plain → units → machine → heights → case → output → sweep → picture → report → validation → command
 //! ```
 //!
 //! - [`lattice`]: cells, sites and grids; [`counterbody`]: indenters and topographies; [`body`]: the layered half-space;
@@ -30,8 +30,8 @@
 //! - [`stress`]: inside coating and substrate; [`reading`]: what a tribologist reads off, with its errors;
 //! - [`comparison`]: both methods side by side; [`run`]: load paths, refinement, warnings.
 //!
-//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `case`, `output`, `sweep`, `picture`, `report` and the
-//! `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
+//! Nothing of these reads a file or prints. Behind the feature `cli`: `plain` text, `units`, `machine` (memory, disk, threads), file formats
+//! of `heights`, `case`, `output`, `sweep`, `picture`, `report` and the `command` line; behind `validate`: `validation`, the studies and the closed forms they compare with.
 //!
 //! [`theory`] leads from the equations of the paper to what is solved.
 //!
@@ -62,9 +62,13 @@ pub mod command;
 pub mod comparison;
 pub mod counterbody;
 pub mod friction;
+#[cfg(feature = "cli")]
+mod heights;
 pub mod lattice;
 pub mod load;
 pub mod localized;
+#[cfg(feature = "cli")]
+pub mod machine;
 mod notation;
 mod numeric;
 #[cfg(feature = "cli")]

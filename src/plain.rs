@@ -39,6 +39,16 @@ pub fn path(path: &Path) -> String {
     line(&path.to_string_lossy()).into_owned()
 }
 
+/// A number as a person would write it.
+pub fn float(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&size) {
+        value.to_string().replace("NaN", "nan")
+    } else {
+        format!("{value:e}")
+    }
+}
+
 /// TOML in which nothing is hidden and every text is read back as it was.
 pub(crate) fn toml(value: &impl Serialize) -> Result<String, toml::ser::Error> {
     let text = toml::to_string(value)?;

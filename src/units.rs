@@ -11,6 +11,13 @@
 use crate::body::HalfSpace;
 use crate::counterbody::{Level, Shape};
 use crate::problem::Problem;
+use std::ops::RangeInclusive;
+
+/// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
+///
+/// Results are products of up to five of a case's lengths and moduli and of their squares: between 1e-60 and 1e60 none of
+/// them overflows or vanishes.
+pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
 
 /// A unit.
 #[derive(Debug, Clone, PartialEq, Eq)]

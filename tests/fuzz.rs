@@ -16,7 +16,8 @@ mod temporary;
 use common::Random;
 use percoat::body::{Interior, TransferFunction};
 use percoat::case::resources::Job;
-use percoat::case::{Case, Room, Source, embedded, foreseen, plausibility, resources};
+use percoat::case::{Case, Source, embedded, foreseen, plausibility, resources};
+use percoat::machine::{Capacity, bytes};
 use percoat::run::Sampling;
 use percoat::{Depth, Grid, MeanStress};
 use std::fs;
@@ -271,11 +272,11 @@ fn holds_together(case: &Case) {
     let grids = case.grid.grids(&cell).expect("a case that is refined has a grid");
     for job in [Job::Solve { pictures: true, fields: true }, Job::Compare { pictures: true }] {
         let needs = resources::needs(case, grids[grids.len() - 1], job);
-        assert!(needs.memory > 0 && resources::bytes(needs.memory).contains('B'));
+        assert!(needs.memory > 0 && bytes(needs.memory).contains('B'));
         assert!(0 < needs.disk && needs.disk <= needs.disk_while_running);
         // What fits the machine at hand is not what is tested: half of what is needed never fits.
         let [memory, disk] = [needs.memory / 2, needs.disk_while_running / 2];
-        for room in [Room { memory, disk: u64::MAX }, Room { memory: u64::MAX, disk }] {
+        for room in [Capacity { memory, disk: u64::MAX }, Capacity { memory: u64::MAX, disk }] {
             if let Some(said) = resources::refusal(case, room, job) {
                 assert!(said.contains("take about"), "{said}");
             }

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import io
 import json
 from os import PathLike
 from typing import Any, List, Mapping, Optional, Union
-
-import numpy as np
 
 from percoat import _core
 from percoat._record import Record
@@ -70,8 +67,8 @@ def as_dict(case: _core.Case) -> dict[str, Any]:
     """The case as run, complete with defaults; heights that are in memory as an array."""
     own: dict[str, Any] = json.loads(case.json)
     heights = own.get("surface", {}).get("heights")
-    if heights in case.files:
-        own["surface"]["heights"] = np.load(io.BytesIO(case.files[heights]))
+    if heights in case.arrays:
+        own["surface"]["heights"] = case.arrays[heights]
     return own
 
 

@@ -4,9 +4,11 @@ use crate::errors::{no_case, refused, unreadable};
 use crate::toml;
 use crate::work;
 use ::toml::Value;
-use numpy::PyArrayLikeDyn;
-use percoat::case::resources::{Job, bytes, refusal};
-use percoat::case::{self, Room, Source, SurfaceSection, available_memory, embedded};
+use ndarray::ArrayD;
+use numpy::{PyArrayDyn, PyArrayLikeDyn};
+use percoat::case::resources::{Job, refusal};
+use percoat::case::{self, Source, embedded};
+use percoat::machine::{Capacity, available_memory, bytes};
 use percoat::output::{self, Check};
 use pyo3::exceptions::{PyMemoryError, PyTypeError};
 use pyo3::prelude::*;
@@ -15,11 +17,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Name under which heights of a dict are a file of the case, one that nobody gives a file on disk.
+/// Name under which a case has the heights of a dict, one that no file on disk has.
 const HEIGHTS: &str = "<array>.npy";
 
 /// A case that has been read, with every default resolved.
-#[pyclass(frozen, module = "percoat._core")]
+#[pyclass(frozen, skip_from_py_object, module = "percoat._core")]
 #[derive(Debug, Clone)]
 pub struct Case {
     pub own: Arc<case::Case>,
@@ -42,10 +44,10 @@ impl Case {
         Self::read(case.py(), source, settings, name)
     }
 
-    /// Files that it has in memory, by the names it calls them.
+    /// Heights that are an array in memory, under the name that the case has for them.
     #[getter]
-    fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        files(py, &self.source)
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        arrays(py, &self.source)
     }
 
     /// The whole case as JSON.
@@ -75,18 +77,25 @@ impl Case {
         let (py, case) = (slf.py(), slf.get());
         let own = case.clone();
         let source = work::run(py, None, None, move |_| own.portable())??;
-        let files = files(py, &source)?;
-        let state = (source.text, files, &case.name).into_pyobject(py)?;
+        let (files, arrays) = (files(py, &source)?, arrays(py, &source)?);
+        let state = (source.text, files, arrays, &case.name).into_pyobject(py)?;
         Ok((slf.get_type().getattr("_restore")?, state))
     }
 
     #[staticmethod]
-    fn _restore(text: String, files_of: &Bound<'_, PyDict>, name: String) -> PyResult<Self> {
+    fn _restore(
+        text: String,
+        files_of: &Bound<'_, PyDict>,
+        arrays_of: &Bound<'_, PyDict>,
+        name: String,
+    ) -> PyResult<Self> {
         let file = |(name, bytes): (Bound<'_, PyAny>, Bound<'_, PyAny>)| -> PyResult<(String, Arc<[u8]>)> {
             Ok((name.extract()?, Arc::from(bytes.cast::<PyBytes>()?.as_bytes())))
         };
         let files = files_of.iter().map(file).collect::<PyResult<BTreeMap<_, _>>>()?;
-        let source = Source { name: name.clone(), text, files, ..Source::default() };
+        let heights = |(name, own): (Bound<'_, PyAny>, Bound<'_, PyAny>)| Ok((name.extract()?, array(&own)?));
+        let arrays = arrays_of.iter().map(heights).collect::<PyResult<BTreeMap<_, _>>>()?;
+        let source = Source { name: name.clone(), text, files, arrays, ..Source::default() };
         Self::read(files_of.py(), source, Vec::new(), name)
     }
 }
@@ -100,6 +109,15 @@ fn files<'py>(py: Python<'py>, source: &Source) -> PyResult<Bound<'py, PyDict>> 
     Ok(files)
 }
 
+/// The arrays of a source that are in memory, copied.
+fn arrays<'py>(py: Python<'py>, source: &Source) -> PyResult<Bound<'py, PyDict>> {
+    let arrays = PyDict::new(py);
+    for (name, heights) in &source.arrays {
+        arrays.set_item(name, PyArrayDyn::from_array(py, heights))?;
+    }
+    Ok(arrays)
+}
+
 impl Case {
     /// Reads a case, where surfaces are made and files read, on threads of its own.
     fn read(py: Python<'_>, source: Source, settings: Vec<String>, name: String) -> PyResult<Self> {
@@ -111,8 +129,8 @@ impl Case {
     }
 
     /// Room for a job, which is refused where there is not enough.
-    pub fn allow(&self, job: Job) -> PyResult<Room> {
-        let room = Room { disk: u64::MAX, ..Room::on_this_machine(Path::new(".")) };
+    pub fn allow(&self, job: Job) -> PyResult<Capacity> {
+        let room = Capacity { disk: u64::MAX, ..Capacity::on_this_machine(Path::new(".")) };
         refusal(&self.own, room, job).map_or(Ok(room), |why| Err(refused(why)))
     }
 
@@ -122,10 +140,12 @@ impl Case {
             name: self.name.clone(),
             text: self.own.to_toml(),
             files: self.source.files.clone(),
+            arrays: self.source.arrays.clone(),
             ..Source::default()
         };
-        if let Some(SurfaceSection::File { heights, .. }) = &self.own.surface
+        if let Some(heights) = self.own.surface.as_ref().and_then(|surface| surface.heights.as_ref())
             && !source.files.contains_key(heights)
+            && !source.arrays.contains_key(heights)
         {
             let bytes = std::fs::read(heights).map_err(|error| unreadable(Path::new(heights), &error))?;
             source.files.insert(heights.clone(), bytes.into());
@@ -140,11 +160,11 @@ impl Case {
     }
 }
 
-/// The text that `case` stands for, and its name.
+/// Text or values that `case` stands for, and its name.
 pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
     if let Ok(known) = case.cast::<Case>() {
         let Case { own, name, source } = known.get();
-        return Ok((Source { text: own.to_toml(), ..(**source).clone() }, name.clone()));
+        return Ok((Source { text: own.to_toml(), values: None, ..(**source).clone() }, name.clone()));
     }
     if let Ok(path) = case.extract::<PathBuf>() {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -156,8 +176,8 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
             "a case is a path, the name of an embedded case or a dict of the same shape as the file, not a {kind}"
         )));
     };
-    let mut files = BTreeMap::new();
-    let mut table = ::toml::Table::new();
+    let mut arrays = BTreeMap::new();
+    let mut values = ::toml::Table::new();
     for pair in mapping.items()?.iter() {
         let (key, own): (Bound<'_, PyAny>, Bound<'_, PyAny>) = pair.extract()?;
         let heights = match (key.extract::<String>().as_deref(), own.cast::<PyMapping>()) {
@@ -169,21 +189,20 @@ pub fn source(case: &Bound<'_, PyAny>) -> PyResult<(Source, String)> {
         let Some(heights) = heights else {
             let single = PyDict::new(case.py());
             single.set_item(key, own)?;
-            table.extend(toml::table(single.as_mapping(), "")?);
+            values.extend(toml::table(single.as_mapping(), "")?);
             continue;
         };
-        files.insert(HEIGHTS.to_owned(), npy(&heights)?);
+        arrays.insert(HEIGHTS.to_owned(), array(&heights)?);
         let section = PyDict::new(case.py());
         section.update(own.cast::<PyMapping>()?)?;
         section.set_item("heights", HEIGHTS)?;
-        table.insert("surface".to_owned(), Value::Table(toml::table(section.as_mapping(), "surface")?));
+        values.insert("surface".to_owned(), Value::Table(toml::table(section.as_mapping(), "surface")?));
     }
-    let text = ::toml::to_string(&table).map_err(refused)?;
-    Ok((Source { name: "dict".to_owned(), text, files, ..Source::default() }, "dict".to_owned()))
+    Ok((Source { name: "dict".to_owned(), values: Some(values), arrays, ..Source::default() }, "dict".to_owned()))
 }
 
-/// An array as a file of NumPy.
-fn npy(heights: &Bound<'_, PyAny>) -> PyResult<Arc<[u8]>> {
+/// Heights as an array of their own.
+fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     let masked = heights.py().import("numpy.ma")?.getattr("MaskedArray")?;
     if heights.is_instance(&masked)? {
         return Err(refused(
@@ -203,7 +222,7 @@ fn npy(heights: &Bound<'_, PyAny>) -> PyResult<Arc<[u8]>> {
     })?;
     let view = heights.as_array();
     has_room(view.shape())?;
-    output::npy_shared(view.shape(), view.iter().copied()).map_err(refused)
+    Ok(Arc::new(view.to_owned()))
 }
 
 /// The sizes of an array or of a list of lists, before anything of it is copied.
@@ -223,7 +242,7 @@ fn sizes(heights: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
     Ok(sizes)
 }
 
-/// Copies of the heights that are there at once at most: in another type, as a file of the case, and as a surface with its waves.
+/// Copies of the heights that are there at once at most: in another type, as an array of the case, and as a surface with its waves.
 const COPIES: u64 = 4;
 
 /// Refuses heights that memory does not hold before any is taken for them.

@@ -5,8 +5,9 @@ use crate::errors::refused;
 use crate::record::to_python;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use percoat::body::TransferFunction;
-use percoat::case::{CARRIED, half_space};
+use percoat::case::half_space;
 use percoat::output::{self, Traction};
+use percoat::units::CARRIED;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -42,7 +43,11 @@ impl HalfSpace {
             return Ok(Self { transfer: TransferFunction::new(&own), own, text });
         }
         let own = half_space(&source).map_err(refused)?;
-        Ok(Self { transfer: TransferFunction::new(&own), own, text: source.text })
+        let text = match &source.values {
+            Some(values) => toml::to_string(values).map_err(refused)?,
+            None => source.text,
+        };
+        Ok(Self { transfer: TransferFunction::new(&own), own, text })
     }
 
     /// ŵ/p̂ at wavenumbers, a length over a pressure.

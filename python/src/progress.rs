@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 
 /// How far a computation is.
-#[pyclass(frozen, module = "percoat._core")]
+#[pyclass(frozen, skip_from_py_object, module = "percoat._core")]
 #[derive(Debug, Clone)]
 pub struct Progress {
     /// What is counted: `step` or `combination`; `load` where the end is not known.

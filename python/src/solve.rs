@@ -10,7 +10,8 @@ use ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use percoat::Progress;
 use percoat::case::resources::{Job, needs};
-use percoat::case::{self, Room, plausibility};
+use percoat::case::{self, plausibility};
+use percoat::machine::Capacity;
 use percoat::output::{Clock, Phase, Summary, table};
 use percoat::run::{Recorder, StepRecord};
 use percoat::spectral::Checkpoint;
@@ -34,7 +35,7 @@ impl std::error::Error for Stopped {}
 pub struct Keeping<'a> {
     pub case: &'a Arc<case::Case>,
     pub job: Job,
-    pub room: Room,
+    pub room: Capacity,
     pub listener: &'a mut Listener,
     pub clock: Clock,
     /// What the steps are called, and how many there are, if that is known.

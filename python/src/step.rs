@@ -28,7 +28,7 @@ pub struct Kept {
 }
 
 /// A solved load step.
-#[pyclass(frozen, module = "percoat._core")]
+#[pyclass(frozen, skip_from_py_object, module = "percoat._core")]
 #[derive(Debug, Clone)]
 pub struct Step(Arc<Kept>);
 

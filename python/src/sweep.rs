@@ -7,7 +7,7 @@ use crate::record::to_python;
 use crate::toml::{value, written};
 use crate::work;
 use ::toml::Value;
-use percoat::case::Room;
+use percoat::machine::Capacity;
 use percoat::sweep::{Axis, Combinations, Group, Row, Study, Task, columns};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -53,7 +53,7 @@ pub fn sweep<'py>(
     let combinations = Combinations::product(&groups).map_err(refused)?;
     let task = if limit { Task::Limit } else { Task::Solve };
     let rows = work::run(py, threads, progress, move |listener| {
-        let room = Room { disk: u64::MAX, ..Room::on_this_machine(Path::new(".")) };
+        let room = Capacity { disk: u64::MAX, ..Capacity::on_this_machine(Path::new(".")) };
         let study = Study::new(&source, &fixed, &combinations, task, room).map_err(|error| error.to_string())?;
         let study = study.stopped_by(listener.stop().clone());
         let (of, mut rows) = (combinations.all.len(), Vec::<Row>::new());

@@ -6,7 +6,7 @@
 
 use crate::errors::refused;
 use crate::progress::Progress;
-use percoat::case::Threads;
+use percoat::machine::Threads;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};

@@ -1,33 +1,35 @@
 //! `[friction]`: the indenters slide.
 
-use serde::Serialize;
-
 use super::error::Refusal;
-use super::magnitude;
+use super::feasibility::magnitude;
+use super::keys::{Form, Key, Range};
 use super::reader::TableAt;
+use super::section::section;
 use crate::friction::{Friction, FrictionError};
 use crate::problem::Problem;
 use crate::spectral::{Method, Settings};
 
-/// The section `[friction]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct FrictionSection {
-    /// Coefficient μ ≥ 0.
-    pub coefficient: f64,
-    /// Direction in which the indenters slide, of any length.
-    pub direction: [f64; 2],
-    /// Whether the pressure follows the displacement that the traction causes.
-    pub coupling: bool,
+section! {
+    /// The section `[friction]`.
+    #[derive(Copy)]
+    pub struct FrictionSection = FRICTION, rules a_direction {
+        /// μ: the body feels the traction μp
+        pub coefficient: f64 = Key::new(&[Form::Number(Range::between(0.0, 100.0))], "0.3"),
+        /// in which the indenters slide, of any length
+        pub direction: [f64; 2] =
+            Key::new(&[Form::Tuple("a direction [x, y]", &[Form::Number(Range::Place); 2])], "[1.0, 1.0]")
+                .default("[1, 0]")
+                .rule("not [0, 0]"),
+        /// whether the pressure follows what the traction displaces
+        pub coupling: bool = Key::new(&[Form::Boolean], "false").default("true"),
+    }
+}
+
+fn a_direction(_: &FrictionSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    magnitude::direction(&section.value("direction")?).map(drop)
 }
 
 impl FrictionSection {
-    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        section.only()?;
-        let coefficient = section.value("coefficient")?.number()?;
-        let direction = magnitude::direction(&section.value("direction")?)?;
-        Ok(Self { coefficient, direction, coupling: section.value("coupling")?.boolean()? })
-    }
-
     pub(super) fn friction(&self) -> Result<Friction, FrictionError> {
         let friction = Friction::new(self.coefficient, self.direction)?;
         Ok(if self.coupling { friction } else { friction.uncoupled() })

@@ -4,64 +4,53 @@
 //! E = E₀ + (E₁ − E₀) t, or E₀ (E₁/E₀)ᵗ; ν = ν₀ + (ν₁ − ν₀) t. What the layer does at a wavenumber q is a matter of its
 //! moduli's means over depth, of which the rule of the middles errs at second order in 1/n while qh < n.
 
-use serde::Serialize;
-
 use super::error::Refusal;
-use super::keys::LAYERS;
+use super::keys::{Form, Key, Range, Unit};
 use super::reader::TableAt;
-use super::value::ValueAt;
+use super::section::{Words, demanded, section, words};
 use crate::body::{Material, MaterialError};
 
-/// How a layer is graded.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Grading {
-    /// Stiffness at the upper and the lower face.
-    #[serde(flatten)]
-    pub modulus: Ends,
-    /// Poisson's ratio at the upper and the lower face.
-    pub poisson: [f64; 2],
-    /// How the stiffness goes from one to the other.
-    pub law: Law,
-    /// Number of sublayers.
-    pub sublayers: usize,
+const SIZE: Form = Form::Number(Range::Size);
+const POISSON: Form = Form::Number(Range::between(0.0, 0.5));
+/// Most layers a case can have, sublayers counted.
+pub(super) const LAYERS: usize = 200;
+
+const ENDS: &str = "two numbers, at the upper and the lower face, [upper, lower]";
+
+words! {
+    /// How a stiffness changes with depth.
+    pub enum Law {
+        /// By equal amounts.
+        Linear = "linear",
+        /// By equal factors.
+        Exponential = "exponential",
+    }
 }
 
-/// Stiffness at the upper and the lower face.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Ends {
-    /// χ = G/G_substrate.
-    ShearRatio([f64; 2]),
-    /// Young's modulus, a pressure.
-    Young([f64; 2]),
+section! {
+    /// How a layer is graded.
+    #[derive(Copy)]
+    pub struct Grading = GRADING, rules one_stiffness {
+        /// χ at the upper and the lower face
+        pub shear_ratio: Option<[f64; 2]> = Key::new(&[Form::Tuple(ENDS, &[SIZE; 2])], "[2.0, 1.0]"),
+        /// Young's modulus at the upper and the lower face
+        pub young: Option<[f64; 2]> = Key::new(&[Form::Tuple(ENDS, &[SIZE; 2])], "[4.0, 1.0]")
+            .unit(Unit::Pressure)
+            .instead_of("shear_ratio"),
+        /// Poisson's ratio at the upper and the lower face, linear between them
+        pub poisson: [f64; 2] = Key::new(&[Form::Tuple(ENDS, &[POISSON; 2])], "[0.2, 0.3]"),
+        /// how the stiffness goes from one to the other
+        pub law: Law = Key::new(&[Form::Word(Law::WORDS)], "\"exponential\"").default("\"linear\""),
+        /// number of sublayers, each a material of its own in the outputs
+        pub sublayers: usize = Key::new(&[Form::Integer(1, LAYERS)], "40").default("20"),
+    }
 }
 
-/// How a stiffness changes with depth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Law {
-    /// By equal amounts.
-    Linear,
-    /// By equal factors.
-    Exponential,
+fn one_stiffness(_: &Grading, section: &TableAt<'_>) -> Result<(), Refusal> {
+    section.one_of(["shear_ratio", "young"]).map(drop)
 }
 
 impl Grading {
-    pub(super) fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
-        let section = value.table()?;
-        section.only()?;
-        let modulus = match section.one_of(["shear_ratio", "young"])? {
-            (0, ratio) => Ends::ShearRatio(ratio.numbers()?),
-            (_, young) => Ends::Young(young.numbers()?),
-        };
-        let poisson = section.value("poisson")?.numbers()?;
-        let law = match section.value("law")?.word()? {
-            "exponential" => Law::Exponential,
-            _ => Law::Linear,
-        };
-        Ok(Self { modulus, poisson, law, sublayers: section.value("sublayers")?.integer()? })
-    }
-
     /// The same one, of so many sublayers.
     pub(super) fn of(self, sublayers: usize) -> Self {
         Self { sublayers, ..self }
@@ -76,26 +65,11 @@ impl Grading {
                 Law::Linear => linear([upper, lower]),
                 Law::Exponential => upper * (lower / upper).powf(t),
             };
-            match self.modulus {
-                Ends::ShearRatio(ends) => {
-                    Material::from_shear(stiffness(ends) * substrate.shear(), linear(self.poisson))
-                }
-                Ends::Young(ends) => Material::from_young(stiffness(ends), linear(self.poisson)),
+            let poisson = linear(self.poisson);
+            match self.young {
+                Some(young) => Material::from_young(stiffness(young), poisson),
+                None => Material::from_shear(stiffness(demanded(self.shear_ratio)) * substrate.shear(), poisson),
             }
         })
     }
-}
-
-/// Refuses more sublayers than can be had, at the layer with which they are too many.
-pub(super) fn count(numbers: &[usize], sections: &[TableAt<'_>]) -> Result<(), Refusal> {
-    let mut count = 0;
-    for (number, section) in numbers.iter().zip(sections) {
-        count += number;
-        if count > LAYERS {
-            let place = section.optional("graded").map_or(section.place, |value| value.node.place);
-            let message = format!("`layers` must be at most {LAYERS} layers and sublayers, not {count} up to here");
-            return Err(Refusal::new(place, message, "too many").help("give fewer `sublayers`"));
-        }
-    }
-    Ok(())
 }

@@ -1,22 +1,71 @@
 //! `[grid]`: how finely the cell is sampled.
 
+use std::ops::Bound;
+
 use super::error::Refusal;
+use super::keys::{Form, Key, Range};
 use super::node::Value;
 use super::reader::TableAt;
+use super::section::{KeyValue, section};
 use super::value::ValueAt;
 use crate::numeric::fourier::has_fast_factors;
 use crate::run::Sampling;
 
-/// Read the section `[grid]`; a surface from a `file` brings its own points, which may have any factors.
-pub(super) fn read(section: &TableAt<'_>, file: Option<[usize; 2]>) -> Result<Sampling, Refusal> {
-    section.only()?;
-    match (section.optional("points"), section.optional("accuracy"), file) {
-        (Some(_), Some(accuracy), _) => Err(section.both(["points", "accuracy"], accuracy.node.place)),
-        (None, Some(accuracy), _) => accuracy.number().map(Sampling::Accuracy),
-        (None, None, Some(points)) => Ok(Sampling::Points(points)),
-        (Some(given), None, Some(points)) if is(&given, points) => Ok(Sampling::Points(points)),
-        (_, None, _) => each(&section.value("points")?).map(Sampling::Points),
+const POINTS: Form = Form::Integer(4, 32_768);
+
+section! {
+    /// The section `[grid]`, which [`Sampling`] writes.
+    pub struct GridSection = GRID {
+        /// samples along each cell vector, a product of the factors 2, 3, 5 and 7
+        pub points: Points = Key::new(&[POINTS, Form::Tuple("[n1, n2]", &[POINTS; 2])], "[512, 256]")
+            .default("512")
+            .rule("beside a surface's file its own when not given, which may have any factors"),
+        /// refine until results change by less, relatively
+        pub accuracy: Option<f64> = Key::new(
+            &[Form::Number(Range::Within(Bound::Excluded(0.0), Bound::Included(0.1)))],
+            "1e-3",
+        )
+        .otherwise("`points` are taken")
+        .instead_of("points"),
     }
+}
+
+/// Samples along a₁ and a₂.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Points([usize; 2]);
+
+impl KeyValue for Points {
+    /// An integer for both directions, or one for each.
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match &value.node.value {
+            Value::Integer(_) => transformable(value).map(|n| Self([n; 2])),
+            _ => {
+                let [n1, n2] = value.tuple()?;
+                Ok(Self([transformable(&n1)?, transformable(&n2)?]))
+            }
+        }
+    }
+}
+
+impl KeyValue for Sampling {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        read(&value.table()?, None)
+    }
+}
+
+/// The sampling of a case; a surface from a `file` brings its own points, which may have any factors.
+pub(super) fn read(section: &TableAt<'_>, file: Option<[usize; 2]>) -> Result<Sampling, Refusal> {
+    if let (Some(_), Some(accuracy)) = (section.optional("points"), section.optional("accuracy")) {
+        return Err(section.both(["points", "accuracy"], accuracy.node.place));
+    }
+    let points = section.optional("points");
+    if let Some(file) = file.filter(|file| points.as_ref().is_none_or(|points| is(points, *file)))
+        && section.optional("accuracy").is_none()
+    {
+        return section.only().map(|()| Sampling::Points(file));
+    }
+    let GridSection { points: Points(points), accuracy } = GridSection::read_table(section)?;
+    Ok(accuracy.map_or(Sampling::Points(points), Sampling::Accuracy))
 }
 
 /// Whether these points are given.
@@ -25,17 +74,6 @@ fn is(value: &ValueAt<'_>, points: [usize; 2]) -> bool {
     match &value.node.value {
         Value::List(items) => items.len() == 2 && items.iter().zip(points).all(|(item, n)| is(&item.value, n)),
         value => points.iter().all(|n| is(value, *n)),
-    }
-}
-
-/// An integer for both directions, or one for each.
-fn each(value: &ValueAt<'_>) -> Result<[usize; 2], Refusal> {
-    match &value.node.value {
-        Value::Integer(_) => transformable(value).map(|n| [n; 2]),
-        _ => {
-            let [n1, n2] = value.tuple()?;
-            Ok([transformable(&n1)?, transformable(&n2)?])
-        }
     }
 }
 

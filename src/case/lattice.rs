@@ -1,34 +1,53 @@
 //! `[lattice]`: the cell, and where the indenters of each level stand in it.
 
-use serde::Serialize;
-
 use super::error::Refusal;
+use super::keys::{Form, Key, Range, Unit};
 use super::levels::LevelSection;
 use super::reader::TableAt;
+use super::section::{Words, demanded, section, words};
 use crate::lattice::{Cell, Lattice, LatticeError};
 
-/// The section `[lattice]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(tag = "kind", rename_all = "lowercase")]
-pub enum LatticeSection {
-    /// Triangular lattice; its cell is a rhombus of 60°.
-    Hexagonal {
-        /// Distance of neighbouring indenters whatever their level, a length. With explicit sites and with a
-        /// surface: the side of the cell.
-        period: f64,
-    },
-    /// Square lattice.
-    Square {
-        /// As for the hexagonal one.
-        period: f64,
-    },
-    /// Any cell.
-    Oblique {
-        /// First cell vector [x, y], lengths.
-        a1: [f64; 2],
-        /// Second cell vector [x, y], lengths.
-        a2: [f64; 2],
-    },
+const PLACE: Form = Form::Number(Range::Place);
+const VECTOR: Form = Form::Tuple("a vector [x, y]", &[PLACE; 2]);
+
+words! {
+    /// Kinds of lattices.
+    pub enum LatticeKind {
+        /// Triangular; its cell is a rhombus of 60°.
+        Hexagonal = "hexagonal",
+        /// Of squares.
+        Square = "square",
+        /// Any cell.
+        Oblique = "oblique",
+    }
+}
+
+section! {
+    /// The section `[lattice]`.
+    #[derive(Copy)]
+    pub struct LatticeSection = LATTICE, misplaced [
+        ("a1", "the cell of a hexagonal or square lattice follows from `period`"),
+        ("a2", "the cell of a hexagonal or square lattice follows from `period`"),
+        ("period", "the cell of an oblique lattice is given by `a1` and `a2`"),
+    ] {
+        /// which lattice: of triangles, of squares, or any cell
+        pub kind: LatticeKind = Key::new(&[Form::Word(LatticeKind::WORDS)], "\"hexagonal\""),
+        /// the distance of neighbouring indenters whatever their level
+        pub period: Option<f64> = Key::new(&[Form::Number(Range::Size)], "1.0")
+            .unit(Unit::Length)
+            .of(&["hexagonal", "square"])
+            .rule("with `sites` and with a surface: the side of the cell"),
+        /// a cell vector
+        pub a1: Option<[f64; 2]> = Key::new(&[VECTOR], "[1.0, 0.0]")
+            .unit(Unit::Length)
+            .of(&["oblique"])
+            .rule("not parallel to `a2`"),
+        /// a cell vector
+        pub a2: Option<[f64; 2]> = Key::new(&[VECTOR], "[0.25, 1.5]")
+            .unit(Unit::Length)
+            .of(&["oblique"])
+            .rule("not parallel to `a1`"),
+    }
 }
 
 /// Most indenters a cell can hold.
@@ -38,35 +57,32 @@ const MOST_INDENTERS: usize = 10_000;
 const SINE: f64 = 1e-3;
 
 impl LatticeSection {
-    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        let kind = section.value("kind")?.word()?;
-        section.only()?;
-        let period = || section.value("period")?.number();
-        let vector = |key| section.value(key)?.numbers();
-        match kind {
-            "hexagonal" => Ok(Self::Hexagonal { period: period()? }),
-            "square" => Ok(Self::Square { period: period()? }),
-            _ => Ok(Self::Oblique { a1: vector("a1")?, a2: vector("a2")? }),
+    /// A square or rectangular cell with these sides, lengths.
+    pub(super) fn rectangle([side1, side2]: [f64; 2]) -> Self {
+        let (square, oblique) = (LatticeKind::Square, LatticeKind::Oblique);
+        match side1 == side2 {
+            true => Self { kind: square, period: Some(side1), a1: None, a2: None },
+            false => Self { kind: oblique, period: None, a1: Some([side1, 0.0]), a2: Some([0.0, side2]) },
         }
     }
 
     /// The cell whose side is the period, or the one given.
     pub(super) fn cell(&self) -> Result<Cell, LatticeError> {
-        match *self {
-            Self::Hexagonal { period } => Cell::hexagonal(period),
-            Self::Square { period } => Cell::square(period),
-            Self::Oblique { a1, a2 } => Cell::new(a1, a2),
+        match self.kind {
+            LatticeKind::Hexagonal => Cell::hexagonal(demanded(self.period)),
+            LatticeKind::Square => Cell::square(demanded(self.period)),
+            LatticeKind::Oblique => Cell::new(demanded(self.a1), demanded(self.a2)),
         }
     }
 
     /// The lattice of the levels: their own sites, or the standard ones.
     pub(super) fn build(&self, levels: &[LevelSection]) -> Result<Lattice, LatticeError> {
         let sites: Option<Vec<_>> = levels.iter().map(|level| level.sites.clone()).collect();
-        match (sites, *self) {
+        match (sites, self.kind) {
             (Some(sites), _) => Lattice::new(self.cell()?, sites),
-            (None, Self::Hexagonal { period }) => Lattice::hexagonal(period, levels.len()),
-            (None, Self::Square { period }) => Lattice::square(period, levels.len()),
-            (None, Self::Oblique { .. }) => {
+            (None, LatticeKind::Hexagonal) => Lattice::hexagonal(demanded(self.period), levels.len()),
+            (None, LatticeKind::Square) => Lattice::square(demanded(self.period), levels.len()),
+            (None, LatticeKind::Oblique) => {
                 Err(LatticeError::NoStandardSites { lattice: "oblique", levels: levels.len(), standard: "none" })
             }
         }
@@ -98,7 +114,7 @@ pub(super) fn build(
     }
     build_cell(lattice, section)?;
     lattice.build(levels).map_err(|error| match error {
-        LatticeError::NoStandardSites { .. } if matches!(lattice, LatticeSection::Oblique { .. }) => {
+        LatticeError::NoStandardSites { .. } if lattice.kind == LatticeKind::Oblique => {
             Refusal::new(level_sections[0].place, "`levels[0].sites` is missing", "no `sites` in this level")
                 .help("an oblique cell has no standard sites: give each level its own, in fractions of a1, a2: sites = [[0.0, 0.0]]")
         }

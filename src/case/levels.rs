@@ -1,54 +1,73 @@
 //! `[[levels]]`: indenters of equal shape and height.
 
-use serde::Serialize;
-
 use super::error::Refusal;
+use super::keys::{Form, Key, Range, Unit};
 use super::reader::TableAt;
-use super::value::ValueAt;
+use super::section::{Words, demanded, section, words};
 use crate::counterbody::{Level, Shape};
 
-/// One section of `[[levels]]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LevelSection {
-    /// Shape of the indenters, with its sizes.
-    #[serde(flatten, with = "ShapeKeys")]
-    pub shape: Shape,
-    /// Protrusion of the apices, a length; only differences matter.
-    pub height: f64,
-    /// Sites of the level's indenters in fractions of a₁, a₂; none: the lattice's standard ones.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sites: Option<Vec<[f64; 2]>>,
+const SIZE: Form = Form::Number(Range::Size);
+const PLACE: Form = Form::Number(Range::Place);
+
+words! {
+    /// Kinds of shapes.
+    pub enum ShapeKind {
+        /// r²/2R.
+        Paraboloid = "paraboloid",
+        /// A sphere's lower half.
+        Sphere = "sphere",
+        /// A cone.
+        Cone = "cone",
+        /// c rⁿ.
+        Power = "power",
+    }
 }
 
-/// The keys a [`Shape`] has in a case.
-#[derive(Serialize)]
-#[serde(remote = "Shape", tag = "shape", rename_all = "lowercase")]
-enum ShapeKeys {
-    Paraboloid { radius: f64 },
-    Sphere { radius: f64 },
-    Cone { slope: f64 },
-    Power { coefficient: f64, exponent: f64 },
+section! {
+    /// One section of `[[levels]]`.
+    pub struct LevelSection = LEVELS, misplaced [
+        ("radius", "`radius` is a size of a paraboloid or a sphere"),
+        ("slope", "`slope` is the size of a cone"),
+        ("coefficient", "`coefficient` is a size of a power profile c rⁿ"),
+        ("exponent", "`exponent` is a size of a power profile c rⁿ"),
+    ] {
+        /// the shape of the indenters; a power law is c rⁿ
+        pub shape: ShapeKind = Key::new(&[Form::Word(ShapeKind::WORDS)], "\"paraboloid\""),
+        /// the radius at the apex
+        pub radius: Option<f64> = Key::new(&[SIZE], "0.8").unit(Unit::Length).of(&["paraboloid", "sphere"]),
+        /// the slope of the flank
+        pub slope: Option<f64> = Key::new(&[SIZE], "0.1").of(&["cone"]),
+        /// c of the profile c rⁿ
+        pub coefficient: Option<f64> = Key::new(&[SIZE], "1.5").unit(Unit::LengthToOneMinusN).of(&["power"]),
+        /// n of the profile c rⁿ
+        pub exponent: Option<f64> = Key::new(&[SIZE], "3.0").of(&["power"]),
+        /// protrusion of the apices, of which only differences matter
+        pub height: f64 = Key::new(&[PLACE], "0.02").unit(Unit::Length).default("0"),
+        /// where its indenters stand, in fractions of a₁ and a₂
+        pub sites: Option<Vec<[f64; 2]>> = Key::new(
+            &[Form::List { of: &Form::Tuple("a site [s1, s2]", &[PLACE; 2]), count: [1, 10_000] }],
+            "[[0.0, 0.0], [0.5, 0.5]]",
+        )
+        .otherwise("the lattice's standard ones")
+        .rule("all levels have them, or none"),
+    }
 }
 
 impl LevelSection {
-    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        let shape = section.value("shape")?.word()?;
-        section.only()?;
-        let size = |key| section.value(key)?.number();
-        let shape = match shape {
-            "paraboloid" => Shape::Paraboloid { radius: size("radius")? },
-            "sphere" => Shape::Sphere { radius: size("radius")? },
-            "cone" => Shape::Cone { slope: size("slope")? },
-            _ => Shape::Power { coefficient: size("coefficient")?, exponent: size("exponent")? },
-        };
-        let sites = |sites: &ValueAt<'_>| sites.list()?.iter().map(ValueAt::numbers).collect();
-        let height = section.value("height")?.number()?;
-        Ok(Self { shape, height, sites: section.optional("sites").as_ref().map(sites).transpose()? })
+    fn shape(&self) -> Shape {
+        match self.shape {
+            ShapeKind::Paraboloid => Shape::Paraboloid { radius: demanded(self.radius) },
+            ShapeKind::Sphere => Shape::Sphere { radius: demanded(self.radius) },
+            ShapeKind::Cone => Shape::Cone { slope: demanded(self.slope) },
+            ShapeKind::Power => {
+                Shape::Power { coefficient: demanded(self.coefficient), exponent: demanded(self.exponent) }
+            }
+        }
     }
 
     /// The level as the core knows it.
     pub(super) fn build(&self, section: &TableAt<'_>) -> Result<Level, Refusal> {
-        Level::new(self.shape, self.height)
+        Level::new(self.shape(), self.height)
             .map_err(|error| Refusal::new(section.place, format!("`{}`: {error}", section.path("shape")), "this level"))
     }
 }

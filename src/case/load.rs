@@ -1,107 +1,151 @@
 //! `[load]`: the nominal pressures or penetrations to solve for, one after another.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
+use super::keys::{Form, Key, Keys, Range, Unit, measured_in};
 use super::node::Value;
 use super::reader::TableAt;
+use super::section::{KeyValue, Words, demanded, section, words};
 use super::value::ValueAt;
 use crate::load::Load;
 
-/// The section `[load]`: what is prescribed, one value a load step.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LoadSection {
-    /// Nominal pressures p̄ ≥ 0, same unit as Young's modulus.
-    MeanPressure(Vec<f64>),
-    /// Penetrations δ ≥ 0 from first touch, measured from the mean plane of the deformed surface, lengths.
-    Penetration(Vec<f64>),
+/// Most load steps a case can have.
+const STEPS: usize = 10_000;
+
+const SIZE_OR_ZERO: Form = Form::Number(Range::SizeOrZero);
+const LOADS: Form = Form::List { of: &SIZE_OR_ZERO, count: [1, STEPS] };
+
+section! {
+    /// The section `[load]`: one of both, one value a load step.
+    pub struct LoadSection = LOAD, rules one {
+        /// the nominal pressure p̄
+        pub mean_pressure: Option<Steps> =
+            Key::new(&[SIZE_OR_ZERO, LOADS, Form::Table(&PRESSURES)], "[0.01, 0.06]").unit(Unit::Pressure),
+        /// the penetration δ from first touch
+        pub penetration: Option<Steps> =
+            Key::new(&[SIZE_OR_ZERO, LOADS, Form::Table(&PENETRATIONS)], "[0.01, 0.05]")
+                .unit(Unit::Length)
+                .instead_of("mean_pressure"),
+    }
+}
+
+static PRESSURES: Keys = Keys::new(&measured_in::<4>(RANGE.all, Unit::Pressure));
+static PENETRATIONS: Keys = Keys::new(&measured_in::<4>(RANGE.all, Unit::Length));
+
+section! {
+    /// A range of load steps.
+    pub struct LoadRange = RANGE, rules positive_ends {
+        /// the first value
+        pub from: f64 = Key::new(&[SIZE_OR_ZERO], "1e-4").rule("greater than 0 with `spacing = \"log\"`"),
+        /// the last value
+        pub to: f64 = Key::new(&[SIZE_OR_ZERO], "0.06").rule("greater than 0 with `spacing = \"log\"`"),
+        /// the number of values, both ends counted
+        pub steps: usize = Key::new(&[Form::Integer(1, STEPS)], "20"),
+        /// by equal amounts or by equal factors
+        pub spacing: Spacing = Key::new(&[Form::Word(Spacing::WORDS)], "\"log\"").default("\"linear\""),
+    }
+}
+
+words! {
+    /// How the values of a range follow each other.
+    pub enum Spacing {
+        /// By equal amounts.
+        Linear = "linear",
+        /// By equal factors.
+        Log = "log",
+    }
+}
+
+/// The values of the load steps, at least one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Steps(Vec<f64>);
+
+impl Serialize for Steps {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+impl KeyValue for Steps {
+    /// A number, a list, or a range.
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match &value.node.value {
+            Value::List(_) => Vec::read(value),
+            Value::Table(_) => LoadRange::read(value).map(|range| range.values()),
+            _ => value.number().map(|load| vec![load]),
+        }
+        .map(Self)
+    }
+}
+
+fn one(_: &LoadSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    section.one_of(["mean_pressure", "penetration"]).map(drop)
+}
+
+fn positive_ends(range: &LoadRange, section: &TableAt<'_>) -> Result<(), Refusal> {
+    for (key, end) in [("from", range.from), ("to", range.to)] {
+        if end == 0.0 && range.spacing == Spacing::Log {
+            let refusal = section.value(key)?.refuse("a finite number greater than 0");
+            return Err(refusal.help("spacing = \"log\" never reaches 0"));
+        }
+    }
+    Ok(())
 }
 
 impl LoadSection {
-    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        section.only()?;
-        match section.one_of(["mean_pressure", "penetration"])? {
-            (0, pressure) => steps(&pressure).map(Self::MeanPressure),
-            (_, penetration) => steps(&penetration).map(Self::Penetration),
+    /// The key, the kind of load that it prescribes, and its values.
+    fn prescribed(&self) -> (&'static str, fn(f64) -> Load, &[f64]) {
+        match &self.mean_pressure {
+            Some(Steps(pressures)) => ("mean_pressure", Load::MeanPressure, pressures),
+            None => ("penetration", Load::Penetration, &demanded(self.penetration.as_ref()).0),
         }
     }
 
     /// The prescribed values, one a load step.
     pub fn values(&self) -> &[f64] {
-        match self {
-            Self::MeanPressure(values) | Self::Penetration(values) => values,
-        }
+        self.prescribed().2
     }
 
     /// Name of what is prescribed, as in the case file.
     pub fn quantity(&self) -> &'static str {
-        match self {
-            Self::MeanPressure(_) => "mean_pressure",
-            Self::Penetration(_) => "penetration",
-        }
+        self.prescribed().0
     }
 
     /// What each load step prescribes.
     pub fn loads(&self) -> Vec<Load> {
-        let load = match self {
-            Self::MeanPressure(_) => Load::MeanPressure,
-            Self::Penetration(_) => Load::Penetration,
-        };
-        self.values().iter().map(|&value| load(value)).collect()
+        let (_, load, values) = self.prescribed();
+        values.iter().map(|&value| load(value)).collect()
+    }
+
+    /// The nominal pressures p̄, if they are prescribed.
+    pub fn mean_pressures(&self) -> Option<&[f64]> {
+        self.mean_pressure.as_ref().map(|Steps(values)| &values[..])
     }
 }
 
-fn steps(value: &ValueAt<'_>) -> Result<Vec<f64>, Refusal> {
-    match &value.node.value {
-        Value::List(_) => value.list()?.iter().map(ValueAt::number).collect(),
-        Value::Table(_) => range(&value.table()?),
-        _ => Ok(vec![value.number()?]),
+impl LoadRange {
+    fn values(&self) -> Vec<f64> {
+        let &Self { from, to, steps, spacing } = self;
+        (0..steps)
+            .map(|step| match (step, step as f64 / (steps - 1).max(1) as f64, spacing) {
+                (0, ..) => from,
+                (step, ..) if step + 1 == steps => to,
+                (_, part, Spacing::Linear) => from + part * (to - from),
+                (_, part, Spacing::Log) => from * (to / from).powf(part),
+            })
+            .collect()
     }
-}
-
-#[derive(Clone, Copy)]
-enum Spacing {
-    Linear,
-    Log,
-}
-
-fn range(section: &TableAt<'_>) -> Result<Vec<f64>, Refusal> {
-    section.only()?;
-    let spacing = match section.value("spacing")?.word()? {
-        "log" => Spacing::Log,
-        _ => Spacing::Linear,
-    };
-    let value = |key| {
-        let value = section.value(key)?;
-        match (value.number()?, spacing) {
-            (0.0, Spacing::Log) => {
-                Err(value.refuse("a finite number greater than 0").help("spacing = \"log\" never reaches 0"))
-            }
-            (number, _) => Ok(number),
-        }
-    };
-    let (from, to) = (value("from")?, value("to")?);
-    let steps = section.value("steps")?.integer()?;
-    Ok((0..steps)
-        .map(|step| match (step, step as f64 / (steps - 1).max(1) as f64, spacing) {
-            (0, ..) => from,
-            (step, ..) if step + 1 == steps => to,
-            (_, part, Spacing::Linear) => from + part * (to - from),
-            (_, part, Spacing::Log) => from * (to / from).powf(part),
-        })
-        .collect())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::keys;
     use super::super::node::{Node, Table};
     use super::*;
 
     fn read(value: &str) -> Result<LoadSection, Refusal> {
         let table = Table::parse(&format!("mean_pressure = {value}")).unwrap();
-        LoadSection::read(&TableAt::root(&table, &keys::LOAD, Node::parse("0", 0, 0).unwrap().place))
+        LoadSection::read_table(&TableAt::root(&table, &LOAD, Node::parse("0", 0, 0).unwrap().place))
     }
 
     #[test]
@@ -117,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_number_is_a_list_of_one() {
-        assert_eq!(read("0.5"), Ok(LoadSection::MeanPressure(vec![0.5])));
-        assert_eq!(read("[0, 2]"), Ok(LoadSection::MeanPressure(vec![0.0, 2.0])));
+        assert_eq!(read("0.5").unwrap().mean_pressures(), Some(&[0.5][..]));
+        assert_eq!(read("[0, 2]").unwrap().mean_pressures(), Some(&[0.0, 2.0][..]));
     }
 }

@@ -1,35 +1,30 @@
 //! `[localized]`: the circles of the localized method, for `compare`.
 
-use serde::Serialize;
-
-use super::error::Refusal;
-use super::reader::TableAt;
-use super::value::ValueAt;
+use super::keys::{Form, Key};
+use super::section::{Words, section, words};
 use crate::localized::CircleRadius;
 
-/// The section `[localized]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LocalizedSection {
-    /// Indenters inside the circle, one value a circle.
-    pub indenters: Vec<usize>,
-    /// Elements across the largest contact.
-    pub elements: usize,
-    /// How large the circle is, or what stands outside it.
-    pub radius: CircleRadius,
-    /// Whether the indenters around the one looked at act on it.
-    pub mutual_effect: bool,
+words! {
+    CircleRadius {
+        LoadBalanced = "load-balanced",
+        AreaBalanced = "area-balanced",
+        LatticeSum = "lattice-sum",
+    }
 }
 
-impl LocalizedSection {
-    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        section.only()?;
-        let indenters = section.value("indenters")?.list()?.iter().map(ValueAt::integer).collect::<Result<_, _>>()?;
-        let radius = match section.value("radius")?.word()? {
-            "area-balanced" => CircleRadius::AreaBalanced,
-            "lattice-sum" => CircleRadius::LatticeSum,
-            _ => CircleRadius::LoadBalanced,
-        };
-        let mutual_effect = section.value("mutual_effect")?.boolean()?;
-        Ok(Self { indenters, elements: section.value("elements")?.integer()?, radius, mutual_effect })
+section! {
+    /// The section `[localized]`.
+    pub struct LocalizedSection = LOCALIZED {
+        /// how many indenters stand inside the circle, one number a circle
+        pub indenters: Vec<usize> =
+            Key::new(&[Form::List { of: &Form::Integer(1, 10_000), count: [1, 100] }], "[7, 37]")
+                .default("[7, 13, 37, 73]"),
+        /// elements across the largest contact
+        pub elements: usize = Key::new(&[Form::Integer(4, 1000)], "64").default("48"),
+        /// of the circle; with "lattice-sum" all indenters stand outside it, in place of the uniform pressure
+        pub radius: CircleRadius =
+            Key::new(&[Form::Word(CircleRadius::WORDS)], "\"area-balanced\"").default("\"load-balanced\""),
+        /// whether the indenters around the one looked at act on it
+        pub mutual_effect: bool = Key::new(&[Form::Boolean], "false").default("true"),
     }
 }

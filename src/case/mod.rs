@@ -1,10 +1,12 @@
 //! The case file: what a person writes, checked once, with every default resolved.
 //!
 //! A [`Case`] is read from TOML ([`Case::read`]), changed by overrides `KEY=VALUE`, and handed on as the core's types:
-//! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]). One file a section:
-//! lattice, levels, surface, layers (with the substrate), load, grid, solver, friction, units, stress, localized; `keys` says what every key is.
-//! `magnitude` refuses what double precision cannot carry; [`plausibility`] doubts what looks mixed up; [`resources`] says
-//! what a run takes.
+//! its problem, and the run that solves it. What is wrong is refused with its line ([`CaseError`]).
+//!
+//! One file a section: lattice, levels, surface, layers (with the substrate, `interface` and `grading`), load, grid, solver,
+//! friction, units, stress, localized; `model` has them all. Each field of a section is a key, declared once (`section`); `keys`
+//! says of keys what `percoat explain` and the schema show. A document is read as a tree (`node`), changed by `overrides`, and
+//! read strictly (`reader`, `value`). [`feasibility`] refuses or doubts what cannot be solved or is hardly meant.
 //!
 //! ```
 //! use percoat::case::{Case, embedded};
@@ -15,60 +17,58 @@
 
 pub mod embedded;
 mod error;
-mod find;
-mod foreseen;
+pub mod feasibility;
 mod friction;
 mod grading;
 mod grid;
 mod half_space;
+mod interface;
 mod keys;
 mod lattice;
 mod layers;
 mod levels;
 mod load;
 mod localized;
-mod magnitude;
+mod lookup;
+mod material_names;
 mod model;
+mod named_pipes;
 mod node;
 mod overrides;
-mod pipes;
 mod place;
-pub mod plausibility;
 mod reader;
-pub mod resources;
-mod room;
-mod sizes;
+mod section;
 mod solver;
 mod source;
 mod stress;
-mod sublayers;
+mod suggestions;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod threads;
 mod units;
 mod value;
-mod words;
 
 pub use error::CaseError;
-pub use find::{NoCase, find};
-pub use foreseen::foreseen;
+pub use feasibility::single_contact::foreseen;
+pub use feasibility::sublayers::sublayer_error;
+pub use feasibility::{plausibility, resources};
 pub use friction::FrictionSection;
-pub use grading::{Ends, Grading, Law};
+pub use grading::{Grading, Law};
+pub use grid::Points;
 pub use half_space::half_space;
-pub use keys::{CARRIED, Explanation, UnknownKey, explain, overview, schema};
-pub use lattice::LatticeSection;
-pub use layers::{Elasticity, InterfaceStrengthKeys, LayerSection, Modulus, StrengthKeys, SubstrateSection};
-pub use levels::LevelSection;
-pub use load::LoadSection;
+pub use interface::{InterfaceSection, InterfaceStrengthSection, InterfaceWord, SpringSection};
+pub use keys::{Explanation, UnknownKey, explain, overview, schema};
+pub use lattice::{LatticeKind, LatticeSection};
+pub use layers::{LayerSection, SubstrateSection};
+pub use levels::{LevelSection, ShapeKind};
+pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;
+pub use lookup::{NoCase, find};
+pub use material_names::MaterialNames;
 pub use model::Case;
 pub(crate) use model::written;
-pub use pipes::Pipes;
-pub use room::{Room, available_memory};
+pub use named_pipes::Pipes;
 pub use source::Source;
 pub use stress::{Cut, Origin, StressSection, Toward};
-pub use sublayers::sublayer_error;
-pub use surface::{ORIENTATION, RandomSection, RmsKey, SurfaceSection};
-pub use threads::Threads;
+pub use surface::{ORIENTATION, RandomSection, Sides, SurfaceSection, Taper};
 pub use units::UnitsSection;

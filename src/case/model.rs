@@ -3,15 +3,29 @@
 use serde::Serialize;
 
 use super::error::{CaseError, Refusal};
-use super::node::Table;
+use super::feasibility::magnitude;
+use super::friction::FRICTION;
+use super::grading::LAYERS;
+use super::grid::GRID;
+use super::keys::{Form, Key};
+use super::lattice::LATTICE;
+use super::layers::{LAYER, SUBSTRATE};
+use super::levels::LEVELS;
+use super::load::LOAD;
+use super::localized::LOCALIZED;
+use super::material_names::MaterialNames;
 use super::place::Place;
 use super::reader::TableAt;
-use super::surface::{self, Around};
+use super::section::{KeyValue, section};
+use super::solver::SOLVER;
+use super::stress::STRESS;
+use super::surface::{self, Around, SURFACE};
+use super::units::UNITS;
 use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection, UnitsSection,
 };
-use super::{grid, keys, lattice, layers, magnitude, overrides, solver};
+use super::{grid, lattice, layers, overrides};
 use crate::body::{HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
 use crate::counterbody::{Counterbody, Indenters, Level, Topography};
@@ -22,48 +36,57 @@ use crate::spectral::Settings;
 use crate::units::Units;
 use std::sync::Arc;
 
-/// A valid case with every default resolved. It is read, never edited: overrides change it while it is read.
-///
-/// Serialised it has the keys of the case file; sections and keys that are absent are skipped.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Case {
-    /// What the case is, one line; empty when not given.
-    pub title: String,
-    /// The cell.
-    pub lattice: LatticeSection,
-    /// Levels of indenters; empty with a surface.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub levels: Vec<LevelSection>,
-    /// A topography instead of levels.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surface: Option<SurfaceSection>,
-    /// The coating's layers from the surface down; empty: uncoated.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub layers: Vec<LayerSection>,
-    /// What the coating lies on.
-    pub substrate: SubstrateSection,
-    /// Load steps.
-    pub load: LoadSection,
-    /// Samples of the cell.
-    pub grid: Sampling,
-    /// Iteration.
-    pub solver: Settings,
-    /// Sliding; none: the indenters do not slide.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction: Option<FrictionSection>,
-    /// Names of the units; none: not named.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub units: Option<UnitsSection>,
-    /// Stresses wanted; none: no stresses.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stress: Option<StressSection>,
-    /// Circles of the localized method.
-    pub localized: LocalizedSection,
-    /// What its surface makes doubtful, a sentence each.
-    #[serde(skip)]
-    surface_doubts: Vec<String>,
-    #[serde(skip)]
-    problem: Arc<Problem>,
+section! { whole
+    /// A valid case with every default resolved. It is read, never edited: overrides change it while it is read.
+    ///
+    /// Serialised it has the keys of the case file; sections and keys that are absent are skipped.
+    pub struct Case = CASE {
+        /// what the case is
+        pub title: String =
+            Key::new(&[Form::Text("a text of one line")], "\"three levels in contact\"").default("\"\""),
+        /// the cell, and with it the places of the indenters
+        pub lattice: LatticeSection = Key::new(&[Form::Table(&LATTICE)], "{ kind = \"hexagonal\", period = 1.0 }")
+            .otherwise("needed, unless `surface` says how large the cell is"),
+        /// indenters of one shape and height, one section `[[levels]]` a level
+        pub levels: Vec<LevelSection> =
+            Key::new(&[Form::Sections(&LEVELS, 200)], "[{ shape = \"paraboloid\", radius = 0.8, height = 0.0 }]")
+                .omitted_as_nothing(),
+        /// one period of any topography
+        pub surface: Option<SurfaceSection> =
+            Key::new(&[Form::Table(&SURFACE)], "{ heights = \"surface.npy\", period = 10.0 }").instead_of("levels"),
+        /// the coating, one section `[[layers]]` a layer from the surface down
+        pub layers: Vec<LayerSection> =
+            Key::new(&[Form::Sections(&LAYER, LAYERS)], "[{ thickness = 0.5, shear_ratio = 2.0, poisson = 0.2 }]")
+                .otherwise("uncoated")
+                .rule("sublayers of graded layers count among the 200")
+                .omitted_as_nothing(),
+        /// what the coating lies on
+        pub substrate: SubstrateSection = Key::new(&[Form::Table(&SUBSTRATE)], "{ young = 1.0, poisson = 0.3 }"),
+        /// what is prescribed, one value a load step
+        pub load: LoadSection = Key::new(&[Form::Table(&LOAD)], "{ mean_pressure = 0.01 }"),
+        /// samples of the cell
+        pub grid: Sampling = Key::new(&[Form::Table(&GRID)], "{ points = 256 }").otherwise("its defaults"),
+        /// how the contact problem is solved, and how far
+        pub solver: Settings =
+            Key::new(&[Form::Table(&SOLVER)], "{ method = \"polonsky-keer\" }").otherwise("its defaults"),
+        /// the indenters slide
+        pub friction: Option<FrictionSection> =
+            Key::new(&[Form::Table(&FRICTION)], "{ coefficient = 0.3 }").otherwise("they do not slide"),
+        /// names for axes, tables and captions; numbers are not converted
+        pub units: Option<UnitsSection> =
+            Key::new(&[Form::Table(&UNITS)], "{ length = \"µm\", pressure = \"GPa\" }").otherwise("no names"),
+        /// stresses that are wanted
+        pub stress: Option<StressSection> =
+            Key::new(&[Form::Table(&STRESS)], "{ planes = [0.0, 0.5], mean = \"half-space\" }").otherwise("no stresses"),
+        /// circles of the localized method, for `compare`
+        pub localized: LocalizedSection =
+            Key::new(&[Form::Table(&LOCALIZED)], "{ indenters = [7, 37] }").otherwise("its defaults"),
+    }
+    beside {
+        /// What its surface makes doubtful, a sentence each.
+        surface_doubts: Vec<String>,
+        problem: Arc<Problem>,
+    }
 }
 
 impl Case {
@@ -72,7 +95,11 @@ impl Case {
     /// # Errors
     /// [`CaseError`] for the first fault found: TOML, unknown, missing or misspelt keys, types, ranges.
     pub fn read(source: &Source, overrides: &[String]) -> Result<Self, CaseError> {
-        read(source, overrides).map_err(|refusal| CaseError::new(source, overrides, refusal))
+        read(source, overrides).map_err(|refusal| match source.as_text() {
+            // Only a text has lines to show: that of values is made, and refused in turn, where they are.
+            Some(text) => CaseError::new(&text, overrides, read(&text, overrides).err().unwrap_or(refusal)),
+            None => CaseError::new(source, overrides, refusal),
+        })
     }
 
     /// The case as TOML, complete with its defaults; it reads back equal.
@@ -99,6 +126,11 @@ impl Case {
     pub fn units(&self) -> Units {
         let name = |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|own| of(own).as_deref());
         Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure))
+    }
+
+    /// What the materials of the body are called.
+    pub fn material_names(&self) -> MaterialNames {
+        MaterialNames::of(&self.layers, &self.substrate)
     }
 
     /// What was found doubtful when its surface was read, a sentence each.
@@ -163,21 +195,92 @@ fn readable(line: &str) -> String {
 }
 
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
-    let mut root = Table::parse(&source.text)?;
+    let mut root = source.tree()?;
     for (number, text) in (1..).zip(overrides) {
-        overrides::apply(text, number, &mut root)?;
+        overrides::apply(text, number, &mut root, &CASE)?;
     }
     let end = source.text.trim_end().len();
-    let root = TableAt::root(&root, &keys::CASE, Place::new(0, end..end));
+    let root = TableAt::root(&root, &CASE, Place::new(0, end..end));
     root.only()?;
-    let title = root.value("title")?;
-    let title = match title.text()? {
-        text if text.contains('\n') => return Err(title.refuse_form()),
-        text => text.to_owned(),
-    };
+    let title = title(&root)?;
+    let counterbody = read_counterbody(&root, source)?;
+    let Pressed { levels, lattice, cell_section, grid_section, surface, counterbody } = counterbody;
+    let layer_sections = root.sections("layers")?;
+    let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read_table).collect::<Result<_, _>>()?;
+    let substrate_section = root.required_section("substrate")?;
+    let substrate = SubstrateSection::read_table(&substrate_section)?;
+    let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
 
+    // One a layer of the half-space: the section where it stands.
+    let places: Vec<&TableAt<'_>> = layers
+        .iter()
+        .zip(&layer_sections)
+        .flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()))
+        .collect();
+    magnitude::layers(&half_space, &places, counterbody.cell())?;
+
+    let load = LoadSection::read_table(&root.required_section("load")?)?;
+    let file_points = counterbody.topography().map(Topography::points);
+    let (surface, sampling, surface_doubts) = match surface {
+        Some((section, sampling, doubts)) => (Some(section), sampling, doubts),
+        None => (None, grid::read(&grid_section, None)?, Vec::new()),
+    };
+    magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
+    let solver_section = root.section_or_empty("solver")?;
+    let settings = Settings::read_table(&solver_section)?;
+    let mut problem = Problem::new(counterbody, half_space);
+    let mut friction = None;
+    if let Some(section) = root.section("friction")? {
+        let own = FrictionSection::read_table(&section)?;
+        problem = own.slide(&section, &places, (problem, settings), &solver_section)?;
+        friction = Some(own);
+    }
+    Ok(Case {
+        title,
+        lattice,
+        grid: sampling,
+        solver: settings,
+        friction,
+        units: root.section("units")?.as_ref().map(UnitsSection::read_table).transpose()?,
+        stress: root
+            .section("stress")?
+            .map(|section| StressSection::read_in(&section, levels.len(), friction.map(|own| own.direction)))
+            .transpose()?,
+        localized: LocalizedSection::read_table(&root.section_or_empty("localized")?)?,
+        levels,
+        surface,
+        layers,
+        substrate,
+        load,
+        surface_doubts,
+        problem: Arc::new(problem),
+    })
+}
+
+fn title(root: &TableAt<'_>) -> Result<String, Refusal> {
+    let title = root.value("title")?;
+    match String::read(&title)? {
+        text if text.contains('\n') => Err(title.refuse_form()),
+        text => Ok(text),
+    }
+}
+
+/// What is pressed into the body, and the sections that say so.
+struct Pressed<'a> {
+    levels: Vec<LevelSection>,
+    lattice: LatticeSection,
+    /// Where the cell is said to be what it is: a surface may say it itself.
+    cell_section: TableAt<'a>,
+    grid_section: TableAt<'a>,
+    /// A surface, the grid that it is on, and what is doubtful about it.
+    surface: Option<(SurfaceSection, Sampling, Vec<String>)>,
+    counterbody: Counterbody,
+}
+
+/// The levels of indenters, or the surface.
+fn read_counterbody<'a>(root: &TableAt<'a>, source: &Source) -> Result<Pressed<'a>, Refusal> {
     let level_sections = root.sections("levels")?;
-    let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read).collect::<Result<_, _>>()?;
+    let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read_table).collect::<Result<_, _>>()?;
     let surface_section = match (&level_sections[..], root.section("surface")?) {
         ([], Some(section)) => Some(section),
         ([_, ..], None) => None,
@@ -189,81 +292,31 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
         }
     };
     let grid_section = root.section_or_empty("grid")?;
-    // Where the cell is said to be what it is: a surface may say it itself.
-    let cell_section = match (&surface_section, root.section("lattice")?) {
-        (Some(surface), None) => surface.clone(),
-        _ => root.required_section("lattice")?,
-    };
-    let (lattice, surface, counterbody) = match &surface_section {
-        Some(section) => {
-            let (lattice, grid) = (root.section("lattice")?, grid_section.clone());
-            let around = Around { source, lattice, grid, length: length_unit(&root)? };
-            let read = surface::read(section, &around)?;
-            let counterbody = Counterbody::from(read.topography);
-            (read.lattice, Some((read.section, read.sampling, read.doubts)), Ok(counterbody))
-        }
-        None => {
-            let lattice_section = LatticeSection::read(&cell_section)?;
-            let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
-            let lattice = lattice::build(&lattice_section, &cell_section, &levels, &level_sections)?;
-            let built: Vec<Level> = built.collect::<Result<_, _>>()?;
-            magnitude::profiles(&built, &level_sections, lattice.cell())?;
-            (lattice_section, None, Indenters::new(lattice, built).map(Counterbody::from))
-        }
-    };
-    // Both were checked key by key.
-    let counterbody = counterbody
-        .map_err(|error| Refusal::new(cell_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
-    let layer_sections = root.sections("layers")?;
-    let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read).collect::<Result<_, _>>()?;
-    let substrate_section = root.required_section("substrate")?;
-    let substrate = SubstrateSection::read(&substrate_section)?;
-    let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
-
-    // One a layer of the half-space: the section where it stands.
-    let places: Vec<&TableAt<'_>> = layers
-        .iter()
-        .zip(&layer_sections)
-        .flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()))
-        .collect();
-    magnitude::layers(&half_space, &places, counterbody.cell())?;
-
-    let load = LoadSection::read(&root.required_section("load")?)?;
-    let file_points = counterbody.topography().map(Topography::points);
-    let (surface, sampling, surface_doubts) = match surface {
-        Some((section, sampling, doubts)) => (Some(section), sampling, doubts),
-        None => (None, grid::read(&grid_section, None)?, Vec::new()),
-    };
-    magnitude::grid(sampling, file_points, &grid_section, &cell_section, counterbody.cell())?;
-    let solver_section = root.section_or_empty("solver")?;
-    let settings = solver::read(&solver_section)?;
-    let mut problem = Problem::new(counterbody, half_space);
-    let mut friction = None;
-    if let Some(section) = root.section("friction")? {
-        let own = FrictionSection::read(&section)?;
-        problem = own.slide(&section, &places, (problem, settings), &solver_section)?;
-        friction = Some(own);
+    let lattice_section = root.section("lattice")?;
+    if let Some(section) = surface_section {
+        let (lattice, grid) = (lattice_section.clone(), grid_section.clone());
+        let around = Around { source, lattice, grid, length: length_unit(root)? };
+        let read = surface::read(&section, &around)?;
+        return Ok(Pressed {
+            levels,
+            lattice: read.lattice,
+            cell_section: lattice_section.unwrap_or(section),
+            grid_section,
+            surface: Some((read.section, read.sampling, read.doubts)),
+            counterbody: Counterbody::from(read.topography),
+        });
     }
-    Ok(Case {
-        title,
-        lattice,
-        grid: sampling,
-        solver: settings,
-        friction,
-        units: root.section("units")?.as_ref().map(UnitsSection::read).transpose()?,
-        stress: root
-            .section("stress")?
-            .map(|section| StressSection::read(&section, levels.len(), friction.map(|own| own.direction)))
-            .transpose()?,
-        localized: LocalizedSection::read(&root.section_or_empty("localized")?)?,
-        levels,
-        surface,
-        layers,
-        substrate,
-        load,
-        surface_doubts,
-        problem: Arc::new(problem),
-    })
+    let cell_section = root.required_section("lattice")?;
+    let lattice_section = LatticeSection::read_table(&cell_section)?;
+    let lattice = lattice::build(&lattice_section, &cell_section, &levels, &level_sections)?;
+    let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
+    let built: Vec<Level> = built.collect::<Result<_, _>>()?;
+    magnitude::profiles(&built, &level_sections, lattice.cell())?;
+    // Both were checked key by key.
+    let counterbody = Indenters::new(lattice, built)
+        .map(Counterbody::from)
+        .map_err(|error| Refusal::new(cell_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
+    Ok(Pressed { levels, lattice: lattice_section, cell_section, grid_section, surface: None, counterbody })
 }
 
 /// `units.length`, where the case names its units.

@@ -1,12 +1,14 @@
 //! A case as a tree of values that know where they were written.
 //!
-//! The tree is converted once from the TOML parser's; afterwards overrides change it and the reader reads it.
+//! The tree is converted once from the TOML parser's, or made of values that stand in no text; afterwards overrides change it and
+//! the reader reads it.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::Refusal;
 use super::place::Place;
+use crate::plain;
 
 /// A value and where it was written.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +92,7 @@ impl Value {
         match self {
             Self::Text(text) => format!("the text {text:?}"),
             Self::Integer(value) => value.to_string(),
-            Self::Float(value) => plain(*value),
+            Self::Float(value) => plain::float(*value),
             Self::Boolean(value) => value.to_string(),
             Self::Date(date) => format!("the date {date}"),
             Self::List(items) if items.is_empty() => "an empty list".to_owned(),
@@ -102,13 +104,31 @@ impl Value {
     }
 }
 
-/// A number as a person would write it.
-pub(super) fn plain(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || !value.is_finite() || (1e-3..1e6).contains(&size) {
-        value.to_string().replace("NaN", "nan")
-    } else {
-        format!("{value:e}")
+/// The tree of values that stand in no text.
+impl From<&toml::Table> for Table {
+    fn from(values: &toml::Table) -> Self {
+        let entry = |(key, value): (&String, &toml::Value)| Entry {
+            key: key.clone(),
+            key_place: Place::NOWHERE,
+            node: Node::from(value),
+        };
+        Self { entries: values.iter().map(entry).collect() }
+    }
+}
+
+/// A value that stands in no text.
+impl From<&toml::Value> for Node {
+    fn from(value: &toml::Value) -> Self {
+        let value = match value {
+            toml::Value::String(text) => Value::Text(text.clone()),
+            toml::Value::Integer(value) => Value::Integer(*value),
+            toml::Value::Float(value) => Value::Float(*value),
+            toml::Value::Boolean(value) => Value::Boolean(*value),
+            toml::Value::Datetime(date) => Value::Date(date.to_string()),
+            toml::Value::Array(items) => Value::List(items.iter().map(Self::from).collect()),
+            toml::Value::Table(table) => Value::Table(Table::from(table)),
+        };
+        Self { value, place: Place::NOWHERE }
     }
 }
 

@@ -3,10 +3,10 @@
 //! KEY is a dotted path, items of lists counted from 0; VALUE is TOML, a bare word counts as text.
 
 use super::error::Refusal;
-use super::keys::{self, Keys};
+use super::keys::Keys;
 use super::node::{Entry, Node, Table, Value};
 use super::place::Place;
-use super::words::nearest;
+use super::suggestions::nearest;
 
 /// Parts of the longest path; the longest of a case has four.
 const DEEPEST: usize = 16;
@@ -24,8 +24,8 @@ impl Step {
     }
 }
 
-/// Sets `KEY=VALUE`, which is source number `source`, in the case's tree.
-pub(super) fn apply(text: &str, source: usize, root: &mut Table) -> Result<(), Refusal> {
+/// Sets `KEY=VALUE`, which is source number `source`, in the case's tree, which has these `keys`.
+pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static Keys) -> Result<(), Refusal> {
     let (key, value) = split(text, source)?;
     let steps = steps(key, source)?;
     if let Some(step) = steps.get(DEEPEST) {
@@ -45,7 +45,7 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table) -> Result<(), R
             parsed.map_err(|refusal| if is_decimal_comma(value) { refusal.help(WITH_A_POINT) } else { refusal })?
         }
     };
-    set_in_table(root, &keys::CASE, "", &steps, value)
+    set_in_table(root, keys, "", &steps, value)
 }
 
 fn split(text: &str, source: usize) -> Result<(&str, &str), Refusal> {
@@ -164,11 +164,12 @@ fn set_in_node(node: &mut Node, keys: &'static Keys, path: &str, steps: &[Step],
 
 #[cfg(test)]
 mod tests {
+    use super::super::model::CASE;
     use super::*;
 
     fn set(case: &str, text: &str) -> Result<Table, Refusal> {
         let mut root = Table::parse(case)?;
-        apply(text, 1, &mut root)?;
+        apply(text, 1, &mut root, &CASE)?;
         Ok(root)
     }
 

@@ -9,6 +9,9 @@ pub(super) struct Place {
 }
 
 impl Place {
+    /// Of a value that stands in no text.
+    pub(super) const NOWHERE: Self = Self { source: 0, start: 0, end: 0 };
+
     /// The span `start..end` of a source.
     pub(super) fn new(source: usize, span: std::ops::Range<usize>) -> Self {
         Self { source, start: span.start, end: span.end }

@@ -1,13 +1,13 @@
-//! Strict reading of a table: keys that are known, missing or misspelt, and what holds where one is absent, as [`keys`] says.
+//! Strict reading of a table: keys that are known, missing or misspelt, and what holds where one is absent, as its [`Keys`] say.
 
 use std::borrow::Cow;
 
 use super::error::Refusal;
-use super::keys::{self, Absent, Form, Key, Keys};
-use super::node::{Node, Table, Value};
+use super::keys::{Absent, Form, Key, Keys};
+use super::node::{Entry, Node, Table, Value};
 use super::place::Place;
+use super::suggestions::{alternatives, nearest};
 use super::value::ValueAt;
-use super::words::{alternatives, nearest};
 
 /// A table without entries, for a section that is not there.
 static EMPTY: Table = Table { entries: Vec::new() };
@@ -17,6 +17,8 @@ static EMPTY: Table = Table { entries: Vec::new() };
 pub(super) struct TableAt<'a> {
     pub(super) table: &'a Table,
     keys: &'static Keys,
+    /// The keys of the whole case.
+    all: &'static Keys,
     /// Where it begins.
     pub(super) place: Place,
     path: String,
@@ -25,7 +27,7 @@ pub(super) struct TableAt<'a> {
 impl<'a> TableAt<'a> {
     /// A table that stands in no other, such as the whole case; `end` is where its text ends.
     pub(super) fn root(table: &'a Table, keys: &'static Keys, end: Place) -> Self {
-        Self { table, keys, place: end, path: String::new() }
+        Self { table, keys, all: keys, place: end, path: String::new() }
     }
 
     /// Full path of a key of this table.
@@ -36,7 +38,7 @@ impl<'a> TableAt<'a> {
     /// The value of a key, if it is there.
     pub(super) fn optional(&self, key: &str) -> Option<ValueAt<'a>> {
         let entry = self.table.get(key)?;
-        Some(ValueAt::new(Cow::Borrowed(&entry.node), self.keys.get(key)?, self.path(key)))
+        Some(ValueAt::new(Cow::Borrowed(&entry.node), self.keys.get(key)?, self.all, self.path(key)))
     }
 
     /// The value of a key, that which it has when not given, or the refusal that says what it is.
@@ -49,7 +51,7 @@ impl<'a> TableAt<'a> {
             && let Absent::Value(text) = known.absent
         {
             let node = Node { place: self.place, ..Node::parse(text, 0, 0)? };
-            return Ok(ValueAt::new(Cow::Owned(node), known, self.path(key)));
+            return Ok(ValueAt::new(Cow::Owned(node), known, self.all, self.path(key)));
         }
         Err(self.missing(key))
     }
@@ -68,7 +70,8 @@ impl<'a> TableAt<'a> {
 
     /// A section of the case, empty where it is not there.
     pub(super) fn section_or_empty(&self, key: &str) -> Result<TableAt<'a>, Refusal> {
-        let empty = || TableAt { table: &EMPTY, keys: self.keys.within(key), place: self.place, path: self.path(key) };
+        let (all, keys) = (self.all, self.keys.within(key));
+        let empty = || TableAt { table: &EMPTY, keys, all, place: self.place, path: self.path(key) };
         Ok(self.section(key)?.unwrap_or_else(empty))
     }
 
@@ -82,7 +85,7 @@ impl<'a> TableAt<'a> {
 
     /// A key as it may stand in a case.
     pub(super) fn example(&self, key: &str) -> String {
-        self.keys.get(key).map_or(String::new(), Key::written)
+        self.keys.get(key).map_or(String::new(), Key::example_lines)
     }
 
     /// The tables of a list, [[key]], none if it is not there; more than the key admits are refused.
@@ -99,31 +102,46 @@ impl<'a> TableAt<'a> {
         value.each(value.forms).map(|item| item.table_of(keys, &help)).collect()
     }
 
-    /// Refuse keys that the table does not have, or not for its kind.
+    /// Refuse keys that the table does not have, or not for its kind, and a table without a key that its kind demands.
     pub(super) fn only(&self) -> Result<(), Refusal> {
-        let kind = self.keys.all.first().and_then(|key| self.table.get(key.name)).map(|entry| &entry.node.value);
-        let has = |key: &&Key| {
-            key.kinds.is_empty() || matches!(kind, Some(Value::Text(kind)) if key.kinds.contains(&&kind[..]))
-        };
-        let known: Vec<&str> = self.keys.all.iter().filter(has).map(|key| key.name).collect();
-        let Some(entry) = self.table.entries.iter().find(|entry| !known.contains(&entry.key.as_str())) else {
-            return Ok(());
-        };
+        let kind = self.kind()?;
+        let is_of_kind = |key: &&Key| key.kinds.is_empty() || kind.is_some_and(|kind| key.kinds.contains(&kind));
+        let known: Vec<&str> = self.keys.all.iter().filter(is_of_kind).map(|key| key.name).collect();
+        if let Some(entry) = self.table.entries.iter().find(|entry| !known.contains(&entry.key.as_str())) {
+            return Err(self.unknown(entry, &known));
+        }
+        let of_kind = self.keys.all.iter().filter(|key| !key.kinds.is_empty()).filter(is_of_kind);
+        let mut demanded = of_kind.filter(|key| key.absent == Absent::Refused);
+        demanded.find(|key| self.table.get(key.name).is_none()).map_or(Ok(()), |key| Err(self.missing(key.name)))
+    }
+
+    /// The kind of the table, the word of its first key, where its keys differ with it.
+    fn kind(&self) -> Result<Option<&'static str>, Refusal> {
+        match self.keys.all.first() {
+            Some(first) if self.keys.all.iter().any(|key| !key.kinds.is_empty()) => {
+                self.value(first.name)?.word().map(Some)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Refusal of an entry that is none of the `known` keys.
+    fn unknown(&self, entry: &Entry, known: &[&str]) -> Refusal {
         let (key, path) = (entry.key.as_str(), self.path(&entry.key));
         if let Some((_, why)) = self.keys.misplaced.iter().find(|(misplaced, _)| *misplaced == key) {
-            return Err(Refusal::new(entry.key_place, format!("`{path}` has no place here: {why}"), "not used here")
-                .help(format!("remove it; allowed here: {}", known.join(", "))));
+            return Refusal::new(entry.key_place, format!("`{path}` has no place here: {why}"), "not used here")
+                .help(format!("remove it; allowed here: {}", known.join(", ")));
         }
         let refusal = Refusal::new(entry.key_place, format!("unknown key `{path}`"), "unknown key");
-        let homes = keys::homes(key);
-        Err(match nearest(key, &known) {
+        let homes = self.all.homes(key);
+        match nearest(key, known) {
             // `heights` in [[levels]] is a slip, `mean` in [load] a key of another section.
             Some((near, likeness)) if homes.is_empty() || likeness > 0.95 => {
                 refusal.help(format!("did you mean `{near}`?"))
             }
             _ if homes.is_empty() => refusal.help(format!("allowed here: {}", known.join(", "))),
             _ => refusal.help(format!("`{key}` belongs to {}", alternatives(&homes, '`'))),
-        })
+        }
     }
 
     /// The value of the one key of two that is there: refused when both are, or none.
@@ -164,7 +182,7 @@ impl<'a> ValueAt<'a> {
     fn table_of(&self, keys: &'static Keys, help: &str) -> Result<TableAt<'a>, Refusal> {
         match &self.node {
             Cow::Borrowed(Node { value: Value::Table(table), place }) => {
-                Ok(TableAt { table, keys, place: *place, path: self.path.clone() })
+                Ok(TableAt { table, keys, all: self.all, place: *place, path: self.path.clone() })
             }
             // No default is a table.
             _ => Err(self.refuse("a table").help(help)),

@@ -1,15 +1,21 @@
 //! `[solver]`: how the contact problem is solved, and how far.
 
-use super::error::Refusal;
-use super::reader::TableAt;
+use super::keys::{Form, Key, Range};
+use super::section::{Words, section, words};
 use crate::spectral::{Method, Settings};
 
-pub(super) fn read(section: &TableAt<'_>) -> Result<Settings, Refusal> {
-    section.only()?;
-    let method = match section.value("method")?.word()? {
-        "polonsky-keer" => Method::PolonskyKeer,
-        _ => Method::Preconditioned,
-    };
-    let tolerance = section.value("tolerance")?.number()?;
-    Ok(Settings { method, tolerance, max_iterations: section.value("max_iterations")?.integer()? })
+words! { Method { Preconditioned = "preconditioned", PolonskyKeer = "polonsky-keer", } }
+
+section! {
+    for Settings = SOLVER {
+        /// which method of conjugate gradients
+        method = Key::new(&[Form::Word(Method::WORDS)], "\"polonsky-keer\"")
+            .default("\"preconditioned\"")
+            .rule("not \"polonsky-keer\" under coupled friction"),
+        /// energy of the error below 20 tolerance times the elastic energy, penetration outside contact below 10
+        /// tolerance times δ, residual ε below the tolerance
+        tolerance = Key::new(&[Form::Number(Range::between(1e-14, 1e-4))], "1e-10").default("1e-8"),
+        /// most iterations for one load step on one grid
+        max_iterations = Key::new(&[Form::Integer(1, usize::MAX)], "2000").default("10000"),
+    }
 }

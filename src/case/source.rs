@@ -1,25 +1,32 @@
 //! Where a case comes from.
 
 use crate::plain;
+use ndarray::ArrayD;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::pipes::{Pipes, is_pipe};
+use super::error::Refusal;
+use super::named_pipes::{Pipes, is_pipe};
+use super::node::Table;
 
 /// Text of a case and where it comes from.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Source {
     /// Name shown in errors, such as the path of the file.
     pub name: String,
-    /// The TOML.
+    /// The TOML; empty with `values`.
     pub text: String,
+    /// The case as values that stand in no text, such as those of a dict of Python.
+    pub values: Option<toml::Table>,
     /// Folder to which a surface's file is relative.
     pub folder: PathBuf,
     /// Files in memory, by the names that the case calls them: looked at before those of the folder.
     pub files: BTreeMap<String, Arc<[u8]>>,
+    /// Arrays of heights in memory, axis 0 along a₁, by the names that the case calls them.
+    pub arrays: BTreeMap<String, Arc<ArrayD<f64>>>,
     /// What pipes among its files gave, which can be read once alone.
     pub pipes: Pipes,
 }
@@ -46,10 +53,25 @@ impl Source {
         Self::of("standard input".to_owned(), PathBuf::new(), io::stdin().lock())
     }
 
+    fn is_in_memory(&self, name: &str) -> bool {
+        self.files.contains_key(name) || self.arrays.contains_key(name)
+    }
+
+    /// The tree of the case.
+    pub(super) fn tree(&self) -> Result<Table, Refusal> {
+        self.values.as_ref().map_or_else(|| Table::parse(&self.text), |values| Ok(Table::from(values)))
+    }
+
+    /// A case of values as text, in which a refusal can be shown; `None` of one that is text.
+    pub(super) fn as_text(&self) -> Option<Self> {
+        let text = toml::to_string(self.values.as_ref()?).ok()?;
+        Some(Self { text, values: None, ..self.clone() })
+    }
+
     /// Where the file stands that the case calls `name`; `None` for one in memory.
     pub(super) fn path(&self, name: &str) -> Option<PathBuf> {
         let path = || self.folder.join(name);
-        (!self.files.contains_key(name)).then(|| std::path::absolute(path()).unwrap_or_else(|_| path()))
+        (!self.is_in_memory(name)).then(|| std::path::absolute(path()).unwrap_or_else(|_| path()))
     }
 
     /// The file that the case calls `name`, and its length in bytes. A pipe is read whole, once for all readers.
@@ -70,7 +92,7 @@ impl Source {
 
     /// Whether the case calls a pipe `name`, as a process substitution of the shell gives it: it has no ending.
     pub(super) fn is_pipe(&self, name: &str) -> bool {
-        !self.files.contains_key(name) && is_pipe(&self.folder.join(name))
+        !self.is_in_memory(name) && is_pipe(&self.folder.join(name))
     }
 
     fn of(name: String, folder: PathBuf, file: impl Read) -> io::Result<Self> {

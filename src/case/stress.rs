@@ -3,10 +3,11 @@
 use serde::{Serialize, Serializer};
 
 use super::error::Refusal;
-use super::layers::is_zero;
-use super::magnitude;
+use super::feasibility::magnitude;
+use super::keys::{Form, Key, Range, Unit};
 use super::node::Value;
 use super::reader::TableAt;
+use super::section::{KeyValue, Words, demanded, section, words};
 use super::value::ValueAt;
 use crate::body::MeanStress;
 use crate::counterbody::{Counterbody, Indenters};
@@ -15,38 +16,74 @@ use crate::run::places::SECTION;
 use crate::run::{self, StressRequest, Volume};
 use crate::stress::SurfaceLine;
 
-/// The section `[stress]`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct StressSection {
-    /// Depths z ≥ 0 of horizontal planes, lengths; one on an interface gives both sides.
-    pub planes: Vec<f64>,
-    /// What the mean lateral stress is.
-    pub mean: MeanStress,
-    /// A vertical cut.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub section: Option<Cut>,
-    /// Single points x, y, z; lengths.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub points: Vec<[f64; 3]>,
-    /// A volume under the cell for ParaView.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub volume: Option<Volume>,
+const SIZE: Form = Form::Number(Range::Size);
+const SIZE_OR_ZERO: Form = Form::Number(Range::SizeOrZero);
+const PLACE: Form = Form::Number(Range::Place);
+const LEVEL: Form = Form::Text("a level such as \"level 1\"");
+
+words! { MeanStress { Confined = "confined", HalfSpace = "half-space", } }
+
+section! {
+    /// The section `[stress]`.
+    pub struct StressSection = STRESS {
+        /// depths of horizontal planes; one on an interface gives both sides
+        pub planes: Vec<f64> =
+            Key::new(&[Form::List { of: &SIZE_OR_ZERO, count: [0, 1000] }], "[0.0, 0.25, 0.5]")
+                .unit(Unit::Length)
+                .default("[]"),
+        /// the mean lateral stress: that of no mean lateral strain, or under the centre of a wide loaded disc
+        pub mean: MeanStress = Key::new(&[Form::Word(MeanStress::WORDS)], "\"half-space\"").default("\"confined\""),
+        /// a vertical cut from one level or place toward another, or along a direction
+        pub section: Option<Cut> = Key::new(
+            &[Form::Table(&CUT)],
+            "{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }",
+        )
+        .otherwise("no cut"),
+        /// single points, z ≥ 0 into the body
+        pub points: Vec<[f64; 3]> = Key::new(
+            &[Form::List { of: &Form::Tuple("a point [x, y, z]", &[PLACE, PLACE, SIZE_OR_ZERO]), count: [0, 100_000] }],
+            "[[0.0, 0.0, 0.1]]",
+        )
+        .unit(Unit::Length)
+        .default("[]")
+        .omitted_as_nothing(),
+        /// the field under the cell, for ParaView
+        pub volume: Option<Volume> =
+            Key::new(&[Form::Table(&VOLUME)], "{ depth = 1.0, rows = 40, points = 96 }").otherwise("no field"),
+    }
 }
 
-/// A vertical cut from the axis of an indenter toward a neighbour, or from any place along a direction.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Cut {
-    /// Where s = 0.
-    pub from: Origin,
-    /// Where it runs.
-    pub toward: Toward,
-    /// Length along the surface.
-    pub length: f64,
-    /// How far behind `from` it begins, a length.
-    #[serde(skip_serializing_if = "is_zero")]
-    pub behind: f64,
-    /// Depth, a length.
-    pub depth: f64,
+section! {
+    /// A vertical cut from the axis of an indenter toward a neighbour, or from any place along a direction.
+    #[derive(Copy)]
+    pub struct Cut = CUT {
+        /// where the cut has its origin: the axis of a level's first indenter, or a place
+        pub from: Origin =
+            Key::new(&[LEVEL, Form::Tuple("a place [x, y]", &[PLACE; 2])], "\"level 1\"").unit(Unit::Length),
+        /// where it runs to: the nearest other indenter of a level, or a direction
+        pub toward: Option<Toward> = Key::new(&[LEVEL, Form::Tuple("a direction [x, y]", &[PLACE; 2])], "\"level 2\"")
+            .otherwise("the direction of sliding; needed without [friction]"),
+        /// its length along the surface
+        pub length: f64 = Key::new(&[SIZE], "1.0").unit(Unit::Length),
+        /// how far behind the origin it begins
+        pub behind: Option<f64> = Key::new(&[SIZE_OR_ZERO], "0.5")
+            .unit(Unit::Length)
+            .otherwise("half the length without `toward`, else 0")
+            .omitted_as_nothing(),
+        /// how deep it goes
+        pub depth: f64 = Key::new(&[SIZE], "1.0").unit(Unit::Length),
+    }
+}
+
+section! {
+    for Volume = VOLUME {
+        /// how deep it goes
+        depth = Key::new(&[SIZE], "1.0").unit(Unit::Length),
+        /// intervals in depth
+        rows = Key::new(&[Form::Integer(1, 2048)], "60").default("40"),
+        /// samples along each cell vector
+        points = Key::new(&[Form::Integer(1, 2048)], "128").default("96"),
+    }
 }
 
 /// Where a cut has its origin.
@@ -70,6 +107,18 @@ pub enum Toward {
 }
 
 impl StressSection {
+    /// Reads the section of a case with this many levels (none: a surface from a file), which may slide in a direction.
+    pub(super) fn read_in(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
+        if let Some(cut) = section.optional("section") {
+            check_levels(&cut, levels)?;
+        }
+        let own = Self::read_table(section)?;
+        if own.section.is_some_and(|cut| cut.toward.is_none()) && sliding.is_none() {
+            return Err(section.value("section")?.table()?.missing("toward"));
+        }
+        Ok(Self { section: own.section.map(|cut| cut.completed(sliding)), ..own })
+    }
+
     /// What a run on `counterbody` is asked for.
     pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
         let lattice = counterbody.indenters().map(Indenters::lattice);
@@ -82,30 +131,31 @@ impl StressSection {
             volume: self.volume,
         }
     }
-
-    /// Read the section of a case with this many levels (none: a surface from a file), which may slide in a direction.
-    pub(super) fn read(section: &TableAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
-        section.only()?;
-        let planes = section.value("planes")?.list()?.iter().map(ValueAt::number).collect::<Result<_, _>>()?;
-        let mean = match section.value("mean")?.word()? {
-            "half-space" => MeanStress::HalfSpace,
-            _ => MeanStress::Confined,
-        };
-        let cut = section.optional("section").map(|value| Cut::read(&value, levels, sliding)).transpose()?;
-        let points = section.value("points")?.list()?.iter().map(ValueAt::numbers).collect::<Result<_, _>>()?;
-        let volume = section.optional("volume").map(|value| volume(&value)).transpose()?;
-        Ok(Self { planes, mean, section: cut, points, volume })
-    }
 }
 
-fn volume(value: &ValueAt<'_>) -> Result<Volume, Refusal> {
-    let section = value.table()?;
+/// That both ends of a cut are levels that the case has, or places.
+fn check_levels(cut: &ValueAt<'_>, levels: usize) -> Result<(), Refusal> {
+    let section = match levels {
+        0 => cut.table_or("{ from = [0.0, 0.0], toward = [1.0, 0.0], length = 1.0, depth = 1.0 }")?,
+        _ => cut.table()?,
+    };
     section.only()?;
-    let count = |key| section.value(key)?.integer();
-    Ok(Volume { depth: section.value("depth")?.number()?, rows: count("rows")?, points: count("points")? })
+    for end in ["from", "toward"].iter().filter_map(|key| section.optional(key)) {
+        if !matches!(end.node.value, Value::List(_)) {
+            level(&end, levels)?;
+        }
+    }
+    Ok(())
 }
 
 impl Cut {
+    /// The cut with its direction, that of sliding where it has none; along the sliding both edges of a contact count.
+    fn completed(self, sliding: Option<[f64; 2]>) -> Self {
+        let behind = if self.toward.is_none() { 0.5 * self.length } else { 0.0 };
+        let toward = self.toward.or(sliding.map(Toward::Direction));
+        Self { toward, behind: self.behind.or(Some(behind)), ..self }
+    }
+
     /// Its line; `None` for levels without indenters.
     fn line(&self, lattice: Option<&Lattice>) -> Option<SurfaceLine> {
         let first = |level: usize| Some(lattice?.sites()[level - 1][0]);
@@ -113,48 +163,30 @@ impl Cut {
             Origin::Level(level) => lattice?.cell().point(first(level)?),
             Origin::Place(place) => place,
         };
-        let direction = match self.toward {
+        let direction = match demanded(self.toward) {
             Toward::Level(level) => lattice?.toward(lattice?.cell().fractions(origin), level),
             Toward::Direction(direction) => direction,
         };
-        let [_, points] = SECTION;
-        Some(SurfaceLine { origin, direction, span: [-self.behind, self.length - self.behind], points })
-    }
-
-    fn read(value: &ValueAt<'_>, levels: usize, sliding: Option<[f64; 2]>) -> Result<Self, Refusal> {
-        let section = match levels {
-            0 => value.table_or("{ from = [0.0, 0.0], toward = [1.0, 0.0], length = 1.0, depth = 1.0 }")?,
-            _ => value.table()?,
-        };
-        section.only()?;
-        let from = Origin::read(&section.value("from")?, levels)?;
-        let length = section.value("length")?.number()?;
-        // Along the sliding both edges count.
-        let (toward, behind) = match (section.optional("toward"), sliding) {
-            (None, Some(direction)) => (Toward::Direction(direction), 0.5 * length),
-            (None, None) => return Err(section.missing("toward")),
-            (Some(toward), _) => (Toward::read(&toward, levels)?, 0.0),
-        };
-        let behind = section.optional("behind").map_or(Ok(behind), |value| value.number())?;
-        Ok(Self { from, toward, length, behind, depth: section.value("depth")?.number()? })
+        let ([_, points], behind) = (SECTION, self.behind.unwrap_or(0.0));
+        Some(SurfaceLine { origin, direction, span: [-behind, self.length - behind], points })
     }
 }
 
-impl Origin {
-    fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
-        if !matches!(value.node.value, Value::List(_)) {
-            return level(value, levels).map(Self::Level);
+impl KeyValue for Origin {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match value.node.value {
+            Value::List(_) => value.numbers().map(Self::Place),
+            _ => level(value, usize::MAX).map(Self::Level),
         }
-        value.numbers().map(Self::Place)
     }
 }
 
-impl Toward {
-    fn read(value: &ValueAt<'_>, levels: usize) -> Result<Self, Refusal> {
-        if !matches!(value.node.value, Value::List(_)) {
-            return level(value, levels).map(Self::Level);
+impl KeyValue for Toward {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match value.node.value {
+            Value::List(_) => magnitude::direction(value).map(Self::Direction),
+            _ => level(value, usize::MAX).map(Self::Level),
         }
-        magnitude::direction(value).map(Self::Direction)
     }
 }
 

@@ -55,7 +55,7 @@ fn the_keys_of_cases_that_are_read_are_those_of_the_table() {
     }
     // A unit needs one to be converted to.
     found.insert("surface.unit".to_owned());
-    let tables = keys::CASE.tables("");
+    let tables = model::CASE.tables("");
     let named = |(path, keys): &(String, &'static keys::Keys)| {
         keys.all.iter().map(|key| join(path, key.name)).collect::<Vec<_>>()
     };
@@ -160,7 +160,7 @@ fn overrides_come_one_after_another_and_are_checked_like_the_file() {
     let fig2 = fig2();
     let case = read(&fig2, &["load.penetration=[0, 0.1]", "solver.method=polonsky-keer", "grid.points=[64,48]"]);
     let case = case.unwrap();
-    assert_eq!(case.load, LoadSection::Penetration(vec![0.0, 0.1]));
+    assert_eq!((case.load.quantity(), case.load.values()), ("penetration", &[0.0, 0.1][..]));
     assert_eq!(case.grid, Sampling::Points([64, 48]));
     assert_eq!(read(&fig2, &["levels.1.height=0.5", "levels.1.height=0.4"]).unwrap().levels[1].height, 0.4);
     let error = read(&fig2, &["title=x", "substrate.poisson=0.6"]).unwrap_err();

@@ -1,25 +1,19 @@
 //! `[units]`: what lengths and pressures are measured in, by name.
 
-use serde::Serialize;
+use super::keys::{Form, Key};
+use super::section::section;
 
-use super::error::Refusal;
-use super::reader::TableAt;
+/// Most letters of a unit's name.
+const LETTERS: usize = 12;
 
-/// The section `[units]`: names alone, no number is converted.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct UnitsSection {
-    /// Of lengths; none: not named.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub length: Option<String>,
-    /// Of pressures; none: not named.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pressure: Option<String>,
-}
+const NAME: Form = Form::Name("a name", LETTERS);
 
-impl UnitsSection {
-    pub(super) fn read(section: &TableAt<'_>) -> Result<Self, Refusal> {
-        section.only()?;
-        let name = |key| section.optional(key).map(|value| value.name().map(str::to_owned)).transpose();
-        Ok(Self { length: name("length")?, pressure: name("pressure")? })
+section! {
+    /// The section `[units]`: names alone, no number is converted.
+    pub struct UnitsSection = UNITS {
+        /// what lengths are measured in
+        pub length: Option<String> = Key::new(&[NAME], "\"µm\"").otherwise("not named"),
+        /// what pressures are measured in
+        pub pressure: Option<String> = Key::new(&[NAME], "\"GPa\"").otherwise("not named"),
     }
 }

@@ -4,9 +4,9 @@
 use std::borrow::Cow;
 
 use super::error::Refusal;
-use super::keys::{self, Form, Key};
+use super::keys::{self, Form, Key, Keys};
 use super::node::{Node, Value};
-use super::words::{alternatives, nearest};
+use super::suggestions::{alternatives, nearest};
 use crate::plain;
 
 /// A value of the case with its path, such as `layers[0].poisson`, its key and the forms it may have.
@@ -15,12 +15,14 @@ pub(super) struct ValueAt<'a> {
     pub(super) node: Cow<'a, Node>,
     pub(super) key: &'static Key,
     pub(super) forms: &'static [Form],
+    /// The keys of the whole case.
+    pub(super) all: &'static Keys,
     pub(super) path: String,
 }
 
 impl<'a> ValueAt<'a> {
-    pub(super) fn new(node: Cow<'a, Node>, key: &'static Key, path: String) -> Self {
-        Self { node, key, forms: key.forms, path }
+    pub(super) fn new(node: Cow<'a, Node>, key: &'static Key, all: &'static Keys, path: String) -> Self {
+        Self { node, key, forms: key.forms, all, path }
     }
 
     /// Refusal of the value: "`path` must be `wanted`, not …".
@@ -162,7 +164,8 @@ impl<'a> ValueAt<'a> {
         };
         nodes.into_iter().enumerate().map(|(index, node)| {
             let own = if forms.len() > 1 { index.min(forms.len() - 1) } else { 0 };
-            ValueAt { node, key: self.key, forms: &forms[own..=own], path: format!("{}[{index}]", self.path) }
+            let path = format!("{}[{index}]", self.path);
+            ValueAt { node, key: self.key, forms: &forms[own..=own], all: self.all, path }
         })
     }
 }

@@ -1,8 +1,9 @@
 //! The check that memory and disk suffice for a job.
 
 use super::ending::Failure;
+use crate::case::Case;
 use crate::case::resources::{Job, needs, refusal};
-use crate::case::{Case, Room};
+use crate::machine::Capacity;
 use crate::run::Recorder;
 use std::convert::Infallible;
 use std::path::Path;
@@ -13,17 +14,17 @@ pub struct Allowed<'a> {
     case: &'a Case,
     job: Job,
     /// Memory and disk of this machine.
-    pub room: Room,
+    pub room: Capacity,
 }
 
 impl<'a> Allowed<'a> {
     /// A job that writes into `folder`; refused before anything is computed where memory or disk does not suffice.
     pub fn new(case: &'a Case, folder: &Path, job: Job) -> Result<Self, Failure> {
-        Self::within(case, Room::on_this_machine(folder), job)
+        Self::within(case, Capacity::on_this_machine(folder), job)
     }
 
     /// A job within a known `room`; refused where memory or disk does not suffice.
-    pub fn within(case: &'a Case, room: Room, job: Job) -> Result<Self, Failure> {
+    pub fn within(case: &'a Case, room: Capacity, job: Job) -> Result<Self, Failure> {
         refusal(case, room, job).map_or(Ok(Self { case, job, room }), |why| Err(Failure::Refused(why)))
     }
 }

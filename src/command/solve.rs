@@ -12,7 +12,8 @@ use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
 use super::terminal::{self, tell};
 use crate::case::resources::Job;
-use crate::case::{Case, Room, plausibility};
+use crate::case::{Case, plausibility};
+use crate::machine::Capacity;
 use crate::output::{
     self, CannotGoOn, Clock, Plan, Recording, RunFolder, Summary, damaged_results, disk, is_beside, solved_plan, table,
     write_scalars,
@@ -94,9 +95,9 @@ pub fn run(
 }
 
 /// Memory and disk of this machine for a run into a folder. Files of an earlier run that is resumed take no room again.
-fn room(folder: &Path, resumes: bool) -> Room {
-    let room = Room::on_this_machine(folder);
-    if resumes { Room { disk: room.disk.saturating_add(output::staged_bytes(folder)), ..room } } else { room }
+fn room(folder: &Path, resumes: bool) -> Capacity {
+    let room = Capacity::on_this_machine(folder);
+    if resumes { Capacity { disk: room.disk.saturating_add(output::staged_bytes(folder)), ..room } } else { room }
 }
 
 /// Draws the pictures of the last step, and of the steps before it.

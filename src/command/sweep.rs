@@ -7,7 +7,8 @@ use super::options::{Common, Saying};
 use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::terminal::{self, tell};
-use crate::case::{Case, Room, Source};
+use crate::case::{Case, Source};
+use crate::machine::Capacity;
 use crate::output::{Plan, RunFolder, SWEEP_LOG, Writer, disk, write_text};
 use crate::picture;
 use crate::plain;
@@ -86,7 +87,7 @@ pub fn run(
     if let (Some((part, of)), None) = (options.shard, &common.output) {
         folder.push(format!("shard-{part}-of-{of}"));
     }
-    let room = Room::on_this_machine(&folder);
+    let room = Capacity::on_this_machine(&folder);
     let study = Study::new(&source, &fixed, &combinations, task, room)?;
     let study = if options.keep_fields { study.keeping_fields() } else { study };
     interruption::watch();

@@ -2,7 +2,7 @@
 
 use super::ending::Failure;
 use super::terminal::tell;
-use crate::case::Threads;
+use crate::machine::Threads;
 use std::error::Error;
 use std::thread;
 

@@ -2,10 +2,11 @@
 
 use super::described;
 use super::number::number;
-use crate::case::resources::{Job, Needs, bytes, needs};
-use crate::case::{Case, ORIENTATION, RandomSection, Room, SurfaceSection, foreseen, plausibility, sublayer_error};
+use crate::case::resources::{Job, Needs, needs};
+use crate::case::{Case, ORIENTATION, RandomSection, SurfaceSection, foreseen, plausibility, sublayer_error};
 use crate::counterbody::roughness::{Spectrum, Statistics};
 use crate::lattice::{Grid, LatticeError};
+use crate::machine::{Capacity, bytes};
 use crate::plain;
 use crate::reading::{FirstTouch, first_touches};
 use crate::run::{RunError, Sampling, balanced_points};
@@ -42,7 +43,7 @@ pub struct Check {
     /// Memory without pictures, bytes.
     pub without_pictures: u64,
     /// What there is.
-    pub room: Room,
+    pub room: Capacity,
     /// `mean_pressure` or `penetration`.
     pub quantity: &'static str,
     /// Its values, one a load step.
@@ -97,7 +98,7 @@ impl Check {
     ///
     /// # Errors
     /// [`CheckError`].
-    pub fn of(case: &Case, name: &str, room: Room) -> Result<Self, CheckError> {
+    pub fn of(case: &Case, name: &str, room: Capacity) -> Result<Self, CheckError> {
         case.run().check()?;
         let cell = case.counterbody().cell();
         let grids = case.grid.grids(&cell).map_err(RunError::<Infallible>::from)?;

@@ -2,8 +2,9 @@
 
 use super::row::Ended;
 use crate::case::resources::{Job, needs};
-use crate::case::{Case, Room, plausibility};
+use crate::case::{Case, plausibility};
 use crate::load::Load;
+use crate::machine::Capacity;
 use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, release, solved_plan, write_scalars};
 use crate::run::{Recorder, RunError, StepRecord};
 use crate::spectral::{Progress, Solver, Step};
@@ -16,7 +17,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(super) struct Fits<'a> {
     pub(super) case: &'a Case,
     pub(super) job: Job,
-    pub(super) room: Room,
+    pub(super) room: Capacity,
     pub(super) stop: &'a AtomicBool,
 }
 

@@ -5,7 +5,8 @@ use super::row::Row;
 use super::study::{Study, folder_of};
 use super::task::Task;
 use super::{Axis, Combinations, Group, Log};
-use crate::case::{Room, embedded};
+use crate::case::embedded;
+use crate::machine::Capacity;
 use crate::output::journal::Journal;
 use crate::output::{OutputError, Plan, RunFolder, SWEEP_LOG, Writer};
 use std::collections::HashSet;
@@ -18,7 +19,7 @@ fn after_a_power_cut_the_fields_of_every_combination_of_the_log_are_whole() {
     let fixed = ["grid.points=16".to_owned()];
     let axis = Axis::parse("layers.0.poisson=0.1,0.2,0.3").unwrap();
     let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
-    let room = Room { memory: 1 << 30, disk: u64::MAX };
+    let room = Capacity { memory: 1 << 30, disk: u64::MAX };
     let study = Study::new(&source, &fixed, &combinations, Task::Solve, room).unwrap().keeping_fields();
     let place = tempfile::tempdir().unwrap();
     let journal = Journal::begin(place.path());

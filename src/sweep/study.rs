@@ -6,8 +6,9 @@ use super::memory::of_results;
 use super::row::{Ended, Row};
 use super::task::Task;
 use super::workers;
-use crate::case::resources::{Job, bytes, needs, refusal};
-use crate::case::{Case, CaseError, Room, Source};
+use crate::case::resources::{Job, needs, refusal};
+use crate::case::{Case, CaseError, Source};
+use crate::machine::{Capacity, bytes};
 use crate::output::{self, COMBINATIONS, solved_plan};
 use crate::run::Sampling;
 use std::collections::HashSet;
@@ -43,7 +44,7 @@ pub struct Study<'a> {
     fixed: &'a [String],
     pub(super) combinations: &'a Combinations,
     task: Task,
-    room: Room,
+    room: Capacity,
     pub(super) keeps_fields: bool,
     stop: Arc<AtomicBool>,
     pub(super) planned: Vec<Planned>,
@@ -74,7 +75,7 @@ impl<'a> Study<'a> {
         fixed: &'a [String],
         combinations: &'a Combinations,
         task: Task,
-        room: Room,
+        room: Capacity,
     ) -> Result<Self, StudyError> {
         let (stop, planned) = (Arc::default(), Vec::new());
         let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, stop, planned };
@@ -184,7 +185,7 @@ impl<'a> Study<'a> {
         let pending = self.planned.iter().filter(|planned| !is_known(planned));
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());
-        let share = Room { memory: self.room.memory / workers as u64, ..self.room };
+        let share = Capacity { memory: self.room.memory / workers as u64, ..self.room };
         workers::each(&small, workers, |planned| self.row(planned, folder, share), &mut done)?;
         workers::each(&large, 1, |planned| self.row(planned, folder, self.room), &mut done)
     }
@@ -215,7 +216,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn row(&self, planned: &Planned, folder: &Path, room: Room) -> Row {
+    fn row(&self, planned: &Planned, folder: &Path, room: Capacity) -> Row {
         let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
         // One combination that brings the program down leaves the others as they are.
         let ended = catch_unwind(AssertUnwindSafe(|| self.ended(planned, folder, room)));
@@ -234,7 +235,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    fn ended(&self, planned: &Planned, folder: &Path, room: Room) -> Ended {
+    fn ended(&self, planned: &Planned, folder: &Path, room: Capacity) -> Ended {
         let combination = &self.combinations.all[planned.index];
         let read;
         let case = match &planned.case {
@@ -287,7 +288,7 @@ mod tests {
         let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
         // 20 × 500 steps of three levels, 30 kB each, beside what a case takes.
         let study = |mebibytes: u64| {
-            let room = Room { memory: mebibytes << 20, disk: u64::MAX };
+            let room = Capacity { memory: mebibytes << 20, disk: u64::MAX };
             Study::new(&source, &fixed, &combinations, Task::Solve, room).map(|study| study.room.memory >> 20)
         };
         let why = study(200).unwrap_err().to_string();
@@ -300,7 +301,7 @@ mod tests {
     #[test]
     fn a_million_combinations_without_room_are_refused_by_their_number() {
         let source = embedded::source("fig2").unwrap();
-        let room = Room { memory: 1 << 30, disk: u64::MAX };
+        let room = Capacity { memory: 1 << 30, disk: u64::MAX };
         for axes in [
             &["layers.0.poisson=0.1:0.4:1000", "layers.0.thickness=0.1:1:1000"][..],
             &["layers.0.poisson=0.1:0.4:100000", "load.mean_pressure={ from = 0.01, to = 0.06, steps = 5 },0.01"],
@@ -337,7 +338,7 @@ mod tests {
         let fixed = ["grid.points=48".to_owned()];
         let axis = Axis::parse("layers.0.poisson=0.1,0.2,0.3").unwrap();
         let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
-        let room = Room { memory: 1 << 30, disk: u64::MAX };
+        let room = Capacity { memory: 1 << 30, disk: u64::MAX };
         for task in [Task::Solve, Task::Limit] {
             // Limits need strengths.
             let fixed = [&fixed[..], &["layers.0.yield_strength=1".to_owned()]].concat();

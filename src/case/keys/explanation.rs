@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::super::words::{alternatives, nearest};
+use super::super::suggestions::{alternatives, nearest};
 use super::key::{Absent, Form, Key, Keys};
-use super::sections::CASE;
+use crate::case::model::CASE;
 
 /// All that is to be said of a key. It prints itself, in lines of at most 80 letters.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -142,13 +142,13 @@ impl At {
 
     /// Lines of a case with the key.
     fn example(&self) -> String {
-        let Some((section, rest)) = self.path.split_once('.') else { return self.key.written() };
+        let Some((section, rest)) = self.path.split_once('.') else { return self.key.example_lines() };
         let brackets = |name: &str| match is_list(section) {
             true => format!("[[{name}]]"),
             false => format!("[{name}]"),
         };
         if let ([Form::Table(_)], false) = (self.key.forms, is_list(section)) {
-            let own = self.key.written();
+            let own = self.key.example_lines();
             return own.replacen(&format!("[{}]", self.key.name), &format!("[{}]", self.path), 1);
         }
         let kind = self.key.kinds.first().map(|kind| format!("{} = \"{kind}\"\n", self.table.all[0].name));

@@ -1,6 +1,6 @@
 //! What the forms of a value are called, in errors, in the README and by `percoat explain`.
 
-use super::super::words::{alternatives, joined};
+use super::super::suggestions::{alternatives, joined};
 use super::key::Form;
 
 impl Form {

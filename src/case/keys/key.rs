@@ -13,7 +13,7 @@ pub(in crate::case) struct Keys {
 }
 
 /// A key of a table.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(in crate::case) struct Key {
     /// Its name.
     pub(in crate::case) name: &'static str,
@@ -22,19 +22,32 @@ pub(in crate::case) struct Key {
     /// The forms in which its value may be written.
     pub(in crate::case) forms: &'static [Form],
     /// What its numbers are measured in.
-    pub(super) unit: Unit,
+    pub(in crate::case) unit: Unit,
     /// What holds where it is not given.
     pub(in crate::case) absent: Absent,
     /// A value that it may have, in TOML.
     pub(in crate::case) example: &'static str,
     /// What bounds alone do not say: relations to other keys, and others.
-    pub(super) rule: Option<&'static str>,
+    pub(in crate::case) rule: Option<&'static str>,
     /// Kinds of table that have it, by the text of the table's first key; empty: all. Keys of other kinds exclude it.
     pub(in crate::case) kinds: &'static [&'static str],
     /// The other key in whose place it stands.
-    pub(super) instead_of: Option<&'static str>,
+    pub(in crate::case) instead_of: Option<&'static str>,
     /// Further keys that it excludes.
-    pub(super) and_of: &'static [&'static str],
+    pub(in crate::case) and_of: &'static [&'static str],
+    /// Whether it stands in a case that is written.
+    pub(in crate::case) written: Written,
+}
+
+/// Whether a key stands in a case that is written with its defaults.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::case) enum Written {
+    /// Unless it is absent.
+    WhereGiven,
+    /// Unless it is absent, 0 or an empty list.
+    UnlessNothing,
+    /// Other keys take its place when the case is read.
+    Never,
 }
 
 /// What holds where a key is not given.
@@ -80,7 +93,7 @@ pub(in crate::case) enum Form {
 
 impl Form {
     /// The keys of the tables in it; none where it has no table.
-    pub(super) fn keys(&self) -> Option<&'static Keys> {
+    pub(in crate::case) fn keys(&self) -> Option<&'static Keys> {
         match self {
             Self::Table(keys) | Self::Sections(keys, _) => Some(keys),
             _ => None,
@@ -89,16 +102,12 @@ impl Form {
 }
 
 impl Key {
-    /// A key that must be given.
-    pub(super) const fn new(
-        name: &'static str,
-        what: &'static str,
-        forms: &'static [Form],
-        example: &'static str,
-    ) -> Self {
+    /// A key that must be given, by the forms of its value and an example in TOML. Its name and what it is are those of the
+    /// field that it is declared for.
+    pub(in crate::case) const fn new(forms: &'static [Form], example: &'static str) -> Self {
         Self {
-            name,
-            what,
+            name: "",
+            what: "",
             forms,
             unit: Unit::Pure,
             absent: Absent::Refused,
@@ -107,36 +116,47 @@ impl Key {
             kinds: &[],
             instead_of: None,
             and_of: &[],
+            written: Written::WhereGiven,
         }
     }
 
-    pub(super) const fn unit(self, unit: Unit) -> Self {
+    /// It is left out of a written case where it is 0 or an empty list.
+    pub(in crate::case) const fn omitted_as_nothing(self) -> Self {
+        Self { written: Written::UnlessNothing, ..self }
+    }
+
+    /// It is left out of a written case, where other keys say the same.
+    pub(in crate::case) const fn never_written(self) -> Self {
+        Self { written: Written::Never, ..self }
+    }
+
+    pub(in crate::case) const fn unit(self, unit: Unit) -> Self {
         Self { unit, ..self }
     }
 
     /// The value that it has where it is not given.
-    pub(super) const fn default(self, value: &'static str) -> Self {
+    pub(in crate::case) const fn default(self, value: &'static str) -> Self {
         Self { absent: Absent::Value(value), ..self }
     }
 
     /// What holds where it is not given.
-    pub(super) const fn otherwise(self, means: &'static str) -> Self {
+    pub(in crate::case) const fn otherwise(self, means: &'static str) -> Self {
         Self { absent: Absent::Means(means), ..self }
     }
 
-    pub(super) const fn rule(self, rule: &'static str) -> Self {
+    pub(in crate::case) const fn rule(self, rule: &'static str) -> Self {
         Self { rule: Some(rule), ..self }
     }
 
-    pub(super) const fn of(self, kinds: &'static [&'static str]) -> Self {
+    pub(in crate::case) const fn of(self, kinds: &'static [&'static str]) -> Self {
         Self { kinds, ..self }
     }
 
-    pub(super) const fn instead_of(self, other: &'static str) -> Self {
+    pub(in crate::case) const fn instead_of(self, other: &'static str) -> Self {
         Self { instead_of: Some(other), ..self }
     }
 
-    pub(super) const fn and_of(self, others: &'static [&'static str]) -> Self {
+    pub(in crate::case) const fn and_of(self, others: &'static [&'static str]) -> Self {
         Self { and_of: others, ..self }
     }
 
@@ -145,18 +165,35 @@ impl Key {
         self.forms.iter().find_map(Form::keys).unwrap_or(&Keys::NONE)
     }
 
-    pub(super) fn excludes(&self, other: &Self) -> bool {
+    pub(in crate::case) fn excludes(&self, other: &Self) -> bool {
         let kinds = !self.kinds.is_empty() && !other.kinds.is_empty() && self.kinds != other.kinds;
         let one = |a: &Self, b: &Self| a.instead_of == Some(b.name) || a.and_of.contains(&b.name);
         kinds || one(self, other) || one(other, self)
     }
 }
 
-impl Keys {
-    pub(super) const NONE: Self = Self::new(&[]);
+/// Keys with their numbers in a unit.
+pub(in crate::case) const fn measured_in<const N: usize>(keys: &[Key], unit: Unit) -> [Key; N] {
+    let mut own = [keys[0]; N];
+    let mut index = 0;
+    while index < N {
+        own[index] = keys[index].unit(unit);
+        index += 1;
+    }
+    own
+}
 
-    pub(super) const fn new(all: &'static [Key]) -> Self {
+impl Keys {
+    pub(in crate::case) const NONE: Self = Self::new(&[]);
+
+    pub(in crate::case) const fn new(all: &'static [Key]) -> Self {
         Self { all, misplaced: &[] }
+    }
+
+    /// Paths of the tables within this one that have a key.
+    pub(in crate::case) fn homes(&'static self, name: &str) -> Vec<String> {
+        let tables = self.tables("").into_iter().skip(1);
+        tables.filter(|(_, keys)| keys.get(name).is_some()).map(|(path, _)| path).collect()
     }
 
     /// A key by its name.
@@ -190,7 +227,7 @@ impl Keys {
     }
 
     /// The keys that a table needs, where one of several is needed the first; all of a table that needs none.
-    pub(super) fn shown(&self) -> impl Iterator<Item = &'static Key> {
+    pub(in crate::case) fn shown(&self) -> impl Iterator<Item = &'static Key> {
         let needs = self.all.iter().any(|key| key.absent == Absent::Refused);
         let mut shown: Vec<&'static Key> = Vec::new();
         for key in self.all {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::super::words::joined;
+use super::super::suggestions::joined;
 use super::explanation::{Explanation, sections};
 
 /// Letters of a line.

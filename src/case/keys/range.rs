@@ -1,14 +1,9 @@
 //! Which numbers a key takes.
-//!
-//! Results are products of up to five of a case's lengths and moduli and of their squares: between 1e-60 and 1e60
-//! none of them overflows or vanishes.
 
-use std::ops::{Bound, RangeBounds, RangeInclusive};
+use std::ops::{Bound, RangeBounds};
 
-use super::super::node::plain;
-
-/// Lengths, moduli, pressures and wavenumbers whose products double precision carries.
-pub const CARRIED: RangeInclusive<f64> = 1e-60..=1e60;
+use crate::plain::float;
+use crate::units::CARRIED;
 
 /// What a number that is not carried is told.
 const WHY: &str = "double precision carries the products of five such numbers, no others; choose other units";
@@ -93,11 +88,11 @@ impl Range {
     pub(in crate::case) fn told(self) -> String {
         match self.bounds() {
             (Bound::Included(low), Bound::Included(high)) => {
-                format!("a number between {} and {}", plain(low), plain(high))
+                format!("a number between {} and {}", float(low), float(high))
             }
             (Bound::Unbounded, Bound::Unbounded) if self == Self::Factor => "a finite number other than 0".to_owned(),
             (Bound::Unbounded, Bound::Unbounded) => "a finite number".to_owned(),
-            (Bound::Included(low), Bound::Unbounded) => format!("a finite number of at least {}", plain(low)),
+            (Bound::Included(low), Bound::Unbounded) => format!("a finite number of at least {}", float(low)),
             (low, Bound::Unbounded) => format!("a finite number {}", lower(low)),
             (Bound::Unbounded, high) => format!("a finite number {}", upper(high)),
             (low, high) => format!("a number {} and {}", lower(low), upper(high)),
@@ -118,13 +113,13 @@ impl Range {
     /// "> 0", "0 to 0.5", "> 0, ≤ 0.1"; empty where every number is one.
     pub(super) fn short(self) -> String {
         let bound = |bound, included, excluded| match bound {
-            Bound::Included(x) => Some(format!("{included} {}", plain(x))),
-            Bound::Excluded(x) => Some(format!("{excluded} {}", plain(x))),
+            Bound::Included(x) => Some(format!("{included} {}", float(x))),
+            Bound::Excluded(x) => Some(format!("{excluded} {}", float(x))),
             Bound::Unbounded => None,
         };
         match self.bounds() {
             _ if self == Self::Factor => "≠ 0".to_owned(),
-            (Bound::Included(low), Bound::Included(high)) => format!("{} to {}", plain(low), plain(high)),
+            (Bound::Included(low), Bound::Included(high)) => format!("{} to {}", float(low), float(high)),
             (low, high) => {
                 [bound(low, "≥", ">"), bound(high, "≤", "<")].into_iter().flatten().collect::<Vec<_>>().join(", ")
             }
@@ -134,16 +129,16 @@ impl Range {
 
 fn lower(bound: Bound<f64>) -> String {
     match bound {
-        Bound::Included(x) => format!("at least {}", plain(x)),
-        Bound::Excluded(x) => format!("greater than {}", plain(x)),
+        Bound::Included(x) => format!("at least {}", float(x)),
+        Bound::Excluded(x) => format!("greater than {}", float(x)),
         Bound::Unbounded => String::new(),
     }
 }
 
 fn upper(bound: Bound<f64>) -> String {
     match bound {
-        Bound::Included(x) => format!("at most {}", plain(x)),
-        Bound::Excluded(x) => format!("less than {}", plain(x)),
+        Bound::Included(x) => format!("at most {}", float(x)),
+        Bound::Excluded(x) => format!("less than {}", float(x)),
         Bound::Unbounded => String::new(),
     }
 }

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 
 use super::key::{Absent, Form, Key, Keys};
 use super::range::Range;
-use super::sections::CASE;
+use crate::case::model::CASE;
 
 /// The schema of a case file.
 pub fn schema() -> Value {

@@ -13,7 +13,7 @@ impl Key {
     }
 
     /// As it may stand in a case: a section with its keys, or a line.
-    pub(in crate::case) fn written(&self) -> String {
+    pub(in crate::case) fn example_lines(&self) -> String {
         let line = format!("{} = {}", self.name, self.example);
         let parsed = line.parse::<toml::Table>().ok().and_then(|mut table| table.remove(self.name));
         let keys = |table: &toml::Table| {

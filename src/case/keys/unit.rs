@@ -2,7 +2,7 @@
 
 /// What the numbers of a key are measured in. Any consistent units; `[units]` names them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Unit {
+pub(in crate::case) enum Unit {
     /// Nothing, or the key has no numbers.
     Pure,
     Length,

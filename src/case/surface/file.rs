@@ -1,20 +1,15 @@
 //! `[surface]` from a file: which format it has, and its heights in the case's unit, made periodic.
 
-use std::io::BufRead;
 use std::path::{Path, PathBuf};
 
 use super::super::error::Refusal;
-use super::super::node::Value;
 use super::super::reader::TableAt;
 use super::super::source::Source;
 use super::super::value::ValueAt;
-use super::fault::{Fault, Heights, fits};
-use super::header::{Header, HeightsUnit, Length};
-use super::text::Table;
-use super::unit::{self, KNOWN};
-use super::xyz::Points;
-use super::{npy, telltale, text, xyz};
+use super::section::{SurfaceSection, Taper};
 use crate::counterbody::roughness::{MAX_BORDER_JUMP, RunOut, Window, border_jumps, levelled, tapered};
+use crate::heights::unit::{self, KNOWN};
+use crate::heights::{FORMATS, Fault, Format, Heights, HeightsUnit, Length, Stored};
 use crate::notation::number;
 use crate::numeric::array::field;
 use ndarray::Array2;
@@ -53,41 +48,18 @@ pub(super) struct FromFile {
     pub doubts: Vec<String>,
 }
 
-/// What stands in a file.
-struct Stored {
-    /// Along a₁ and a₂, as written.
-    heights: Heights,
-    /// Its sides along a₁ and a₂, if it knows them.
-    sides: Option<[Length; 2]>,
-    /// What its heights are in, if it says so.
-    unit: Option<HeightsUnit>,
-    /// As in [`FromFile`].
-    lines_along_a1: bool,
-    /// What is doubtful about how it is written.
-    doubts: Vec<String>,
-}
-
-const FORMATS: &str =
-    "`.npy` (NumPy), `.csv`, `.txt` or `.dat` (a matrix of numbers), `.xyz` (x y z, one point a line)";
-
 impl Treatment {
-    /// Of the section; `length` is the case's unit, where it names one.
-    pub fn read(section: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
-        let scale = section.value("scale")?.number()?;
-        let given = section.optional("unit");
-        let unit = given.as_ref().map_or(Ok(1.0), |value| unit_of(value, length))?;
-        let name = given.map(|value| value.text().map(str::to_owned)).transpose()?;
-        let level = section.value("level")?.boolean()?;
-        let window = section.value("window")?;
-        let window = match &window.node.value {
-            Value::Text(_) => match window.word()? {
-                "hann" => Some(Window::Hann),
-                _ => Some(Window::Tukey),
-            },
-            _ => window.boolean()?.then_some(Window::Tukey),
-        };
-        let own_scale = section.optional("scale").map(|_| scale);
-        Ok(Self { scale: scale * unit, unit, own_scale, name, level, window })
+    /// Of a section that stands in a `table`; `length` is the case's unit, where it names one.
+    pub fn of(own: &SurfaceSection, table: &TableAt<'_>, length: Option<&str>) -> Result<Self, Refusal> {
+        let unit = table.optional("unit").map_or(Ok(1.0), |value| unit_of(&value, length))?;
+        Ok(Self {
+            scale: own.scale.unwrap_or(1.0) * unit,
+            unit,
+            own_scale: own.scale,
+            name: own.unit.clone(),
+            level: own.level.unwrap_or(false),
+            window: own.window.and_then(|Taper(window)| window),
+        })
     }
 
     /// The same of a file that says what its heights are in; `length` is the case's unit, where it names one.
@@ -185,77 +157,24 @@ pub(super) fn read(
     Ok(FromFile { heights, run_out, period, treatment, lines_along_a1, doubts })
 }
 
-/// What stands in a file, with what is doubtful about the numbers; refused when there is no such file.
+/// What stands in a file; refused when there is no such file, or none of a format that is known.
 fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<Stored, Fault>, Refusal> {
     let shown = path.display();
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    let is_named = ["npy", "csv", "txt", "dat", "xyz"].contains(&&extension[..]);
-    if !is_named && !source.is_pipe(written.text()?) {
+    if let Some(array) = source.arrays.get(written.text()?) {
+        return Ok(Stored::of(array));
+    }
+    let format = Format::of(path);
+    if format.is_none() && !source.is_pipe(written.text()?) {
         let message = format!("`{}`: {shown} has an ending by which no format is known", written.path);
         return Err(Refusal::new(written.node.place, message, "which format?").help(format!("allowed: {FORMATS}")));
     }
-    let (mut reader, bytes) = source.open(written.text()?).map_err(|error| {
+    let (reader, bytes) = source.open(written.text()?).map_err(|error| {
         let message = format!("`{}`: cannot read {shown}: {error}", written.path);
         Refusal::new(written.node.place, message, "this file").help(
             "needed: one period of heights, float64 in a `.npy` file for example; a path is relative to the case file",
         )
     })?;
-    // A pipe has no ending.
-    let is_array = !is_named && reader.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"\x93NUMPY"));
-    let found = match &extension[..] {
-        _ if is_array => npy::read(reader, bytes).and_then(of_array),
-        "npy" => npy::read(reader, bytes).and_then(of_array),
-        "xyz" => xyz::read(reader, bytes).map(|(points, header)| Stored::points(points, &header)),
-        _ => text::read(reader, bytes).and_then(of_table),
-    };
-    Ok(found.and_then(|mut stored| {
-        telltale::no_data(&stored.heights)?;
-        stored.doubts.extend(telltale::doubts(&stored.heights));
-        Ok(stored)
-    }))
-}
-
-impl Stored {
-    fn points(Points { heights, period }: Points, header: &Header) -> Self {
-        let side = |value: f64| Length { value, unit: header.of_coordinates() };
-        let (sides, unit) = (Some(period.map(side)), header.heights().cloned());
-        Self { heights, sides, unit, lines_along_a1: false, doubts: Vec::new() }
-    }
-}
-
-/// An array of NumPy: no points.
-fn of_array(heights: Heights) -> Result<Stored, Fault> {
-    if xyz::of_table(&heights, &[]).is_some() {
-        let [lines, columns] = heights.points;
-        let what = format!("holds {lines} rows of {columns} numbers, of which the first two are places of a grid");
-        return Err(
-            Fault::new(what, "points x y z?").help("save heights of shape (n1, n2), or the points in a file .xyz")
-        );
-    }
-    Ok(Stored { heights, sides: None, unit: None, lines_along_a1: false, doubts: Vec::new() })
-}
-
-/// A table of a text: points, an image, or lines along a₁.
-fn of_table(table: Table) -> Result<Stored, Fault> {
-    let Table { heights, lines, header, doubts } = table;
-    if let Some(points) = xyz::of_table(&heights, &lines) {
-        return Ok(Stored::points(points?, &header));
-    }
-    let Heights { points: [lines, numbers], values } = heights;
-    let Heights { values, .. } = Heights::new([lines, numbers], values)?;
-    let sides = header.sides([numbers, lines])?;
-    let heights = match header.is_image() {
-        true => upright([numbers, lines], &values)?,
-        false => Heights { points: [lines, numbers], values },
-    };
-    Ok(Stored { heights, sides, unit: header.heights().cloned(), lines_along_a1: !header.is_image(), doubts })
-}
-
-/// An image of n₁ numbers a line and n₂ lines, the first one on top, with x along a₁ and y along a₂: `image[::-1].T`.
-fn upright([n1, n2]: [usize; 2], values: &[f64]) -> Result<Heights, Fault> {
-    fits(8 * values.len() as u64)?;
-    let at = |k: usize| values[(n2 - 1 - k % n2) * n1 + k / n2];
-    Ok(Heights { points: [n1, n2], values: (0..n1 * n2).map(at).collect() })
+    Ok(Stored::read(reader, bytes, format))
 }
 
 /// That a surface jumps where it meets its next period.

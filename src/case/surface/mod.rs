@@ -1,99 +1,38 @@
 //! `[surface]`: one period of any topography, from a file or a seed.
 //!
-//! `file` reads one of the formats (`npy`, `text`, `xyz`; `fault` says what is wrong with any) in its `unit`, `random` has
-//! the keys of a generated surface. Which index runs where is drawn in [`ORIENTATION`].
+//! `file` brings heights of any format ([`crate::heights`]) into the case's unit, `random` has the keys of a generated surface.
+//! Which index runs where is drawn in [`ORIENTATION`].
 
-mod commas;
-mod fault;
 mod file;
-mod header;
-mod lines;
-mod npy;
 mod random;
-mod telltale;
-mod text;
-mod unit;
-mod xyz;
-
-use serde::Serialize;
+mod section;
 
 use super::error::Refusal;
 use super::grid;
-use super::keys::CARRIED;
 use super::lattice::{LatticeSection, build_cell};
-use super::node::Value;
 use super::reader::TableAt;
 use super::source::Source;
 use super::value::ValueAt;
 use crate::counterbody::Topography;
-use crate::counterbody::roughness::{Spectrum, Window};
+use crate::counterbody::roughness::Spectrum;
+use crate::heights::fits;
 use crate::lattice::Cell;
 use crate::notation::number;
-use crate::plain;
 use crate::run::Sampling;
-use fault::fits;
+use crate::units::CARRIED;
 use file::{FromFile, Treatment};
 use ndarray::Array2;
-use std::path::Path;
 
-pub use random::{RandomSection, RmsKey};
+pub use random::RandomSection;
+pub use section::{Sides, SurfaceSection, Taper};
+
+pub(super) use section::SURFACE;
 
 /// Which index of `heights[i, j]` runs where.
 pub const ORIENTATION: &str = "   a₂ ↑  [0, n₂−1]  …  [n₁−1, n₂−1]    heights[i, j], larger = nearer to the body
       │      ⋮               ⋮         i: along a₁; the lines of a text file
       │    [0, 0]   …    [n₁−1, 0]     j: along a₂; the numbers of a line
       └──────────────────────→ a₁      an image with its first row on top: image[::-1].T";
-
-/// The section `[surface]`, with its unit in `scale` and its period in [`LatticeSection`].
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-#[non_exhaustive]
-pub enum SurfaceSection {
-    /// Heights from a file.
-    File {
-        /// Its path, absolute, so that a copy of the case still finds it; its name, if it is in memory.
-        heights: String,
-        /// Factor of its heights, beside that of their unit.
-        scale: f64,
-        /// What its heights are in, where the case or the file says so.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        unit: Option<String>,
-        /// Whether its mean plane is taken away.
-        level: bool,
-        /// How its border is tapered, if it is.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        window: Option<Window>,
-        /// Whether the file is a text that does not say what its lines are, so that they were taken to run along a₁.
-        #[serde(skip)]
-        lines_along_a1: bool,
-    },
-    /// Heights from a seed.
-    Random {
-        /// The section `[surface.random]`.
-        random: RandomSection,
-    },
-}
-
-impl SurfaceSection {
-    /// What a generated surface is; `None` of one from a file.
-    pub fn random(&self) -> Option<&RandomSection> {
-        match self {
-            Self::Random { random } => Some(random),
-            Self::File { .. } => None,
-        }
-    }
-
-    /// Which way the lines of its file were taken to run, a sentence, where the file does not say so.
-    pub fn lines(&self) -> Option<String> {
-        match self {
-            Self::File { heights, lines_along_a1: true, .. } => Some(format!(
-                "{}: its lines run along a₁, the numbers of a line along a₂; of an image, whose lines run along x, give image[::-1].T",
-                plain::path(Path::new(heights))
-            )),
-            Self::File { .. } | Self::Random { .. } => None,
-        }
-    }
-}
 
 /// What a topography is read with.
 #[derive(Debug)]
@@ -129,12 +68,13 @@ pub(super) fn read(section: &TableAt<'_>, around: &Around<'_>) -> Result<Read, R
 }
 
 fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) -> Result<Read, Refusal> {
+    let own_section = SurfaceSection::read_table(section)?;
     let length = around.length.as_deref();
-    let treatment = Treatment::read(section, length)?;
+    let treatment = Treatment::of(&own_section, section, length)?;
     let FromFile { heights: stored, run_out, period: own, treatment, lines_along_a1, doubts } =
         file::read(around.source, heights, treatment, length)?;
     let points: [usize; 2] = stored.dim().into();
-    let (lattice, cell) = cell(section, around, points, own)?;
+    let (lattice, cell) = cell(&own_section, section, around, points, own)?;
     let across = across(points, cell);
     let sampling = grid::read(&around.grid, Some(points))?;
     let (on_grid, lost) = match sampling {
@@ -143,12 +83,22 @@ fn from_file(section: &TableAt<'_>, heights: &ValueAt<'_>, around: &Around<'_>) 
     };
     let squeezed = own.and_then(|own| squeezed(own, cell));
     let name = heights.text()?;
-    let heights = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
+    let path = around.source.path(name).map_or(name.to_owned(), |path| path.to_string_lossy().into_owned());
     let topography = topography(section, cell, on_grid)?;
     let topography = run_out.into_iter().fold(topography, Topography::with_run_out);
     let Treatment { own_scale, name: unit, level, window, .. } = treatment;
     Ok(Read {
-        section: SurfaceSection::File { heights, scale: own_scale.unwrap_or(1.0), unit, level, window, lines_along_a1 },
+        section: SurfaceSection {
+            heights: Some(path),
+            scale: Some(own_scale.unwrap_or(1.0)),
+            unit,
+            period: None,
+            pixel: None,
+            level: Some(level),
+            window: window.map(|window| Taper(Some(window))),
+            random: None,
+            lines_along_a1,
+        },
         lattice,
         topography,
         sampling,
@@ -190,9 +140,10 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
         let message = format!("`{}` has no place beside `surface.random`: it belongs to a file's heights", value.path);
         return Err(Refusal::new(value.node.place, message, "not used here").help("remove it"));
     }
-    let (lattice, cell) = cell(section, around, [1, 1], None)?;
     let table = random.table_or("write it as a section, [surface.random]")?;
-    let own = RandomSection::read(&table, cell)?;
+    let own_section = SurfaceSection::read_table(section)?;
+    let (lattice, cell) = cell(&own_section, section, around, [1, 1], None)?;
+    let own = RandomSection::read_in(&table, cell)?;
     let surface = own.surface();
     let sampling = grid::read(&around.grid, None)?;
     let refuse = |error: String| Refusal::new(table.place, format!("`surface.random`: {error}"), "no such surface");
@@ -207,7 +158,7 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
         .map_err(|error| refuse(error.to_string()))?;
     let lost = loss([spectrum.rms_slope(), whole], points);
     Ok(Read {
-        section: SurfaceSection::Random { random: own },
+        section: SurfaceSection { period: None, random: Some(own), ..own_section },
         lattice,
         topography: topography(section, cell, spectrum.into_heights())?,
         sampling,
@@ -217,52 +168,40 @@ fn from_seed(section: &TableAt<'_>, random: &ValueAt<'_>, around: &Around<'_>) -
 
 /// The cell: `[lattice]`, or what the section or its file says of the period.
 fn cell(
+    own: &SurfaceSection,
     section: &TableAt<'_>,
     around: &Around<'_>,
     points: [usize; 2],
-    own: Option<[f64; 2]>,
+    of_file: Option<[f64; 2]>,
 ) -> Result<(LatticeSection, Cell), Refusal> {
     let [period, pixel] = ["period", "pixel"].map(|key| section.optional(key));
-    let sides = match (&around.lattice, period, pixel) {
-        (None, Some(_), Some(pixel)) => return Err(section.both(["period", "pixel"], pixel.node.place)),
-        (Some(_), Some(value), _) | (Some(_), None, Some(value)) => {
+    if let Some(table) = &around.lattice {
+        if let Some(value) = period.or(pixel) {
             let message = format!("`{}` and [lattice] exclude each other: both say how large the cell is", value.path);
             return Err(Refusal::new(value.node.place, message, "the cell is known"));
         }
-        (Some(table), None, None) => {
-            let lattice = LatticeSection::read(table)?;
-            return Ok((lattice, build_cell(&lattice, table)?));
+        let lattice = LatticeSection::read_table(table)?;
+        return Ok((lattice, build_cell(&lattice, table)?));
+    }
+    let sides = match (own.period, own.pixel) {
+        (Some(_), Some(_)) => {
+            return Err(section.both(["period", "pixel"], pixel.map_or(section.place, |pixel| pixel.node.place)));
         }
-        (None, Some(period), None) => sides(&period)?,
-        (None, None, Some(pixel)) => {
-            let [d1, d2] = sides(&pixel)?;
-            [d1 * points[0] as f64, d2 * points[1] as f64]
-        }
-        (None, None, None) => own.ok_or_else(|| {
+        (Some(Sides(sides)), None) => sides,
+        (None, Some(Sides([d1, d2]))) => [d1 * points[0] as f64, d2 * points[1] as f64],
+        (None, None) => of_file.ok_or_else(|| {
             Refusal::new(section.place, "`surface.period` is missing, and so is [lattice]", "how large is the cell?").help(
                 "add period = L or [L1, L2], the lengths of the whole file along a₁ and a₂; or pixel = d, the distance of \
                  its samples; or a section [lattice]",
             )
         })?,
     };
-    let [l1, l2] = sides;
     if let Some(side) = sides.iter().find(|side| !CARRIED.contains(*side)) {
         let message = format!("`surface`: a side of the cell is {side}; it must be between 1e-60 and 1e60");
         return Err(Refusal::new(section.place, message, "no cell"));
     }
-    let lattice = match l1 == l2 {
-        true => LatticeSection::Square { period: l1 },
-        false => LatticeSection::Oblique { a1: [l1, 0.0], a2: [0.0, l2] },
-    };
+    let lattice = LatticeSection::rectangle(sides);
     Ok((lattice, build_cell(&lattice, section)?))
-}
-
-/// A length for both directions, or one for each.
-fn sides(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
-    match &value.node.value {
-        Value::List(_) => value.numbers(),
-        _ => value.number().map(|side| [side; 2]),
-    }
 }
 
 /// Heights of a file on another grid, and what of their slope that grid cannot hold.

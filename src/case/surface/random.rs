@@ -1,75 +1,65 @@
 //! `[surface.random]`: a self-affine surface from a seed instead of a file.
 
-use serde::Serialize;
-
 use super::super::error::Refusal;
+use super::super::keys::{Form, Key, Range, Unit};
 use super::super::reader::TableAt;
+use super::super::section::{demanded, section};
 use crate::counterbody::roughness::{Rms, SelfAffine};
 use crate::lattice::Cell;
 
-/// The section `[surface.random]`, complete.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct RandomSection {
-    /// Hurst exponent H.
-    pub hurst: f64,
-    /// Longest wavelength, a length.
-    pub longest: f64,
-    /// Wavelength of the roll-off, a length.
-    pub rolloff: f64,
-    /// Shortest wavelength, a length.
-    pub shortest: f64,
-    /// What fixes the amplitude: `rms_slope` or `rms_height`.
-    #[serde(flatten)]
-    pub rms: RmsKey,
-    /// Which of all such surfaces.
-    pub seed: u64,
+const SIZE: Form = Form::Number(Range::Size);
+
+section! {
+    /// The section `[surface.random]`, complete.
+    #[derive(Copy)]
+    pub struct RandomSection = RANDOM, rules one_amplitude {
+        /// the Hurst exponent
+        pub hurst: f64 = Key::new(&[Form::Number(Range::between(0.0, 1.0))], "0.8"),
+        /// the longest wavelength
+        pub longest: Option<f64> = Key::new(&[SIZE], "1.0").unit(Unit::Length).otherwise("that of the cell"),
+        /// the wavelength above which the spectrum is constant
+        pub rolloff: Option<f64> = Key::new(&[SIZE], "0.5").unit(Unit::Length).otherwise("`longest`"),
+        /// the shortest wavelength
+        pub shortest: f64 =
+            Key::new(&[SIZE], "0.25").unit(Unit::Length).rule("`shortest` ≤ `rolloff` ≤ `longest`"),
+        /// root mean square of the slope
+        pub rms_slope: Option<f64> = Key::new(&[Form::Number(Range::POSITIVE)], "0.1"),
+        /// root mean square of the heights
+        pub rms_height: Option<f64> = Key::new(&[SIZE], "0.02").unit(Unit::Length).instead_of("rms_slope"),
+        /// which of all such surfaces
+        pub seed: usize = Key::new(&[Form::Integer(0, i64::MAX as usize)], "1").default("0"),
+    }
 }
 
-/// The key that fixes the amplitude.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RmsKey {
-    /// √⟨|∇h|²⟩.
-    RmsSlope(f64),
-    /// √⟨(h − h̄)²⟩, a length.
-    RmsHeight(f64),
+fn one_amplitude(_: &RandomSection, section: &TableAt<'_>) -> Result<(), Refusal> {
+    section.one_of(["rms_slope", "rms_height"]).map(drop)
 }
 
 impl RandomSection {
-    pub(super) fn read(section: &TableAt<'_>, cell: Cell) -> Result<Self, Refusal> {
-        section.only()?;
-        let hurst = section.value("hurst")?.number()?;
-        let shortest_value = section.value("shortest")?;
-        let shortest = shortest_value.number()?;
+    /// Reads the section of a case with this cell, whose longest wave is the longest of the surface when not given.
+    pub(super) fn read_in(section: &TableAt<'_>, cell: Cell) -> Result<Self, Refusal> {
+        let own = Self::read_table(section)?;
         let [x, y] = cell.reduced().short();
         // The wave along the lattice's densest lines, which lie farthest apart.
         let of_cell = cell.area() / x.hypot(y);
-        let length = |key, otherwise| section.optional(key).map_or(Ok(otherwise), |value| value.number());
-        let longest = length("longest", of_cell)?;
-        let rolloff = length("rolloff", longest)?;
-        let rms = match section.one_of(["rms_slope", "rms_height"])? {
-            (0, slope) => RmsKey::RmsSlope(slope.number()?),
-            (_, height) => RmsKey::RmsHeight(height.number()?),
-        };
-        let seed = section.value("seed")?.integer()? as u64;
+        let longest = own.longest.unwrap_or(of_cell);
+        let (rolloff, shortest) = (own.rolloff.unwrap_or(longest), own.shortest);
         if !(shortest <= rolloff && rolloff <= longest) {
             let what = format!(
                 "`{}` ≤ `rolloff` ≤ `longest` must hold of the wavelengths, not {shortest} ≤ {rolloff} ≤ {longest}",
                 section.path("shortest")
             );
-            return Err(Refusal::new(shortest_value.node.place, what, "no band of wavelengths")
+            return Err(Refusal::new(section.value("shortest")?.node.place, what, "no band of wavelengths")
                 .help("`rolloff` is `longest` when not given, and that is the longest wave of the cell"));
         }
-        Ok(Self { hurst, longest, rolloff, shortest, rms, seed })
+        Ok(Self { longest: Some(longest), rolloff: Some(rolloff), ..own })
     }
 
     /// What it says, for the core.
     pub fn surface(&self) -> SelfAffine {
-        let Self { hurst, longest, rolloff, shortest, seed, .. } = *self;
-        let rms = match self.rms {
-            RmsKey::RmsSlope(slope) => Rms::Slope(slope),
-            RmsKey::RmsHeight(height) => Rms::Height(height),
-        };
-        SelfAffine { hurst, longest, rolloff, shortest, rms, seed }
+        let Self { hurst, longest, rolloff, shortest, rms_slope, rms_height, seed } = *self;
+        let rms = rms_slope.map_or_else(|| Rms::Height(demanded(rms_height)), Rms::Slope);
+        let [longest, rolloff] = [longest, rolloff].map(demanded);
+        SelfAffine { hurst, longest, rolloff, shortest, rms, seed: seed as u64 }
     }
 }

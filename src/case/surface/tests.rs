@@ -119,8 +119,9 @@ fn a_unit_becomes_part_of_the_scale() {
     let of = |text: &str, length: Option<&str>| {
         let table = node(text);
         let end = super::super::place::Place::new(0, 0..0);
-        let section = TableAt::root(&table, super::super::keys::CASE.within("surface"), end);
-        Treatment::read(&section, length).map(|treatment| (treatment.scale, treatment.unit))
+        let section = TableAt::root(&table, super::super::model::CASE.within("surface"), end);
+        Treatment::of(&SurfaceSection::read_table(&section)?, &section, length)
+            .map(|treatment| (treatment.scale, treatment.unit))
     };
     assert_eq!(of("unit = \"nm\"\nscale = 2", Some("µm")), Ok((2e-3, 1e-3)));
     assert_eq!(of("unit = \"µm\"", Some("um")), Ok((1.0, 1.0)));
@@ -229,7 +230,7 @@ fn random(more: &str, grid: &str) -> Result<Case, CaseError> {
 fn a_random_surface_needs_no_file_and_is_the_same_on_every_grid_that_holds_it() {
     let case = random("", "[grid]\npoints = 24\n").unwrap();
     let own = *case.surface.as_ref().and_then(SurfaceSection::random).unwrap();
-    assert_eq!((own.longest, own.rolloff, own.seed, own.rms), (1.0, 1.0, 0, RmsKey::RmsSlope(0.1)));
+    assert_eq!((own.longest, own.rolloff, own.seed, own.rms_slope), (Some(1.0), Some(1.0), 0, Some(0.1)));
     reads_back(&case);
     let finer = random("", "[grid]\npoints = 48\n").unwrap();
     let (coarse, fine) = (heights(&case), heights(&finer));

@@ -1,7 +1,7 @@
 //! Cases in which each key can be set.
 
 use super::super::key::Key;
-use super::super::sections::CASE;
+use crate::case::model::CASE;
 use crate::case::{Case, CaseError, Source};
 use toml::{Table, Value};
 

@@ -5,9 +5,9 @@ mod bounds;
 mod schema;
 
 use super::key::{Absent, Key, Keys};
-use super::sections::{CASE, homes};
 use super::{UnknownKey, explain, overview};
-use crate::case::words::joined;
+use crate::case::model::CASE;
+use crate::case::suggestions::joined;
 use bases::Bases;
 
 /// "instead of `a`: what it is; a note".
@@ -55,10 +55,10 @@ fn the_readme_has_this_table() {
 
 #[test]
 fn a_key_is_at_home_in_every_table_that_has_it() {
-    assert_eq!(homes("tolerance"), ["solver"]);
-    assert_eq!(homes("points"), ["grid", "stress", "stress.volume"]);
-    assert_eq!(homes("normal_stiffness"), ["layers.interface"]);
-    assert!(homes("colour").is_empty());
+    assert_eq!(CASE.homes("tolerance"), ["solver"]);
+    assert_eq!(CASE.homes("points"), ["grid", "stress", "stress.volume"]);
+    assert_eq!(CASE.homes("normal_stiffness"), ["layers.interface"]);
+    assert!(CASE.homes("colour").is_empty());
 }
 
 #[test]

@@ -13,14 +13,14 @@ use super::unit;
 
 /// A length as written, and its unit where it has one.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Length {
+pub struct Length {
     pub value: f64,
     pub unit: Option<String>,
 }
 
 /// What heights are measured in, by the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum HeightsUnit {
+pub enum HeightsUnit {
     /// A unit of length that is known.
     Known(String),
     /// No length, or a factor that was not applied.
@@ -29,7 +29,7 @@ pub(super) enum HeightsUnit {
 
 /// What comments say.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Header {
+pub struct Header {
     /// Of an image along its lines, and across them.
     sides: [Option<Length>; 2],
     pixel: Option<Length>,

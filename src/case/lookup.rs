@@ -3,7 +3,7 @@
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use super::pipes::is_pipe;
+use super::named_pipes::is_pipe;
 use super::{Source, embedded};
 use crate::plain;
 

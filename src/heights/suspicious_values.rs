@@ -40,7 +40,7 @@ const RISES: usize = 6;
 const NEAR: f64 = 0.1;
 
 /// Refuses numbers that stand for no height: those of [`NO_DATA`] that lie farther from all others than these from each other.
-pub(super) fn no_data(heights: &Heights) -> Result<(), Fault> {
+pub fn no_data(heights: &Heights) -> Result<(), Fault> {
     let values = &heights.values;
     let is = |code: f64, about: f64, x: f64| (x - code).abs() <= about * code.abs();
     let codes = NO_DATA.iter().map(|code| (*code, 0.0)).chain(NO_DATA_ABOUT.iter().map(|code| (*code, 1e-4)));
@@ -74,7 +74,7 @@ fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// What is doubtful about numbers taken for heights, a sentence each.
-pub(super) fn doubts(heights: &Heights) -> Vec<String> {
+pub fn doubts(heights: &Heights) -> Vec<String> {
     let rises = [0, 1].into_iter().filter_map(|axis| rising(heights, axis));
     let zeros = [0, 1].into_iter().filter_map(|axis| alternating(heights, axis));
     let zeros: Vec<String> = zeros.take(1).collect();

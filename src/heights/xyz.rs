@@ -54,7 +54,7 @@ impl Axis {
 
 /// A regular grid of points.
 #[derive(Debug)]
-pub(super) struct Points {
+pub struct Points {
     /// Along x and y.
     pub heights: Heights,
     /// Along x and y, n times the spacing.
@@ -62,7 +62,7 @@ pub(super) struct Points {
 }
 
 /// Read points from a file of `bytes` bytes; also what its comments say.
-pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault> {
+pub fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault> {
     let mut lines = Lines::new(reader);
     let mut points = Vec::new();
     while let Some(Line { number: line, text, .. }) = lines.next_line()? {
@@ -86,7 +86,7 @@ pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header),
 
 /// A table whose first two columns are the places of a regular grid; `None` of one whose are not. Refused where points are missing, and
 /// where more than a height follows. `lines` are the numbers of the table's in the file, or none: then they count from 1.
-pub(super) fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault>> {
+pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault>> {
     let [count, columns] = table.points;
     if !(3..=FEW).contains(&columns) || count < 4 {
         return None;

@@ -14,12 +14,12 @@ const UNITS: [(&[&str], f64); 9] = [
 ];
 
 /// Names that are told of.
-pub(in crate::case) const KNOWN: &str = "\"m\", \"cm\", \"mm\", \"µm\", \"nm\", \"pm\", \"Å\", \"in\" or \"mil\"";
+pub const KNOWN: &str = "\"m\", \"cm\", \"mm\", \"µm\", \"nm\", \"pm\", \"Å\", \"in\" or \"mil\"";
 
 /// A unit that is not known.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("\"{0}\" is no unit of length that is known")]
-pub(in crate::case) struct UnknownUnit(pub String);
+pub struct UnknownUnit(pub String);
 
 /// A unit of length in metres.
 fn metres(name: &str) -> Result<f64, UnknownUnit> {
@@ -30,12 +30,12 @@ fn metres(name: &str) -> Result<f64, UnknownUnit> {
 }
 
 /// Whether a name is that of a unit of length.
-pub(in crate::case) fn is_known(name: &str) -> bool {
+pub fn is_known(name: &str) -> bool {
     metres(name).is_ok()
 }
 
 /// What a length in the unit `from` is multiplied by to be in the unit `to`.
-pub(in crate::case) fn factor(from: &str, to: &str) -> Result<f64, UnknownUnit> {
+pub fn factor(from: &str, to: &str) -> Result<f64, UnknownUnit> {
     let (from, to) = (metres(from)?, metres(to)?);
     // Powers of ten divide without rounding where the quotient is one.
     Ok(if from >= to { (from / to * 1e12).round() / 1e12 } else { 1.0 / ((to / from * 1e12).round() / 1e12) })

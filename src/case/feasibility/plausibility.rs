@@ -1,7 +1,8 @@
 //! Doubts about a case that can be solved but hardly means what it says: units mixed up, small-strain theory left.
 
-use super::{Case, LayerSection, LoadSection, sizes, sublayers};
+use super::{si_sizes, sublayers};
 use crate::body::{Interface, Layer, Material, MeanStress};
+use crate::case::{Case, LayerSection};
 use crate::counterbody::{Level, Shape, Topography};
 use crate::lattice::Cell;
 use crate::notation::number;
@@ -22,7 +23,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let (counterbody, cell) = (case.counterbody(), case.counterbody().cell());
     let mut doubts: Vec<String> = pressures(case).into_iter().collect();
     doubts.extend(moduli(case));
-    doubts.extend(sizes::doubts(case, &materials(case).collect::<Vec<_>>()));
+    doubts.extend(si_sizes::doubts(case, &materials(case).collect::<Vec<_>>()));
     doubts.extend(strengths(case));
     doubts.extend(friction(case));
     doubts.extend(drifting(case, cell));
@@ -43,7 +44,7 @@ pub fn of_case(case: &Case) -> Vec<String> {
 /// The layers of the half-space as the case has them: `layers[0]`, or one of its sublayers.
 fn names(layers: &[LayerSection]) -> impl Iterator<Item = String> {
     layers.iter().enumerate().flat_map(|(number, layer)| {
-        let (of, graded) = (layer.sublayers(), layer.grading().is_some());
+        let (of, graded) = (layer.sublayers(), layer.graded.is_some());
         let name = move |sublayer| match graded {
             true => format!("layers[{number}], its sublayer {sublayer} of {of}"),
             false => format!("layers[{number}]"),
@@ -53,7 +54,7 @@ fn names(layers: &[LayerSection]) -> impl Iterator<Item = String> {
 }
 
 fn pressures(case: &Case) -> Option<String> {
-    let (half_space, LoadSection::MeanPressure(loads)) = (case.half_space(), &case.load) else { return None };
+    let (half_space, loads) = (case.half_space(), case.load.mean_pressures()?);
     let highest = loads.iter().copied().fold(0.0, f64::max);
     let layers = half_space.layers().iter().map(|layer| layer.material());
     let materials = layers.zip(names(&case.layers)).chain([(half_space.substrate(), SUBSTRATE.to_owned())]);
@@ -208,7 +209,7 @@ fn topography(topography: &Topography) -> Option<String> {
 
 /// Springs that give way under the mean friction: what lies above them drifts by μp̄/k_t against what lies below.
 fn drifting(case: &Case, cell: Cell) -> Vec<String> {
-    let (Some(friction), LoadSection::MeanPressure(loads)) = (case.problem().friction(), &case.load) else {
+    let (Some(friction), Some(loads)) = (case.problem().friction(), case.load.mean_pressures()) else {
         return Vec::new();
     };
     let traction = friction.coefficient() * loads.iter().copied().fold(0.0, f64::max);
@@ -256,14 +257,14 @@ fn slipping(case: &Case, cell: Cell) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::embedded;
     use super::*;
+    use crate::case::embedded;
 
     fn doubts(name: &str, overrides: &[&str]) -> Vec<String> {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
         let case = Case::read(&embedded::source(name).unwrap(), &overrides).unwrap_or_else(|error| panic!("{error}"));
         // That a grid is coarse at the lowest load says nothing of the case's sense.
-        let foreseen = super::super::foreseen(&case, &[]).into_iter().filter(|doubt| !doubt.contains("grid.points"));
+        let foreseen = crate::case::foreseen(&case, &[]).into_iter().filter(|doubt| !doubt.contains("grid.points"));
         of_case(&case).into_iter().chain(foreseen).collect()
     }
 

@@ -9,7 +9,7 @@ const LONGEST: usize = 1 << 20;
 
 /// A line that holds anything but a comment.
 #[derive(Debug)]
-pub(super) struct Line {
+pub struct Line {
     /// From 1.
     pub number: usize,
     /// Without blanks around it.
@@ -20,7 +20,7 @@ pub(super) struct Line {
 
 /// Lines of a text that hold anything, with their numbers from 1.
 #[derive(Debug)]
-pub(super) struct Lines<R> {
+pub struct Lines<R> {
     reader: R,
     number: usize,
     begun: bool,

@@ -1,54 +1,53 @@
 //! Heights as a file holds them, and what can be wrong with any of them.
 
-use super::super::keys::CARRIED;
-use super::super::node::plain;
-use super::super::resources::bytes;
-use super::super::room::available_memory;
+use crate::machine::{available_memory, bytes};
+use crate::plain;
+use crate::units::CARRIED;
 
 /// Most samples along a cell vector.
-pub(super) const MOST: usize = 32_768;
+pub const MOST: usize = 32_768;
 
 /// Heights of one period of a surface.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::case) struct Heights {
+pub struct Heights {
     /// Samples along a₁ and a₂.
-    pub(in crate::case) points: [usize; 2],
+    pub points: [usize; 2],
     /// Protrusion upward at each sample, n₁ × n₂ values, a₂ fastest.
-    pub(in crate::case) values: Vec<f64>,
+    pub values: Vec<f64>,
 }
 
 /// Why a file is refused, without its name and that of the key.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::case) struct Fault {
-    pub(super) what: String,
+pub struct Fault {
+    pub what: String,
     /// Stands at the excerpt of the case.
-    pub(super) label: String,
-    pub(super) help: Option<String>,
+    pub label: String,
+    pub help: Option<String>,
 }
 
 impl Fault {
-    pub(super) fn new(what: impl Into<String>, label: impl Into<String>) -> Self {
+    pub fn new(what: impl Into<String>, label: impl Into<String>) -> Self {
         Self { what: what.into(), label: label.into(), help: None }
     }
 
     /// What to do about it.
-    pub(super) fn help(self, help: impl Into<String>) -> Self {
+    pub fn help(self, help: impl Into<String>) -> Self {
         Self { help: Some(help.into()), ..self }
     }
 
     /// What stands at the excerpt.
-    pub(super) fn label(self) -> String {
+    pub fn label(self) -> String {
         self.label
     }
 
-    pub(super) fn unreadable(error: &std::io::Error) -> Self {
+    pub fn unreadable(error: &std::io::Error) -> Self {
         Self::new(format!("cannot be read: {error}"), "this file")
     }
 }
 
 impl Heights {
     /// Of n₁ × n₂ samples, each a number that double precision carries.
-    pub(super) fn new(points: [usize; 2], values: Vec<f64>) -> Result<Self, Fault> {
+    pub fn new(points: [usize; 2], values: Vec<f64>) -> Result<Self, Fault> {
         let [n1, n2] = points;
         if points.iter().any(|n| !(2..=MOST).contains(n)) {
             let what = format!("holds {n1} × {n2} heights; there must be between 2 and {MOST} along either direction");
@@ -57,7 +56,7 @@ impl Heights {
         match values.iter().position(|height| height.is_nan() || height.abs() > *CARRIED.end()) {
             None => Ok(Self { points, values }),
             Some(k) => Err(Fault::new(
-                format!("holds {} at [{}, {}]", plain(values[k]), k / n2, k % n2),
+                format!("holds {} at [{}, {}]", plain::float(values[k]), k / n2, k % n2),
                 "every height must be finite and at most 1e60",
             )
             .help("fill what was not measured before, as from its neighbours")),
@@ -66,7 +65,7 @@ impl Heights {
 }
 
 /// Refuses what takes more memory than there is.
-pub(in crate::case) fn fits(needed: u64) -> Result<(), Fault> {
+pub fn fits(needed: u64) -> Result<(), Fault> {
     let room = available_memory();
     if needed <= room {
         return Ok(());

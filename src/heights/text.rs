@@ -4,7 +4,7 @@
 //! not separate, they are decimal commas. Lines that begin with # or % are comments, of which [`Header`] knows some; empty ones
 //! count for nothing.
 
-use super::commas::Commas;
+use super::decimal_commas::Commas;
 use super::fault::{Fault, Heights, MOST, fits};
 use super::header::Header;
 use super::lines::{Line, Lines};
@@ -56,7 +56,7 @@ impl Separator {
 
 /// A table of numbers, one line of it a line of the file.
 #[derive(Debug)]
-pub(super) struct Table {
+pub struct Table {
     /// Numbers line by line; points [lines, numbers of a line].
     pub heights: Heights,
     /// Numbers of the lines in the file, of a table of few columns alone.
@@ -68,10 +68,10 @@ pub(super) struct Table {
 }
 
 /// Columns up to which a table may be one of points.
-pub(super) const FEW: usize = 6;
+pub const FEW: usize = 6;
 
 /// Read a matrix of `bytes` bytes.
-pub(super) fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
+pub fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
     let mut lines = Lines::new(reader);
     let (mut values, mut rows, mut columns, mut separator) = (Vec::new(), 0, 0, None);
     let (mut commas, mut numbers, mut blocks) = (Commas::default(), Vec::new(), vec![0_usize]);

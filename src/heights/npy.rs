@@ -8,6 +8,7 @@
 use std::io::{self, Read};
 
 use super::fault::{Fault, Heights, MOST, fits};
+use ndarray::ArrayD;
 
 /// Bytes of the longest head that is read; that of a plain array has 118.
 const LONGEST: usize = 1 << 16;
@@ -104,22 +105,35 @@ impl Head {
 const WANTED: &str = "needed: heights of shape (n1, n2) and type float64, float32 or an integer, written by numpy.save";
 
 /// Read a file of `bytes` bytes.
-pub(super) fn read(mut reader: impl Read, bytes: u64) -> Result<Heights, Fault> {
+pub fn read(mut reader: impl Read, bytes: u64) -> Result<Heights, Fault> {
     read_heights(&mut reader, bytes).map_err(|fault| if fault.help.is_none() { fault.help(WANTED) } else { fault })
+}
+
+/// Heights of an array in memory.
+pub fn of_array(array: &ArrayD<f64>) -> Result<Heights, Fault> {
+    let lengths: Vec<u64> = array.shape().iter().map(|&n| n as u64).collect();
+    let points = points(&lengths).map_err(|fault| fault.help(WANTED))?;
+    fits(8 * array.len() as u64)?;
+    Heights::new(points, array.iter().copied().collect())
+}
+
+/// Samples along both axes of an array, or why it has no two axes of lengths that a surface can have.
+fn points(shape: &[u64]) -> Result<[usize; 2], Fault> {
+    let most = MOST as u64;
+    match *shape {
+        [n1, n2] if (2..=most).contains(&n1) && (2..=most).contains(&n2) => Ok([n1 as usize, n2 as usize]),
+        _ => {
+            let sizes: Vec<String> = shape.iter().map(u64::to_string).collect();
+            let shape = format!("shape ({})", sizes.join(", "));
+            let what = format!("holds an array of {shape}; n1 and n2 must lie between 2 and {MOST}");
+            Err(Fault::new(what, shape))
+        }
+    }
 }
 
 fn read_heights(reader: &mut impl Read, bytes: u64) -> Result<Heights, Fault> {
     let head = Head::read(reader).map_err(|error| Fault::new(format!("is not a NumPy file: {error}"), "this file"))?;
-    let sizes: Vec<String> = head.shape.iter().map(u64::to_string).collect();
-    let shape = format!("shape ({})", sizes.join(", "));
-    let most = MOST as u64;
-    let points = match head.shape[..] {
-        [n1, n2] if (2..=most).contains(&n1) && (2..=most).contains(&n2) => [n1 as usize, n2 as usize],
-        _ => {
-            let what = format!("holds an array of {shape}; n1 and n2 must lie between 2 and {MOST}");
-            return Err(Fault::new(what, shape));
-        }
-    };
+    let points = points(&head.shape)?;
     let kind = head.told();
     let Some((size, number)) = head.decode() else {
         return Err(Fault::new(format!("holds values of {kind}"), kind));

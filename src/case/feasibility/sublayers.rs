@@ -4,8 +4,8 @@
 //! of the cell to one of a sixteenth of its shorter side, about what a contact spot is made of; where a wave is shorter than a
 //! sublayer only the uppermost one would count.
 
-use super::{Case, layers};
 use crate::body::{HalfSpace, TransferFunction};
+use crate::case::{Case, layers};
 use crate::notation::number;
 use crate::numeric::search::largest;
 use crate::reading::FEW_SAMPLES;
@@ -21,7 +21,7 @@ const WORTH_SAYING: f64 = 0.1 / (FEW_SAMPLES * FEW_SAMPLES);
 
 /// Estimated largest relative error of the surface compliance by the sublayers of graded layers; `None` without any.
 pub fn sublayer_error(case: &Case) -> Option<f64> {
-    case.layers.iter().any(|layer| layer.grading().is_some()).then_some(())?;
+    case.layers.iter().any(|layer| layer.graded.is_some()).then_some(())?;
     let finer = layers::refined(&case.layers, &case.substrate)?;
     let cell = case.counterbody().cell();
     let longer = cell.reduced().longer_side();
@@ -48,9 +48,9 @@ pub(super) fn doubt(case: &Case) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Case, Source};
     use super::*;
     use crate::body::{Interface, Layer, Material};
+    use crate::case::{Case, Source};
 
     fn case(graded: &str) -> Case {
         let text = format!(
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_grading_drives_out_the_moduli_it_stands_for_and_is_refused_beside_them() {
-        let read = |set: &str| Case::read(&super::super::embedded::source("fig2").unwrap(), &[set.to_owned()]);
+        let read = |set: &str| Case::read(&crate::case::embedded::source("fig2").unwrap(), &[set.to_owned()]);
         let case = read("layers.0.graded={ young = [2, 1], poisson = [0.2, 0.3], sublayers = 4 }").unwrap();
         assert_eq!(case.half_space().layers().len(), 4);
         let refused = |set: &str| read(set).unwrap_err().to_string();

@@ -1,6 +1,7 @@
-//! What the machine has left for a run: memory and disk.
+//! Memory and disk that the machine has left for a run.
 
-use super::Threads;
+use super::threads::Threads;
+use crate::notation::number;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,16 +11,19 @@ const UNKNOWN: u64 = 64 << 30;
 /// Addresses that a thread reserves beside what it takes: its stack, and what its allocator holds ready.
 const RESERVED: u64 = 72 << 20;
 
+/// Bytes of a mebibyte.
+const MEBIBYTE: f64 = 1024.0 * 1024.0;
+
 /// What a run may still take, bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Room {
+pub struct Capacity {
     /// Memory, see [`available_memory`].
     pub memory: u64,
     /// Disk under the output folder; all there could be where the system does not say.
     pub disk: u64,
 }
 
-impl Room {
+impl Capacity {
     /// What there is for a run that writes into `folder`, which need not exist yet.
     pub fn on_this_machine(folder: &Path) -> Self {
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
@@ -96,6 +100,17 @@ fn kibibytes(text: &str, name: &str) -> Option<u64> {
     Some(line.split_whitespace().next()?.parse::<u64>().ok()? << 10)
 }
 
+/// A size for a person: "132 MiB", "1.5 GiB".
+pub fn bytes(size: u64) -> String {
+    let mebibytes = size as f64 / MEBIBYTE;
+    match mebibytes {
+        small if small < 9.95 => format!("{small:.1} MiB"),
+        some if some < 10_000.0 => format!("{some:.0} MiB"),
+        many if many < 1e7 => format!("{:.0} GiB", many / 1024.0),
+        huge => format!("{} GiB", number(huge / 1024.0)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -128,8 +143,8 @@ mod tests {
     #[test]
     fn the_disk_of_a_folder_that_is_not_there_yet_is_that_of_the_one_above() {
         let folder = tempfile::tempdir().unwrap();
-        let (there, not_yet) = (Room::on_this_machine(folder.path()), folder.path().join("a/b/c"));
-        let below = Room::on_this_machine(&not_yet);
+        let (there, not_yet) = (Capacity::on_this_machine(folder.path()), folder.path().join("a/b/c"));
+        let below = Capacity::on_this_machine(&not_yet);
         assert!(below.disk > 0 && below.disk < u64::MAX && !not_yet.exists());
         // Others write meanwhile.
         assert!((below.disk as f64 / there.disk as f64 - 1.0).abs() < 0.5);

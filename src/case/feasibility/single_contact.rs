@@ -1,7 +1,7 @@
 //! What estimates by the formulas of single contacts foresee of a case, for those who have not solved it.
 
-use super::{Case, LoadSection};
 use crate::body::HalfSpace;
+use crate::case::Case;
 use crate::counterbody::{Level, Shape};
 use crate::lattice::Grid;
 use crate::notation::number;
@@ -18,7 +18,7 @@ pub fn foreseen(case: &Case, touches: &[Option<f64>]) -> Vec<String> {
 
 /// A flank that is steep at the highest load, beside cones, whose flank is their own.
 fn steep_flank(case: &Case) -> Option<String> {
-    let (Some(indenters), LoadSection::MeanPressure(loads)) = (case.counterbody().indenters(), &case.load) else {
+    let (Some(indenters), Some(loads)) = (case.counterbody().indenters(), case.load.mean_pressures()) else {
         return None;
     };
     let lattice = indenters.lattice();
@@ -46,8 +46,8 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
         (1..).zip(indenters.levels()).max_by(|a, b| a.1.height().total_cmp(&b.1.height()))?;
     let (c, n) = power_law(highest.shape());
     let lowest = |values: &[f64]| values.iter().copied().filter(|load| *load > 0.0).reduce(f64::min);
-    let (load, radius) = match &case.load {
-        LoadSection::MeanPressure(loads) => {
+    let (load, radius) = match case.load.mean_pressures() {
+        Some(loads) => {
             let load = lowest(loads)?;
             let touching =
                 |level: usize| touches.get(level).is_none_or(|touch| touch.is_some_and(|touch| touch <= load));
@@ -56,8 +56,8 @@ fn few_samples(case: &Case, touches: &[Option<f64>]) -> Option<String> {
             let force = load * lattice.cell().area() / sites as f64;
             (load, radius(force, stiffer_modulus(case.half_space()), (c, n)))
         }
-        LoadSection::Penetration(depths) => {
-            let depth = lowest(depths)?;
+        None => {
+            let depth = lowest(case.load.values())?;
             (depth, (depth / (kappa(n) * c)).powf(1.0 / n))
         }
     };

@@ -1,6 +1,6 @@
 //! Files that can be read once alone: named pipes, and what a shell substitutes for a process.
 
-use super::room::available_memory;
+use crate::machine::available_memory;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Read};

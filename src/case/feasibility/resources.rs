@@ -4,12 +4,12 @@
 //! pictures (`tests/command_line/refusals.rs` measures two of them again). An estimate lies above the peak by some tenth:
 //! below a quarter in all that were measured.
 
-use super::{Case, Room, StressSection};
 use crate::body::{HalfSpace, Interiors};
+use crate::case::{Case, StressSection};
 use crate::counterbody::Topography;
 use crate::friction::Friction;
 use crate::localized::Setup;
-use crate::notation::number;
+use crate::machine::{Capacity, bytes};
 use crate::numeric::fourier::fast_points;
 use crate::reading::Criterion;
 use crate::run::Sampling;
@@ -98,7 +98,7 @@ pub struct Needs {
 
 impl Needs {
     /// Whether there is room for it.
-    pub fn fit(&self, room: Room) -> bool {
+    pub fn fit(&self, room: Capacity) -> bool {
         self.memory <= room.memory && self.disk_while_running <= room.disk
     }
 }
@@ -224,7 +224,7 @@ fn has_cut(case: &Case) -> bool {
 }
 
 /// The largest grid of `case`, shaped like `points`, on which a job finds room; `None` if none does.
-pub fn largest_points(case: &Case, points: [usize; 2], room: Room, job: Job) -> Option<[usize; 2]> {
+pub fn largest_points(case: &Case, points: [usize; 2], room: Capacity, job: Job) -> Option<[usize; 2]> {
     let most = points[0].max(points[1]);
     let shaped =
         |n: usize| points.map(|own| fast_points((own as f64 * n as f64 / most as f64).round().max(4.0) as usize));
@@ -243,7 +243,7 @@ pub fn largest_points(case: &Case, points: [usize; 2], room: Room, job: Job) -> 
 
 /// Why there is no room for a job on `case`, and what would fit; `None` if there is. A refinement is held to its first
 /// grid: its later ones are judged as they come ([`Needs::fit`]).
-pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
+pub fn refusal(case: &Case, room: Capacity, job: Job) -> Option<String> {
     let key = if matches!(case.grid, Sampling::Accuracy(_)) { "grid.accuracy" } else { "grid.points" };
     let points = match case.grid.grids(&case.counterbody().cell()) {
         Ok(grids) => grids[0],
@@ -271,21 +271,10 @@ pub fn refusal(case: &Case, room: Room, job: Job) -> Option<String> {
     Some(format!("{key}: {n1} × {n2} samples take {what}; {advice}"))
 }
 
-/// A size for a person: "132 MiB", "1.5 GiB".
-pub fn bytes(size: u64) -> String {
-    let mebibytes = size as f64 / MEBIBYTE as f64;
-    match mebibytes {
-        small if small < 9.95 => format!("{small:.1} MiB"),
-        some if some < 10_000.0 => format!("{some:.0} MiB"),
-        many if many < 1e7 => format!("{:.0} GiB", many / 1024.0),
-        huge => format!("{} GiB", number(huge / 1024.0)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::embedded;
     use super::*;
+    use crate::case::embedded;
 
     const SOLVE: Job = Job::Solve { pictures: false, fields: true };
 
@@ -379,8 +368,8 @@ mod tests {
 
     #[test]
     fn the_largest_grid_fits_and_the_next_does_not() {
-        let (case, room) = (case(&[]), Room { memory: 500 * MEBIBYTE, disk: u64::MAX });
-        for room in [room, Room { memory: u64::MAX, disk: 500 * MEBIBYTE }] {
+        let (case, room) = (case(&[]), Capacity { memory: 500 * MEBIBYTE, disk: u64::MAX });
+        for room in [room, Capacity { memory: u64::MAX, disk: 500 * MEBIBYTE }] {
             let points = largest_points(&case, [1024, 512], room, SOLVE).unwrap();
             // Each side is the next fast number of its share: at these sizes at most a twentieth above it.
             let ratio = points[0] as f64 / points[1] as f64;
@@ -390,13 +379,13 @@ mod tests {
             let larger = points.map(|n| fast_points(n + n / 20));
             assert!(!needs(&case, larger, SOLVE).fit(room), "{points:?} is not the largest");
         }
-        assert_eq!(largest_points(&case, [64, 64], Room { memory: MEBIBYTE, ..room }, SOLVE), None);
+        assert_eq!(largest_points(&case, [64, 64], Capacity { memory: MEBIBYTE, ..room }, SOLVE), None);
     }
 
     #[test]
     fn steps_that_no_disk_holds_on_any_grid_are_said_to_be_too_many() {
         let many = case(&["grid.points=4", "load.mean_pressure={from=0.01,to=0.06,steps=1000}"]);
-        let said = refusal(&many, Room { memory: 1000 * MEBIBYTE, disk: MEBIBYTE }, SOLVE).unwrap();
+        let said = refusal(&many, Capacity { memory: 1000 * MEBIBYTE, disk: MEBIBYTE }, SOLVE).unwrap();
         assert!(said.contains("fewer load steps"), "{said}");
     }
 
@@ -404,7 +393,7 @@ mod tests {
     #[test]
     fn a_comparison_takes_its_influence_coefficients_too() {
         let case = case(&["localized.elements=720", "grid.points=64"]);
-        let room = Room { memory: 600 * MEBIBYTE, disk: u64::MAX };
+        let room = Capacity { memory: 600 * MEBIBYTE, disk: u64::MAX };
         assert_eq!(refusal(&case, room, SOLVE), None);
         let said = refusal(&case, room, Job::Compare { pictures: false }).unwrap();
         let tables = 8.0 * (9.0 * 1921.0 * 1921.0 * 2.5 + 72.0 * 961.0 * 961.0);

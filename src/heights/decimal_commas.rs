@@ -18,7 +18,7 @@ const FEWEST: usize = 16;
 
 /// How the numbers of a text are spelt, by their place in the line: the first, third, … and the second, fourth, …
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Commas {
+pub struct Commas {
     has_points: bool,
     leading_zeros: [bool; 2],
     signs: [usize; 2],

@@ -5,15 +5,15 @@
 
 use std::ops::RangeInclusive;
 
-use super::error::Refusal;
-use super::keys::CARRIED;
-use super::node::plain;
-use super::reader::TableAt;
-use super::value::ValueAt;
+use super::super::error::Refusal;
+use super::super::reader::TableAt;
+use super::super::value::ValueAt;
 use crate::body::{HalfSpace, Interface};
 use crate::counterbody::Level;
 use crate::lattice::Cell;
+use crate::plain::float;
 use crate::run::Sampling;
+use crate::units::CARRIED;
 
 /// Ratios of moduli, of thicknesses to the cell, and of springs to what they hold, that still count.
 const RATIO: RangeInclusive<f64> = 1e-12..=1e12;
@@ -21,7 +21,7 @@ const RATIO: RangeInclusive<f64> = 1e-12..=1e12;
 const DENSER: f64 = 1000.0;
 
 /// A direction [x, y] along the surface, of any length.
-pub(super) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
+pub(in crate::case) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
     let direction = value.numbers()?;
     if direction.iter().all(|x| x.abs() < *CARRIED.start()) {
         return Err(value.refuse("a direction [x, y] other than [0, 0]"));
@@ -30,7 +30,7 @@ pub(super) fn direction(value: &ValueAt<'_>) -> Result<[f64; 2], Refusal> {
 }
 
 /// Layers and their interfaces beside the cell and the substrate.
-pub(super) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
+pub(in crate::case) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let side = cell.reduced().longer_side();
     let substrate = half_space.substrate().shear();
     for (layer, section) in half_space.layers().iter().zip(sections) {
@@ -41,7 +41,7 @@ pub(super) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Ce
         let shear = layer.material().shear();
         if !RATIO.contains(&(shear / substrate)) {
             let what =
-                format!("the shear modulus {} is {} times the substrate's", plain(shear), short(shear / substrate));
+                format!("the shear modulus {} is {} times the substrate's", float(shear), short(shear / substrate));
             let key =
                 ["young", "graded"].into_iter().find(|key| section.optional(key).is_some()).unwrap_or("shear_ratio");
             return Err(refuse(key, what, "between 1e-12 and 1e12 times are carried; are both in one unit?"));
@@ -49,7 +49,7 @@ pub(super) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Ce
         let thickness = layer.thickness();
         if !RATIO.contains(&(thickness / side)) {
             let what =
-                format!("the thickness {} is {} times the cell's side", plain(thickness), short(thickness / side));
+                format!("the thickness {} is {} times the cell's side", float(thickness), short(thickness / side));
             return Err(refuse(
                 "thickness",
                 what,
@@ -62,7 +62,7 @@ pub(super) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Ce
                 if stiffness.is_finite() && !RATIO.contains(&relative) {
                     let what = format!(
                         "`{key}` = {} times the cell's side is {} of the layer's shear modulus",
-                        plain(stiffness),
+                        float(stiffness),
                         short(relative)
                     );
                     let help = match (key, relative < 1.0) {
@@ -81,13 +81,13 @@ pub(super) fn layers(half_space: &HalfSpace, sections: &[&TableAt<'_>], cell: Ce
 }
 
 /// Profiles of the levels within the cell.
-pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
+pub(in crate::case) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -> Result<(), Refusal> {
     let reach = cell.reduced().longer_side();
     for (level, section) in levels.iter().zip(sections) {
         let rise = level.shape().profile(reach);
         if !CARRIED.contains(&rise) {
             let what =
-                format!("at the distance {} of the cell's side the profile rises by {}", plain(reach), plain(rise));
+                format!("at the distance {} of the cell's side the profile rises by {}", float(reach), float(rise));
             return Err(Refusal::new(section.place, format!("`{}`: {what}", section.path("shape")), "this level")
                 .help("between 1e-60 and 1e60 is carried by double precision; choose other units"));
         }
@@ -96,7 +96,7 @@ pub(super) fn profiles(levels: &[Level], sections: &[TableAt<'_>], cell: Cell) -
 }
 
 /// Samples as dense along one vector as along the other, to a factor; for a refinement a grid that is.
-pub(super) fn grid(
+pub(in crate::case) fn grid(
     grid: Sampling,
     file: Option<[usize; 2]>,
     section: &TableAt<'_>,

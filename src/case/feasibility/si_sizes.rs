@@ -3,8 +3,8 @@
 //! Where `[units]` names SI units, moduli lie between 1 kPa (a gel) and 1.3 TPa (diamond), lengths between 0.1 nm (an atom) and
 //! 1 m. Interfaces bear no more than a third of the modulus beside them, whatever the unit.
 
-use super::Case;
 use crate::body::{Layer, Material};
+use crate::case::Case;
 use crate::counterbody::roughness::Statistics;
 use crate::counterbody::{Level, Shape, Topography};
 use crate::notation::number;
@@ -145,8 +145,9 @@ fn interfaces(case: &Case, materials: &[(Material, String)]) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{embedded, plausibility};
+    use super::super::plausibility;
     use super::*;
+    use crate::case::embedded;
 
     fn doubts(overrides: &[&str]) -> String {
         let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();

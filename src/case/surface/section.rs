@@ -1,0 +1,109 @@
+//! The keys of `[surface]`.
+
+use serde::Serialize;
+use std::path::Path;
+
+use super::super::error::Refusal;
+use super::super::keys::{Form, Key, Range, Unit};
+use super::super::node::Value;
+use super::super::section::{KeyValue, Words, section, words};
+use super::super::value::ValueAt;
+use super::random::{RANDOM, RandomSection};
+use crate::counterbody::roughness::Window;
+use crate::plain;
+
+const SIZE: Form = Form::Number(Range::Size);
+
+/// What has nothing to act on beside `random`.
+const OF_A_FILE: &str = "of a file, not of a random surface";
+
+section! {
+    /// The section `[surface]`: complete, with an absolute path and its factor; its period stands in [`LatticeSection`].
+    pub struct SurfaceSection = SURFACE {
+        /// a file of heights, `.npy`, `.csv`, `.txt`, `.dat` or `.xyz`, relative to the case file
+        pub heights: Option<String> = Key::new(&[Form::Text("the path of a file")], "\"surface.npy\""),
+        /// factor of its heights, negative to turn them over
+        pub scale: Option<f64> =
+            Key::new(&[Form::Number(Range::Factor)], "1e-3").default("1").rule(OF_A_FILE),
+        /// what the heights of the file are in
+        pub unit: Option<String> = Key::new(&[Form::Text("a unit of length")], "\"nm\"")
+            .otherwise("the case's own")
+            .rule("m, cm, mm, µm, nm, pm, Å, in or mil; needs `units.length`; of a file, not of a random surface"),
+        /// lengths of the whole surface along a₁ and a₂
+        pub period: Option<Sides> =
+            Key::new(&[SIZE, Form::Tuple("two of them, [L1, L2]", &[SIZE; 2])], "[20.0, 10.0]")
+                .unit(Unit::Length)
+                .otherwise("that of a file of points, or of `lattice`")
+                .rule("in place of [lattice]")
+                .never_written(),
+        /// the distance of its samples along a₁ and a₂
+        pub pixel: Option<Sides> = Key::new(&[SIZE, Form::Tuple("two of them, [d1, d2]", &[SIZE; 2])], "0.1")
+            .unit(Unit::Length)
+            .otherwise("follows from `period`")
+            .instead_of("period")
+            .rule("in place of [lattice]; of a file, not of a random surface")
+            .never_written(),
+        /// whether its mean plane is taken away
+        pub level: Option<bool> = Key::new(&[Form::Boolean], "true").default("false").rule(OF_A_FILE),
+        /// tapers its border; true is "tukey"
+        pub window: Option<Taper> =
+            Key::new(&[Form::Boolean, Form::Word(Window::WORDS)], "\"tukey\"").default("false").rule(OF_A_FILE),
+        /// a self-affine surface
+        pub random: Option<RandomSection> =
+            Key::new(&[Form::Table(&RANDOM)], "{ hurst = 0.8, shortest = 0.25, rms_slope = 0.1 }")
+                .instead_of("heights"),
+    }
+    beside {
+        /// Whether its file is a text that does not say what its lines are, so that they were taken to run along a₁.
+        pub lines_along_a1: bool,
+    }
+}
+
+words! { Window { Hann = "hann", Tukey = "tukey", } }
+
+/// A taper of the border; none where the key is false.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Taper(pub Option<Window>);
+
+impl KeyValue for Taper {
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match &value.node.value {
+            Value::Text(_) => Window::read(value).map(Some),
+            _ => value.boolean().map(|tapers| tapers.then_some(Window::Tukey)),
+        }
+        .map(Self)
+    }
+}
+
+/// Lengths along a₁ and a₂.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(transparent)]
+pub struct Sides(pub [f64; 2]);
+
+impl KeyValue for Sides {
+    /// A length for both directions, or one for each.
+    fn read(value: &ValueAt<'_>) -> Result<Self, Refusal> {
+        match &value.node.value {
+            Value::List(_) => value.numbers(),
+            _ => value.number().map(|side| [side; 2]),
+        }
+        .map(Self)
+    }
+}
+
+impl SurfaceSection {
+    /// What a generated surface is; `None` of one from a file.
+    pub fn random(&self) -> Option<&RandomSection> {
+        self.random.as_ref()
+    }
+
+    /// Which way the lines of its file were taken to run, a sentence, where the file does not say so.
+    pub fn lines(&self) -> Option<String> {
+        let heights = self.heights.as_ref().filter(|_| self.lines_along_a1)?;
+        Some(format!(
+            "{}: its lines run along a₁, the numbers of a line along a₂; of an image, whose lines run along x, give image[::-1].T",
+            plain::path(Path::new(heights))
+        ))
+    }
+}
