@@ -21,12 +21,13 @@
 
 use super::quadrature::{Bessel, hankel};
 use super::solution::Solution;
-use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interior, MeanStress, TransferFunction};
+use crate::body::{Amplitudes, Antiplane, Depth, InPlane, LayeredResponse, MeanStress};
 use crate::friction::Friction;
 use crate::numeric::chebyshev::{self, Chebyshev};
 use crate::stress::State;
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Least depth at which stresses are offered, in elements.
 pub const LEAST_DEPTH: f64 = 2.0;
@@ -53,7 +54,7 @@ struct ForceStress<const K: usize> {
 #[derive(Debug, Clone)]
 pub struct LocalizedField<'a> {
     solution: &'a Solution,
-    transfer: TransferFunction,
+    transfer: Arc<LayeredResponse>,
     mean: Vec<f64>,
     residual: Vec<f64>,
     /// μ **e** of a counterbody that slides.
@@ -66,7 +67,7 @@ impl<'a> LocalizedField<'a> {
         let half_space = solution.system().half_space();
         Self {
             solution,
-            transfer: TransferFunction::new(half_space),
+            transfer: Arc::clone(half_space.response()),
             mean: mean.lateral(half_space),
             residual: half_space.residual_stresses().collect(),
             traction: friction.map(Friction::traction).filter(|traction| *traction != [0.0; 2]),
@@ -144,7 +145,7 @@ impl<'a> LocalizedField<'a> {
 
     /// Amplitudes at a depth, as a function of the wavenumber.
     fn amplitudes(&self, depth: Depth) -> impl Fn(f64) -> Amplitudes + use<'_> {
-        move |q| Interior::new(&self.transfer, q).at(depth)
+        move |q| self.transfer.interior(InPlane::Normal, q).at(depth)
     }
 
     /// Stresses at the distance r from the axis of a unit force.
@@ -173,7 +174,7 @@ impl<'a> LocalizedField<'a> {
 
     /// Amplitudes at a depth under shear tractions, as a function of the wavenumber.
     fn shear_amplitudes(&self, depth: Depth) -> impl Fn(f64) -> (Amplitudes, Antiplane) + use<'_> {
-        move |q| (Interior::under(InPlane::Along, &self.transfer, q).at(depth), self.transfer.antiplane(q, depth))
+        move |q| (self.transfer.interior(InPlane::Along, q).at(depth), self.transfer.antiplane(q, depth))
     }
 
     /// Stresses at the distance r from the axis of a unit shear force.

@@ -5,7 +5,6 @@ use super::edge::Edge;
 use super::fraction::{Fraction, Fractions};
 use super::spots::{self, SpotReading};
 use super::{Errors, LevelErrors, LevelReading, Uncertainty, area, peak, rough};
-use crate::body::TransferFunction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
 use crate::numeric::number::number;
@@ -203,7 +202,7 @@ pub(super) fn edge(contacts: &[&Contact]) -> Edge {
     let distances = contacts.iter().map(|contact| Scale::distances(contact.grid()));
     let [shortest, longest] = distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
     let problem = contacts[0].problem();
-    Edge::new(&TransferFunction::new(problem.half_space()), problem.friction(), shortest, longest)
+    Edge::new(problem.half_space().response(), problem.friction(), shortest, longest)
 }
 
 /// The sample with the largest pressure, the first of several; `None` without contact.

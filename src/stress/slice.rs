@@ -2,7 +2,7 @@
 
 use super::series::Response;
 use super::tensor::State;
-use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interiors};
+use crate::body::{Amplitudes, Antiplane, Depth, InPlane, InteriorTable};
 use rustfft::num_complex::Complex64;
 
 /// Of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z those that a pressure makes change their sign with the wavevector, and a shear
@@ -40,7 +40,7 @@ pub(super) struct Displacements<'a>(pub &'a Slice);
 impl Slice {
     /// At a depth, of shells of these `wavenumbers`, under a pressure and the `traction` that goes with a unit of it.
     pub fn new(
-        interiors: &Interiors,
+        interiors: &InteriorTable,
         depth: Depth,
         wavenumbers: &[f64],
         traction: Option<[f64; 2]>,
