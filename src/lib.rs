@@ -102,5 +102,5 @@ pub use load::Load;
 pub use problem::Problem;
 pub use reading::{LevelReading, Reading, StressReading};
 pub use run::{Run, Sampling};
-pub use spectral::{Certificate, Contact, Method, Progress, Report, Route, Settings, Solver, Step, Stop};
+pub use spectral::{Certificate, Contact, FieldError, Method, Progress, Report, Route, Settings, Solver, Step, Stop};
 pub use stress::{DepthPlane, StressField, StressState, SurfaceLine, VerticalSection};

@@ -14,7 +14,7 @@ mod common;
 mod temporary;
 
 use common::Random;
-use percoat::body::{Interior, TransferFunction};
+use percoat::body::InPlane;
 use percoat::case::resources::Job;
 use percoat::case::{Case, Source, embedded, foreseen, plausibility, resources};
 use percoat::machine::{Capacity, bytes};
@@ -286,13 +286,13 @@ fn holds_together(case: &Case) {
         Sampling::Points(points) => Grid::new(cell, points).expect("a cell has a grid"),
         Sampling::Accuracy(_) => Grid::new(cell, [96, 96]).expect("a cell has a grid"),
     };
-    let transfer = TransferFunction::new(half_space);
+    let transfer = half_space.response();
     let least = grid.least_wavenumber();
     let most = std::f64::consts::PI / grid.spacing();
     for q in [least, (least * most).sqrt(), most, 4.0 * most] {
         let compliance = transfer.compliance(q);
         assert!(compliance.is_finite() && compliance > 0.0, "compliance {compliance} at {q}");
-        let interior = Interior::new(&transfer, q);
+        let interior = transfer.interior(InPlane::Normal, q);
         let places = (1..=half_space.layers().len() + 1).flat_map(|material| {
             let (top, _) = half_space.faces(material);
             [top, top + 0.3 / q].map(|z| Depth { z, material })

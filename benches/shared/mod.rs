@@ -6,8 +6,7 @@ mod rough;
 
 pub use rough::Rough;
 
-use percoat::body::TransferFunction;
-use percoat::spectral::operator::{Operator, Workspace};
+use percoat::spectral::{LayeredOperator, Workspace};
 use percoat::*;
 use std::sync::Arc;
 
@@ -63,14 +62,14 @@ pub fn solver(problem: Problem, n: usize) -> Solver {
 }
 
 /// The displacement operator of a half-space under the unit square on n × n points, with its tables.
-pub fn operator(half_space: &HalfSpace, n: usize) -> Operator {
+pub fn operator(half_space: &HalfSpace, n: usize) -> LayeredOperator {
     let grid = Arc::new(Grid::new(Cell::square(1.0).expect("valid"), [n, n]).expect("a grid"));
-    Operator::new(&grid, &TransferFunction::new(half_space))
+    LayeredOperator::new(&grid, half_space)
 }
 
 /// One convolution at a time, pressure → displacement in place. The one place where benches meet the transform.
 pub struct Convolution {
-    operator: Operator,
+    operator: LayeredOperator,
     workspace: Workspace,
 }
 

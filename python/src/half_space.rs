@@ -1,22 +1,21 @@
-//! The layered half-space alone: its transfer function.
+//! The layered half-space alone: its response to harmonic tractions.
 
 use crate::case;
 use crate::errors::refused;
 use crate::record::to_python;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
-use percoat::body::TransferFunction;
+use percoat::body::LayeredResponse;
 use percoat::case::half_space;
 use percoat::output::{self, Traction};
 use percoat::units::CARRIED;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Layers on a substrate, and what they answer to a harmonic traction.
+/// Layers on a substrate, and their response to harmonic tractions.
 #[pyclass(frozen, module = "percoat._core")]
 #[derive(Debug)]
 pub struct HalfSpace {
     own: percoat::HalfSpace,
-    transfer: TransferFunction,
     /// The sections it was read from.
     text: String,
 }
@@ -40,14 +39,14 @@ impl HalfSpace {
             let mut sections: toml::Table = toml::from_str(&source.text).map_err(refused)?;
             sections.retain(|key, _| ["layers", "substrate"].contains(&key));
             let text = toml::to_string(&sections).map_err(refused)?;
-            return Ok(Self { transfer: TransferFunction::new(&own), own, text });
+            return Ok(Self { own, text });
         }
         let own = half_space(&source).map_err(refused)?;
         let text = match &source.values {
             Some(values) => toml::to_string(values).map_err(refused)?,
             None => source.text,
         };
-        Ok(Self { transfer: TransferFunction::new(&own), own, text })
+        Ok(Self { own, text })
     }
 
     /// ŵ/p̂ at wavenumbers, a length over a pressure.
@@ -56,7 +55,7 @@ impl HalfSpace {
         py: Python<'py>,
         wavenumbers: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.of_each(py, &wavenumbers, TransferFunction::compliance)
+        self.of_each(py, &wavenumbers, LayeredResponse::compliance)
     }
 
     /// T, the compliance over that of a half-space of the surface's material.
@@ -65,7 +64,7 @@ impl HalfSpace {
         py: Python<'py>,
         wavenumbers: PyReadonlyArray1<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        self.of_each(py, &wavenumbers, TransferFunction::correction)
+        self.of_each(py, &wavenumbers, LayeredResponse::correction)
     }
 
     /// The lines of `percoat kernel`, as dicts.
@@ -87,7 +86,7 @@ impl HalfSpace {
         }
         let wavenumbers = wavenumbers.as_array().to_vec();
         checked(&wavenumbers)?;
-        let line = |&q: &f64| output::kernel(&self.transfer, &self.own, q, &depths, traction);
+        let line = |&q: &f64| output::kernel(self.own.response(), &self.own, q, &depths, traction);
         let lines: Vec<_> = py.detach(|| wavenumbers.iter().map(line).collect());
         to_python(py, &lines)
     }
@@ -104,7 +103,7 @@ impl HalfSpace {
     fn _restore(text: String) -> PyResult<Self> {
         let source = percoat::case::Source { name: "half-space".to_owned(), text, ..Default::default() };
         let own = half_space(&source).map_err(refused)?;
-        Ok(Self { transfer: TransferFunction::new(&own), own, text: source.text })
+        Ok(Self { own, text: source.text })
     }
 }
 
@@ -113,12 +112,12 @@ impl HalfSpace {
         &self,
         py: Python<'py>,
         wavenumbers: &PyReadonlyArray1<'py, f64>,
-        value: impl Fn(&TransferFunction, f64) -> f64 + Send + Sync,
+        value: impl Fn(&LayeredResponse, f64) -> f64 + Send + Sync,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let wavenumbers = wavenumbers.as_array().to_vec();
         checked(&wavenumbers)?;
-        let transfer = &self.transfer;
-        let values: Vec<f64> = py.detach(|| wavenumbers.iter().map(|&q| value(transfer, q)).collect());
+        let response = self.own.response();
+        let values: Vec<f64> = py.detach(|| wavenumbers.iter().map(|&q| value(response, q)).collect());
         Ok(values.into_pyarray(py))
     }
 }

@@ -9,9 +9,9 @@
 //! a frictionless one nothing is left. One bonded layer has the surface displacement
 //! (χ + tanh x)/(1 + χ tanh x) · q_T/(G₁q), x = qh. Everything is positive: nothing cancels.
 
-use super::interior::HIDDEN;
-use super::minors::EXTINCT;
-use super::transfer::TransferFunction;
+use super::interior::SHIELDING;
+use super::minors::MAX_EXPONENT;
+use super::strata::Strata;
 use super::{Depth, Interface};
 
 /// Amplitudes at one depth under a shear traction cos(qξ) on the body across the wavevector, in the direction t with
@@ -28,137 +28,136 @@ pub struct Antiplane {
 
 /// v and s; the true ones are these times e^`exponent`.
 #[derive(Debug, Clone, Copy)]
-struct State {
+struct ShearState {
     v: f64,
     s: f64,
     exponent: f64,
 }
 
-impl State {
+impl ShearState {
     /// At a height `x` = q·(distance) ≥ 0 further up in the same material.
     fn raised(self, x: f64) -> Self {
-        let x = x.min(EXTINCT);
+        let x = x.min(MAX_EXPONENT);
         let [cosh, sinh] = [0.5 * (1.0 + (-2.0 * x).exp()), -0.5 * (-2.0 * x).exp_m1()];
         Self { v: cosh * self.v + sinh * self.s, s: cosh * self.s + sinh * self.v, exponent: self.exponent + x }
             .normalised()
     }
 
-    /// The same with a sum of one.
+    /// The state scaled to v + s = 1.
     fn normalised(self) -> Self {
         let scale = self.v + self.s;
         Self { v: self.v / scale, s: self.s / scale, exponent: self.exponent + scale.ln() }
     }
 }
 
-impl TransferFunction {
-    /// The state at the surface. `face` hears of those on the way up: at the upper face of the substrate, then at the lower
-    /// face of each layer, seen from inside it.
-    fn antiplane_surface(&self, wavenumber: f64, mut face: impl FnMut(State)) -> State {
-        let mut below = &self.substrate;
-        let mut state = State { v: 0.5, s: 0.5, exponent: 0.0 };
-        face(state);
-        for layer in self.strata.iter().rev() {
-            let ratio = layer.material.shear / below.shear;
-            let [slip, _] = layer.interface.jumps(layer.material.shear * wavenumber);
-            state = match layer.interface {
-                Interface::Frictionless => State { v: 1.0, s: 0.0, exponent: 0.0 },
-                _ => State { v: ratio * state.v + slip * state.s, ..state }.normalised(),
-            };
-            face(state);
-            state = state.raised(wavenumber * layer.thickness);
-            below = &layer.material;
-        }
-        state
-    }
-
-    /// Compliance û_t/q̂_T at the wavenumber q > 0 (1/length): a length per pressure.
-    pub(super) fn antiplane_compliance(&self, wavenumber: f64) -> f64 {
-        let State { v, s, .. } = self.antiplane_surface(wavenumber, |_| ());
-        v / s / (self.surface_material().shear * wavenumber)
-    }
-
-    /// Amplitudes at a depth under a shear traction across the wavevector, of the wavenumber q > 0 (1/length). Depths outside
-    /// their material are brought back to its faces.
-    ///
-    /// # Panics
-    /// When there is no such material.
-    pub fn antiplane(&self, wavenumber: f64, depth: Depth) -> Antiplane {
-        let of = |shear: f64, v: f64, s: f64| Antiplane { stz: -s, sqt: -v, ut: v / (shear * wavenumber) };
-        let index = depth.material - 1;
-        if index == 0 && self.strata.first().is_none_or(|layer| wavenumber * layer.thickness > HIDDEN) {
-            let decay = (-(wavenumber * depth.z.max(0.0)).min(EXTINCT)).exp();
-            return of(self.surface_material().shear, decay, decay);
-        }
-        if self.strata[..index].iter().any(|layer| layer.interface == Interface::Frictionless) {
-            return Antiplane::default();
-        }
-        let mut faces = Vec::with_capacity(self.strata.len() + 1);
-        let surface = self.antiplane_surface(wavenumber, |state| faces.push(state));
-        faces.reverse();
-        let below = (depth.z - self.strata[..index].iter().fold(0.0, |top, layer| top + layer.thickness)).max(0.0);
-        let (shear, state) = match self.strata.get(index) {
-            Some(layer) => {
-                let thickness = (wavenumber * layer.thickness).min(EXTINCT);
-                let state = faces[index].raised(thickness - (wavenumber * below).min(thickness));
-                (layer.material.shear, state)
-            }
-            None => {
-                let state = faces[index];
-                let x = (wavenumber * below).min(EXTINCT);
-                (self.substrate.shear, State { exponent: state.exponent - x, ..state })
-            }
+/// The state at the surface. Calls `face` with the state at the upper face of the substrate, then at the lower face of each
+/// layer, seen from inside it, from the substrate up.
+fn surface_state(strata: &Strata, wavenumber: f64, mut face: impl FnMut(ShearState)) -> ShearState {
+    let mut below = &strata.substrate;
+    let mut state = ShearState { v: 0.5, s: 0.5, exponent: 0.0 };
+    face(state);
+    for layer in strata.layers.iter().rev() {
+        let ratio = layer.material.shear / below.shear;
+        let [slip, _] = layer.interface.jumps(layer.material.shear * wavenumber);
+        state = match layer.interface {
+            Interface::Frictionless => ShearState { v: 1.0, s: 0.0, exponent: 0.0 },
+            _ => ShearState { v: ratio * state.v + slip * state.s, ..state }.normalised(),
         };
-        let scale = (state.exponent - surface.exponent).exp() / surface.s;
-        of(shear, scale * state.v, scale * state.s)
+        face(state);
+        state = state.raised(wavenumber * layer.thickness);
+        below = &layer.material;
     }
+    state
+}
+
+/// Compliance û_t/q̂_T at the wavenumber q > 0 (1/length): a length per pressure.
+pub(super) fn compliance(strata: &Strata, wavenumber: f64) -> f64 {
+    let ShearState { v, s, .. } = surface_state(strata, wavenumber, |_| ());
+    v / s / (strata.surface_material().shear * wavenumber)
+}
+
+/// Amplitudes at a depth under a shear traction across the wavevector, of the wavenumber q > 0 (1/length). Depths outside
+/// their material are brought back to its faces.
+///
+/// # Panics
+/// When there is no such material.
+pub(super) fn amplitudes(strata: &Strata, wavenumber: f64, depth: Depth) -> Antiplane {
+    let of = |shear: f64, v: f64, s: f64| Antiplane { stz: -s, sqt: -v, ut: v / (shear * wavenumber) };
+    let index = depth.material - 1;
+    if index == 0 && strata.layers.first().is_none_or(|layer| wavenumber * layer.thickness > SHIELDING) {
+        let decay = (-(wavenumber * depth.z.max(0.0)).min(MAX_EXPONENT)).exp();
+        return of(strata.surface_material().shear, decay, decay);
+    }
+    if strata.layers[..index].iter().any(|layer| layer.interface == Interface::Frictionless) {
+        return Antiplane::default();
+    }
+    let mut faces = Vec::with_capacity(strata.layers.len() + 1);
+    let surface = surface_state(strata, wavenumber, |state| faces.push(state));
+    faces.reverse();
+    let below = (depth.z - strata.layers[..index].iter().fold(0.0, |top, layer| top + layer.thickness)).max(0.0);
+    let (shear, state) = match strata.layers.get(index) {
+        Some(layer) => {
+            let thickness = (wavenumber * layer.thickness).min(MAX_EXPONENT);
+            let state = faces[index].raised(thickness - (wavenumber * below).min(thickness));
+            (layer.material.shear, state)
+        }
+        None => {
+            let state = faces[index];
+            let x = (wavenumber * below).min(MAX_EXPONENT);
+            (strata.substrate.shear, ShearState { exponent: state.exponent - x, ..state })
+        }
+    };
+    let scale = (state.exponent - surface.exponent).exp() / surface.s;
+    of(shear, scale * state.v, scale * state.s)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{HalfSpace, Layer, Material};
+    use crate::body::{HalfSpace, Layer, LayeredResponse, Material};
+    use std::sync::Arc;
 
-    fn transfer(layers: &[(f64, f64, Interface)]) -> TransferFunction {
+    fn response(layers: &[(f64, f64, Interface)]) -> Arc<LayeredResponse> {
         let layer = |&(shear, thickness, interface)| {
             Layer::new(Material::from_shear(shear, 0.2).unwrap(), thickness, interface).unwrap()
         };
         let layers = layers.iter().map(layer).collect();
-        TransferFunction::new(&HalfSpace::new(layers, Material::from_shear(1.0, 0.3).unwrap()))
+        Arc::clone(HalfSpace::new(layers, Material::from_shear(1.0, 0.3).unwrap()).response())
     }
 
     #[test]
     fn one_bonded_layer_has_its_closed_form_at_every_depth() {
         for chi in [1e-6f64, 0.3, 1.0, 7.0, 1e6] {
             for q in [1e-7f64, 0.02, 0.7, 3.0, 44.0, 46.0] {
-                let transfer = transfer(&[(chi, 1.0, Interface::Bonded)]);
+                let response = response(&[(chi, 1.0, Interface::Bonded)]);
                 let tanh = q.tanh();
                 let surface = (chi + tanh) / (1.0 + chi * tanh) / (chi * q);
-                assert!((transfer.antiplane_compliance(q) / surface - 1.0).abs() < 1e-14, "χ {chi}, q {q}");
+                assert!((response.surface(q).across / surface - 1.0).abs() < 1e-14, "χ {chi}, q {q}");
                 // v = cosh(q − x) χ + sinh(q − x) over s at the surface.
                 let top = q.cosh() + chi * q.sinh();
                 for z in [0.0, 0.25, 1.0] {
                     let up = q * (1.0 - z);
-                    let Antiplane { stz, sqt, ut } = transfer.antiplane(q, Depth { z, material: 1 });
+                    let Antiplane { stz, sqt, ut } = response.antiplane(q, Depth { z, material: 1 });
                     let (v, s) = (up.cosh() * chi + up.sinh(), up.cosh() + chi * up.sinh());
-                    // What is hidden, e^{−45}, is left out.
+                    // What a thick layer shields, e^{−45}, is left out.
                     let near = |found: f64, known: f64| (found - known).abs() < 1e-13 * known + 1e-19;
                     assert!(near(-stz, s / top), "χ {chi}, q {q}, z {z}: {stz}, {}", -s / top);
                     assert!(near(-sqt, v / top) && near(ut * chi * q, v / top), "χ {chi}, q {q}, z {z}: {sqt}, {ut}");
                 }
-                let below = transfer.antiplane(q, Depth { z: 1.0 + 0.5 / q, material: 2 });
+                let below = response.antiplane(q, Depth { z: 1.0 + 0.5 / q, material: 2 });
                 assert!((below.stz * top + (-0.5f64).exp()).abs() < 1e-13, "χ {chi}, q {q}: {below:?}");
             }
         }
     }
 
     #[test]
-    fn springs_lie_between_bonded_and_frictionless_below_which_nothing_is_felt() {
-        let at = |interface| transfer(&[(2.0, 0.5, interface), (0.1, 0.3, Interface::Bonded)]);
-        let spring = |tangential| at(Interface::Spring { tangential, normal: 3.0 }).antiplane_compliance(1.3);
-        assert_eq!(spring(f64::INFINITY), at(Interface::Bonded).antiplane_compliance(1.3));
+    fn springs_lie_between_bonded_and_frictionless_below_which_there_is_no_stress() {
+        let at = |interface| response(&[(2.0, 0.5, interface), (0.1, 0.3, Interface::Bonded)]);
+        let spring = |tangential| at(Interface::Spring { tangential, normal: 3.0 }).surface(1.3).across;
+        assert_eq!(spring(f64::INFINITY), at(Interface::Bonded).surface(1.3).across);
         let free = at(Interface::Frictionless);
-        assert!((spring(1e-13) / free.antiplane_compliance(1.3) - 1.0).abs() < 1e-11);
-        assert!((free.antiplane_compliance(1.3) * 2.0 * 1.3 * (1.3f64 * 0.5).tanh() - 1.0).abs() < 1e-14);
+        assert!((spring(1e-13) / free.surface(1.3).across - 1.0).abs() < 1e-11);
+        assert!((free.surface(1.3).across * 2.0 * 1.3 * (1.3f64 * 0.5).tanh() - 1.0).abs() < 1e-14);
         assert_eq!(free.antiplane(1.3, Depth { z: 0.6, material: 2 }), Antiplane::default());
         assert!(free.antiplane(1.3, Depth { z: 0.5, material: 1 }).stz.abs() < 1e-16);
     }

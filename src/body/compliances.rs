@@ -2,30 +2,31 @@
 //! series.
 //!
 //! T varies with ln q on the scale of one, whatever the layers: on a panel, one of the eight equal parts between a power of
-//! two and the next, a Chebyshev series of few terms holds it to rounding. What a panel has been seen not to hold is asked of the
-//! layers themselves.
+//! two and the next, a Chebyshev series of few terms holds it to rounding. Outside the panels whose
+//! series is accurate the compliance is computed from the layers directly.
 
-use super::TransferFunction;
+use super::LayeredResponse;
 use crate::numeric::chebyshev::{Chebyshev, inside, place};
 use rayon::prelude::*;
 
 /// Terms of a series.
 const TERMS: usize = 12;
-/// Where a series is held to T, and the relative difference from which on it is not believed.
+/// Places in a panel, from −1 to 1, at which its series is compared with the function.
 const PROBES: [f64; 4] = [-0.97, -0.41, 0.37, 0.95];
-const BELIEF: f64 = 1e-14;
-/// Bits of a number below its exponent and the eighth part.
-const BELOW: u32 = 49;
+/// Largest relative error of an accepted series at the probes.
+const SERIES_TOLERANCE: f64 = 1e-14;
+/// Bits of a wavenumber below its exponent and the three bits that number the eighth of an octave.
+const PANEL_SHIFT: u32 = 49;
 
 /// Compliances of a half-space within a range of wavenumbers.
 #[derive(Debug)]
 pub(crate) struct Compliances<'a> {
-    transfer: &'a TransferFunction,
+    response: &'a LayeredResponse,
     corrections: Panels,
     ratios: Panels,
 }
 
-/// Series of a function of the wavenumber, where one holds.
+/// Series of a function of the wavenumber, on the panels where one is accurate.
 #[derive(Debug, Default)]
 struct Panels {
     /// Number of the first panel.
@@ -34,20 +35,20 @@ struct Panels {
 }
 
 impl Panels {
-    /// Of a function that is asked for `times` between two wavenumbers, as far as that is less work; errors are relative to
-    /// the function, or to one where that is `at_least`.
-    fn new([least, most]: [f64; 2], times: usize, at_least: f64, function: impl Fn(f64) -> f64 + Sync) -> Self {
+    /// Series of a function that is to be evaluated `times` between two wavenumbers, as far as that is less work; errors are
+    /// relative to the function or, where that is smaller, to `scale`.
+    fn new([least, most]: [f64; 2], times: usize, scale: f64, function: impl Fn(f64) -> f64 + Sync) -> Self {
         let (first, end) = (panel(least), panel(most) + 1);
         let count = (end - first) as usize;
         let series = |index: usize| {
-            let ends = [0, 1].map(|k| f64::from_bits((first + index as u64 + k) << BELOW));
+            let ends = [0, 1].map(|k| f64::from_bits((first + index as u64 + k) << PANEL_SHIFT));
             let within = |x: f64| function(place(ends, x));
             let series = Chebyshev::of(within);
-            let holds = |&x: &f64| {
+            let is_accurate = |&x: &f64| {
                 let value = within(x);
-                (series.at(x) - value).abs() < BELIEF * value.abs().max(at_least)
+                (series.at(x) - value).abs() < SERIES_TOLERANCE * value.abs().max(scale)
             };
-            PROBES.iter().all(holds).then_some(series)
+            PROBES.iter().all(is_accurate).then_some(series)
         };
         // Few wavenumbers are not worth it.
         let pays = 2 * count * (TERMS + PROBES.len()) < times;
@@ -57,38 +58,38 @@ impl Panels {
     fn at(&self, wavenumber: f64) -> Option<f64> {
         let number = panel(wavenumber);
         let series = self.series.get(number.wrapping_sub(self.first) as usize)?.as_ref()?;
-        Some(series.at(inside([0, 1].map(|k| f64::from_bits((number + k) << BELOW)), wavenumber)))
+        Some(series.at(inside([0, 1].map(|k| f64::from_bits((number + k) << PANEL_SHIFT)), wavenumber)))
     }
 }
 
 impl<'a> Compliances<'a> {
-    /// To be asked `times` between the wavenumbers `least` and `most` (1/length); elsewhere it takes longer.
-    pub fn new(transfer: &'a TransferFunction, [least, most]: [f64; 2], times: usize) -> Self {
+    /// Compliances to be evaluated `times` between the wavenumbers `least` and `most` (1/length); others take longer.
+    pub fn new(response: &'a LayeredResponse, [least, most]: [f64; 2], times: usize) -> Self {
         // A bare half-space needs no help.
-        let times = if transfer.strata.is_empty() { 0 } else { times };
-        let corrections = Panels::new([least, most], times, 0.0, |q| transfer.correction(q));
-        Self { transfer, corrections, ratios: Panels::default() }
+        let times = if response.strata().layers.is_empty() { 0 } else { times };
+        let corrections = Panels::new([least, most], times, 0.0, |q| response.correction(q));
+        Self { response, corrections, ratios: Panels::default() }
     }
 
-    /// The same, to be asked for [`Self::coupling_ratio`] too.
-    pub fn coupled(transfer: &'a TransferFunction, [least, most]: [f64; 2], times: usize) -> Self {
-        let own = Self::new(transfer, [least, most], times);
-        let times = if transfer.strata.is_empty() { 0 } else { times };
-        Self { ratios: Panels::new([least, most], times, 1.0, |q| transfer.coupling_ratio(q)), ..own }
+    /// Compliances with series of the [coupling ratio](Self::coupling_ratio) too.
+    pub fn coupled(response: &'a LayeredResponse, [least, most]: [f64; 2], times: usize) -> Self {
+        let own = Self::new(response, [least, most], times);
+        let times = if response.strata().layers.is_empty() { 0 } else { times };
+        Self { ratios: Panels::new([least, most], times, 1.0, |q| response.coupling_ratio(q)), ..own }
     }
 
     /// Compliance ŵ/p̂ at the wavenumber q > 0 (1/length): a length per pressure.
     pub fn at(&self, wavenumber: f64) -> f64 {
         match self.corrections.at(wavenumber) {
-            Some(correction) => self.transfer.compliance_of(correction, wavenumber),
-            None => self.transfer.compliance(wavenumber),
+            Some(correction) => self.response.compliance_of(correction, wavenumber),
+            None => self.response.compliance(wavenumber),
         }
     }
 
-    /// Puts the compliances (lengths per pressure) at wavenumbers > 0 (1/length) in the place of these.
+    /// Replaces wavenumbers > 0 (1/length) by their compliances (lengths per pressure).
     pub fn replace(&self, wavenumbers: &mut [f64]) {
-        if self.transfer.strata.is_empty() {
-            let bare = self.transfer.compliance(1.0);
+        if self.response.strata().layers.is_empty() {
+            let bare = self.response.compliance(1.0);
             wavenumbers.iter_mut().for_each(|q| *q = bare / *q);
         } else {
             wavenumbers.iter_mut().for_each(|q| *q = self.at(*q));
@@ -97,13 +98,13 @@ impl<'a> Compliances<'a> {
 
     /// K/C of the [`SurfaceResponse`](super::SurfaceResponse) at the wavenumber q > 0 (1/length).
     pub fn coupling_ratio(&self, wavenumber: f64) -> f64 {
-        self.ratios.at(wavenumber).unwrap_or_else(|| self.transfer.coupling_ratio(wavenumber))
+        self.ratios.at(wavenumber).unwrap_or_else(|| self.response.coupling_ratio(wavenumber))
     }
 }
 
 /// Number of the panel of a wavenumber: its exponent and eighth part.
 fn panel(wavenumber: f64) -> u64 {
-    wavenumber.to_bits() >> BELOW
+    wavenumber.to_bits() >> PANEL_SHIFT
 }
 
 #[cfg(test)]
@@ -111,7 +112,7 @@ mod tests {
     use super::*;
     use crate::body::{HalfSpace, Interface, Layer, Material};
 
-    /// Thin and thick, stiff and soft, incompressible and sliding layers, down to where they are not felt.
+    /// Thin and thick, stiff and soft, incompressible and sliding layers, down to wavelengths that do not reach them.
     #[test]
     fn series_are_the_compliance() {
         let material = |shear, poisson| Material::from_shear(shear, poisson).unwrap();
@@ -126,25 +127,26 @@ mod tests {
         ];
         for stack in stacks {
             let layers = stack.len();
-            let transfer = TransferFunction::new(&HalfSpace::new(stack, material(1.0, 0.3)));
-            let compliances = Compliances::coupled(&transfer, [1e-3, 1e5], usize::MAX);
+            let half_space = HalfSpace::new(stack, material(1.0, 0.3));
+            let response = half_space.response();
+            let compliances = Compliances::coupled(response, [1e-3, 1e5], usize::MAX);
             let (mut worst, mut worst_ratio) = (0.0f64, 0.0f64);
             for k in 0..20_000 {
                 let q = 1e-3 * 1e8f64.powf((f64::from(k) + 0.37) / 20_000.0);
                 let mut replaced = [q];
                 compliances.replace(&mut replaced);
                 for compliance in [compliances.at(q), replaced[0]] {
-                    worst = worst.max((compliance / transfer.compliance(q) - 1.0).abs());
+                    worst = worst.max((compliance / response.compliance(q) - 1.0).abs());
                 }
-                let ratio = transfer.coupling_ratio(q);
+                let ratio = response.coupling_ratio(q);
                 worst_ratio = worst_ratio.max((compliances.coupling_ratio(q) - ratio).abs() / ratio.abs().max(1.0));
             }
             assert!(worst < 3e-14 && worst_ratio < 3e-14, "{layers} layers: {worst:e}, {worst_ratio:e}");
             for series in [&compliances.corrections.series, &compliances.ratios.series] {
-                let asked = series.iter().filter(|series| series.is_none()).count();
-                assert!(10 * asked <= series.len(), "{layers} layers: {asked} panels are not held");
+                let rejected = series.iter().filter(|series| series.is_none()).count();
+                assert!(10 * rejected <= series.len(), "{layers} layers: {rejected} panels without series");
             }
-            assert_eq!(compliances.at(1e7), transfer.compliance(1e7));
+            assert_eq!(compliances.at(1e7), response.compliance(1e7));
         }
     }
 }

@@ -1,155 +1,39 @@
-//! Coating layers and the half-space they form.
+//! The coated half-space: layers on a substrate.
 
-use super::{Depth, InterfaceStrength, Material, MaterialError, Strength};
+use super::{Depth, Layer, LayeredResponse, Material, MaterialError, Strength};
 use crate::notation::number;
 use std::fmt;
-
-/// How the lower face of a layer holds to what lies below it. Interfaces never open: tension is carried.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum Interface {
-    /// Perfect adhesion, Eq. (3): tractions and displacements continuous.
-    Bonded,
-    /// Complete sliding: no shear traction, normal displacement continuous.
-    Frictionless,
-    /// Incomplete sliding: the displacements jump by σ_qz/k_t and p/k_n. `f64::INFINITY` is rigid.
-    Spring {
-        /// Tangential stiffness k_t, a pressure per length.
-        tangential: f64,
-        /// Normal stiffness k_n, a pressure per length.
-        normal: f64,
-    },
-}
-
-impl Interface {
-    /// Jumps of displacement that a unit of tangential and of normal traction makes, in the units of the layer above:
-    /// Gq/k_t and Gq/k_n for its shear modulus times the wavenumber, `stiffness`; zero unless it is a spring.
-    pub(super) fn jumps(self, stiffness: f64) -> [f64; 2] {
-        match self {
-            Self::Spring { tangential, normal } => [stiffness / tangential, stiffness / normal],
-            Self::Bonded | Self::Frictionless => [0.0; 2],
-        }
-    }
-}
-
-impl fmt::Display for Interface {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Bonded => write!(f, "bonded"),
-            Self::Frictionless => write!(f, "frictionless"),
-            Self::Spring { tangential, normal } => {
-                let [tangential, normal] = [*tangential, *normal].map(number);
-                write!(f, "spring, tangential stiffness {tangential}, normal stiffness {normal}")
-            }
-        }
-    }
-}
-
-/// One layer of a coating.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Layer {
-    material: Material,
-    thickness: f64,
-    interface: Interface,
-    residual: f64,
-    strength: Strength,
-    interface_strength: InterfaceStrength,
-}
-
-impl Layer {
-    /// Layer of the given thickness (a length) with the given lower interface.
-    ///
-    /// # Errors
-    /// [`MaterialError`] for a thickness or a stiffness that is not positive.
-    pub fn new(material: Material, thickness: f64, interface: Interface) -> Result<Self, MaterialError> {
-        if !(thickness.is_finite() && thickness > 0.0) {
-            return Err(MaterialError::Thickness(thickness));
-        }
-        if let Interface::Spring { tangential, normal } = interface {
-            for stiffness in [tangential, normal] {
-                if stiffness.is_nan() || stiffness <= 0.0 {
-                    return Err(MaterialError::Stiffness(stiffness));
-                }
-            }
-        }
-        Ok(Self {
-            material,
-            thickness,
-            interface,
-            residual: 0.0,
-            strength: Strength::default(),
-            interface_strength: InterfaceStrength::default(),
-        })
-    }
-
-    /// The same with an equi-biaxial residual stress σ_r, a pressure, positive in tension: deposited with the layer, it adds to
-    /// σ_xx and σ_yy everywhere in it and does not change the contact.
-    ///
-    /// # Errors
-    /// [`MaterialError::Residual`] for a stress that is not finite.
-    pub fn with_residual_stress(self, residual: f64) -> Result<Self, MaterialError> {
-        if residual.is_finite() { Ok(Self { residual, ..self }) } else { Err(MaterialError::Residual(residual)) }
-    }
-
-    /// The same with strengths of its material and its interface.
-    ///
-    /// # Errors
-    /// [`MaterialError::Strength`] for one that is not positive.
-    pub fn with_strengths(self, strength: Strength, interface: InterfaceStrength) -> Result<Self, MaterialError> {
-        Ok(Self { strength: strength.check()?, interface_strength: interface.check()?, ..self })
-    }
-
-    /// Strengths of its material.
-    pub fn strength(&self) -> Strength {
-        self.strength
-    }
-
-    /// Strengths of its lower interface.
-    pub fn interface_strength(&self) -> InterfaceStrength {
-        self.interface_strength
-    }
-
-    /// Equi-biaxial residual stress σ_r, a pressure, positive in tension.
-    pub fn residual_stress(&self) -> f64 {
-        self.residual
-    }
-
-    /// Material of the layer.
-    pub fn material(&self) -> Material {
-        self.material
-    }
-
-    /// Thickness h, a length.
-    pub fn thickness(&self) -> f64 {
-        self.thickness
-    }
-
-    /// Interface at the layer's lower face.
-    pub fn interface(&self) -> Interface {
-        self.interface
-    }
-}
+use std::sync::Arc;
 
 /// A coated elastic half-space: layers from the surface down, then the substrate.
+///
+/// Its elastic [response](Self::response) is set up once, in the constructor, and shared by all clones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HalfSpace {
     layers: Vec<Layer>,
     substrate: Material,
     substrate_strength: Strength,
+    response: Arc<LayeredResponse>,
 }
 
 impl HalfSpace {
     /// Half-space of `substrate` under `layers`, given from the surface down (none: uncoated).
     pub fn new(layers: Vec<Layer>, substrate: Material) -> Self {
-        Self { layers, substrate, substrate_strength: Strength::default() }
+        let response = Arc::new(LayeredResponse::new(&layers, substrate));
+        Self { layers, substrate, substrate_strength: Strength::default(), response }
     }
 
-    /// The same with strengths of the substrate.
+    /// Half-space with strengths of the substrate.
     ///
     /// # Errors
     /// [`MaterialError::Strength`] for one that is not positive.
     pub fn with_substrate_strength(self, strength: Strength) -> Result<Self, MaterialError> {
         Ok(Self { substrate_strength: strength.check()?, ..self })
+    }
+
+    /// Response to harmonic tractions on the surface: compliances, and amplitudes at any depth.
+    pub fn response(&self) -> &Arc<LayeredResponse> {
+        &self.response
     }
 
     /// Layers from the surface down.
@@ -187,7 +71,7 @@ impl HalfSpace {
         self.layers
             .iter()
             .scan(0.0, |depth, layer| {
-                *depth += layer.thickness;
+                *depth += layer.thickness();
                 Some(*depth)
             })
             .collect()
@@ -199,7 +83,7 @@ impl HalfSpace {
     /// # Panics
     /// When there is no such material.
     pub fn faces(&self, material: usize) -> (f64, f64) {
-        let below = |layers: &[Layer]| layers.iter().fold(0.0, |depth, layer| depth + layer.thickness);
+        let below = |layers: &[Layer]| layers.iter().fold(0.0, |depth, layer| depth + layer.thickness());
         let bottom = if material <= self.layers.len() { below(&self.layers[..material]) } else { f64::INFINITY };
         (below(&self.layers[..material - 1]), bottom)
     }
@@ -233,11 +117,14 @@ impl fmt::Display for HalfSpace {
             writeln!(
                 f,
                 "layer {index}: thickness {}, χ {}, {}, {}{}",
-                number(layer.thickness),
-                number(layer.material.shear() / self.substrate.shear()),
-                layer.material,
-                layer.interface,
-                if layer.residual == 0.0 { String::new() } else { format!(", σ_r {}", number(layer.residual)) }
+                number(layer.thickness()),
+                number(layer.material().shear() / self.substrate.shear()),
+                layer.material(),
+                layer.interface(),
+                match layer.residual_stress() {
+                    0.0 => String::new(),
+                    residual => format!(", σ_r {}", number(residual)),
+                }
             )?;
         }
         write!(f, "substrate: {}", self.substrate)
@@ -247,6 +134,7 @@ impl fmt::Display for HalfSpace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::Interface;
 
     #[test]
     fn a_depth_on_an_interface_has_two_sides_whatever_the_rounding() {
@@ -269,13 +157,5 @@ mod tests {
             assert_eq!(sides, [1, 2], "{thickness}: {rows:?}");
             assert_eq!(rows.len(), if thickness < 1e-9 { 6 } else { 5 }, "{thickness}: {rows:?}");
         }
-    }
-
-    #[test]
-    fn values_out_of_range_are_refused() {
-        let material = Material::from_shear(1.0, 0.5).unwrap();
-        assert!(Layer::new(material, 0.0, Interface::Bonded).is_err());
-        let interface = Interface::Spring { tangential: 0.0, normal: f64::INFINITY };
-        assert_eq!(Layer::new(material, 1.0, interface), Err(MaterialError::Stiffness(0.0)));
     }
 }

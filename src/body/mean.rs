@@ -2,14 +2,14 @@
 
 use super::{HalfSpace, Interface, Layer, Material};
 
-/// What the mean lateral stress is.
+/// Assumption for the mean lateral stress.
 ///
 /// σ_zz = −p̄ everywhere; the shears vanish. The lateral stress σ_xx = σ_yy depends on what surrounds the periodic
 /// system:
 ///
 /// - **confined**: no mean lateral strain, σ_xx = −ν/(1−ν) p̄ in each material.
 /// - **half-space**: the centre of a disc loaded by p̄ that is wide against every thickness. In the substrate σ_xx =
-///   −(1+2ν₂)p̄/2, with the lateral strain ε₂ = −p̄(1−2ν₂)(1+ν₂)/(2E₂), which is imposed on each layer whose way down
+///   −(1+2ν₂)p̄/2, with the lateral strain ε₂ = −p̄(1−2ν₂)(1+ν₂)/(2E₂), which is imposed on each layer whose connection
 ///   to the substrate carries shear (bonded or spring: the load is wide against the length over which a spring slips):
 ///   σ_xx = Eε₂/(1−ν) − νp̄/(1−ν). Layers above a frictionless interface are a laminate of their own, a wide sheet
 ///   whose loaded disc wants to spread: with A₁₁ = Σ Eh/(1−ν²) and T = Σ hνp̄/(1−ν) its strain is ε = T/(2A₁₁) (a disc

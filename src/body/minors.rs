@@ -16,12 +16,12 @@
 
 use super::{Interface, Material};
 
-/// Distance, over the wavelength's 1/q, beyond which nothing is felt: e^{−800} is 0 in double precision. Thicker layers are
-/// taken to be as thick as this, so that exponents stay small and exact.
-pub(super) const EXTINCT: f64 = 800.0;
+/// Largest distance times q: e^{−800} is 0 in double precision. Thicker layers are taken to be as thick as this, so that
+/// exponents stay small and exact.
+pub(super) const MAX_EXPONENT: f64 = 800.0;
 
 /// Coefficients e, r, m of a material's plane-strain equations.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PlaneStrain {
     pub shear: f64,
     pub poisson: f64,
@@ -87,7 +87,7 @@ impl Minors {
 
     /// The plane at a height `x` = q·(distance) ≥ 0 further up in the same material.
     pub fn raised(self, material: &PlaneStrain, x: f64) -> Self {
-        let x = x.min(EXTINCT);
+        let x = x.min(MAX_EXPONENT);
         let (one, s1, s2, s3, s4) = exponential_coefficients(x);
         let q1 = self.slope(material);
         let q2 = q1.slope(material);
@@ -117,7 +117,7 @@ impl Minors {
         }
     }
 
-    /// The same plane with minors of order one.
+    /// The plane by minors of order one.
     fn normalised(self) -> Self {
         let Self { n, a, b, c, d, exponent } = self;
         let scale = n.abs().max(a.abs()).max(b.abs()).max(c.abs()).max(d.abs());
@@ -169,7 +169,7 @@ mod tests {
                 for (raised, expected) in [(top.a, bottom.a), (top.b, bottom.b), (top.c, bottom.c), (top.d, bottom.d)] {
                     assert!((raised / top.n - expected).abs() < 1e-15, "ν = {nu}, x = {x}");
                 }
-                let x = x.min(EXTINCT);
+                let x = x.min(MAX_EXPONENT);
                 assert!((top.exponent - 2.0 * x).abs() < 1e-13 * (1.0 + x));
             }
         }

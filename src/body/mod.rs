@@ -9,41 +9,44 @@
 //! e = 2/(1−ν),  r = ν/(1−ν),  m = (1−2ν)/(2(1−ν)),
 //!
 //! equilibrium and Hooke's law for the four quantities that interfaces connect (with the stress function F of the plane
-//! problem, p = F and t = F′). Two tools are enough, and neither meets a growing exponential:
+//! problem, p = F and t = F′). Two tools are enough, and neither contains a growing exponential:
 //!
 //! - `minors`: everything below a depth confines (U, w, t, p) to a plane; the plane's five 2 × 2 minors are
 //!   carried from the substrate up (delta-matrix method, Dunkin 1965). The surface compliance is a ratio of two
-//!   of them (`transfer`).
+//!   of them.
 //! - `interior`: everything above a depth imposes "no shear at the surface" (under a shear traction: no pressure), one
 //!   linear functional carried from the surface down. Plane and functional meet in one vector: the amplitudes at that depth.
 //!
-//! Many wavenumbers at many depths are read off a table of few numbers each (`interiors`).
-//!
-//! Across the wavevector the body is sheared alone (`across`). What the surface answers to all three tractions is one
+//! Across the wavevector the body is sheared alone (`across`). Under all three tractions the surface responds by one
 //! Hermitian 3 × 3 matrix, the [`SurfaceResponse`].
+//!
+//! Everything belongs to the [`LayeredResponse`] of a [`HalfSpace`]. For many wavenumbers there are tables: of the surface
+//! compliance (`compliances`) and of the interior (`interior_table`).
 
 mod across;
 mod compliances;
 mod depth;
+mod functional;
 mod half_space;
-mod hyperbolic;
 mod interior;
-mod interiors;
+mod interior_table;
+mod layer;
 mod material;
 mod mean;
 mod minors;
 mod response;
+mod strata;
 mod strength;
-mod transfer;
+mod stress_function;
 
 pub use across::Antiplane;
 pub(crate) use compliances::Compliances;
 pub use depth::Depth;
-pub use half_space::{HalfSpace, Interface, Layer};
+pub use half_space::HalfSpace;
 pub use interior::{Amplitudes, InPlane, Interior};
-pub(crate) use interiors::{Interiors, REACH};
+pub(crate) use interior_table::{InteriorTable, REACH};
+pub use layer::{Interface, Layer};
 pub use material::{Material, MaterialError};
 pub use mean::MeanStress;
-pub use response::SurfaceResponse;
+pub use response::{LayeredResponse, SurfaceResponse};
 pub use strength::{InterfaceStrength, Strength};
-pub use transfer::TransferFunction;

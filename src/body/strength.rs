@@ -2,7 +2,7 @@
 //!
 //! A material yields where the stress of von Mises reaches its yield strength, and cracks where the largest principal stress
 //! reaches its tensile strength. An interface comes off where its tension ⟨σ_zz⟩ and shear τ reach
-//! (⟨σ_zz⟩/σ_c)² + (τ/τ_c)² = 1. What is not given is not asked for.
+//! (⟨σ_zz⟩/σ_c)² + (τ/τ_c)² = 1. A strength that is not given has no limit.
 
 use super::MaterialError;
 

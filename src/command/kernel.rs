@@ -3,7 +3,6 @@
 use super::ending::{Ending, Failure};
 use super::input::read_case;
 use super::terminal;
-use crate::body::TransferFunction;
 use crate::output::{self, Traction};
 use std::io::Write;
 use std::path::Path;
@@ -16,10 +15,10 @@ pub fn run(
     set: &[String],
 ) -> Result<Ending, Failure> {
     let (case, _) = read_case(case, set)?;
-    let (half_space, transfer) = (case.half_space(), TransferFunction::new(case.half_space()));
+    let (half_space, transfer) = (case.half_space(), case.half_space().response());
     let mut out = terminal::out();
     for &wavenumber in wavenumbers {
-        writeln!(out, "{}", output::kernel(&transfer, half_space, wavenumber, depths, traction))?;
+        writeln!(out, "{}", output::kernel(transfer, half_space, wavenumber, depths, traction))?;
     }
     Ok(Ending::Done)
 }

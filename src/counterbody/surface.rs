@@ -6,7 +6,7 @@
 
 use super::roughness::Spectrum;
 use super::{Counterbody, Indenters, Site};
-use crate::lattice::{Grid, LatticeError, ReducedBasis};
+use crate::lattice::{Cell, Grid, LatticeError, ReducedBasis};
 use crate::numeric::array::{field, samples};
 use crate::numeric::sums;
 use ndarray::{Array2, ArrayView2};
@@ -51,14 +51,21 @@ impl Surface {
         if self.owner.is_some() {
             return Self::new(counterbody, points);
         }
-        let (grid, own) = (Arc::new(Grid::new(counterbody.cell(), points)?), self.grid.points());
-        let initial_gap = if (0..2).all(|axis| own[axis].is_multiple_of(points[axis])) {
-            let [every1, every2] = [0, 1].map(|axis| own[axis] / points[axis]);
-            Array2::from_shape_fn(points, |(i, j)| self.initial_gap[[every1 * i, every2 * j]])
-        } else {
-            Spectrum::of(counterbody.cell(), self.initial_gap())?.resampled(points)?
-        };
+        let grid = Arc::new(Grid::new(counterbody.cell(), points)?);
+        let initial_gap = restricted(counterbody.cell(), self.initial_gap(), points)?;
         Ok(Self { grid, initial_gap, owner: None, ties: Vec::new(), sites: Vec::new() })
+    }
+
+    /// The surface with another initial gap, f ≥ 0, lengths measured from first touch, axes along a₁ and a₂; the indenter of
+    /// each sample stays.
+    pub(crate) fn with_initial_gap(&self, initial_gap: Array2<f64>) -> Self {
+        Self { initial_gap, ..self.clone() }
+    }
+
+    /// A gap on a finer grid of the same cell, or on this one, restricted to this grid: as [`Self::coarser`] restricts the
+    /// heights of a topography.
+    pub(crate) fn restricted(&self, gap: &Array2<f64>) -> Array2<f64> {
+        restricted(self.grid.cell(), gap.view(), self.grid.points()).expect("a grid has points")
     }
 
     /// The grid.
@@ -137,6 +144,18 @@ impl fmt::Display for Surface {
     }
 }
 
+/// Every k-th sample of a gap where its grid has a whole fraction of them along either direction; else the waves that the
+/// coarser grid of `points` holds.
+fn restricted(cell: Cell, gap: ArrayView2<'_, f64>, points: [usize; 2]) -> Result<Array2<f64>, LatticeError> {
+    let (rows, columns) = gap.dim();
+    let own = [rows, columns];
+    if (0..2).all(|axis| own[axis].is_multiple_of(points[axis])) {
+        let [every1, every2] = [0, 1].map(|axis| own[axis] / points[axis]);
+        return Ok(Array2::from_shape_fn(points, |(i, j)| gap[[every1 * i, every2 * j]]));
+    }
+    Spectrum::of(cell, gap)?.resampled(points)
+}
+
 /// Largest relative difference of the depths of indenters that own a sample together.
 const TIE_TOLERANCE: f64 = 1e-12;
 
@@ -187,7 +206,7 @@ fn of_indenters(indenters: &Indenters, grid: Arc<Grid>) -> Surface {
 mod tests {
     use super::*;
     use crate::counterbody::{Level, Shape};
-    use crate::lattice::{Cell, Lattice};
+    use crate::lattice::Lattice;
 
     fn on(lattice: Lattice, levels: Vec<Level>, points: [usize; 2]) -> Surface {
         Surface::new(&Indenters::new(lattice, levels).unwrap().into(), points).unwrap()

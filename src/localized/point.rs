@@ -8,11 +8,12 @@
 //! kept as Chebyshev series on intervals of r, each halved until it agrees with the integral between its nodes.
 
 use super::quadrature::{Bessel, Estimate, hankel};
-use crate::body::{HalfSpace, Layer, TransferFunction};
+use crate::body::{HalfSpace, Layer, LayeredResponse};
 use crate::numeric::chebyshev::{self, Chebyshev};
 use crate::numeric::search::largest;
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Number of nodes of one Chebyshev series.
 const SERIES_NODES: usize = 16;
@@ -28,7 +29,7 @@ const MAX_HALVINGS: usize = 8;
 /// Point kernel of a layered half-space, tabulated up to a distance.
 #[derive(Debug, Clone)]
 pub struct PointKernel {
-    transfer: TransferFunction,
+    transfer: Arc<LayeredResponse>,
     /// c = (1−ν₁)/G₁, 1/pressure.
     compliance: f64,
     /// Thickness of the first layer; `None` without layers.
@@ -44,7 +45,7 @@ impl PointKernel {
     pub fn new(half_space: &HalfSpace, reach: f64) -> Self {
         let surface = half_space.surface_material();
         let mut kernel = Self {
-            transfer: TransferFunction::new(half_space),
+            transfer: Arc::clone(half_space.response()),
             compliance: (1.0 - surface.poisson()) / surface.shear(),
             thickness: half_space.layers().first().map(Layer::thickness),
             intervals: Vec::new(),

@@ -16,11 +16,12 @@
 //! Below a disc of the radius R under a unit pressure or traction the same integrals hold with R J₁(qR) in the place of q/2π.
 
 use super::quadrature::{Bessel, hankel};
-use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interior, TransferFunction};
+use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, LayeredResponse};
 use crate::numeric::chebyshev::{self, Chebyshev};
 use crate::stress::StressState;
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// qz beyond which all amplitudes are negligible.
 const DEPTH_CUTOFF: f64 = 45.0;
@@ -44,18 +45,18 @@ pub(super) struct ForceStress<const K: usize> {
 /// Amplitudes of the layered half-space, from which stresses are integrated.
 #[derive(Debug, Clone)]
 pub(super) struct Subsurface {
-    transfer: TransferFunction,
+    transfer: Arc<LayeredResponse>,
 }
 
 impl Subsurface {
     /// Below the surface of a `half_space`.
     pub fn new(half_space: &HalfSpace) -> Self {
-        Self { transfer: TransferFunction::new(half_space) }
+        Self { transfer: Arc::clone(half_space.response()) }
     }
 
     /// Amplitudes at a depth, as a function of the wavenumber.
     fn amplitudes(&self, depth: Depth) -> impl Fn(f64) -> Amplitudes + use<'_> {
-        move |q| Interior::new(&self.transfer, q).at(depth)
+        move |q| self.transfer.interior(InPlane::Normal, q).at(depth)
     }
 
     /// Stresses at the distance r from the axis of a unit force.
@@ -84,7 +85,7 @@ impl Subsurface {
 
     /// Amplitudes at a depth under shear tractions, as a function of the wavenumber.
     fn shear_amplitudes(&self, depth: Depth) -> impl Fn(f64) -> (Amplitudes, Antiplane) + use<'_> {
-        move |q| (Interior::under(InPlane::Along, &self.transfer, q).at(depth), self.transfer.antiplane(q, depth))
+        move |q| (self.transfer.interior(InPlane::Along, q).at(depth), self.transfer.antiplane(q, depth))
     }
 
     /// Stresses at the distance r from the axis of a unit shear force.

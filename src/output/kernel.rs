@@ -1,6 +1,6 @@
 //! The layered half-space's response to a harmonic traction, as `percoat kernel` tells it.
 
-use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interior, TransferFunction};
+use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, LayeredResponse};
 use serde_json::{Value, json};
 
 /// What acts on the surface.
@@ -19,13 +19,13 @@ pub enum Traction {
 /// same over that of a half-space of the surface's material, and amplitudes at `depths` z ≥ 0, one row each, or on an
 /// interface one for each side.
 pub fn kernel(
-    transfer: &TransferFunction,
+    transfer: &LayeredResponse,
     half_space: &HalfSpace,
     wavenumber: f64,
     depths: &[f64],
     traction: Traction,
 ) -> Value {
-    let response = transfer.response(wavenumber);
+    let response = transfer.surface(wavenumber);
     let material = half_space.surface_material();
     let unit = 1.0 / (material.shear() * wavenumber);
     let (compliance, correction) = match traction {
@@ -42,7 +42,7 @@ pub fn kernel(
             Traction::Across => rows(depths, half_space, |at| across(&transfer.antiplane(wavenumber, at))),
             Traction::Normal | Traction::Along => {
                 let in_plane = if traction == Traction::Normal { InPlane::Normal } else { InPlane::Along };
-                let interior = Interior::under(in_plane, transfer, wavenumber);
+                let interior = transfer.interior(in_plane, wavenumber);
                 rows(depths, half_space, |at| along(&interior.at(at)))
             }
         };

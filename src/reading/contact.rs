@@ -7,7 +7,6 @@ use super::edge::Edge;
 use super::fractions::Fractions;
 use super::level_spots::LevelSpots;
 use super::{Errors, LevelReading, peak, spots, topography};
-use crate::body::TransferFunction;
 use crate::lattice::Grid;
 use crate::lattice::components::Component;
 use crate::notation::number;
@@ -181,7 +180,7 @@ pub(super) fn edge(contacts: &[&Contact]) -> Edge {
     let distances = contacts.iter().map(|contact| Scale::distances(contact.grid()));
     let [shortest, longest] = distances.fold([f64::INFINITY, 0.0], |[a, b], [c, d]| [f64::min(a, c), f64::max(b, d)]);
     let problem = contacts[0].problem();
-    Edge::new(&TransferFunction::new(problem.half_space()), problem.friction(), shortest, longest)
+    Edge::new(problem.half_space().response(), problem.friction(), shortest, longest)
 }
 
 /// Flat index of the sample with the largest pressure, the first of several; `None` without contact.

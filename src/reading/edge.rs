@@ -22,7 +22,7 @@
 //! between the logarithms are those of the parabola through the three.
 
 use super::edge_transforms::{EdgeTransforms, Wave, euler};
-use crate::body::TransferFunction;
+use crate::body::LayeredResponse;
 use crate::friction::Friction;
 use rayon::prelude::*;
 
@@ -62,7 +62,7 @@ const WAVENUMBER_REACH: f64 = 100.0;
 
 impl Edge {
     /// The edge on a half-space, at distances from `shortest` to `longest` (lengths).
-    pub fn new(transfer: &TransferFunction, friction: Option<&Friction>, shortest: f64, longest: f64) -> Self {
+    pub fn new(transfer: &LayeredResponse, friction: Option<&Friction>, shortest: f64, longest: f64) -> Self {
         let first = (1.0 / (WAVENUMBER_REACH * longest)).ln();
         let count = ((WAVENUMBER_REACH * WAVENUMBER_REACH * longest / shortest).ln() / QUADRATURE_STEP).ceil() as usize;
         let distances = (longest / shortest).ln() / LOG_STEP;
@@ -75,7 +75,7 @@ impl Edge {
                 if along == 0.0 {
                     return Wave { wavenumber, log, phase: 0.0 };
                 }
-                let response = transfer.response(wavenumber);
+                let response = transfer.surface(wavenumber);
                 let ratio = along * response.coupling / response.normal;
                 Wave { wavenumber, log: log + 0.5 * (ratio * ratio).ln_1p(), phase: ratio.atan() }
             };
@@ -154,16 +154,16 @@ mod tests {
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use std::f64::consts::PI;
 
-    fn coated(young: f64, thickness: f64) -> TransferFunction {
+    fn coated(young: f64, thickness: f64) -> HalfSpace {
         let [coating, substrate] = [young, 1.0].map(|young| Material::from_young(young, 0.3).unwrap());
         let layer = Layer::new(coating, thickness, Interface::Bonded).unwrap();
-        TransferFunction::new(&HalfSpace::new(vec![layer], substrate))
+        HalfSpace::new(vec![layer], substrate)
     }
 
     #[test]
     fn a_bare_edge_is_that_of_hertz() {
-        let bare = TransferFunction::new(&HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap()));
-        let edge = Edge::new(&bare, None, 0.01, 1.0);
+        let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.3).unwrap());
+        let edge = Edge::new(bare.response(), None, 0.01, 1.0);
         for x in [0.01f64, 0.2, 0.9] {
             let ([phi, slope], [gamma, steepness]) = (edge.pressure(x, 0.0), edge.opening(x, 0.0));
             assert!((phi / x.sqrt() - 1.0).abs() < 1e-6 && (slope * x.sqrt() - 0.5).abs() < 1e-6, "{phi} {slope}");
@@ -178,8 +178,8 @@ mod tests {
     fn a_sliding_edge_has_the_exponents_of_its_friction() {
         let material = Material::from_young(1.0, 0.1).unwrap();
         let friction = Friction::new(0.8, [3.0, 4.0]).unwrap();
-        let bare = TransferFunction::new(&HalfSpace::new(vec![], material));
-        let edge = Edge::new(&bare, Some(&friction), 0.01, 1.0);
+        let bare = HalfSpace::new(vec![], material);
+        let edge = Edge::new(bare.response(), Some(&friction), 0.01, 1.0);
         for (turned, tolerance) in [(0.0f64, 1e-5), (1.1, 2e-3), (0.5 * PI, 1e-5), (2.3, 2e-3), (PI, 1e-5)] {
             let along = edge.along(4.0f64.atan2(3.0) + turned);
             assert!((along - turned.cos()).abs() < 1e-12);
@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn a_coating_is_left_behind_far_from_the_edge_and_alone_close_to_it() {
         for young in [0.5, 4.0] {
-            let edge = Edge::new(&coated(young, 1.0), None, 1e-4, 1e4);
+            let edge = Edge::new(coated(young, 1.0).response(), None, 1e-4, 1e4);
             let root = young.sqrt();
             let near = [edge.pressure(2e-4, 0.0)[0] / 2e-4f64.sqrt(), edge.opening(2e-4, 0.0)[0] / 2e-4f64.powf(1.5)];
             let far = [

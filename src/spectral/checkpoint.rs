@@ -1,36 +1,36 @@
-//! What a solver knows after a load: enough to have its step again, and to go on with the next load.
+//! Checkpoint of a solver after a load: its step, and the start of the next load.
 
 use super::iteration::{Method, Report, Unknowns};
 use super::solver::nested_points;
 use super::{Solver, Step};
 use crate::load::Load;
 
-/// What a [`Solver`] knows after a load. It shares its fields with solver and step: keep it no longer than it takes to
-/// write it.
+/// State of a [`Solver`] after a load. It shares its fields with solver and step, which copy them if it is kept while the next
+/// load is solved.
 #[derive(Debug, Clone)]
 pub struct Checkpoint {
-    /// How the finest grid's solution was reached.
+    /// Report of the solution on the finest grid.
     pub report: Report,
     /// Convolutions on all grids, as equivalents of the finest one.
     pub convolutions: f64,
     /// Number of coarser grids whose contact the [step](Step::coarser) keeps.
     pub coarser: usize,
-    /// What each grid has found, the finest first; after a load that is not solved, those of the step alone.
+    /// Unknowns of all grids, the finest first; after a load that is not solved, those of the step alone.
     pub grids: Vec<Unknowns>,
 }
 
-/// A checkpoint that does not fit the grids of a solver.
+/// Error of a checkpoint of other grids than those of the solver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("what was saved of the run is of other grids or loads")]
 pub struct OtherGrids;
 
 impl Checkpoint {
-    /// Whether it is of a solver by `method` whose finest grid has `points`.
+    /// Whether the checkpoint is that of a solver by `method` whose finest grid has `points`.
     pub fn fits(&self, points: [usize; 2], method: Method) -> bool {
         self.is_of(nested_points(points, method).into_iter().map(|[n1, n2]| n1 * n2))
     }
 
-    /// Whether it is of a solver whose grids have so many samples, the finest first.
+    /// Whether the checkpoint is that of a solver whose grids have `samples`, the finest first.
     fn is_of(&self, samples: impl ExactSizeIterator<Item = usize>) -> bool {
         let count = if self.report.stop.solved() { samples.len() } else { self.coarser.saturating_add(1) };
         let fits = |(own, samples): (&Unknowns, usize)| own.pressure.len() == samples && own.gap.len() == samples;
@@ -42,22 +42,22 @@ impl Checkpoint {
 }
 
 impl Solver {
-    /// What it knows after its last load, whose `step` is given.
+    /// State after the last load, whose `step` is given.
     pub fn checkpoint(&self, step: &Step) -> Checkpoint {
         let grids = if step.report.stop.solved() {
             self.unknowns().cloned().collect()
         } else {
-            // The solver has forgotten them; what a coarser grid proves is not looked at.
+            // The solver has dropped them; the certificate of a coarser grid is not used.
             let contacts = std::iter::once(&step.finest).chain(&step.coarser);
             contacts.map(|contact| contact.unknowns(step.certificate)).collect()
         };
         Checkpoint { report: step.report, convolutions: step.convolutions, coarser: step.coarser.len(), grids }
     }
 
-    /// Takes the place of the solver that this is a checkpoint of, after `load`; gives the step again.
+    /// Continues from a checkpoint after `load`, whose step is returned.
     ///
     /// # Errors
-    /// [`OtherGrids`] when it is of a solver on other grids; this one stays as it is.
+    /// [`OtherGrids`] for a checkpoint of a solver on other grids; this one is not changed.
     pub fn restore(&mut self, load: Load, checkpoint: Checkpoint) -> Result<Step, OtherGrids> {
         let samples: Vec<usize> = self.unknowns().map(|own| own.pressure.len()).collect();
         if !checkpoint.is_of(samples.into_iter()) {
@@ -65,7 +65,7 @@ impl Solver {
         }
         let Checkpoint { report, convolutions, coarser, grids } = checkpoint;
         let solved = report.stop.solved();
-        self.adopt(grids);
+        self.set_unknowns(grids);
         let step = self.step(load, report, convolutions, coarser);
         if !solved {
             self.forget();

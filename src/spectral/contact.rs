@@ -19,7 +19,7 @@ pub struct Contact {
     pressure: Arc<Vec<f64>>,
     gap: Arc<Vec<f64>>,
     penetration: f64,
-    /// Counted when they are first asked for, and kept.
+    /// Counted at the first call of [`Self::spots`].
     spots: OnceLock<SpotCounts>,
 }
 
@@ -36,13 +36,13 @@ impl Contact {
         Self { problem, surface, pressure, gap, penetration, spots: OnceLock::new() }
     }
 
-    /// What was iterated, with what the pressure proves.
+    /// Unknowns of the iteration, with their certificate.
     pub(super) fn unknowns(&self, certificate: Certificate) -> Unknowns {
         let Self { pressure, gap, penetration, .. } = self;
         Unknowns { pressure: Arc::clone(pressure), gap: Arc::clone(gap), penetration: *penetration, certificate }
     }
 
-    /// What is pressed into what.
+    /// The problem.
     pub fn problem(&self) -> &Arc<Problem> {
         &self.problem
     }
@@ -77,10 +77,10 @@ impl Contact {
     ///
     /// It is the work ∫ P dδ of the force P on the cell along the load path: w has zero mean, δ is measured from the mean
     /// plane, and of E(p) = ½⟨p, Cp⟩ + ⟨p, f − δ⟩ the minimum over p ≥ 0 is −½⟨p, Cp⟩, whose derivative by δ is −P. Under
-    /// coupled friction p w is what the pressure has stored; the work of the traction is not in it.
+    /// coupled friction it is the energy stored by the pressure, without the work of the traction.
     pub fn elastic_energy(&self) -> f64 {
         let mean = sums::mean(&self.pressure);
-        // w = g − f + δ; what is uniform of the pressure meets a displacement without mean, and would add rounding alone.
+        // w = g − f + δ; a uniform part of the pressure does no work with a displacement without mean, and would add rounding alone.
         let f = self.surface.gaps();
         let [sum] = sums::of(f.len(), |i| [(self.pressure[i] - mean) * (self.gap[i] - f[i])]);
         0.5 * sum * self.grid().sample_area()
@@ -95,7 +95,8 @@ impl Contact {
     pub(crate) fn gaps(&self) -> &[f64] {
         &self.gap
     }
-    /// What is counted of the contact spots; `found`: where they are, if that is known.
+
+    /// Counts of the contact spots; `found`: their samples, if these are known.
     pub(crate) fn spots(&self, found: Option<&[Component]>) -> &SpotCounts {
         self.spots.get_or_init(|| match found {
             Some(found) => SpotCounts::of(found, self.grid(), &self.pressure),

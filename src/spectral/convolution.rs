@@ -5,18 +5,18 @@
 //! 3. Rows back, complex to real.
 //!
 //! Rows of a group and columns of a tile are as many as take 64 bytes: eight in double, sixteen in single precision. Between
-//! rows and columns the components stand in tiles, [tile][row][real parts, imaginary parts], where columns are transformed
+//! rows and columns the components lie in tiles, [tile][row][real parts, imaginary parts], where columns are transformed
 //! in place. A part of the rows has a run of lines in every tile; only the thread that transforms these rows writes there. Work is split into fixed
 //! parts: neither the number of threads nor their order reaches the result, and nothing of the size of a field is allocated.
-//! Groups of rows whose samples are all zero, and groups whose result is not used ([`Convolved::some_rows`]), are not transformed.
-//! Rows come from whoever has them and go to whoever wants them, one after the other in each part ([`Convolution::convolve`],
-//! [`Convolved::rows`]): what is done to a field before and after shares the way through memory.
-//! The factor 1/(N₁N₂) of the inverse transform stands in one place: [`Convolution::multiplier`] puts it into K.
+//! Groups of rows whose samples are all zero, and groups whose result is not used ([`ResultRows::some_rows`]), are not transformed.
+//! Rows come from a source and go to a sink, one after the other in each part (`by_rows`).
+//! The factor 1/(N₁N₂) of the inverse transform is applied in one place: [`Convolution::multiplier`] puts it into K.
 
-use super::multiplier::{Action, Multiplier, Turns};
+use super::by_rows::{ByRows, ResultRows};
+use super::multiplier::{Action, Multiplier, SkewRatio};
 use crate::numeric::fourier::{Columns, Rows, line};
 use crate::numeric::lanes::{LANES, Real};
-use crate::numeric::rows::{Parts, next};
+use crate::numeric::rows::Parts;
 use rayon::prelude::*;
 use rustfft::num_complex::Complex64;
 use std::fmt;
@@ -32,7 +32,7 @@ pub struct Convolution<T: Real> {
     order: Vec<usize>,
 }
 
-/// A convolution but for its last pass.
+/// A convolution before its last pass.
 #[must_use]
 pub struct Convolved<'a, T: Real> {
     convolution: &'a Convolution<T>,
@@ -80,8 +80,8 @@ impl<T: Real> Convolution<T> {
         self.half().next_multiple_of(f32::WIDTH) / LANES
     }
 
-    /// Numbers of double precision that a convolution has for its [room](Self::convolve).
-    pub fn room(&self) -> usize {
+    /// Numbers of double precision that a convolution has for its [memory](Self::convolve).
+    pub fn memory(&self) -> usize {
         // Lines are even.
         self.size() * size_of::<T>() / size_of::<f64>()
     }
@@ -106,8 +106,8 @@ impl<T: Real> Convolution<T> {
     ///
     /// They must be odd under (k₁, k₂) → (−k₁, −k₂), and with it zero for components that are their own conjugates: then real
     /// fields stay real.
-    pub fn turns(&self, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> Turns {
-        Turns::new(self.table(0.0, false, fill))
+    pub fn skew_ratio(&self, fill: impl Fn([usize; 2], &mut [f64]) + Sync) -> SkewRatio {
+        SkewRatio::new(self.table(0.0, false, fill))
     }
 
     /// Values in the order of the column pass, eight columns at a time, padded to whole tiles.
@@ -134,23 +134,20 @@ impl<T: Real> Convolution<T> {
     }
 
     /// F⁻¹[cK · F u] or F⁻¹[c F u / K] of a field u, still to be fetched. There is one of the `sources` for each
-    /// [part](Self::parts) of the rows; it puts row after row of u into what it is given. The [`room`](Self::room) is what the
+    /// [part](Self::parts) of the rows; it puts row after row of u into what it is given. The [`memory`](Self::memory) is what the
     /// convolution works in.
     ///
     /// # Panics
-    /// When the multiplier belongs to other `points`, the room is too small, or there are not as many sources as parts.
-    pub fn convolve<'a, S>(
+    /// When the multiplier belongs to other `points`, the memory is too small, or there are not as many sources as parts.
+    pub fn convolve<'a>(
         &'a self,
         action: Action<'_>,
         multiplier: &Multiplier,
-        room: &'a mut [f64],
-        sources: S,
-    ) -> Convolved<'a, T>
-    where
-        S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
-    {
+        memory: &'a mut [f64],
+        sources: impl ByRows<T>,
+    ) -> Convolved<'a, T> {
         assert_eq!(multiplier.len(), self.eights() * self.points()[0] * LANES, "multiplier of a convolution");
-        let spectrum = &mut bytemuck::cast_slice_mut(room)[..self.size()];
+        let spectrum = &mut bytemuck::cast_slice_mut(memory)[..self.size()];
         self.rows_forward(sources.into_par_iter(), spectrum);
         self.column_pass(action, multiplier, spectrum);
         Convolved { convolution: self, spectrum }
@@ -178,7 +175,7 @@ impl<T: Real> Convolution<T> {
         );
     }
 
-    /// The lines of the groups of rows in a run of so many numbers.
+    /// The lines of the groups of rows in a run of `run` numbers.
     fn groups(&self, run: usize) -> impl Iterator<Item = Range<usize>> + use<T> {
         let group = T::WIDTH * line::<T>();
         (0..run).step_by(group).map(move |first| first..run.min(first + group))
@@ -193,27 +190,8 @@ impl<T: Real> Convolution<T> {
     }
 }
 
-impl<T: Real> Convolved<'_, T> {
-    /// Hands its rows over: there is one of the `sinks` for each [part](Self::parts) of the rows, which takes row after row,
-    /// and may use it as it likes.
-    ///
-    /// # Panics
-    /// When there are not as many sinks as parts.
-    pub fn rows<S>(self, sinks: S)
-    where
-        S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
-    {
-        self.some_rows(|_| true, sinks);
-    }
-
-    /// The same where only the rows that are `looked_at` matter; others may come as zeros.
-    ///
-    /// # Panics
-    /// When there are not as many sinks as parts.
-    pub fn some_rows<S>(self, looked_at: impl Fn(usize) -> bool + Sync, sinks: S)
-    where
-        S: IntoParallelIterator<Item: FnMut(&mut [T]), Iter: IndexedParallelIterator>,
-    {
+impl<T: Real> ResultRows<T> for Convolved<'_, T> {
+    fn some_rows(self, needed: impl Fn(usize) -> bool + Sync, sinks: impl ByRows<T>) {
         let (Self { convolution, spectrum }, sinks) = (self, sinks.into_par_iter());
         let (parts, [n1, _]) = (convolution.parts, convolution.points());
         assert_eq!(sinks.len(), parts.count(), "sinks of a convolution");
@@ -224,7 +202,7 @@ impl<T: Real> Convolved<'_, T> {
                 let run = first * line::<T>()..last * line::<T>();
                 for lines in convolution.groups(run.len()) {
                     let (count, before) = (lines.len() / line::<T>(), first + lines.start / line::<T>());
-                    if !(before..before + count).any(&looked_at) {
+                    if !(before..before + count).any(&needed) {
                         convolution.rows.blank(count, buffers, &mut sink);
                         continue;
                     }
@@ -234,16 +212,6 @@ impl<T: Real> Convolved<'_, T> {
             },
         );
     }
-}
-
-/// Sources that copy the rows of a field.
-pub fn rows_of<T: Real>(parts: Parts, field: &[T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
-    parts.of(field).map(|mut rows| move |to: &mut [T]| to.copy_from_slice(next(&mut rows)))
-}
-
-/// Sinks that copy rows to those of a field.
-pub fn rows_to<T: Real>(parts: Parts, field: &mut [T]) -> impl IndexedParallelIterator<Item: FnMut(&mut [T])> {
-    parts.of_mut(field).map(|mut rows| move |from: &mut [T]| next(&mut rows).copy_from_slice(from))
 }
 
 impl<T: Real> fmt::Debug for Convolved<'_, T> {
@@ -261,6 +229,7 @@ impl<T: Real> fmt::Debug for Convolution<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::spectral::by_rows::{rows_of, rows_to};
     use std::f64::consts::TAU;
 
     fn noise(len: usize) -> Vec<f64> {
@@ -287,8 +256,8 @@ mod tests {
         let multiplier = convolution.multiplier(false, |[k1, k2], values| {
             values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = symbol(k1, k2));
         });
-        let (mut field, mut room) =
-            (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), vec![0.0; convolution.room()]);
+        let (mut field, mut memory) =
+            (input.iter().map(|&x| T::rounded(x)).collect::<Vec<T>>(), vec![0.0; convolution.memory()]);
         let at = |i: usize, j: usize| input[(i % n1) * n2 + j % n2] - mean;
         let expected = |i: usize, j: usize| {
             at(i, j)
@@ -298,19 +267,19 @@ mod tests {
         };
         let scale = 3.0;
         let mut convolve = |action, field: &mut [T]| {
-            let convolved = convolution.convolve(action, &multiplier, &mut room, rows_of(convolution.parts(), field));
+            let convolved = convolution.convolve(action, &multiplier, &mut memory, rows_of(convolution.parts(), field));
             convolved.rows(rows_to(convolution.parts(), field));
         };
-        convolve(Action::Times(scale), &mut field);
+        convolve(Action::Multiply(scale), &mut field);
         let there: f64 =
             field.iter().enumerate().map(|(k, u)| (u.double() / scale - expected(k / n2, k % n2)).abs()).sum();
-        convolve(Action::Over(1.0 / scale), &mut field);
+        convolve(Action::Divide(1.0 / scale), &mut field);
         let back: f64 = field.iter().enumerate().map(|(k, u)| (u.double() - at(k / n2, k % n2)).abs()).sum();
         // Means, which a number that is none spoils.
         [there, back].map(|sum| sum / (n1 * n2) as f64)
     }
 
-    /// Of a field with zeros in all rows but 26 of 150 only the results of these rows are asked for: they are, bit for bit, those of
+    /// Of a field with zeros in all rows but 26 of 150 only the results of these rows are needed: they are, bit for bit, those of
     /// a transform of every row. The rows fill some groups that are transformed together, and parts of others.
     #[test]
     fn rows_that_are_left_out_change_no_other() {
@@ -328,10 +297,10 @@ mod tests {
             rows.flat_map(|(row, samples)| samples.iter().map(move |&x| if is_used(row) { x } else { padding }))
                 .collect()
         };
-        let mut room = vec![0.0; convolution.room()];
+        let mut memory = vec![0.0; convolution.memory()];
         let mut convolve = |field: &[f32], is_used: &(dyn Fn(usize) -> bool + Sync)| {
             let mut result = vec![0.0; n1 * n2];
-            let convolved = convolution.convolve(Action::Over(1.0), &multiplier, &mut room, rows_of(parts, field));
+            let convolved = convolution.convolve(Action::Divide(1.0), &multiplier, &mut memory, rows_of(parts, field));
             convolved.some_rows(is_used, rows_to(parts, &mut result));
             result
         };

@@ -1,7 +1,7 @@
 //! The residual continued beyond the active set I, for the preconditioner M = P_I Eᵀ C⁻¹ E P_I.
 //!
-//! Continued by zero, the residual jumps at the edge of contact, and C⁻¹ ~ |q| answers with a pressure like 1/√distance
-//! that is not there. E leaves a field alone on I and continues it outside by a local mean that fades:
+//! Continued by zero, the residual jumps at the edge of contact, and C⁻¹ ~ |q| makes of that a spurious pressure like
+//! 1/√distance. E keeps a field on I and continues it outside by a local mean that fades:
 //!
 //! E = P_I + (1 − P_I) W S P_I,  W = D c/(c² + c₀²),  c = S χ,
 //!
@@ -14,17 +14,17 @@ use crate::numeric::rows::{Parts, next};
 use fearless_simd::{f32x8, prelude::*};
 use rayon::prelude::*;
 
-/// What is kept of the mean at the edge of contact.
-const DECAY: f32 = 0.8;
+/// Part of the mean that is kept at the edge of contact.
+pub(super) const DECAY: f32 = 0.8;
 /// Share of I among the samples near by at which the continuation fades.
-const FADE: f32 = 0.07;
-/// Samples of either mean, a power of two.
-const WIDTH: usize = 16;
+pub(super) const FADE: f32 = 0.07;
+/// Samples of each mean, a power of two.
+pub(super) const WIDTH: usize = 16;
 /// Samples that the smoothing reaches each way.
 const REACH: usize = WIDTH - 1;
 
-/// Rows of E (r − mean) for a residual r on I (exactly 0 outside), by parts; `weight` becomes W outside and 0 on I, and
-/// `reached` says which rows have any of I or W.
+/// Sources of E (r − mean) for a residual r on I (exactly 0 outside); `weight` becomes W outside and 0 on I, `reached` true for
+/// the rows in which either is not zero.
 pub(super) fn extended<'a>(
     parts: Parts,
     residual: &'a [f32],
@@ -35,8 +35,8 @@ pub(super) fn extended<'a>(
     let [_, columns] = parts.points();
     let fields = parts.of(residual).zip(parts.of_mut(weight)).zip(reached.par_chunks_mut(parts.rows()));
     fields.enumerate().map(move |(part, ((own, weight), reached))| {
-        let mut sums = Triangles::new(parts, part, residual, Inside { mean });
-        let [mut near, mut share] = [(); 2].map(|()| Line::new(columns));
+        let mut sums = Triangles::new(parts, part, residual, Centred { mean });
+        let [mut near, mut share] = [(); 2].map(|()| PeriodicRow::new(columns));
         let mut rows = own.zip(weight).zip(reached);
         move |row: &mut [f32]| {
             let ((residual, weight), reached) = next(&mut rows);
@@ -53,7 +53,7 @@ pub(super) fn extended<'a>(
     })
 }
 
-/// Takes the rows of a field y, by parts, into `image`; `weight` becomes W y, smoothed along a₂.
+/// Sinks that put the rows of a field y into `image`; `weight` becomes W y, smoothed along a₂.
 pub(super) fn gathered<'a>(
     parts: Parts,
     image: &'a mut [f32],
@@ -61,7 +61,7 @@ pub(super) fn gathered<'a>(
 ) -> impl IndexedParallelIterator<Item: FnMut(&mut [f32])> + 'a {
     let [_, columns] = parts.points();
     parts.of_mut(image).zip(parts.of_mut(weight)).map(move |(image, weight)| {
-        let mut line = Line::new(columns);
+        let mut line = PeriodicRow::new(columns);
         let mut rows = image.zip(weight);
         move |row: &mut [f32]| {
             let (image, weight) = next(&mut rows);
@@ -74,23 +74,23 @@ pub(super) fn gathered<'a>(
     })
 }
 
-/// S W y on row after row of a part, from what [`gathered`] has left in `weight`: what Eᵀ adds to y on I.
-pub(super) fn gathering(parts: Parts, part: usize, weight: &[f32]) -> Triangles<'_, 1, Itself> {
-    Triangles::new(parts, part, weight, Itself)
+/// S W y on row after row of a part, which Eᵀ adds to y on I, from the `weight` that [`gathered`] has set.
+pub(super) fn gathering(parts: Parts, part: usize, weight: &[f32]) -> Triangles<'_, 1, Value> {
+    Triangles::new(parts, part, weight, Value)
 }
 
-/// What is summed of each sample of a field.
+/// Terms of each sample of a field that are summed.
 pub(super) trait Terms<const F: usize>: Copy {
     fn of<S: Simd>(self, simd: S, samples: f32x8<S>) -> [f32x8<S>; F];
 }
 
 /// r − mean and χ, of a residual.
 #[derive(Debug, Clone, Copy)]
-struct Inside {
+struct Centred {
     mean: f32,
 }
 
-impl Terms<2> for Inside {
+impl Terms<2> for Centred {
     #[inline(always)]
     fn of<S: Simd>(self, simd: S, residual: f32x8<S>) -> [f32x8<S>; 2] {
         let (zero, one) = (f32x8::simd_from(simd, 0.0), f32x8::simd_from(simd, 1.0));
@@ -99,19 +99,18 @@ impl Terms<2> for Inside {
     }
 }
 
-/// The sample.
+/// The sample itself.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Itself;
+pub(super) struct Value;
 
-impl Terms<1> for Itself {
+impl Terms<1> for Value {
     #[inline(always)]
     fn of<S: Simd>(self, _: S, samples: f32x8<S>) -> [f32x8<S>; 1] {
         [samples]
     }
 }
 
-/// Means over `WIDTH` rows of means over `WIDTH` rows, times `WIDTH`², on row after row of a periodic field: sums that
-/// each row joins and leaves again. Those of χ are whole numbers, and exact; others err by some 1e-7 of the largest sample
+/// Means over `WIDTH` rows of means over `WIDTH` rows, times `WIDTH`², on row after row of a periodic field: running sums. Those of χ are whole numbers, and exact; others err by some 1e-7 of the largest sample
 /// that has passed in this part.
 #[derive(Debug)]
 pub(super) struct Triangles<'a, const F: usize, T> {
@@ -141,7 +140,7 @@ impl<'a, const F: usize, T: Terms<F>> Triangles<'a, F, T> {
         triangles
     }
 
-    /// The sums on the next row; what follows its samples means nothing.
+    /// The sums on the next row, padded with values of no use.
     pub fn next(&mut self) -> [&[f32]; F] {
         self.add();
         self.twice.each_ref().map(|sums| &sums[..])
@@ -154,7 +153,7 @@ impl<'a, const F: usize, T: Terms<F>> Triangles<'a, F, T> {
             &self.field[row * self.columns..][..self.columns]
         };
         let joining = row(self.summed);
-        // None leaves before as many have joined.
+        // The first `WIDTH` rows replace none.
         let leaving = if self.summed < WIDTH { &[][..] } else { row(self.summed - WIDTH) };
         let padded = self.once[0].len();
         let slot = self.summed % WIDTH * padded;
@@ -194,18 +193,18 @@ fn moved<const F: usize, S: Simd>(
     }
 }
 
-/// A row with what surrounds it periodically.
+/// A row with its periodic surroundings.
 #[derive(Debug)]
-struct Line {
+struct PeriodicRow {
     samples: Vec<f32>,
 }
 
-impl Line {
+impl PeriodicRow {
     fn new(columns: usize) -> Self {
         Self { samples: vec![0.0; columns + 2 * REACH + LANES] }
     }
 
-    /// S of sums over rows; what follows the samples means nothing.
+    /// S of sums over rows, padded with values of no use.
     fn smoothed(&mut self, row: &[f32]) -> &[f32] {
         let (n2, line) = (row.len(), &mut self.samples);
         line[REACH..REACH + n2].copy_from_slice(row);
@@ -219,7 +218,7 @@ impl Line {
 }
 
 /// Two means over `WIDTH` samples as means ¼, ½, ¼ of samples 1, 2, 4 and 8 apart, in place: the result's `len` numbers
-/// start where the reach of the first one started. They are divided by what sums over rows lack of being means.
+/// start where the reach of the first one started. They are divided by `WIDTH`² too, as the sums over rows are no means yet.
 #[inline(always)]
 fn smooth<S: Simd>(simd: S, line: &mut [f32], len: usize) {
     let mut part = 0.25 / (WIDTH * WIDTH) as f32;
@@ -259,7 +258,7 @@ mod tests {
 
     /// ⟨E r, y⟩ = ⟨r, Eᵀ y⟩, on grids smaller than the reach and of several parts.
     #[test]
-    fn what_is_gathered_is_the_adjoint_of_what_is_extended() {
+    fn gathering_is_the_adjoint_of_the_extension() {
         for [n1, n2] in [[4, 7], [90, 24], [131, 300]] {
             let noise = |k: usize| ((k * k * 7919 + 13 * k) % 1009) as f32 / 1009.0 - 0.5;
             let (mean, size) = (0.1, n1 * n2);

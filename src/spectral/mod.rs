@@ -1,18 +1,22 @@
 //! The spectral method: the whole cell on a doubly periodic grid, the half-space exact in Fourier space.
 //!
-//! - `multiplier`: what they multiply with; `convolution`: transforms there and back in one fused pass;
-//! - [`operator`]: pressure → displacement and back, the one that counts and the one that leads there;
-//! - `extension`: the residual continued beyond the contact, for the preconditioner;
-//! - `iteration`: conjugate gradients on one grid, and the certificate of what they return;
-//! - `prolongation`: a solution carried over to the next finer grid;
-//! - [`Solver`]: a problem on its nested grids, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
-//!   [`Checkpoint`]: what a run that was interrupted goes on with.
+//! - [`operator`]: the elastic body as the iteration uses it, a trait; `layered_operator`: the layered half-space;
+//!   `convolution`, `multiplier`, `by_rows`: transforms there and back in one fused pass;
+//! - `iteration`: conjugate gradients on one grid, with the certificate of their result; `extension`: the residual continued
+//!   beyond the contact, for the preconditioner;
+//! - `grid_level`: a problem on one of its nested grids; `prolongation`: a solution carried over to the next finer one;
+//! - [`Solver`]: a problem on all of them, from load to load; [`Step`]: one load solved, [`Contact`]: on one grid;
+//!   [`Checkpoint`]: the state from which an interrupted run continues.
 
+mod by_rows;
 mod checkpoint;
 mod contact;
 mod convolution;
 mod extension;
+mod field_error;
+mod grid_level;
 mod iteration;
+mod layered_operator;
 mod multiplier;
 pub mod operator;
 mod prolongation;
@@ -21,6 +25,9 @@ mod step;
 
 pub use checkpoint::{Checkpoint, OtherGrids};
 pub use contact::Contact;
+pub use field_error::FieldError;
 pub use iteration::{Certificate, Method, Progress, Report, Route, Settings, Stop, Unknowns};
+pub use layered_operator::LayeredOperator;
+pub use operator::Workspace;
 pub use solver::{Memory, Solver};
 pub use step::Step;

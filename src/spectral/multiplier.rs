@@ -1,4 +1,4 @@
-//! What a convolution multiplies with: an even, positive K, and the odd T of a skew part K(1 − iT).
+//! Multiplication in Fourier space: by an even, positive multiplier K, or by K(1 − iT) with an odd T, the ratio of a skew part.
 
 use crate::numeric::fourier::line;
 use crate::numeric::lanes::{LANES, Real, vectorised};
@@ -26,35 +26,35 @@ impl Multiplier {
     }
 }
 
-/// An odd multiplier T(k₁, k₂), k₂ ≤ N₂/2, in the order of the column pass.
+/// Ratio T(k₁, k₂) of the skew part to K, odd, k₂ ≤ N₂/2, in the order of the column pass.
 #[derive(Debug, Clone)]
-pub struct Turns {
+pub struct SkewRatio {
     /// Eight columns at a time, padded with zeros.
     table: Vec<f64>,
 }
 
-impl Turns {
+impl SkewRatio {
     pub(super) fn new(table: Vec<f64>) -> Self {
         Self { table }
     }
 
     /// The largest |T|.
     pub fn largest(&self) -> f64 {
-        self.table.iter().fold(0.0, |largest, turn| turn.abs().max(largest))
+        self.table.iter().fold(0.0, |largest, ratio| ratio.abs().max(largest))
     }
 }
 
-/// What a convolution does with its multiplier K.
+/// Use of the multiplier K in a convolution.
 #[derive(Debug, Clone, Copy)]
 pub enum Action<'a> {
     /// u = F⁻¹[cK · F p] with a factor c, of zero mean: the component (0, 0) is dropped.
-    Times(f64),
+    Multiply(f64),
     /// u = F⁻¹[c F p / K].
-    Over(f64),
+    Divide(f64),
     /// u = F⁻¹[cK(1 − iT) · F p], of zero mean.
-    TimesTurned(f64, &'a Turns),
+    MultiplySkewed(f64, &'a SkewRatio),
     /// u = F⁻¹[c F p / K(1 − iT)].
-    OverTurned(f64, &'a Turns),
+    DivideSkewed(f64, &'a SkewRatio),
 }
 
 impl Action<'_> {
@@ -67,22 +67,24 @@ impl Action<'_> {
             let own = (whole + first) * LANES..(whole + first + rows) * LANES;
             let (table, normalisation) = (&multiplier.table[own.clone()], multiplier.normalisation);
             match self {
-                Self::Times(factor) | Self::TimesTurned(factor, _) => {
+                Self::Multiply(factor) | Self::MultiplySkewed(factor, _) => {
                     vectorised!(simd => times(simd, factor, table, lines, lane));
                 }
-                Self::Over(factor) | Self::OverTurned(factor, _) => {
+                Self::Divide(factor) | Self::DivideSkewed(factor, _) => {
                     // The table holds the normalisation already.
                     let (numerator, common) = (normalisation, 1.0 / (factor * normalisation));
                     vectorised!(simd => over(simd, numerator, common, table, lines, lane));
                 }
             }
             match self {
-                Self::Times(_) | Self::Over(_) => {}
-                Self::TimesTurned(_, turns) => vectorised!(simd => turn(simd, &turns.table[own], lines, lane)),
-                Self::OverTurned(_, turns) => vectorised!(simd => turn_back(simd, &turns.table[own], lines, lane)),
+                Self::Multiply(_) | Self::Divide(_) => {}
+                Self::MultiplySkewed(_, ratio) => {
+                    vectorised!(simd => multiply_skew(simd, &ratio.table[own], lines, lane))
+                }
+                Self::DivideSkewed(_, ratio) => vectorised!(simd => divide_skew(simd, &ratio.table[own], lines, lane)),
             }
         }
-        if let (Self::Times(_) | Self::TimesTurned(..), 0, 0) = (self, tile, first) {
+        if let (Self::Multiply(_) | Self::MultiplySkewed(..), 0, 0) = (self, tile, first) {
             (lines[0], lines[T::WIDTH]) = (T::zero(), T::zero());
         }
     }
@@ -114,27 +116,27 @@ fn over<S: Simd, T: Real>(simd: S, numerator: f64, common: f64, table: &[f64], l
 
 /// Each component times 1 − iT.
 #[inline(always)]
-fn turn<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T], lane: usize) {
-    for (line, turns) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
-        let turns = T::lanes(f64x8::from_slice(simd, turns));
+fn multiply_skew<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T], lane: usize) {
+    for (line, ratios) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
+        let ratios = T::lanes(f64x8::from_slice(simd, ratios));
         let [re, im] = parts(line, lane);
         let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
-        (x + y * turns).store_slice(re);
-        (y - x * turns).store_slice(im);
+        (x + y * ratios).store_slice(re);
+        (y - x * ratios).store_slice(im);
     }
 }
 
 /// Each component over 1 − iT.
 #[inline(always)]
-fn turn_back<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T], lane: usize) {
+fn divide_skew<S: Simd, T: Real>(simd: S, table: &[f64], lines: &mut [T], lane: usize) {
     let one = T::Lanes::<S>::simd_from(simd, T::rounded(1.0));
-    for (line, turns) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
-        let turns = T::lanes(f64x8::from_slice(simd, turns));
+    for (line, ratios) in lines.chunks_exact_mut(line::<T>()).zip(table.chunks_exact(LANES)) {
+        let ratios = T::lanes(f64x8::from_slice(simd, ratios));
         let [re, im] = parts(line, lane);
         let (x, y) = (T::Lanes::<S>::from_slice(simd, re), T::Lanes::<S>::from_slice(simd, im));
-        let scale = one / (one + turns * turns);
-        ((x - y * turns) * scale).store_slice(re);
-        ((y + x * turns) * scale).store_slice(im);
+        let scale = one / (one + ratios * ratios);
+        ((x - y * ratios) * scale).store_slice(re);
+        ((y + x * ratios) * scale).store_slice(im);
     }
 }
 

@@ -1,216 +1,249 @@
-//! The boundary operator: pressure on the cell → normal surface displacement.
+//! The elastic operator as the iteration uses it: pressure on the samples of a grid → normal displacement of the surface.
 //!
-//! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse makes the
-//! preconditioner. Both are diagonal in Fourier space. Under coupled friction the traction μ p **e** displaces too,
-//!
-//! ŵ = (C − iμK cos θ) p̂ = C(1 − iT) p̂,  T = μ (K/C) cos θ,
-//!
-//! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and what is its own
-//! conjugate has none. Pressures and displacements that count are
-//! convolved in double precision; what only leads to them in single precision, in units in which the compliance at the
-//! least wavenumber is one.
+//! A body is an implementation of [`ElasticOperator`]; the iteration calls nothing else of it. Fields pass
+//! through [by rows](ByRows).
 
-use super::convolution::{Convolution, Convolved, rows_of, rows_to};
-use super::multiplier::{Action, Multiplier, Turns};
-use crate::body::{Compliances, TransferFunction};
-use crate::friction::Friction;
-use crate::lattice::Grid;
+use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use crate::numeric::aligned::Aligned;
 use crate::numeric::lanes::Real;
 use crate::numeric::rows::Parts;
-use rayon::prelude::*;
 
 /// Memory that convolutions work in, for any number of grids in turn.
 #[derive(Debug, Default)]
 pub struct Workspace {
-    room: Aligned<f64>,
+    memory: Aligned<f64>,
 }
 
 impl Workspace {
-    fn of(&mut self, size: usize) -> &mut [f64] {
-        if self.room.len() < size {
-            self.room = Aligned::new(size);
+    /// `size` numbers, allocated anew where there are fewer so far.
+    pub(super) fn of(&mut self, size: usize) -> &mut [f64] {
+        if self.memory.len() < size {
+            self.memory = Aligned::new(size);
         }
-        &mut self.room[..size]
+        &mut self.memory[..size]
     }
 }
 
-/// The traction of coupled friction while the pressure changes.
+/// Which pressure the traction of coupled friction belongs to while the pressure changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Coupling {
-    /// It follows.
-    Follows,
-    /// It stands still.
-    Stands,
+pub enum Traction {
+    /// The present one: the traction is updated in every step.
+    Updated,
+    /// The last one in double precision: the traction lags behind.
+    Lagged,
 }
 
-/// Displacement operator of a layered half-space on a grid, with its inverse.
-#[derive(Debug)]
-pub struct Operator {
-    double: Convolution<f64>,
-    single: Convolution<f32>,
-    compliance: Multiplier,
-    /// T, and the largest |T|.
-    coupling: Option<(Turns, f64)>,
-    /// Compliance at the least wavenumber.
-    unit: f64,
-    convolutions: f64,
-}
+/// Linear elastic operator A of a body on a grid: w = A p, with zero mean. C is its symmetric part, positive on pressures
+/// without mean; without coupled friction A = C.
+///
+/// Pressures and displacements that count are in double precision; what only leads to them is in single precision, in units
+/// in which C at the least wavenumber is one.
+pub trait ElasticOperator {
+    /// Result in either precision.
+    type Rows<'a, T: Real>: ResultRows<T>
+    where
+        Self: 'a;
 
-impl Operator {
-    /// Operator of the half-space with the given transfer function, without friction.
-    pub fn new(grid: &Grid, transfer: &TransferFunction) -> Self {
-        let compliances = Compliances::new(transfer, range(grid), grid.len() / 2);
-        Self::with(grid, transfer, &compliances)
-    }
+    /// The parts of the rows that sources and sinks belong to.
+    fn parts(&self) -> Parts;
 
-    /// The same under a counterbody that slides with `friction`.
-    pub fn sliding(grid: &Grid, transfer: &TransferFunction, friction: &Friction) -> Self {
-        let [x, y] = friction.traction();
-        if !friction.couples() {
-            return Self::new(grid, transfer);
-        }
-        let compliances = Compliances::coupled(transfer, range(grid), grid.len() / 2);
-        let own = Self::with(grid, transfer, &compliances);
-        let turn = |component| match grid.mean_direction(component) {
-            [0.0, 0.0] => 0.0,
-            [nx, ny] => (x * nx + y * ny) * compliances.coupling_ratio(grid.wavenumber(component)),
-        };
-        let turns = own.double.turns(|[k1, k2], values| {
-            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = turn([k1, k2]));
-        });
-        let largest = turns.largest();
-        Self { coupling: Some((turns, largest)), ..own }
-    }
+    /// C at the least wavenumber, a length per pressure: the unit of single precision.
+    fn unit(&self) -> f64;
 
-    fn with(grid: &Grid, transfer: &TransferFunction, compliances: &Compliances<'_>) -> Self {
-        let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
-        let unit = transfer.compliance(grid.least_wavenumber());
-        // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
-        // positive: it takes the mean for a component of the least wavenumber.
-        let compliance = double.multiplier(grid.cell().is_rectangular(), |first, values| {
-            grid.wavenumbers(first, values);
-            if first == [0, 0] {
-                values[0] = grid.least_wavenumber();
-            }
-            compliances.replace(values);
-        });
-        Self { double, single, compliance, coupling: None, unit, convolutions: 0.0 }
-    }
+    /// Largest |C⁻¹(A − C)|, by which the part of coupled friction exceeds or falls below the symmetric one; 0 without it.
+    fn coupling(&self) -> f64;
 
-    /// Compliance at the least wavenumber, a length per pressure: the unit of the convolutions in single precision.
-    pub fn unit(&self) -> f64 {
-        self.unit
-    }
-
-    /// The parts of the rows that sources and sinks of convolutions are asked for.
-    pub(super) fn parts(&self) -> Parts {
-        self.double.parts()
-    }
-
-    /// Convolutions done so far; one in single precision counts half.
-    pub fn convolutions(&self) -> f64 {
-        self.convolutions
-    }
-
-    /// The largest part |T| that coupling adds to the operator; 0 without it.
-    pub fn coupling(&self) -> f64 {
-        self.coupling.as_ref().map_or(0.0, |&(_, largest)| largest)
-    }
-
-    /// p → w: displacement into the body with zero mean (a length), from pressure and the traction that goes with it.
-    pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        self.convolutions += 1.0;
-        in_place(&self.double, times(1.0, &self.coupling), &self.compliance, field, workspace);
-    }
-
-    /// [`displacement`](Self::displacement) in single precision, by which iterations find their way.
-    pub fn displacement_single(&mut self, field: &mut [f32], workspace: &mut Workspace) {
-        self.convolutions += 0.5;
-        in_place(&self.single, times(1.0, &self.coupling), &self.compliance, field, workspace);
-    }
-
-    /// w → p: the pressure that displaces so. The mean is treated like a component of the least wavenumber.
-    pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        self.convolutions += 1.0;
-        let action = self.coupling.as_ref().map_or(Action::Over(1.0), |(turns, _)| Action::OverTurned(1.0, turns));
-        in_place(&self.double, action, &self.compliance, field, workspace);
-    }
-
-    /// w → p of a counterbody that does not slide: C⁻¹ of the symmetric part alone.
-    pub fn frictionless_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
-        self.convolutions += 1.0;
-        in_place(&self.double, Action::Over(1.0), &self.compliance, field, workspace);
-    }
+    /// Convolutions so far; one in single precision counts half.
+    fn convolutions(&self) -> f64;
 
     /// The memory of a convolution in double precision in two: that of one in single precision, and a field in single
-    /// precision that lasts until the next one in double precision.
-    pub(super) fn shared<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
-        let [n1, n2] = self.parts().points();
-        // Of few columns a tile in single precision has as many bytes as those in double precision.
-        let size = self.double.room().max(self.single.room() + (n1 * n2).div_ceil(2));
-        let (room, rest) = workspace.of(size).split_at_mut(self.single.room());
-        (room, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
-    }
+    /// precision that lasts until the next convolution in double precision.
+    fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]);
 
-    /// p → w by rows.
-    pub(super) fn displaced<'a, S>(&'a mut self, workspace: &'a mut Workspace, pressure: S) -> Convolved<'a, f64>
-    where
-        S: IntoParallelIterator<Item: FnMut(&mut [f64]), Iter: IndexedParallelIterator>,
-    {
-        self.convolutions += 1.0;
-        self.double.convolve(times(1.0, &self.coupling), &self.compliance, workspace.of(self.double.room()), pressure)
-    }
+    /// w = A p.
+    fn displaced<'a>(&'a mut self, workspace: &'a mut Workspace, pressure: impl ByRows<f64>) -> Self::Rows<'a, f64>;
 
-    /// Changes of p → changes of w/C(least q) by rows, in single precision.
-    pub(super) fn displaced_single<'a, S>(
+    /// Changes of p → changes of w, in single precision: by A with an updated traction, by C with a lagged one.
+    fn displaced_single<'a>(
         &'a mut self,
-        traction: Coupling,
-        room: &'a mut [f64],
-        pressure: S,
-    ) -> Convolved<'a, f32>
-    where
-        S: IntoParallelIterator<Item: FnMut(&mut [f32]), Iter: IndexedParallelIterator>,
-    {
-        self.convolutions += 0.5;
-        let factor = 1.0 / self.unit;
-        let action = match traction {
-            Coupling::Follows => times(factor, &self.coupling),
-            Coupling::Stands => Action::Times(factor),
+        traction: Traction,
+        memory: &'a mut [f64],
+        pressure: impl ByRows<f32>,
+    ) -> Self::Rows<'a, f32>;
+
+    /// The preconditioner C⁻¹, in single precision; the mean is treated like a component of the least wavenumber.
+    fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Self::Rows<'a, f32>;
+
+    /// w → C⁻¹ w in place, in double precision; the mean is treated like a component of the least wavenumber.
+    fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace);
+
+    /// p → w = A p in place.
+    fn displace(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        let parts = self.parts();
+        self.displaced(workspace, rows_of(parts, field)).rows(rows_to(parts, field));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::{HalfSpace, Interface, Layer, Material};
+    use crate::lattice::{Cell, Grid};
+    use crate::load::Load;
+    use crate::spectral::LayeredOperator;
+    use crate::spectral::iteration::{
+        AdmissibleSet, ContactProblem, Method, Report, Settings, Stop, Unknowns, Working,
+    };
+    use rayon::prelude::*;
+    use std::f64::consts::TAU;
+    use std::ops::ControlFlow;
+
+    /// A body given by the matrices of A = C and C⁻¹.
+    struct Dense {
+        parts: Parts,
+        unit: f64,
+        compliance: Vec<f64>,
+        stiffness: Vec<f64>,
+        products: f64,
+    }
+
+    struct Product<T> {
+        parts: Parts,
+        field: Vec<T>,
+    }
+
+    impl<T: Real> ResultRows<T> for Product<T> {
+        fn some_rows(mut self, _: impl Fn(usize) -> bool + Sync, sinks: impl ByRows<T>) {
+            let parts = self.parts.of_mut(&mut self.field).zip(sinks.into_par_iter());
+            parts.for_each(|(rows, mut sink)| rows.for_each(&mut sink));
+        }
+    }
+
+    impl Dense {
+        /// The matrices of a layered half-space, column by column.
+        fn of(operator: &mut LayeredOperator, samples: usize) -> Self {
+            let mut workspace = Workspace::default();
+            let mut columns = |apply: &mut dyn FnMut(&mut LayeredOperator, &mut [f64], &mut Workspace)| {
+                let mut column = |k: usize| {
+                    let mut column = vec![0.0; samples];
+                    column[k] = 1.0;
+                    apply(operator, &mut column, &mut workspace);
+                    column
+                };
+                (0..samples).flat_map(&mut column).collect::<Vec<f64>>()
+            };
+            let compliance = columns(&mut |operator, field, workspace| operator.displacement(field, workspace));
+            let stiffness = columns(&mut |operator, field, workspace| operator.pressure(field, workspace));
+            Self { parts: operator.parts(), unit: operator.unit(), compliance, stiffness, products: 0.0 }
+        }
+
+        fn product<T: Real>(&self, matrix: &[f64], factor: f64, sources: impl ByRows<T>) -> Product<T> {
+            let [n1, n2] = self.parts.points();
+            let mut field = vec![T::zero(); n1 * n2];
+            let parts = self.parts.of_mut(&mut field).zip(sources.into_par_iter());
+            parts.for_each(|(rows, mut source)| rows.for_each(&mut source));
+            let mut sums = vec![0.0; field.len()];
+            for (value, column) in field.iter().zip(matrix.chunks_exact(n1 * n2)) {
+                let value = factor * value.double();
+                sums.iter_mut().zip(column).for_each(|(sum, entry)| *sum += value * entry);
+            }
+            Product { parts: self.parts, field: sums.into_iter().map(T::rounded).collect() }
+        }
+    }
+
+    impl ElasticOperator for Dense {
+        type Rows<'a, T: Real> = Product<T>;
+
+        fn parts(&self) -> Parts {
+            self.parts
+        }
+
+        fn unit(&self) -> f64 {
+            self.unit
+        }
+
+        fn coupling(&self) -> f64 {
+            0.0
+        }
+
+        fn convolutions(&self) -> f64 {
+            self.products
+        }
+
+        fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
+            let [n1, n2] = self.parts.points();
+            (&mut [], &mut bytemuck::cast_slice_mut(workspace.of((n1 * n2).div_ceil(2)))[..n1 * n2])
+        }
+
+        fn displaced<'a>(&'a mut self, _: &'a mut Workspace, pressure: impl ByRows<f64>) -> Product<f64> {
+            self.products += 1.0;
+            self.product(&self.compliance, 1.0, pressure)
+        }
+
+        fn displaced_single<'a>(
+            &'a mut self,
+            _: Traction,
+            _: &'a mut [f64],
+            pressure: impl ByRows<f32>,
+        ) -> Product<f32> {
+            self.products += 0.5;
+            self.product(&self.compliance, 1.0 / self.unit, pressure)
+        }
+
+        fn preconditioned<'a>(&'a mut self, _: &'a mut [f64], residual: impl ByRows<f32>) -> Product<f32> {
+            self.products += 0.5;
+            self.product(&self.stiffness, self.unit, residual)
+        }
+
+        fn symmetric_pressure(&mut self, field: &mut [f64], _: &mut Workspace) {
+            self.products += 1.0;
+            let pressure = self.product(&self.stiffness, 1.0, rows_of(self.parts, field));
+            pressure.rows(rows_to(self.parts, field));
+        }
+    }
+
+    fn solved(operator: &mut impl ElasticOperator, gap: &[f64], load: Load, method: Method) -> (Report, Unknowns) {
+        let mut unknowns = Unknowns::new(gap.len());
+        let report = ContactProblem {
+            working: &mut Working::default(),
+            operator,
+            initial_gap: gap,
+            largest_gap: gap.iter().copied().fold(0.0, f64::max),
+            admissible: AdmissibleSet::default(),
+            load,
+            settings: Settings { method, ..Settings::default() },
+            outer: 0,
+            progress: &mut |_| ControlFlow::Continue(()),
+        }
+        .solve(&mut unknowns);
+        (report, unknowns)
+    }
+
+    /// A coated half-space by its convolutions, and by its assembled matrix as any other body.
+    #[test]
+    fn the_iteration_solves_with_any_elastic_operator() {
+        let grid = Grid::new(Cell::hexagonal(1.0).unwrap(), [20, 24]).unwrap();
+        let layer = Layer::new(Material::from_shear(4.0, 0.2).unwrap(), 0.1, Interface::Bonded).unwrap();
+        let half_space = HalfSpace::new(vec![layer], Material::from_shear(1.0, 0.3).unwrap());
+        let mut layered = LayeredOperator::new(&grid, &half_space);
+        let mut dense = Dense::of(&mut layered, grid.len());
+        let wave = |i: usize| {
+            let [s, t] = grid.fractions(i);
+            0.01 * (3.0 - (TAU * s).cos() - (TAU * t).cos() - (TAU * (s + t)).cos())
         };
-        self.single.convolve(action, &self.compliance, room, pressure)
+        let gap: Vec<f64> = (0..grid.len()).map(wave).collect();
+        for method in [Method::Preconditioned, Method::PolonskyKeer] {
+            for load in [Load::MeanPressure(0.02), Load::Penetration(0.01), Load::MeanPressure(2.0)] {
+                let before = layered.convolutions();
+                let (own, convolved) = solved(&mut layered, &gap, load, method);
+                let (other, assembled) = solved(&mut dense, &gap, load, method);
+                assert_eq!((own.stop, other.stop), (Stop::Converged, Stop::Converged), "{own}; {other}");
+                let peak = convolved.pressure.iter().copied().fold(0.0, f64::max);
+                let pairs = convolved.pressure.iter().zip(&*assembled.pressure);
+                let error = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+                assert!(error < 1e-5 * peak, "{method:?}, {load}: {error:e} of {peak}; {own}; {other}");
+                assert!(layered.convolutions() > before && dense.convolutions() > 0.0);
+            }
+        }
     }
-
-    /// w → C(least q) C⁻¹ w by rows, in single precision.
-    pub(super) fn pressed_single<'a, S>(&'a mut self, room: &'a mut [f64], displacement: S) -> Convolved<'a, f32>
-    where
-        S: IntoParallelIterator<Item: FnMut(&mut [f32]), Iter: IndexedParallelIterator>,
-    {
-        self.convolutions += 0.5;
-        self.single.convolve(Action::Over(self.unit), &self.compliance, room, displacement)
-    }
-}
-
-/// Wavenumbers that a grid asks for.
-fn range(grid: &Grid) -> [f64; 2] {
-    [grid.least_wavenumber(), grid.largest_wavenumber()]
-}
-
-fn times(factor: f64, coupling: &Option<(Turns, f64)>) -> Action<'_> {
-    coupling.as_ref().map_or(Action::Times(factor), |(turns, _)| Action::TimesTurned(factor, turns))
-}
-
-fn in_place<T: Real>(
-    convolution: &Convolution<T>,
-    action: Action<'_>,
-    compliance: &Multiplier,
-    field: &mut [T],
-    workspace: &mut Workspace,
-) {
-    let (parts, room) = (convolution.parts(), workspace.of(convolution.room()));
-    // On the threads that share the work, where no pass has to wake them.
-    rayon::scope(|_| {
-        let convolved = convolution.convolve(action, compliance, room, rows_of(parts, field));
-        convolved.rows(rows_to(parts, field));
-    });
 }

@@ -11,15 +11,15 @@ use ndarray::{Array2, ArrayView2};
 use std::fmt;
 use std::sync::Arc;
 
-/// A solved load step. It shares its fields with nobody who could change them, and grid, surface and problem: it can be
-/// kept, sent to another thread, and read after the solver is gone.
+/// A solved load step. It shares grid, surface and problem, and its fields never change: it can be kept, sent to another
+/// thread, and read after the solver is gone.
 #[derive(Debug, Clone)]
 pub struct Step {
-    /// What was prescribed.
+    /// The prescribed load.
     pub load: Load,
-    /// How the finest grid's solution was reached.
+    /// Report of the solution on the finest grid.
     pub report: Report,
-    /// What the pressure proves about itself.
+    /// Bounds on the error of the pressure.
     pub certificate: Certificate,
     /// Convolutions on all grids, as equivalents of the finest one.
     pub convolutions: f64,
@@ -33,13 +33,13 @@ impl Step {
         &self.finest
     }
 
-    /// The same load step as the next two coarser grids have solved it on the way, the finer one first; none for the
-    /// baseline method, on grids too coarse for any, and from a grid on whose contact would be more than complete.
+    /// The contact of this load on the next two coarser grids, the finer one first; none for the baseline method, on grids too
+    /// coarse for any, and from a grid on that the prescribed penetration is beyond complete contact.
     pub fn coarser(&self) -> &[Contact] {
         &self.coarser
     }
 
-    /// What is pressed into what.
+    /// The problem.
     pub fn problem(&self) -> &Arc<Problem> {
         self.finest.problem()
     }

@@ -2,7 +2,7 @@
 
 use super::series::Response;
 use super::tensor::StressState;
-use crate::body::{Amplitudes, Antiplane, Depth, InPlane, Interiors};
+use crate::body::{Amplitudes, Antiplane, Depth, InPlane, InteriorTable};
 use rustfft::num_complex::Complex64;
 
 /// Whether each of xx, yy, zz, xy, xz, yz, u_x, u_y, u_z is odd in the wavevector under a pressure; under a shear traction the
@@ -42,7 +42,7 @@ impl DepthResponse {
     /// Response at a depth of the shells with these `wavenumbers` to a pressure and the `traction` per unit of it, with the state
     /// `mean` under the mean pressure.
     pub fn new(
-        interiors: &Interiors,
+        interiors: &InteriorTable,
         depth: Depth,
         wavenumbers: &[f64],
         traction: Option<[f64; 2]>,

@@ -5,7 +5,7 @@ use super::regions::Regions;
 use super::series::{Response, Series};
 use super::tables::Tables;
 use super::tensor::StressState;
-use crate::body::{Depth, HalfSpace, Interface, Interiors, Layer, MeanStress};
+use crate::body::{Depth, HalfSpace, Interface, InteriorTable, Layer, MeanStress};
 use crate::friction::Friction;
 use crate::lattice::{Grid, NotOnGrid};
 use crate::notation::number;
@@ -22,7 +22,7 @@ pub struct StressField {
     pub(super) series: Series,
     grid: Arc<Grid>,
     half_space: HalfSpace,
-    interiors: Arc<Interiors>,
+    interiors: Arc<InteriorTable>,
     tables: Arc<Tables>,
     /// State under the mean pressure at the upper face of each material, and the derivative of its displacement by depth.
     mean: Vec<(StressState, [f64; 3])>,
@@ -117,7 +117,7 @@ impl StressField {
     }
 
     /// Amplitudes of the grid's waves in the half-space.
-    pub(super) fn interiors(&self) -> &Interiors {
+    pub(super) fn interiors(&self) -> &InteriorTable {
         &self.interiors
     }
 

@@ -1,41 +1,40 @@
-//! Tables of a body on the grids of a run, made once for all loads.
+//! Tables of the interior on the grids of a run, set up once for all loads.
 
-use crate::body::{HalfSpace, Interiors, TransferFunction};
+use crate::body::{HalfSpace, InteriorTable, LayeredResponse};
 use crate::lattice::Grid;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Grids whose tables are kept: those of a step and its errors, and as many that take their place.
+/// Grids whose tables are kept: those of a step and its errors, and as many that replace them.
 const KEPT: usize = 4;
 
-/// What stress fields of one run share.
+/// Tables of the interior that the stress fields of one run share.
 #[derive(Debug, Default)]
-pub(crate) struct Tables(Mutex<Vec<Table>>);
+pub(crate) struct Tables(Mutex<Vec<Entry>>);
 
 #[derive(Debug)]
-struct Table {
+struct Entry {
     grid: Arc<Grid>,
-    half_space: HalfSpace,
+    response: Arc<LayeredResponse>,
     slides: bool,
-    interiors: Arc<Interiors>,
+    table: Arc<InteriorTable>,
 }
 
 impl Tables {
-    /// The interiors of a half-space under the waves of a grid; they are made where there are none yet.
-    pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<Interiors> {
-        let mut tables = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_own =
-            |own: &&Table| Arc::ptr_eq(&own.grid, grid) && own.slides == slides && own.half_space == *half_space;
-        if let Some(own) = tables.iter().find(is_own) {
-            return Arc::clone(&own.interiors);
+    /// Table of a half-space for the wavenumbers of a grid, set up unless there is one already.
+    pub fn interiors(&self, grid: &Arc<Grid>, half_space: &HalfSpace, slides: bool) -> Arc<InteriorTable> {
+        let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let response = half_space.response();
+        let is_own = |own: &&Entry| Arc::ptr_eq(&own.grid, grid) && own.slides == slides && own.response == *response;
+        if let Some(own) = entries.iter().find(is_own) {
+            return Arc::clone(&own.table);
         }
-        let transfer = TransferFunction::new(half_space);
-        let interiors = Arc::new(Interiors::new(transfer, grid.waves().wavenumbers(), slides));
-        if tables.len() == KEPT {
-            tables.remove(0);
+        let (grid, response) = (Arc::clone(grid), Arc::clone(response));
+        let table = Arc::new(InteriorTable::new(Arc::clone(&response), grid.waves().wavenumbers(), slides));
+        if entries.len() == KEPT {
+            entries.remove(0);
         }
-        let (grid, half_space) = (Arc::clone(grid), half_space.clone());
-        tables.push(Table { grid, half_space, slides, interiors: Arc::clone(&interiors) });
-        interiors
+        entries.push(Entry { grid, response, slides, table: Arc::clone(&table) });
+        table
     }
 }
 

@@ -3,8 +3,7 @@
 use crate::common;
 
 use common::Random;
-use percoat::body::TransferFunction;
-use percoat::spectral::operator::{Operator, Workspace};
+use percoat::spectral::{LayeredOperator, Workspace};
 use percoat::{Cell, Grid, Interface};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -13,7 +12,7 @@ use std::sync::Arc;
 #[test]
 fn a_displacement_is_the_direct_sum_over_wavevectors() {
     let half_space = common::coated(3.0, 0.2, [0.25, 0.4], Interface::Bonded);
-    let transfer = TransferFunction::new(&half_space);
+    let response = half_space.response();
     for (cell, [n1, n2]) in [
         (Cell::hexagonal(1.0).unwrap(), [6, 6]),
         (Cell::square(0.7).unwrap(), [5, 8]),
@@ -23,7 +22,7 @@ fn a_displacement_is_the_direct_sum_over_wavevectors() {
         let mut random = Random(77);
         let pressure: Vec<f64> = (0..n1 * n2).map(|_| random.unit()).collect();
         let mut displacement = pressure.clone();
-        Operator::new(&grid, &transfer).displacement(&mut displacement, &mut Workspace::default());
+        LayeredOperator::new(&grid, &half_space).displacement(&mut displacement, &mut Workspace::default());
 
         let [b1, b2] = cell.reciprocal();
         let shortest = |k1: usize, k2: usize| {
@@ -34,7 +33,7 @@ fn a_displacement_is_the_direct_sum_over_wavevectors() {
             (-5..=5).flat_map(|m1| (-5..=5).map(move |m2| (m1, m2))).map(|(m1, m2)| length(m1, m2)).fold(1e9, f64::min)
         };
         let compliance: Vec<f64> =
-            (0..n1 * n2).map(|k| if k == 0 { 0.0 } else { transfer.compliance(shortest(k / n2, k % n2)) }).collect();
+            (0..n1 * n2).map(|k| if k == 0 { 0.0 } else { response.compliance(shortest(k / n2, k % n2)) }).collect();
         for (i, j) in (0..n1).flat_map(|i| (0..n2).map(move |j| (i, j))) {
             let mut direct = 0.0;
             for (k1, k2) in (0..n1).flat_map(|i| (0..n2).map(move |j| (i, j))) {
@@ -57,18 +56,18 @@ fn a_displacement_is_the_direct_sum_over_wavevectors() {
 #[test]
 fn on_large_grids_too_waves_are_multiplied_by_their_compliance() {
     let (half_space, n) = (common::coated(200.0, 0.03, [0.25, 0.4], Interface::Bonded), 160);
-    let transfer = TransferFunction::new(&half_space);
+    let response = half_space.response();
     for cell in [Cell::hexagonal(1.0).unwrap(), Cell::square(1.0).unwrap()] {
         let grid = Arc::new(Grid::new(cell, [n, n]).unwrap());
-        let mut operator = Operator::new(&grid, &transfer);
+        let mut operator = LayeredOperator::new(&grid, &half_space);
         for [k1, k2] in [[1, 0], [3, 7], [80, 0], [41, 55], [0, 79], [80, 80]] {
             let wave = |i: usize| (TAU * ((k1 * (i / n) + k2 * (i % n)) % n) as f64 / n as f64).cos();
             let mut field: Vec<f64> = (0..n * n).map(wave).collect();
             operator.displacement(&mut field, &mut Workspace::default());
-            let compliance = transfer.compliance(grid.wavenumber([k1, k2]));
+            let compliance = response.compliance(grid.wavenumber([k1, k2]));
             let error = (0..n * n).map(|i| (field[i] / compliance - wave(i)).abs()).fold(0.0, f64::max);
             // What rounding in the transforms makes of a short wave are long ones too, which are displaced far more.
-            let leak = f64::EPSILON * transfer.compliance(grid.least_wavenumber()) / compliance;
+            let leak = f64::EPSILON * response.compliance(grid.least_wavenumber()) / compliance;
             assert!(error < 1e-12 + leak, "{cell}, {k1}, {k2}: {error:e}");
         }
     }
@@ -79,7 +78,7 @@ fn on_large_grids_too_waves_are_multiplied_by_their_compliance() {
 fn the_pressure_inverts_the_displacement() {
     let half_space = common::coated(0.1, 0.05, [0.5, 0.3], Interface::Frictionless);
     let grid = Arc::new(Grid::new(Cell::hexagonal(2.0).unwrap(), [20, 18]).unwrap());
-    let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
+    let mut operator = LayeredOperator::new(&grid, &half_space);
     let mut random = Random(5);
     let mut pressure: Vec<f64> = (0..360).map(|_| random.unit()).collect();
     let mean = pressure.iter().sum::<f64>() / 360.0;
@@ -94,7 +93,7 @@ fn the_pressure_inverts_the_displacement() {
 fn in_single_precision_a_displacement_is_the_same() {
     let half_space = common::coated(0.1, 0.05, [0.5, 0.3], Interface::Frictionless);
     let grid = Arc::new(Grid::new(Cell::hexagonal(2.0).unwrap(), [20, 18]).unwrap());
-    let mut operator = Operator::new(&grid, &TransferFunction::new(&half_space));
+    let mut operator = LayeredOperator::new(&grid, &half_space);
     let mut random = Random(6);
     let (mut field, mut workspace): (Vec<f64>, _) = ((0..360).map(|_| random.unit()).collect(), Workspace::default());
     let mut single: Vec<f32> = field.iter().map(|&p| p as f32).collect();

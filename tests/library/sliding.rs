@@ -4,8 +4,7 @@ use crate::common;
 
 use common::{Hills, PAPER, Random, bare, coated, one_level, paraboloid, relative_difference, solve, solve_sharply};
 use ndarray::{Array2, Axis};
-use percoat::body::TransferFunction;
-use percoat::spectral::operator::{Operator, Workspace};
+use percoat::spectral::{LayeredOperator, Workspace};
 use percoat::{
     Cell, Friction, FrictionError, Grid, HalfSpace, Interface, Lattice, Load, Material, Problem, Route, Settings,
     Solver, Topography,
@@ -20,7 +19,7 @@ fn friction(coefficient: f64, degrees: f64) -> Friction {
 /// w(x) = Σ_q (C − iμ **e**·**n** K) p̂(q) e^{iq·x}, over all shortest aliases of each component.
 #[test]
 fn a_displacement_under_friction_is_the_direct_sum_over_wavevectors() {
-    let transfer = TransferFunction::new(&coated(0.3, 0.2, [0.1, 0.4], Interface::Bonded));
+    let half_space = coated(0.3, 0.2, [0.1, 0.4], Interface::Bonded);
     let sliding = friction(0.7, 33.0);
     let [fx, fy] = sliding.traction();
     for (cell, [n1, n2]) in [
@@ -34,7 +33,7 @@ fn a_displacement_under_friction_is_the_direct_sum_over_wavevectors() {
         let mut random = Random(77);
         let pressure: Vec<f64> = (0..n1 * n2).map(|_| random.unit()).collect();
         let mut displacement = pressure.clone();
-        let mut operator = Operator::sliding(&grid, &transfer, &sliding);
+        let mut operator = LayeredOperator::sliding(&grid, &half_space, &sliding);
         operator.displacement(&mut displacement, &mut Workspace::default());
 
         let [b1, b2] = cell.reciprocal();
@@ -55,7 +54,7 @@ fn a_displacement_under_friction_is_the_direct_sum_over_wavevectors() {
                 }
                 let aliases = aliases(k / n2, k % n2);
                 let [x, y] = aliases[0];
-                let response = transfer.response(x.hypot(y));
+                let response = half_space.response().surface(x.hypot(y));
                 let cosines: f64 = aliases.iter().map(|[x, y]| (fx * x + fy * y) / x.hypot(*y)).sum();
                 [response.normal, -response.coupling * cosines / aliases.len() as f64]
             })
@@ -147,7 +146,6 @@ fn the_sliding_wave_has_its_closed_form() {
 #[test]
 fn the_certificate_bounds_the_elastic_energy_of_the_error() {
     let half_space = || coated(2.0, 0.2, [0.0, 0.3], Interface::Bonded);
-    let transfer = TransferFunction::new(&half_space());
     let problem = |coefficient: f64| {
         let surface = Hills::random(&mut Random(5), 8, 3, 0.01).topography(48);
         Problem::new(surface, half_space()).sliding(friction(coefficient, 25.0)).unwrap()
@@ -162,7 +160,7 @@ fn the_certificate_bounds_the_elastic_energy_of_the_error() {
             };
             let sharp = solved(1e-12);
             assert!(sharp.report.stop.solved(), "{}", sharp.report);
-            let mut operator = Operator::new(sharp.grid(), &transfer);
+            let mut operator = LayeredOperator::new(sharp.grid(), &half_space());
             let mut elastic = |field: Array2<f64>| {
                 let mut displacement: Vec<f64> = field.iter().copied().collect();
                 operator.displacement(&mut displacement, &mut Workspace::default());

@@ -4,11 +4,10 @@ use crate::common;
 
 use common::{PAPER, Random, bare, coated, one_level, paraboloid, relative_difference, solve, solve_with};
 use ndarray::Array2;
-use percoat::body::TransferFunction;
-use percoat::spectral::operator::{Operator, Workspace};
+use percoat::spectral::{LayeredOperator, Workspace};
 use percoat::{
-    Cell, Counterbody, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Method, Problem,
-    Reading, Route, Settings, Shape, Solver, Step, Stop, Topography,
+    Cell, Counterbody, FieldError, HalfSpace, Indenters, Interface, Lattice, Layer, Level, Load, Material, Method,
+    Problem, Reading, Route, Settings, Shape, Solver, Step, Stop, Topography,
 };
 use std::f64::consts::TAU;
 
@@ -68,9 +67,9 @@ fn the_gap_of_a_step_is_that_of_its_pressure() {
         let mut solver = Solver::new(problem, [66, 72], settings).unwrap();
         let step = solver.solve(load);
         assert_eq!(step.report.stop, stop, "{step}");
-        let transfer = TransferFunction::new(step.problem().half_space());
         let mut displacement: Vec<f64> = step.pressure().iter().copied().collect();
-        Operator::new(step.grid(), &transfer).displacement(&mut displacement, &mut Workspace::default());
+        LayeredOperator::new(step.grid(), step.problem().half_space())
+            .displacement(&mut displacement, &mut Workspace::default());
         let (initial, gap) = (step.surface().initial_gap(), step.gap());
         let expected = initial.iter().zip(&displacement).map(|(f, w)| f + w - step.penetration());
         let error = expected.zip(&gap).map(|(expected, gap)| (gap - expected).abs()).fold(0.0, f64::max);
@@ -468,7 +467,7 @@ fn the_default_converges_wherever_the_baseline_does() {
         let problem = Problem::new(counterbody, stack(&mut random));
         let mut reference = Solver::new(problem.clone(), [n, n], baseline()).unwrap();
         let scale = reference.surface().mean()
-            / TransferFunction::new(problem.half_space()).compliance(reference.grid().least_wavenumber());
+            / problem.half_space().response().compliance(reference.grid().least_wavenumber());
         let pressure = scale * random.log(1e-5, 10.0);
         let load = Load::MeanPressure(pressure);
         let base = reference.solve(load);
@@ -526,4 +525,131 @@ fn contacts_that_touch_are_recognised_as_merged() {
     );
     assert!(merged.contact_fraction > 0.8 && (level.load_share - 1.0).abs() < 1e-12);
     assert!((level.contact_area / (merged.contact_fraction * 0.75f64.sqrt()) - 1.0).abs() < 1e-12);
+}
+
+/// Heights of a few waves, largest 0 at a sample.
+fn waves([n1, n2]: [usize; 2]) -> Array2<f64> {
+    let wave = |s: f64, t: f64| (TAU * s).cos() + (TAU * t).cos() + 0.6 * (TAU * (3.0 * s - 2.0 * t) + 1.0).cos();
+    let heights = Array2::from_shape_fn([n1, n2], |(i, j)| 0.01 * wave(i as f64 / n1 as f64, j as f64 / n2 as f64));
+    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    heights - highest
+}
+
+fn flat(points: [usize; 2]) -> Problem {
+    Problem::new(Topography::new(Cell::hexagonal(1.0).unwrap(), Array2::zeros(points)).unwrap(), PAPER[0].half_space())
+}
+
+/// On grids that halve to whole fractions and on others, by load and by penetration.
+#[test]
+fn a_given_gap_is_that_of_the_equivalent_topography() {
+    for points in [[96, 96], [90, 75]] {
+        let topography = Topography::new(Cell::hexagonal(1.0).unwrap(), waves(points)).unwrap();
+        let problem = Problem::new(topography, PAPER[0].half_space());
+        for load in [Load::MeanPressure(0.02), Load::Penetration(0.01)] {
+            let mut solver = Solver::new(problem.clone(), points, Settings::default()).unwrap();
+            let own = solver.solve(load);
+            let given = |offset: f64| {
+                let gap = &solver.surface().initial_gap() + offset;
+                let given = Solver::new(flat(points), points, Settings::default()).unwrap();
+                given.with_gap(gap).unwrap().solve(load)
+            };
+            let (same, shifted) = (given(0.0), given(-0.3));
+            assert!(own.report.stop.solved(), "{own}");
+            assert!(own.pressure() == same.pressure() && own.gap() == same.gap(), "{points:?}: bit for bit");
+            assert!(relative_difference(own.pressure(), shifted.pressure()) < 1e-6, "only differences count");
+            assert!((own.penetration() / shifted.penetration() - 1.0).abs() < 1e-9);
+        }
+    }
+}
+
+/// The gap of the indenters themselves leaves everything as it is; a worn apex carries less.
+#[test]
+fn a_given_gap_leaves_the_samples_to_their_indenters() {
+    let (case, points) = (PAPER[0], [96, 96]);
+    let load = Load::MeanPressure(case.pressure);
+    let mut solver = Solver::new(case.problem(), points, Settings::default()).unwrap();
+    let own = solver.solve(load);
+    let mut gap = own.surface().initial_gap().to_owned();
+    let mut given = Solver::new(case.problem(), points, Settings::default()).unwrap().with_gap(gap.clone()).unwrap();
+    let same = given.solve(load);
+    assert!(own.pressure() == same.pressure() && own.reading() == same.reading());
+    gap.mapv_inplace(|f| f.max(0.3 * own.penetration()));
+    let worn = given.with_gap(gap).unwrap().solve(load);
+    assert!(worn.report.stop.solved(), "{worn}");
+    let peak = |step: &Step| step.pressure().iter().copied().fold(0.0, f64::max);
+    assert!(peak(&worn) < 0.9 * peak(&own), "{} {}", peak(&worn), peak(&own));
+    assert!((worn.pressure().mean().unwrap() / case.pressure - 1.0).abs() < 1e-8);
+}
+
+#[test]
+fn fields_that_do_not_fit_the_grid_are_refused() {
+    let solver = || Solver::new(flat([32, 24]), [32, 24], Settings::default()).unwrap();
+    let error = solver().with_gap(Array2::zeros([24, 32])).unwrap_err();
+    assert!(matches!(error, FieldError::Shape(_)), "{error}");
+    assert!(error.to_string().contains("24 × 32") && error.to_string().contains("32 × 24"), "{error}");
+    let mut gap = Array2::zeros([32, 24]);
+    gap[[3, 5]] = f64::NAN;
+    let error = solver().with_gap(gap).unwrap_err();
+    assert!(matches!(error, FieldError::NotFinite { sample: [3, 5], .. }), "{error}");
+    assert!(matches!(solver().with_mask(Array2::from_elem([32, 1], true)).unwrap_err(), FieldError::Shape(_)));
+    assert_eq!(solver().with_mask(Array2::from_elem([32, 24], false)).unwrap_err(), FieldError::EmptyMask);
+}
+
+/// Contact on a strip alone: that of a surface out of reach elsewhere, by either method.
+#[test]
+fn a_mask_is_a_surface_out_of_reach() {
+    let points = [96, 96];
+    let problem =
+        Problem::new(Topography::new(Cell::hexagonal(1.0).unwrap(), waves(points)).unwrap(), PAPER[0].half_space());
+    let load = Load::MeanPressure(0.02);
+    let mask = Array2::from_shape_fn(points, |(i, _)| !(20..60).contains(&i));
+    for settings in [Settings::default(), baseline()] {
+        let solver = || Solver::new(problem.clone(), points, settings).unwrap();
+        let free = solver().solve(load);
+        let whole = solver().with_mask(Array2::from_elem(points, true)).unwrap().solve(load);
+        assert!(free.pressure() == whole.pressure(), "bit for bit");
+        let masked = solver().with_mask(mask.clone()).unwrap().solve(load);
+        assert_eq!(masked.report.stop, Stop::Converged, "{masked}");
+        let mut gap = free.surface().initial_gap().to_owned();
+        gap.zip_mut_with(&mask, |f, &admissible| *f += if admissible { 0.0 } else { 1.0 });
+        let far = solver().with_gap(gap).unwrap().solve(load);
+        assert_eq!(far.report.stop, Stop::Converged, "{far}");
+        assert!(relative_difference(masked.pressure(), far.pressure()) < 1e-5, "{masked}\n{far}");
+        assert!((masked.penetration() / far.penetration() - 1.0).abs() < 1e-6, "{masked}\n{far}");
+        assert!(relative_difference(masked.pressure(), free.pressure()) > 0.1, "the mask matters");
+        let pressed = masked.pressure().iter().zip(&mask).any(|(&p, &admissible)| p > 0.0 && !admissible);
+        assert!(!pressed, "no pressure outside the mask");
+        // The gap is a true one outside the mask too: w + f − δ.
+        let least = masked.gap().iter().copied().fold(f64::INFINITY, f64::min);
+        assert!(least > -masked.penetration() && masked.gap().iter().all(|g| g.abs() < 1.0), "{least}");
+        let pushed = solver().with_mask(mask.clone()).unwrap().solve(Load::Penetration(masked.penetration()));
+        assert_eq!(pushed.report.stop, Stop::Converged, "{pushed}");
+        assert!(relative_difference(masked.pressure(), pushed.pressure()) < 1e-4, "{pushed}");
+    }
+}
+
+/// A flat counterbody on a disc: complete contact on it, so that pressures are proportional to the load.
+#[test]
+fn a_flat_punch_is_linear_in_its_load() {
+    let points = [72, 72];
+    let disc = |(i, j): (usize, usize)| {
+        let (x, y) = (i as f64 / 72.0 - 0.5, j as f64 / 72.0 - 0.5);
+        x * x + y * y + x * y < 0.05
+    };
+    let mask = Array2::from_shape_fn(points, disc);
+    for settings in [Settings::default(), baseline()] {
+        let mut solver = Solver::new(flat(points), points, settings).unwrap().with_mask(mask.clone()).unwrap();
+        let [light, heavy] = [0.1, 3.0].map(|mean| solver.solve(Load::MeanPressure(mean)));
+        for step in [&light, &heavy] {
+            assert_eq!(step.report.stop, Stop::Converged, "{step}");
+            let pressed = step.pressure().iter().zip(&mask).all(|(&p, &admissible)| (p > 0.0) == admissible);
+            assert!(pressed && step.penetration() > 0.0, "{step}");
+        }
+        let scaled = &light.pressure() * 30.0;
+        assert!(relative_difference(scaled.view(), heavy.pressure()) < 1e-5);
+        assert!((heavy.penetration() / light.penetration() / 30.0 - 1.0).abs() < 1e-6);
+        let pushed = solver.solve(Load::Penetration(light.penetration()));
+        assert_eq!(pushed.report.stop, Stop::Converged, "{pushed}");
+        assert!((pushed.pressure().mean().unwrap() / 0.1 - 1.0).abs() < 1e-6, "{pushed}");
+    }
 }

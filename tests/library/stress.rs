@@ -4,7 +4,7 @@ use crate::common;
 
 use common::{PAPER, Random, one_level, paraboloid, solve_sharply};
 use ndarray::{Array2, Axis};
-use percoat::body::{Interior, TransferFunction};
+use percoat::body::InPlane;
 use percoat::{
     Cell, Depth, Grid, HalfSpace, Interface, Lattice, Layer, Load, Material, MeanStress, Problem, StressField,
     StressState, SurfaceLine,
@@ -42,7 +42,7 @@ fn worst(a: &StressState, b: &StressState) -> f64 {
 #[test]
 fn points_are_the_direct_sum_over_wavevectors() {
     let half_space = two_layers(Interface::Spring { tangential: 2.0, normal: 9.0 });
-    let transfer = TransferFunction::new(&half_space);
+    let transfer = half_space.response();
     for (cell, [n1, n2]) in
         [(Cell::hexagonal(1.0).unwrap(), [6, 6]), (Cell::new([1.0, 0.2], [0.4, 0.9]).unwrap(), [6, 7])]
     {
@@ -72,7 +72,7 @@ fn points_are_the_direct_sum_over_wavevectors() {
                     .collect();
                 let least = aliases.iter().map(|q| q[0].hypot(q[1])).fold(f64::INFINITY, f64::min);
                 let tied: Vec<&[f64; 2]> = aliases.iter().filter(|q| q[0].hypot(q[1]) < least * (1.0 + 1e-9)).collect();
-                let a = Interior::new(&transfer, least).at(depth);
+                let a = transfer.interior(InPlane::Normal, least).at(depth);
                 for q in &tied {
                     let part = 1.0 / tied.len() as f64;
                     let (sine, cosine) = (q[0] * x + q[1] * y).sin_cos();

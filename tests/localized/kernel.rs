@@ -2,7 +2,6 @@
 
 use crate::common::coated;
 use crate::{homogeneous, two_layers};
-use percoat::body::TransferFunction;
 use percoat::localized::disc;
 use percoat::localized::point::PointKernel;
 use percoat::localized::square::Squares;
@@ -41,7 +40,7 @@ fn coefficients_are_the_double_integral_of_eq_7() {
         two_layers(),
     ] {
         let kernel = PointKernel::new(&half_space, 20.0);
-        let transfer = TransferFunction::new(&half_space);
+        let transfer = half_space.response();
         let surface = half_space.surface_material();
         let c = (1.0 - surface.poisson()) / surface.shear();
         let h = half_space.layers()[0].thickness();

@@ -3,9 +3,7 @@
 
 use super::draw::{self, curve};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{
-    Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interface, Interior, Layer, Material, TransferFunction,
-};
+use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, Interface, Layer, Material};
 use crate::numeric::search::largest;
 use crate::picture::{Axis, Chart, Figure, Style};
 use serde_json::Value;
@@ -71,7 +69,7 @@ impl Reference {
     /// Displacements in units of the surface displacement; stresses in units of the surface pressure, or of the in-plane
     /// stress where bending makes that larger.
     fn interior_errors(&self, point: &Value) -> Result<[f64; 2], StudyError> {
-        let interior = Interior::new(&TransferFunction::new(&self.half_space), self.wavenumber);
+        let interior = self.half_space.response().interior(InPlane::Normal, self.wavenumber);
         let material = point["side"].as_u64().ok_or("no side")? as usize;
         let amplitudes = interior.at(Depth { z: number(&point["z"])?, material });
         let stress = number(&point["sqq"])?.abs().max(1.0);
@@ -102,7 +100,7 @@ impl Reference {
     /// Relative errors of the surface displacements under shear tractions: u_q along the wavevector; u_z, whose size may
     /// vanish, over the larger of both; u_t across it.
     fn tangential_errors(&self) -> Result<[f64; 3], StudyError> {
-        let response = TransferFunction::new(&self.half_space).response(self.wavenumber);
+        let response = self.half_space.response().surface(self.wavenumber);
         let ([uq, uz], ut) = (self.along()?, number(&self.surface["across"]["ut"])?);
         let error = |found: f64, known: f64, scale: f64| (found - known).abs() / scale;
         Ok([
@@ -114,11 +112,10 @@ impl Reference {
 
     /// Largest errors of the amplitudes at one point under shear tractions, as [`Self::interior_errors`] has them.
     fn tangential_interior_errors(&self, point: &Value) -> Result<[f64; 2], StudyError> {
-        let transfer = TransferFunction::new(&self.half_space);
+        let transfer = self.half_space.response();
         let material = point["side"].as_u64().ok_or("no side")? as usize;
         let depth = Depth { z: number(&point["z"])?, material };
-        let Amplitudes { szz, sqz, sqq, stt, uz, uq } =
-            Interior::under(InPlane::Along, &transfer, self.wavenumber).at(depth);
+        let Amplitudes { szz, sqz, sqq, stt, uz, uq } = transfer.interior(InPlane::Along, self.wavenumber).at(depth);
         let Antiplane { stz, sqt, ut } = transfer.antiplane(self.wavenumber, depth);
         let across = &self.surface["across"];
         let own = |name: &str| Ok::<f64, StudyError>(number(&point[name])?.abs());
@@ -150,7 +147,7 @@ fn run() -> Result<Outcome, StudyError> {
     let mut surface = Data::new("compliance", &["stack", "layers", "wavenumber", "compliance", "reference", "error"]);
     let mut interior = Data::new("interior", &["stack", "side", "depth", "stress_error", "displacement_error"]);
     for (stack, reference) in (1..).zip(&references) {
-        let compliance = TransferFunction::new(&reference.half_space).compliance(reference.wavenumber);
+        let compliance = reference.half_space.response().compliance(reference.wavenumber);
         surface.rows.push(vec![
             f64::from(stack),
             reference.half_space.layers().len() as f64,

@@ -10,10 +10,10 @@
 
 use super::draw::{self, curve, linear};
 use super::{Check, Data, Outcome, Study, StudyError, Tolerance};
-use crate::body::{HalfSpace, Material, TransferFunction};
+use crate::body::{HalfSpace, Material};
 use crate::lattice::{Cell, Grid};
 use crate::picture::{Axis, Chart, Figure, Style};
-use crate::spectral::operator::{Operator, Workspace};
+use crate::spectral::{LayeredOperator, Workspace};
 use crate::validation::exact::lattice_sums::{SQUARE, TRIANGULAR, coated_triangular};
 use crate::validation::exact::{Coating, Sums};
 use std::f64::consts::PI;
@@ -41,8 +41,7 @@ impl Response {
     /// Six widths s from `width` to twice `width`.
     fn new(cell: Cell, points: usize, half_space: &HalfSpace, width: f64) -> Result<Self, StudyError> {
         let grid = Arc::new(Grid::new(cell, [points, points])?);
-        let (mut operator, mut workspace) =
-            (Operator::new(&grid, &TransferFunction::new(half_space)), Workspace::default());
+        let (mut operator, mut workspace) = (LayeredOperator::new(&grid, half_space), Workspace::default());
         let modulus = half_space.surface_material().contact_modulus();
         let third = points / 3 * points + points / 3;
         let mut response = Self { squares: Vec::new(), values: [Vec::new(), Vec::new()] };

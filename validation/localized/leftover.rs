@@ -8,7 +8,7 @@
 //! the second moments M = 2Pa²/5 of the indenters outside would add, A the area of the cell: the pressure p̄ has none.
 //! Divided by the stiffness of the contacts ε moves loads and penetration ([`crate::validation::exact::localization::shifts`]).
 
-use crate::body::{HalfSpace, TransferFunction};
+use crate::body::HalfSpace;
 use crate::comparison::Answer;
 use crate::lattice::Lattice;
 use crate::localized::circle::Circle;
@@ -57,7 +57,7 @@ impl<'a> Leftover<'a> {
         answer: Answer,
         mean_pressure: f64,
     ) -> Result<Self, StudyError> {
-        let transfer = TransferFunction::new(half_space);
+        let transfer = half_space.response();
         let layer = half_space.layers().first().ok_or("a coating is needed")?;
         let triangular = |period| layered_triangular(|q| transfer.correction(q), layer.thickness(), period);
         let own = triangular(3f64.sqrt());

@@ -2,13 +2,13 @@
 
 use super::super::kernel::Reference;
 use super::super::{Data, StudyError};
-use crate::body::{HalfSpace, Interface, Layer, Material, TransferFunction};
+use crate::body::{HalfSpace, Interface, Layer, Material};
 use crate::counterbody::{Indenters, Level, Shape};
 use crate::friction::Friction;
 use crate::lattice::{Cell, Grid, Lattice};
 use crate::load::Load;
 use crate::problem::Problem;
-use crate::spectral::operator::{Operator, Workspace};
+use crate::spectral::{LayeredOperator, Workspace};
 use crate::spectral::{Settings, Solver};
 use std::f64::consts::TAU;
 
@@ -49,8 +49,7 @@ pub fn stacks() -> Result<Data, StudyError> {
         };
         const POINTS: usize = 8;
         let grid = Grid::new(Cell::square(TAU / reference.wavenumber)?, [POINTS; 2])?;
-        let transfer = TransferFunction::new(half_space);
-        let mut operator = Operator::sliding(&grid, &transfer, &Friction::new(1.0, [1.0, 0.0])?);
+        let mut operator = LayeredOperator::sliding(&grid, half_space, &Friction::new(1.0, [1.0, 0.0])?);
         let mut field: Vec<f64> =
             (0..POINTS * POINTS).map(|k| (TAU * (k / POINTS) as f64 / POINTS as f64).cos()).collect();
         operator.displacement(&mut field, &mut Workspace::default());

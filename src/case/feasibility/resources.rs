@@ -4,7 +4,7 @@
 //! pictures (`tests/command_line/refusals.rs` measures two of them again). An estimate lies above the peak by some tenth:
 //! below a quarter in all that were measured.
 
-use crate::body::{HalfSpace, Interiors};
+use crate::body::{HalfSpace, InteriorTable};
 use crate::case::{Case, StressSection};
 use crate::counterbody::Topography;
 use crate::friction::Friction;
@@ -201,7 +201,7 @@ fn of_shells(case: &Case, samples: u64) -> u64 {
         // On the grid, and on the coarser one that tells the errors; a wave and its conjugate are one.
         let of_grid = |samples: u64| {
             let count = |most: f64| (0.5 * samples as f64).min(area * most * most / (8.0 * PI)) / together;
-            Interiors::bytes(case.half_space(), slides, |most| count(most) as usize) as u64
+            InteriorTable::bytes(case.half_space(), slides, |most| count(most) as usize) as u64
         };
         of_grid(samples) + of_grid(samples / 4)
     };

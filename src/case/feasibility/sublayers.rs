@@ -4,7 +4,7 @@
 //! of the cell to one of a sixteenth of its shorter side, about what a contact spot is made of; where a wave is shorter than a
 //! sublayer only the uppermost one would count.
 
-use crate::body::{HalfSpace, TransferFunction};
+use crate::body::HalfSpace;
 use crate::case::{Case, layers};
 use crate::notation::number;
 use crate::numeric::search::largest;
@@ -31,7 +31,7 @@ pub fn sublayer_error(case: &Case) -> Option<f64> {
 
 /// Largest relative difference of two surface compliances between two wavenumbers.
 fn difference(half_space: &HalfSpace, other: &HalfSpace, [least, most]: [f64; 2]) -> f64 {
-    let [own, other] = [half_space, other].map(TransferFunction::new);
+    let [own, other] = [half_space, other].map(HalfSpace::response);
     let wavenumbers = (0..COUNT).map(|k| least * (most / least).powf(k as f64 / (COUNT - 1) as f64));
     largest(wavenumbers.map(|q| (own.compliance(q) / other.compliance(q) - 1.0).abs()))
 }
@@ -83,7 +83,7 @@ mod tests {
             for (wavenumber, exact) in values {
                 let error = |sublayers: usize| {
                     let case = case(&format!("{{ {keys}, sublayers = {sublayers} }}"));
-                    (TransferFunction::new(case.half_space()).compliance(wavenumber) / exact - 1.0).abs()
+                    (case.half_space().response().compliance(wavenumber) / exact - 1.0).abs()
                 };
                 let errors = [10, 20, 40, 80].map(error);
                 // (qh/n)² with a factor of order one, E changing by factors up to four.

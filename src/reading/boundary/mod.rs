@@ -105,7 +105,6 @@ impl Boundary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::TransferFunction;
     use crate::body::{HalfSpace, Material};
     use crate::lattice::{Cell, Grid};
     use crate::reading::edge::Edge;
@@ -155,7 +154,7 @@ mod tests {
     fn located(fields: &Fields, spacing: f64) -> Option<Boundary> {
         let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
         let [shortest, longest] = Scale::distances(&fields.grid);
-        let edge = Edge::new(&TransferFunction::new(&bare), None, shortest, longest);
+        let edge = Edge::new(bare.response(), None, shortest, longest);
         let Fields { grid, pressure, gap, hole } = fields;
         let what = |index: usize| match (pressure[index] > 0.0, hole[index]) {
             (true, _) => Sample::Contact,

@@ -4,35 +4,40 @@
 //! − τt, 0); samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over
 //! contact, Ct likewise, and p is scaled back to its mean.
 
-use super::check::Check;
-use super::problem::GridProblem;
+use super::certificate::Check;
+use super::fields::Unknowns;
+use super::problem::{ContactProblem, Settings};
 use super::report::{Progress, Report, Route, Stop};
-use super::stopping::Patience;
-use super::unknowns::Unknowns;
+use super::stopping::StallDetector;
 use crate::numeric::sums;
+use crate::spectral::operator::ElasticOperator;
 use std::sync::Arc;
 
-/// First window of the patience, iterations: the method is rougher on its way than the preconditioned one.
-const PATIENCE: usize = 100;
+/// First window of the stall detector, iterations: the criteria fall less steadily than in the preconditioned method.
+const FIRST_WINDOW: usize = 100;
 
 /// Iterates from and into `unknowns`; `iterations` are those before.
-pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknowns: &mut Unknowns) -> Report {
+pub(super) fn solve<O: ElasticOperator>(
+    problem: &mut ContactProblem<'_, O>,
+    mut iterations: usize,
+    unknowns: &mut Unknowns,
+) -> Report {
     let len = problem.initial_gap.len();
     let (load, load_control) = (problem.load, problem.load.is_mean_pressure());
-    let mut patience = Patience::new(PATIENCE);
+    let mut stall = StallDetector::new(FIRST_WINDOW);
     let (mut norm_before, mut conjugate) = (1.0, false);
     let (mut t, mut image) = (vec![0.0; len], vec![0.0; len]);
-    unknowns.admit(load);
+    unknowns.admit(load, problem.admissible);
     loop {
         let check = Check::new(problem, unknowns);
-        let ended =
-            |stop, iterations| Report { stop, route: Route::Baseline, iterations, outer: 0, residual: check.residual };
-        if let Some(stop) = check.stop(&problem.settings, &mut patience, iterations) {
+        let ended = |stop, iterations| Report::new(stop, Route::Baseline, iterations, check.residual);
+        if let Some(stop) = reason_to_end(&check, &problem.settings, &mut stall, iterations) {
             return ended(stop, iterations);
         }
         iterations += 1;
 
         let (p, g) = (Arc::make_mut(&mut unknowns.pressure), Arc::make_mut(&mut unknowns.gap));
+        problem.admissible.open(g, f64::MAX);
         let over_contact = |field: &[f64]| {
             let [size, sum] = sums::of(len, |i| if p[i] > 0.0 { [1.0, field[i]] } else { [0.0; 2] });
             if load_control && size > 0.0 { sum / size } else { 0.0 }
@@ -43,12 +48,12 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
             sums::of(len, |i| if p[i] > 0.0 { [g[i] * g[i], 0.0] } else { [0.0, g[i].min(0.0).powi(2)] });
         let beta = if conjugate { norm / norm_before } else { 0.0 };
         norm_before = norm;
-        // Contact of one sample (or of equal ones) leaves no direction within contact: the penetrating samples lead.
+        // Contact of one sample (or of equal ones) has no direction within contact: the penetrating samples give it.
         let lonely = norm <= 1e-24 * violation;
         sums::update(&mut t, |i, t| if p[i] > 0.0 || (lonely && g[i] < 0.0) { g[i] + beta * t } else { 0.0 });
 
         image.copy_from_slice(&t);
-        problem.displacement(&mut image);
+        problem.displace(&mut image);
         let image_mean = if lonely { 0.0 } else { over_contact(&image) };
         let [descent, curvature] = sums::of(len, |i| [g[i] * t[i], (image[i] - image_mean) * t[i]]);
         let step = descent / curvature;
@@ -66,10 +71,21 @@ pub(super) fn solve(problem: &mut GridProblem<'_>, mut iterations: usize, unknow
         let [joined] = sums::of(len, |i| [f64::from(u8::from(p[i] == 0.0 && g[i] < 0.0))]);
         sums::update(p, |i, p| if p == 0.0 && g[i] < 0.0 { -step * g[i] } else { p });
         conjugate = joined == 0.0;
-        unknowns.admit(load);
+        unknowns.admit(load, problem.admissible);
         if (problem.progress)(Progress { iteration: iterations, residual: check.residual }).is_break() {
             let Check { residual, .. } = Check::new(problem, unknowns);
-            return Report { stop: Stop::Interrupted, route: Route::Baseline, iterations, outer: 0, residual };
+            return Report::new(Stop::Interrupted, Route::Baseline, iterations, residual);
         }
+    }
+}
+
+/// Reason to end the iteration at a check, if there is one.
+fn reason_to_end(check: &Check, settings: &Settings, stall: &mut StallDetector, iterations: usize) -> Option<Stop> {
+    if check.converged(settings.tolerance) {
+        Some(Stop::Converged)
+    } else if stall.detected(check.measure()) {
+        Some(Stop::Stalled)
+    } else {
+        (iterations >= settings.max_iterations).then_some(Stop::IterationLimit)
     }
 }

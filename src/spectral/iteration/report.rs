@@ -1,15 +1,15 @@
-//! How a solution was reached, and why the iteration ended.
+//! Report of a solution: its route, and the reason why the iteration ended.
 
 use std::fmt;
 
-/// Why the iteration ended.
+/// Reason why the iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Stop {
     /// ε < tolerance, energy gap < 20 tolerance and penetration outside contact < 10 tolerance · δ.
     Converged,
-    /// The tolerance is not reached, and no iteration gets nearer: ε, energy gap and penetration outside contact are each
+    /// The tolerance is not reached, and no further iteration reduces the criteria: ε, energy gap and penetration outside contact are each
     /// below their multiple of the tolerance, or below eight times what rounding in double precision makes of them.
     #[cfg_attr(feature = "serde", serde(rename = "converged_to_rounding", alias = "converged to rounding"))]
     Rounding,
@@ -29,7 +29,7 @@ pub enum Stop {
     /// reaches it.
     #[cfg_attr(feature = "serde", serde(alias = "beyond full contact"))]
     BeyondFullContact,
-    /// Whoever heard of its iterations wanted no more of them.
+    /// The progress callback has ended the step.
     Interrupted,
     /// A number of the result is not finite.
     #[cfg_attr(feature = "serde", serde(alias = "not a number"))]
@@ -59,19 +59,19 @@ impl fmt::Display for Stop {
     }
 }
 
-/// Which way led to a solution.
+/// Route to a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize), serde(tag = "route", rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Route {
-    /// The method asked for is the preconditioned one, and it has led there or had nothing to solve.
+    /// The preconditioned method, as prescribed; also where there was nothing to solve.
     Direct,
     /// The preconditioned method without its continuation of the residual beyond contact, after it had stalled with it.
     WithoutContinuation,
-    /// Outer iterations, in each of which the traction of coupled friction stood still: it displaces much, or the iteration had
-    /// stalled when the traction followed every step.
+    /// Outer iterations with the lagged traction of coupled friction: it displaces much, or the iteration had stalled with the
+    /// traction updated in every step.
     Outer,
-    /// The baseline, as asked for.
+    /// The baseline, as prescribed.
     Baseline,
     /// The baseline, after the preconditioned method had stalled.
     BaselineAfterStall,
@@ -88,7 +88,7 @@ impl Route {
         if let Self::LoadSearch { trials } = self { trials } else { 0 }
     }
 
-    /// Its name in outputs.
+    /// Name in outputs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Direct => "direct",
@@ -116,19 +116,26 @@ impl serde::Serialize for Route {
     }
 }
 
-/// How a solution was reached.
+/// Report of a solution on one grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
-    /// Why it ended.
+    /// Reason why the iteration ended.
     pub stop: Stop,
-    /// Which way led there.
+    /// Route to the solution.
     pub route: Route,
     /// Iterations of all methods and trials on this grid.
     pub iterations: usize,
-    /// Under coupled friction, how often the gap was computed afresh under the traction of the pressure; 0 otherwise.
+    /// Gaps computed with the traction of the present pressure, under coupled friction; 0 otherwise.
     pub outer: usize,
     /// ε = Σ p|g| / (δ Σp) of the last iterate.
     pub residual: f64,
+}
+
+impl Report {
+    /// Report of one iteration, without outer ones.
+    pub(super) fn new(stop: Stop, route: Route, iterations: usize, residual: f64) -> Self {
+        Self { stop, route, iterations, outer: 0, residual }
+    }
 }
 
 impl fmt::Display for Report {
@@ -147,7 +154,7 @@ impl fmt::Display for Report {
     }
 }
 
-/// What is heard after each iteration on the finest grid.
+/// Progress after an iteration on the finest grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// Iterations so far on this grid.

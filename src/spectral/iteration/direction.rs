@@ -1,4 +1,4 @@
-//! From the residual to the direction t and C t: what is done to the fields on their way through the convolutions.
+//! Line 4 of the method, fused: from z = M r to the direction t = z + βt and to C t, on their way through the convolutions.
 
 use crate::numeric::lanes::{LANES, RUN, Real, all_zero, splat, total, vectorised};
 use crate::numeric::rows::{Parts, Totals, next};
@@ -32,7 +32,7 @@ impl Overlaps {
     }
 }
 
-/// Rows of r − mean on the active set, 0 outside, by parts.
+/// Sources of r − mean on the active set, 0 outside.
 pub(super) fn centred(
     parts: Parts,
     residual: &[f32],
@@ -46,7 +46,7 @@ pub(super) fn centred(
     })
 }
 
-/// z, the image and what is gathered of `weight`, on the active set, left in `image` there; its sums with r, r′ and t′.
+/// z on the active set, from C⁻¹ E r in `image` and what Eᵀ adds by the `weight`, goes to `image`; its sums with r, r′ and t′.
 pub(super) fn overlap(
     parts: Parts,
     [residual, previous, direction]: [&[f32]; 3],
@@ -108,8 +108,8 @@ fn overlaps<S: Simd>(
     Totals { sums, least: [] }
 }
 
-/// Rows of t ← z − mean + βt on the active set, 0 outside, by parts, from z in `image`; ⟨r, t⟩ in `descent`.
-pub(super) fn turned<'a>(
+/// Sources of t ← z − mean + βt on the active set, 0 outside, from z in `image`; ⟨r, t⟩ goes to `descent`.
+pub(super) fn conjugate<'a>(
     parts: Parts,
     [residual, image]: [&'a [f32]; 2],
     mean: f64,
@@ -122,13 +122,13 @@ pub(super) fn turned<'a>(
         let mut rows = residual.zip(image).zip(direction);
         move |row: &mut [f32]| {
             let ((residual, image), direction) = next(&mut rows);
-            descent.add(vectorised!(simd => turn(simd, [residual, image], mean, beta, direction, row)));
+            descent.add(vectorised!(simd => conjugate_row(simd, [residual, image], mean, beta, direction, row)));
         }
     })
 }
 
 #[inline(always)]
-fn turn<S: Simd>(
+fn conjugate_row<S: Simd>(
     simd: S,
     [residual, image]: [&[f32]; 2],
     mean: f64,
@@ -148,7 +148,7 @@ fn turn<S: Simd>(
         for at in (run..end).step_by(LANES) {
             let r = f32::group(simd, residual, at, 0.0);
             let z = f32::group(simd, image, at, 0.0) - mean;
-            // What is left of the last step means nothing in a first one.
+            // In a first iteration there is no last direction.
             let t = if beta > 0.0 { f32::group(simd, direction, at, 0.0).mul_add(splat(simd, beta), z) } else { z };
             let t = r.simd_eq(zero).select(zero, t);
             descent = r.mul_add(t, descent);
@@ -159,8 +159,8 @@ fn turn<S: Simd>(
     Totals { sums: [total(descent)], least: [] }
 }
 
-/// Takes the rows of C t into `image`, by parts; ⟨t, C t⟩ in `curvature`.
-pub(super) fn curved<'a>(
+/// Sinks that put the rows of C t into `image`; ⟨t, C t⟩ goes to `curvature`.
+pub(super) fn curvature<'a>(
     parts: Parts,
     direction: &'a [f32],
     image: &'a mut [f32],

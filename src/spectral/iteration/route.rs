@@ -1,27 +1,77 @@
-//! Displacement control by load control: the mean pressure whose solution has the prescribed penetration.
+//! The route to a solution: at once where there is nothing to iterate, by iteration, or by a search for the load.
 //!
-//! Close to complete contact the direct iteration under displacement control stalls: a uniform pressure causes no
-//! displacement, and only the few open samples hold it. The penetration grows with the mean pressure, so that its root
-//! is bracketed and found by regula falsi (Illinois), each trial starting from the last. A trial is accepted by the
-//! criteria of displacement control; it is solved more sharply than these, because its own error moves its penetration.
+//! **Displacement control by load control.** Close to complete contact the direct iteration under displacement control stalls:
+//! a uniform pressure causes no displacement, and only the few open samples hold it. The penetration grows with the mean
+//! pressure, so that its root is bracketed and found by regula falsi (Illinois), each trial starting from the last. A trial is
+//! accepted by the criteria of displacement control; its tolerance is smaller than theirs, because its own error changes its
+//! penetration.
 
-use super::check::Check;
-use super::iterate::{iterate, unless_rounding};
-use super::problem::GridProblem;
+use super::certificate::Check;
+use super::fallback::iterate;
+use super::fields::Unknowns;
+use super::problem::{ContactProblem, Method, Settings};
 use super::report::{Report, Route, Stop};
-use super::settings::Settings;
-use super::unknowns::Unknowns;
+use super::stopping::unless_rounding;
 use crate::load::Load;
 use crate::numeric::sums;
+use crate::spectral::operator::ElasticOperator;
+use std::sync::Arc;
 
-/// Trials of the mean pressure before the search counts as stalled.
-const TRIALS: usize = 60;
+/// Trials of the mean pressure after which the search counts as stalled.
+const MAX_TRIALS: usize = 60;
 /// Tolerance of a trial over that of the search.
-const SHARPER: f64 = 0.1;
+const TRIAL_TOLERANCE: f64 = 0.1;
 
-/// What the `direct` iteration reports, unless it has stalled: then what the search reports that goes on from there.
-pub(super) fn unless_found(
-    problem: &mut GridProblem<'_>,
+impl<O: ElasticOperator> ContactProblem<'_, O> {
+    /// Solves from and into `unknowns` (any values; negative pressures are dropped).
+    pub fn solve(&mut self, unknowns: &mut Unknowns) -> Report {
+        let report = self.solved_by_route(unknowns);
+        Report { outer: self.outer, ..report }
+    }
+
+    fn solved_by_route(&mut self, unknowns: &mut Unknowns) -> Report {
+        let route = match self.settings.method {
+            Method::Preconditioned => Route::Direct,
+            Method::PolonskyKeer => Route::Baseline,
+        };
+        let done = |stop, residual| Report::new(stop, route, 0, residual);
+        let (gap, everywhere) = (self.initial_gap, self.admissible.is_everywhere());
+        if !self.load.value().is_finite() {
+            unknowns.clear();
+            Check::new(self, unknowns);
+            return done(Stop::Stalled, f64::INFINITY);
+        }
+        if self.load.value() <= 0.0 {
+            unknowns.clear();
+            Check::new(self, unknowns);
+            return done(Stop::NoContact, 0.0);
+        }
+        match self.load {
+            Load::MeanPressure(mean) if everywhere && gap.iter().all(|f| *f == gap[0]) => {
+                // A flat counterbody: complete contact at once.
+                unknowns.pressure = Arc::new(vec![mean; gap.len()]);
+                Check::new(self, unknowns);
+                done(Stop::Converged, 0.0)
+            }
+            Load::MeanPressure(_) => iterate(self, 0, unknowns),
+            Load::Penetration(penetration) => {
+                if everywhere && penetration >= sums::mean(gap) {
+                    // Nothing of the step before is an answer.
+                    unknowns.clear();
+                    Check::new(self, unknowns);
+                    return done(Stop::BeyondFullContact, f64::INFINITY);
+                }
+                let direct = iterate(self, 0, unknowns);
+                unless_found(self, penetration, direct, unknowns)
+            }
+        }
+    }
+}
+
+/// What the `direct` iteration reports, unless it has stalled: then the report of a search for the load that continues from
+/// there.
+fn unless_found<O: ElasticOperator>(
+    problem: &mut ContactProblem<'_, O>,
     penetration: f64,
     direct: Report,
     unknowns: &mut Unknowns,
@@ -29,29 +79,28 @@ pub(super) fn unless_found(
     if direct.stop != Stop::Stalled {
         return direct;
     }
-    let report = solve(problem, penetration, direct.iterations, unknowns);
+    let report = search_load(problem, penetration, direct.iterations, unknowns);
     Report { stop: unless_rounding(problem, unknowns, report.stop), ..report }
 }
 
-/// Searches from and into `unknowns` for the `penetration` of `problem`; `iterations` are those before.
-fn solve(problem: &mut GridProblem<'_>, penetration: f64, iterations: usize, unknowns: &mut Unknowns) -> Report {
+/// Searches from and into `unknowns` for the mean pressure of a `penetration`; `iterations` are those before.
+fn search_load<O: ElasticOperator>(
+    problem: &mut ContactProblem<'_, O>,
+    penetration: f64,
+    iterations: usize,
+    unknowns: &mut Unknowns,
+) -> Report {
     let settings = problem.settings;
-    let sharper = Settings { tolerance: SHARPER * settings.tolerance, ..settings };
+    let sharper = Settings { tolerance: TRIAL_TOLERANCE * settings.tolerance, ..settings };
     let mut pressure = sums::mean(&unknowns.pressure);
-    // Mean pressures and what their penetrations lack, on either side of the root.
+    // Mean pressures and the errors of their penetrations, on either side of the root.
     let (mut low, mut high) = ((0.0, -penetration), None);
-    let mut last = Report {
-        stop: Stop::Stalled,
-        route: Route::LoadSearch { trials: 0 },
-        iterations,
-        outer: 0,
-        residual: f64::INFINITY,
-    };
-    for trials in 1..=TRIALS {
+    let mut last = Report::new(Stop::Stalled, Route::LoadSearch { trials: 0 }, iterations, f64::INFINITY);
+    for trials in 1..=MAX_TRIALS {
         if !(pressure.is_finite() && pressure > 0.0) {
             break;
         }
-        let mut trial = GridProblem {
+        let mut trial = ContactProblem {
             operator: &mut *problem.operator,
             working: &mut *problem.working,
             load: Load::MeanPressure(pressure),
@@ -61,7 +110,7 @@ fn solve(problem: &mut GridProblem<'_>, penetration: f64, iterations: usize, unk
         };
         let report = iterate(&mut trial, last.iterations, unknowns);
         problem.outer = trial.outer;
-        let lack = unknowns.penetration - penetration;
+        let error = unknowns.penetration - penetration;
         let check = Check::new(problem, unknowns);
         last = Report { route: Route::LoadSearch { trials }, residual: check.residual, ..report };
         if check.converged(settings.tolerance) {
@@ -70,12 +119,12 @@ fn solve(problem: &mut GridProblem<'_>, penetration: f64, iterations: usize, unk
         if !report.stop.solved() {
             return last;
         }
-        // Illinois: an end that stays has its value halved.
-        if lack < 0.0 {
-            low = (pressure, lack);
-            high = high.map(|(p, lack)| (p, 0.5 * lack));
+        // Illinois: the value of an end that is kept is halved.
+        if error < 0.0 {
+            low = (pressure, error);
+            high = high.map(|(p, error)| (p, 0.5 * error));
         } else {
-            high = Some((pressure, lack));
+            high = Some((pressure, error));
             low.1 *= 0.5;
         }
         pressure = match high {
@@ -89,11 +138,12 @@ fn solve(problem: &mut GridProblem<'_>, penetration: f64, iterations: usize, unk
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::{HalfSpace, Interface, Layer, Material, TransferFunction};
+    use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::counterbody::{Counterbody, Indenters, Level, Shape, Surface};
     use crate::lattice::Lattice;
-    use crate::spectral::iteration::Working;
-    use crate::spectral::operator::Operator;
+    use crate::spectral::LayeredOperator;
+    use crate::spectral::iteration::fields::Working;
+    use crate::spectral::iteration::problem::AdmissibleSet;
     use std::ops::ControlFlow;
 
     /// Cones on a stiff sliding plate, pushed in by a `part` of what makes contact complete, from a uniform pressure, after a
@@ -104,14 +154,14 @@ mod tests {
         let cones = [0.02, 0.01, 0.0].map(|height| Level::new(Shape::Cone { slope: 0.1 }, height).unwrap());
         let indenters = Indenters::new(Lattice::hexagonal(1.0, 3).unwrap(), cones.to_vec()).unwrap();
         let surface = Surface::new(&Counterbody::from(indenters), [24, 24]).unwrap();
-        let mut operator =
-            Operator::new(surface.grid(), &TransferFunction::new(&HalfSpace::new(vec![plate], substrate)));
+        let mut operator = LayeredOperator::new(surface.grid(), &HalfSpace::new(vec![plate], substrate));
         let penetration = part * surface.mean();
-        let mut problem = GridProblem {
+        let mut problem = ContactProblem {
             working: &mut Working::of_finest(&operator),
             operator: &mut operator,
             initial_gap: surface.gaps(),
             largest_gap: surface.largest(),
+            admissible: AdmissibleSet::default(),
             load: Load::Penetration(penetration),
             settings: Settings { max_iterations, ..Settings::default() },
             outer: 0,
@@ -119,7 +169,7 @@ mod tests {
         };
         let mut unknowns = Unknowns::new(surface.grid().len());
         unknowns.pressure = std::sync::Arc::new(vec![0.01; surface.grid().len()]);
-        let direct = Report { stop, route: Route::Direct, iterations: before, outer: 0, residual: 1.0 };
+        let direct = Report::new(stop, Route::Direct, before, 1.0);
         let report = unless_found(&mut problem, penetration, direct, &mut unknowns);
         (report, unknowns, penetration)
     }
@@ -129,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_not_stalled_stays_as_it_is() {
+    fn a_report_without_a_stall_stays_as_it_is() {
         for stop in [Stop::Converged, Stop::Rounding, Stop::IterationLimit, Stop::Interrupted] {
             let (report, unknowns, _) = after(stop, 0.5, 3, 10_000);
             assert!(report.stop == stop && report.route == Route::Direct && report.iterations == 3, "{report}");

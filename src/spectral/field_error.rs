@@ -1,0 +1,23 @@
+//! Errors of fields that are given to a solver.
+
+use crate::lattice::NotOnGrid;
+
+/// Reason why a field cannot be given to a solver.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FieldError {
+    /// Another shape than that of the finest grid.
+    #[error(transparent)]
+    Shape(#[from] NotOnGrid),
+    /// A value that is not finite.
+    #[error("an initial gap must be finite, not {value}, at sample ({}, {})", sample[0], sample[1])]
+    NotFinite {
+        /// [i, j], from 0.
+        sample: [usize; 2],
+        /// The value.
+        value: f64,
+    },
+    /// A mask without any sample where contact may occur.
+    #[error("the mask leaves no sample where contact may occur")]
+    EmptyMask,
+}

@@ -1,0 +1,188 @@
+//! One of the nested grids of a problem: surface, operator and unknowns.
+
+use super::Contact;
+use super::iteration::{AdmissibleSet, ContactProblem, Progress, Report, Settings, Unknowns, Working};
+use super::layered_operator::LayeredOperator;
+use super::operator::Workspace;
+use super::prolongation::prolonged;
+use crate::counterbody::Surface;
+use crate::lattice::Grid;
+use crate::load::Load;
+use crate::numeric::sums;
+use crate::problem::Problem;
+use ndarray::Array2;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+/// Most samples, per indenter, of a contact that is no wider than the spacing: an apex between samples may press the four
+/// around it with any load from zero on.
+const MAX_UNRESOLVED: usize = 4;
+
+/// A problem on one grid.
+#[derive(Debug)]
+pub(super) struct GridLevel {
+    surface: Arc<Surface>,
+    largest_gap: f64,
+    /// Whether contact may occur, one value per sample; `None`: everywhere.
+    mask: Option<Vec<bool>>,
+    operator: LayeredOperator,
+    unknowns: Unknowns,
+    /// E* of the material at the surface.
+    modulus: f64,
+}
+
+/// The next coarser grid before and after its part of a load step.
+pub(super) struct Coarser {
+    pub grid: Arc<Grid>,
+    pub before: Unknowns,
+    pub after: Unknowns,
+}
+
+impl GridLevel {
+    /// The problem on the grid of a surface.
+    pub fn new(problem: &Problem, surface: Surface) -> Self {
+        let (grid, half_space) = (surface.grid(), problem.half_space());
+        let operator = match problem.friction() {
+            Some(friction) => LayeredOperator::sliding(grid, half_space, friction),
+            None => LayeredOperator::new(grid, half_space),
+        };
+        Self {
+            unknowns: Unknowns::new(grid.len()),
+            largest_gap: surface.largest(),
+            mask: None,
+            operator,
+            modulus: half_space.surface_material().contact_modulus(),
+            surface: Arc::new(surface),
+        }
+    }
+
+    /// [N₁, N₂].
+    pub fn points(&self) -> [usize; 2] {
+        self.surface.grid().points()
+    }
+
+    /// The counterbody's surface on the grid.
+    pub fn surface(&self) -> &Arc<Surface> {
+        &self.surface
+    }
+
+    /// Unknowns of the last load.
+    pub fn unknowns(&self) -> &Unknowns {
+        &self.unknowns
+    }
+
+    /// Sets the unknowns from which the next load starts.
+    pub fn set_unknowns(&mut self, unknowns: Unknowns) {
+        self.unknowns = unknowns;
+    }
+
+    /// Drops the pressure of earlier loads.
+    pub fn forget(&mut self) {
+        self.unknowns = Unknowns::new(self.surface.grid().len());
+    }
+
+    /// Replaces the initial gap: restricts `finer` (f ≥ 0, lengths) to this grid, and gives the restricted one.
+    pub fn give_gap(&mut self, finer: Array2<f64>) -> Array2<f64> {
+        let gap = self.surface.restricted(&finer);
+        self.surface = Arc::new(self.surface.with_initial_gap(gap.clone()));
+        self.largest_gap = self.surface.largest();
+        self.forget();
+        gap
+    }
+
+    /// Confines contact to the nearest samples of a mask on the finest grid.
+    pub fn give_mask(&mut self, finest: &Array2<bool>) {
+        let (points, from) = (self.points(), [finest.nrows(), finest.ncols()]);
+        // ⌊i N/n + ½⌋ mod N.
+        let nearest = |axis: usize, i: usize| (2 * i * from[axis] + points[axis]) / (2 * points[axis]) % from[axis];
+        let of = |(i, j)| finest[[nearest(0, i), nearest(1, j)]];
+        let mask: Vec<bool> = Array2::from_shape_fn(points, of).into_iter().collect();
+        self.mask = mask.contains(&false).then_some(mask);
+        self.forget();
+    }
+
+    /// Whether contact may occur at any sample.
+    pub fn has_admissible(&self) -> bool {
+        self.mask.as_ref().is_none_or(|mask| mask.contains(&true))
+    }
+
+    /// Working memory for this grid and all coarser ones.
+    pub fn working_memory(&self) -> Working {
+        Working::of_finest(&self.operator)
+    }
+
+    /// Least mean pressure of complete contact: that of the pressure which displaces the surface by mean f − f.
+    pub fn full_contact_pressure(&mut self) -> f64 {
+        let mean = self.surface.mean();
+        let mut pressure: Vec<f64> = self.surface.gaps().iter().map(|f| f - mean).collect();
+        self.operator.pressure(&mut pressure, &mut Workspace::default());
+        -sums::least(pressure.len(), |i| -pressure[i])
+    }
+
+    /// The contact of the last load on this grid.
+    pub fn contact(&self, problem: &Arc<Problem>) -> Contact {
+        let Unknowns { pressure, gap, penetration, .. } = &self.unknowns;
+        Contact::new(problem, &self.surface, Arc::clone(pressure), Arc::clone(gap), *penetration)
+    }
+
+    /// Whether contact is wider than the grid's spacing, on the average of the indenters that touch.
+    pub fn is_resolved(&self) -> bool {
+        let (owners, pressure) = (self.surface.owners(), &self.unknowns.pressure);
+        let (mut pressed, mut indenters) = (0, vec![false; self.surface.sites().len().max(1)]);
+        for index in (0..pressure.len()).filter(|&i| pressure[i] > 0.0) {
+            pressed += 1;
+            indenters[owners.get(index).map_or(0, |&site| site as usize)] = true;
+        }
+        pressed > MAX_UNRESOLVED * indenters.into_iter().filter(|&touches| touches).count()
+    }
+
+    /// Solves on this grid after adding the change of the next `coarser` one; returns the convolutions times samples too.
+    pub fn solve(
+        &mut self,
+        coarser: Option<Coarser>,
+        load: Load,
+        settings: Settings,
+        working: &mut Working,
+        progress: &mut (dyn FnMut(Progress) -> ControlFlow<()> + Send),
+    ) -> (Report, f64) {
+        if let Some(coarser) = coarser {
+            self.add_change(&coarser, settings.tolerance);
+        }
+        let Self { surface, largest_gap, mask, operator, unknowns, .. } = self;
+        let (samples, before) = (surface.grid().len(), operator.convolutions());
+        let report = ContactProblem {
+            operator: &mut *operator,
+            working,
+            initial_gap: surface.gaps(),
+            largest_gap: *largest_gap,
+            admissible: AdmissibleSet::new(mask.as_deref()),
+            load,
+            settings,
+            outer: 0,
+            progress,
+        }
+        .solve(unknowns);
+        (report, (operator.convolutions() - before) * samples as f64)
+    }
+
+    /// Adds to the pressure the change of that on the next `coarser` grid.
+    fn add_change(&mut self, coarser: &Coarser, tolerance: f64) {
+        let points = self.points();
+        let carried =
+            |Unknowns { pressure, gap, .. }: &Unknowns| prolonged(&coarser.grid, pressure, gap, self.modulus, points);
+        let after = carried(&coarser.after);
+        if coarser.before.pressure.iter().all(|&p| p == 0.0) {
+            self.unknowns.pressure = Arc::new(after);
+            return;
+        }
+        let before = carried(&coarser.before);
+        // A change below the tolerance is dropped: it would leave traces of pressure around the contact, which no iteration
+        // removes where none is needed.
+        let least = -tolerance * sums::least(after.len(), |i| -after[i]);
+        let pressure = Arc::make_mut(&mut self.unknowns.pressure);
+        sums::update(pressure, |i, p| {
+            let rise = after[i] - before[i];
+            if rise.abs() > least { (p + rise).max(0.0) } else { p }
+        });
+    }
+}

@@ -1,0 +1,61 @@
+//! The iteration of the settings and, where it stalls, a more robust one: the preconditioned iteration without the
+//! continuation of the residual, then the baseline.
+//!
+//! Under coupled friction the traction is updated in every step while it displaces little; it lags behind, for whole outer
+//! iterations, where it displaces much or where the updated one stalls. The baseline, made for a symmetric operator, is no
+//! fallback there.
+
+use super::fields::Unknowns;
+use super::inner_iteration::Continuation::{Fading, Zero};
+use super::inner_iteration::Variant;
+use super::problem::{ContactProblem, Method};
+use super::report::{Report, Route, Stop};
+use super::stopping::unless_rounding;
+use super::{polonsky_keer, preconditioned};
+use crate::spectral::operator::ElasticOperator;
+use crate::spectral::operator::Traction::{Lagged, Updated};
+
+/// Largest coupling at which the traction is updated in every step.
+const MAX_UPDATED_COUPLING: f64 = 0.4;
+
+/// Variants of the preconditioned iteration, in the order in which they are tried, and their routes.
+fn variants(coupling: f64) -> &'static [(Variant, Route)] {
+    const DIRECT: (Variant, Route) = (Variant { continuation: Fading, traction: Updated }, Route::Direct);
+    const WITHOUT_CONTINUATION: (Variant, Route) =
+        (Variant { continuation: Zero, traction: Updated }, Route::WithoutContinuation);
+    const OUTER: (Variant, Route) = (Variant { continuation: Fading, traction: Lagged }, Route::Outer);
+    const OUTER_WITHOUT_CONTINUATION: (Variant, Route) =
+        (Variant { continuation: Zero, traction: Lagged }, Route::Outer);
+    match coupling {
+        0.0 => &[DIRECT, WITHOUT_CONTINUATION],
+        ..=MAX_UPDATED_COUPLING => &[DIRECT, OUTER, OUTER_WITHOUT_CONTINUATION],
+        _ => &[OUTER, OUTER_WITHOUT_CONTINUATION],
+    }
+}
+
+/// Iterates from and into `unknowns`; `iterations` are those before.
+pub(super) fn iterate<O: ElasticOperator>(
+    problem: &mut ContactProblem<'_, O>,
+    iterations: usize,
+    unknowns: &mut Unknowns,
+) -> Report {
+    if problem.settings.method == Method::PolonskyKeer {
+        let report = polonsky_keer::solve(problem, iterations, unknowns);
+        return Report { stop: unless_rounding(problem, unknowns, report.stop), ..report };
+    }
+    let coupling = problem.operator.coupling();
+    let mut report = Report::new(Stop::Stalled, Route::Direct, iterations, f64::INFINITY);
+    for &(variant, route) in variants(coupling) {
+        report = Report { route, ..preconditioned::solve(problem, variant, report.iterations, unknowns) };
+        report.stop = unless_rounding(problem, unknowns, report.stop);
+        if report.stop != Stop::Stalled {
+            return report;
+        }
+    }
+    if coupling > 0.0 {
+        return report;
+    }
+    let rest = polonsky_keer::solve(problem, report.iterations, unknowns);
+    let stop = unless_rounding(problem, unknowns, rest.stop);
+    Report { stop, route: Route::BaselineAfterStall, ..rest }
+}

@@ -1,0 +1,188 @@
+//! The operator of a layered half-space: pressure on the cell → normal surface displacement.
+//!
+//! ŵ(q) = C(q) p̂(q) with the layered compliance C(q) at the shortest alias of each grid wavevector; its inverse makes the
+//! preconditioner. Both are diagonal in Fourier space. Under coupled friction the traction μ p **e** displaces too,
+//!
+//! ŵ = (C − iμK cos θ) p̂ = C(1 − iT) p̂,  T = μ (K/C) cos θ,
+//!
+//! θ between **q** and **e**: a skew part, which is odd in **q**, so that tied aliases are averaged and what is its own
+//! conjugate has none.
+
+use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
+use super::convolution::{Convolution, Convolved};
+use super::multiplier::{Action, Multiplier, SkewRatio};
+use super::operator::{ElasticOperator, Traction, Workspace};
+use crate::body::{Compliances, HalfSpace};
+use crate::friction::Friction;
+use crate::lattice::Grid;
+use crate::numeric::lanes::Real;
+use crate::numeric::rows::Parts;
+
+/// Displacement operator of a layered half-space on a grid, with its inverse.
+#[derive(Debug)]
+pub struct LayeredOperator {
+    double: Convolution<f64>,
+    single: Convolution<f32>,
+    compliance: Multiplier,
+    /// T, and the largest |T|, under coupled friction.
+    skew: Option<(SkewRatio, f64)>,
+    /// Compliance at the least wavenumber.
+    unit: f64,
+    convolutions: f64,
+}
+
+impl LayeredOperator {
+    /// Operator of a half-space on a grid, without friction.
+    pub fn new(grid: &Grid, half_space: &HalfSpace) -> Self {
+        let compliances = Compliances::new(half_space.response(), range(grid), grid.len() / 2);
+        Self::with(grid, half_space, &compliances)
+    }
+
+    /// Operator of a half-space on a grid, under a counterbody that slides with `friction`.
+    pub fn sliding(grid: &Grid, half_space: &HalfSpace, friction: &Friction) -> Self {
+        let [x, y] = friction.traction();
+        if !friction.couples() {
+            return Self::new(grid, half_space);
+        }
+        let compliances = Compliances::coupled(half_space.response(), range(grid), grid.len() / 2);
+        let own = Self::with(grid, half_space, &compliances);
+        let ratio = |component| match grid.mean_direction(component) {
+            [0.0, 0.0] => 0.0,
+            [nx, ny] => (x * nx + y * ny) * compliances.coupling_ratio(grid.wavenumber(component)),
+        };
+        let skew = own.double.skew_ratio(|[k1, k2], values| {
+            values.iter_mut().zip(k2..).for_each(|(value, k2)| *value = ratio([k1, k2]));
+        });
+        let largest = skew.largest();
+        Self { skew: Some((skew, largest)), ..own }
+    }
+
+    fn with(grid: &Grid, half_space: &HalfSpace, compliances: &Compliances<'_>) -> Self {
+        let (double, single) = (Convolution::new(grid.points()), Convolution::new(grid.points()));
+        let unit = half_space.response().compliance(grid.least_wavenumber());
+        // The mean displacement of a loaded half-space is infinite: displacements have zero mean. The inverse must stay
+        // positive: it takes the mean for a component of the least wavenumber.
+        let compliance = double.multiplier(grid.cell().is_rectangular(), |first, values| {
+            grid.wavenumbers(first, values);
+            if first == [0, 0] {
+                values[0] = grid.least_wavenumber();
+            }
+            compliances.replace(values);
+        });
+        Self { double, single, compliance, skew: None, unit, convolutions: 0.0 }
+    }
+
+    /// Convolutions so far; one in single precision counts half.
+    pub fn convolutions(&self) -> f64 {
+        self.convolutions
+    }
+
+    /// The largest part |T| that coupling adds to the operator; 0 without it.
+    pub fn coupling(&self) -> f64 {
+        self.skew.as_ref().map_or(0.0, |&(_, largest)| largest)
+    }
+
+    /// p → w: displacement into the body with zero mean (a length), from pressure and the traction that goes with it.
+    pub fn displacement(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        // On the threads that share the work, where no pass has to wake them.
+        rayon::scope(|_| self.displace(field, workspace));
+    }
+
+    /// p → w in single precision, as iterations use it for changes.
+    pub fn displacement_single(&mut self, field: &mut [f32], workspace: &mut Workspace) {
+        self.convolutions += 0.5;
+        let action = self.multiplied(1.0);
+        in_place(&self.single, action, &self.compliance, field, workspace);
+    }
+
+    /// w → p: the pressure that displaces so. The mean is treated like a component of the least wavenumber.
+    pub fn pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        self.convolutions += 1.0;
+        let action = self.skew.as_ref().map_or(Action::Divide(1.0), |(ratio, _)| Action::DivideSkewed(1.0, ratio));
+        in_place(&self.double, action, &self.compliance, field, workspace);
+    }
+
+    /// Multiplication with the compliance and a common factor, and with 1 − iT under coupled friction.
+    fn multiplied(&self, factor: f64) -> Action<'_> {
+        self.skew.as_ref().map_or(Action::Multiply(factor), |(ratio, _)| Action::MultiplySkewed(factor, ratio))
+    }
+}
+
+impl ElasticOperator for LayeredOperator {
+    type Rows<'a, T: Real> = Convolved<'a, T>;
+
+    fn parts(&self) -> Parts {
+        self.double.parts()
+    }
+
+    fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    fn coupling(&self) -> f64 {
+        self.coupling()
+    }
+
+    fn convolutions(&self) -> f64 {
+        self.convolutions
+    }
+
+    fn split<'a>(&self, workspace: &'a mut Workspace) -> (&'a mut [f64], &'a mut [f32]) {
+        let [n1, n2] = self.parts().points();
+        // Of few columns a tile in single precision has as many bytes as those in double precision.
+        let single = self.single.memory();
+        let size = self.double.memory().max(single + (n1 * n2).div_ceil(2));
+        let (memory, rest) = workspace.of(size).split_at_mut(single);
+        (memory, &mut bytemuck::cast_slice_mut(rest)[..n1 * n2])
+    }
+
+    fn displaced<'a>(&'a mut self, workspace: &'a mut Workspace, pressure: impl ByRows<f64>) -> Convolved<'a, f64> {
+        self.convolutions += 1.0;
+        let memory = workspace.of(self.double.memory());
+        self.double.convolve(self.multiplied(1.0), &self.compliance, memory, pressure)
+    }
+
+    fn displaced_single<'a>(
+        &'a mut self,
+        traction: Traction,
+        memory: &'a mut [f64],
+        pressure: impl ByRows<f32>,
+    ) -> Convolved<'a, f32> {
+        self.convolutions += 0.5;
+        let factor = 1.0 / self.unit;
+        let action = match traction {
+            Traction::Updated => self.multiplied(factor),
+            Traction::Lagged => Action::Multiply(factor),
+        };
+        self.single.convolve(action, &self.compliance, memory, pressure)
+    }
+
+    fn preconditioned<'a>(&'a mut self, memory: &'a mut [f64], residual: impl ByRows<f32>) -> Convolved<'a, f32> {
+        self.convolutions += 0.5;
+        self.single.convolve(Action::Divide(self.unit), &self.compliance, memory, residual)
+    }
+
+    fn symmetric_pressure(&mut self, field: &mut [f64], workspace: &mut Workspace) {
+        self.convolutions += 1.0;
+        in_place(&self.double, Action::Divide(1.0), &self.compliance, field, workspace);
+    }
+}
+
+/// Least and largest wavenumber of a grid.
+fn range(grid: &Grid) -> [f64; 2] {
+    [grid.least_wavenumber(), grid.largest_wavenumber()]
+}
+
+fn in_place<T: Real>(
+    convolution: &Convolution<T>,
+    action: Action<'_>,
+    compliance: &Multiplier,
+    field: &mut [T],
+    workspace: &mut Workspace,
+) {
+    let (parts, memory) = (convolution.parts(), workspace.of(convolution.memory()));
+    rayon::scope(|_| {
+        let convolved = convolution.convolve(action, compliance, memory, rows_of(parts, field));
+        convolved.rows(rows_to(parts, field));
+    });
+}
