@@ -3,6 +3,7 @@
 /// Coefficients c that minimise Σ (Σₖ cₖ `row[k]` − value)²; `None` when the rows do not determine c.
 ///
 /// Meant for a few tens of unknowns with basis functions of order one.
+#[cfg(any(test, feature = "validate"))]
 pub fn fit(unknowns: usize, rows: impl Iterator<Item = (Vec<f64>, f64)>) -> Option<Vec<f64>> {
     let mut matrix = vec![vec![0.0; unknowns]; unknowns];
     let mut right = vec![0.0; unknowns];
