@@ -138,7 +138,7 @@ impl Reading {
     }
 }
 
-/// The energy that a file of an earlier version does not have.
+/// The elastic energy of files of earlier versions, which do not have it.
 #[cfg(feature = "serde")]
 fn unknown() -> f64 {
     f64::NAN

@@ -1,6 +1,6 @@
 //! Holes: open samples that one contact encloses.
 
-use crate::lattice::components::{Component, components};
+use crate::lattice::components::{Component, open_regions};
 use crate::lattice::{Connectivity, Grid};
 
 /// Label of a sample that belongs to no contact.
@@ -18,18 +18,18 @@ impl Holes {
     /// The holes under a `pressure` given sample by sample; `label` gives the contact that a sample belongs to, by the flat index
     /// of the sample, and `None` for contacts whose holes do not count.
     pub fn of(grid: &Grid, pressure: &[f64], label: impl Fn(usize) -> Option<u32>) -> Self {
-        let steps = grid.neighbour_offsets(Connectivity::Edges);
+        let offsets = grid.neighbour_offsets(Connectivity::Edges);
         let enclosing = |open: &Component| {
             let around = |index: usize| {
-                let both = steps.iter().flat_map(|step| [*step, step.map(|k| -k)]);
-                both.map(move |step| grid.at_offset(step, index))
+                let both = offsets.iter().flat_map(|offset| [*offset, offset.map(|k| -k)]);
+                both.map(move |offset| grid.at_offset(offset, index))
             };
             let mut beside = open.indices(grid).flatten().flat_map(around).filter(|&next| pressure[next] > 0.0);
             let owner = label(beside.next()?)?;
             beside.all(|index| label(index) == Some(owner)).then_some(owner)
         };
         // Open samples outside the contacts meet their own images, or several contacts.
-        let found: Vec<(u32, Component)> = components(grid, Connectivity::Edges, |index| pressure[index] <= 0.0)
+        let found: Vec<(u32, Component)> = open_regions(grid, pressure)
             .into_iter()
             .filter(|open| !open.wraps)
             .filter_map(|open| Some((enclosing(&open)?, open)))

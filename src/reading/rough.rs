@@ -175,15 +175,15 @@ const SAME_LOAD: f64 = 1e-9;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::components::components;
-    use crate::lattice::{Cell, Connectivity};
+    use crate::lattice::Cell;
+    use crate::lattice::components::contact_spots;
 
     #[test]
     fn sizes_are_those_of_the_spots() {
         let grid = Grid::new(Cell::square(2.0).unwrap(), [8, 8]).unwrap();
         let mut pressure = [0.0; 64];
         let spots = |pressure: &[f64]| {
-            let found = components(&grid, Connectivity::EdgesAndCorners, |index| pressure[index] > 0.0);
+            let found = contact_spots(&grid, pressure);
             spots(&grid, &SpotCounts::of(&found, &grid, pressure))
         };
         assert_eq!(spots(&pressure).0, SpotSizes::default());
