@@ -1,6 +1,5 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
-use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption;
@@ -8,6 +7,7 @@ use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::terminal;
+use crate::case::feasibility::Allowed;
 use crate::case::plausibility;
 use crate::case::resources::Job;
 use crate::output::{Plan, RunFolder, Writer, compare_json, table, write_text};
@@ -37,7 +37,7 @@ pub fn run(
     let (task, steps) = (case.comparison(), case.load.values().len());
     let run = Run { loads: vec![task.load], stress: None, ..case.run() };
     let job = Job::Compare { pictures: pictures.wanted() };
-    let mut allowed = Allowed::new(&case, &folder, job)?;
+    let mut allowed = Allowed::new(&case, &folder, job).map_err(Failure::Refused)?;
     run.check()?;
     task.check().map_err(Failure::refused)?;
     interruption::watch();

@@ -1,6 +1,5 @@
 //! `percoat limit`: the mean pressure at which something first fails, and what.
 
-use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption;
@@ -8,6 +7,7 @@ use super::options::{Changes, Common};
 use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::terminal;
+use crate::case::feasibility::Allowed;
 use crate::case::plausibility;
 use crate::case::resources::Job;
 use crate::output::{Plan, RunFolder, Writer, limit_json, number, summary, table, with_error, write_text};
@@ -72,7 +72,7 @@ pub fn run(
     let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &changes.set)?;
     let folder = output_folder(common, &name)?;
     let run = case.run();
-    let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() })?;
+    let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     run.check_limits()?;
     interruption::watch();
     let names = ["limit.json", "limit.csv"].map(str::to_owned).into_iter();

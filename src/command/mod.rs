@@ -1,6 +1,5 @@
 //! Commands: what the user types, and how it ends.
 
-mod allowed;
 mod arguments;
 mod cases;
 mod check;

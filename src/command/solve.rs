@@ -1,6 +1,5 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
-use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption::{self, Saved};
@@ -10,6 +9,7 @@ use super::plan::may_write;
 use super::progress::Progress;
 use super::shown::Shown;
 use super::terminal::{self, tell};
+use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::machine::Capacity;
@@ -57,7 +57,7 @@ pub fn run(
         // What stands there already takes no room again.
         room.disk = room.disk.saturating_add(RunFolder::gathered(&folder));
     }
-    let allowed = Allowed::within(&case, room, job)?;
+    let allowed = Allowed::within(&case, room, job).map_err(Failure::Refused)?;
     run.check()?;
     interruption::watch();
     let plan = may_write(&case, run.loads.len(), !options.no_fields, pictures);
