@@ -15,7 +15,7 @@ section! {
     pub struct FrictionSection = FRICTION, rules a_direction {
         /// μ: the body feels the traction μp
         pub coefficient: f64 = Key::new(&[Form::Number(Range::between(0.0, 100.0))], "0.3"),
-        /// in which the indenters slide, of any length
+        /// direction in which the indenters slide, of any length
         pub direction: [f64; 2] =
             Key::new(&[Form::Tuple("a direction [x, y]", &[Form::Number(Range::Place); 2])], "[1.0, 1.0]")
                 .default("[1, 0]")

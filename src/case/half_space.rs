@@ -2,7 +2,7 @@
 
 use super::Source;
 use super::error::{CaseError, Refusal};
-use super::layers::{self, LayerSection, SubstrateSection};
+use super::layers;
 use super::model::CASE;
 use super::place::Place;
 use super::reader::TableAt;
@@ -28,11 +28,7 @@ fn read(source: &Source) -> Result<HalfSpace, Refusal> {
         let message = format!("`{}` has no place in a half-space", entry.key);
         return Err(Refusal::new(entry.key_place, message, "not used here").help("allowed here: layers, substrate"));
     }
-    let layer_sections = root.sections("layers")?;
-    let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read_table).collect::<Result<_, _>>()?;
-    let substrate_section = root.required_section("substrate")?;
-    let substrate = SubstrateSection::read_table(&substrate_section)?;
-    layers::build(&layers, &layer_sections, &substrate, &substrate_section)
+    layers::read(&root).map(|body| body.half_space)
 }
 
 #[cfg(test)]

@@ -26,12 +26,12 @@ section! {
     /// An interface with stiffnesses; one that is absent is rigid.
     #[derive(Copy)]
     pub struct SpringSection = SPRING {
-        /// how it resists sliding
+        /// stiffness of the interface against sliding
         pub tangential_stiffness: Option<f64> = Key::new(&[SIZE], "10.0")
             .unit(Unit::PressurePerLength)
             .otherwise("rigid")
             .rule("at least one of the two"),
-        /// how it resists opening and closing
+        /// stiffness of the interface against opening and closing
         pub normal_stiffness: Option<f64> = Key::new(&[SIZE], "100.0")
             .unit(Unit::PressurePerLength)
             .otherwise("rigid")

@@ -53,7 +53,7 @@ section! {
 /// Most indenters a cell can hold.
 const MOST_INDENTERS: usize = 10_000;
 
-/// The cell's sine, at least: a narrower one is a basis that nobody needs.
+/// Least sine of the angle between the cell vectors: a narrower cell has a better basis.
 const SINE: f64 = 1e-3;
 
 impl LatticeSection {

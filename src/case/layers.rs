@@ -145,8 +145,26 @@ impl LayerSection {
     }
 }
 
+/// The body of a case, and the sections of its layers.
+pub(super) struct Body<'a> {
+    pub(super) layers: Vec<LayerSection>,
+    pub(super) substrate: SubstrateSection,
+    pub(super) half_space: HalfSpace,
+    pub(super) sections: Vec<TableAt<'a>>,
+}
+
+/// Reads `[[layers]]` and `[substrate]`.
+pub(super) fn read<'a>(root: &TableAt<'a>) -> Result<Body<'a>, Refusal> {
+    let sections = root.sections("layers")?;
+    let layers: Vec<LayerSection> = sections.iter().map(LayerSection::read_table).collect::<Result<_, _>>()?;
+    let substrate_section = root.required_section("substrate")?;
+    let substrate = SubstrateSection::read_table(&substrate_section)?;
+    let half_space = build(&layers, &sections, &substrate, &substrate_section)?;
+    Ok(Body { layers, substrate, half_space, sections })
+}
+
 /// The half-space of the case, or what is wrong with it at the line where it stands.
-pub(super) fn build(
+fn build(
     layers: &[LayerSection],
     layer_sections: &[TableAt<'_>],
     substrate: &SubstrateSection,

@@ -65,7 +65,7 @@ impl LevelSection {
         }
     }
 
-    /// The level as the core knows it.
+    /// The level of the core.
     pub(super) fn build(&self, section: &TableAt<'_>) -> Result<Level, Refusal> {
         Level::new(self.shape(), self.height)
             .map_err(|error| Refusal::new(section.place, format!("`{}`: {error}", section.path("shape")), "this level"))

@@ -21,7 +21,7 @@ section! {
                 .default("[7, 13, 37, 73]"),
         /// elements across the largest contact
         pub elements: usize = Key::new(&[Form::Integer(4, 1000)], "64").default("48"),
-        /// of the circle; with "lattice-sum" all indenters stand outside it, in place of the uniform pressure
+        /// radius of the circle; with "lattice-sum" all indenters stand outside it, in place of the uniform pressure
         pub radius: CircleRadius =
             Key::new(&[Form::Word(CircleRadius::WORDS)], "\"area-balanced\"").default("\"load-balanced\""),
         /// whether the indenters around the one looked at act on it

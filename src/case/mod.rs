@@ -15,6 +15,7 @@
 //! assert_eq!(case.load.values(), [0.01]);
 //! ```
 
+mod counterbody;
 pub mod embedded;
 mod error;
 pub mod feasibility;
@@ -47,6 +48,7 @@ mod surface;
 mod tests;
 mod units;
 mod value;
+mod writer;
 
 pub use error::CaseError;
 pub use feasibility::single_contact::foreseen;
@@ -66,9 +68,9 @@ pub use localized::LocalizedSection;
 pub use lookup::{NoCase, find};
 pub use material_names::MaterialNames;
 pub use model::Case;
-pub(crate) use model::written;
 pub use named_pipes::Pipes;
 pub use source::Source;
 pub use stress::{Cut, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, SurfaceSection, Taper};
 pub use units::UnitsSection;
+pub(crate) use writer::written;

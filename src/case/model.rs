@@ -1,35 +1,34 @@
 //! The whole case.
 
-use serde::Serialize;
-
+use super::counterbody::{self, CounterbodySections};
 use super::error::{CaseError, Refusal};
 use super::feasibility::magnitude;
 use super::friction::FRICTION;
 use super::grading::LAYERS;
-use super::grid::GRID;
+use super::grid::{self, GRID};
 use super::keys::{Form, Key};
 use super::lattice::LATTICE;
-use super::layers::{LAYER, SUBSTRATE};
+use super::layers::{self, Body, LAYER, SUBSTRATE};
 use super::levels::LEVELS;
 use super::load::LOAD;
 use super::localized::LOCALIZED;
 use super::material_names::MaterialNames;
+use super::overrides;
 use super::place::Place;
 use super::reader::TableAt;
 use super::section::{KeyValue, section};
 use super::solver::SOLVER;
 use super::stress::STRESS;
-use super::surface::{self, Around, SURFACE};
+use super::surface::SURFACE;
 use super::units::UNITS;
+use super::writer::written;
 use super::{
     FrictionSection, LatticeSection, LayerSection, LevelSection, LoadSection, LocalizedSection, Source, StressSection,
     SubstrateSection, SurfaceSection, UnitsSection,
 };
-use super::{grid, lattice, layers, overrides};
 use crate::body::{HalfSpace, MeanStress};
 use crate::comparison::ComparisonTask;
-use crate::counterbody::{Counterbody, Indenters, Level, Topography};
-use crate::plain;
+use crate::counterbody::{Counterbody, Topography};
 use crate::problem::Problem;
 use crate::run::{Run, Sampling};
 use crate::spectral::Settings;
@@ -171,29 +170,6 @@ impl Case {
     }
 }
 
-/// A case as TOML: one that has been read, or what a result says of it, which may be anything.
-pub(crate) fn written(case: &impl Serialize) -> Result<String, toml::ser::Error> {
-    let text = plain::toml(case)?;
-    Ok(text.lines().fold(String::new(), |text, line| text + &readable(line) + "\n"))
-}
-
-/// A line `key = value` with the numbers of the value as a person would write them: 2e-7 for 0.0000002.
-fn readable(line: &str) -> String {
-    let Some((key, value)) = line.split_once(" = ").filter(|(_, value)| !value.starts_with(['"', '\''])) else {
-        return line.to_owned();
-    };
-    let numbers = value.split_inclusive(['[', ']', ',']).map(|part| {
-        let number = part.trim_end_matches(['[', ']', ',']).trim_start();
-        match number.parse::<f64>() {
-            Ok(x) if number.contains('.') && x != 0.0 && !(1e-3..1e6).contains(&x.abs()) => {
-                part.replace(number, &format!("{x:e}"))
-            }
-            _ => part.to_owned(),
-        }
-    });
-    format!("{key} = {}", numbers.collect::<String>())
-}
-
 fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let mut root = source.tree()?;
     for (number, text) in (1..).zip(overrides) {
@@ -203,20 +179,13 @@ fn read(source: &Source, overrides: &[String]) -> Result<Case, Refusal> {
     let root = TableAt::root(&root, &CASE, Place::new(0, end..end));
     root.only()?;
     let title = title(&root)?;
-    let counterbody = read_counterbody(&root, source)?;
-    let Pressed { levels, lattice, cell_section, grid_section, surface, counterbody } = counterbody;
-    let layer_sections = root.sections("layers")?;
-    let layers: Vec<LayerSection> = layer_sections.iter().map(LayerSection::read_table).collect::<Result<_, _>>()?;
-    let substrate_section = root.required_section("substrate")?;
-    let substrate = SubstrateSection::read_table(&substrate_section)?;
-    let half_space = layers::build(&layers, &layer_sections, &substrate, &substrate_section)?;
-
+    let CounterbodySections { levels, lattice, cell_section, grid_section, surface, counterbody } =
+        counterbody::read(&root, source)?;
+    let Body { layers, substrate, half_space, sections } = layers::read(&root)?;
     // One a layer of the half-space: the section where it stands.
-    let places: Vec<&TableAt<'_>> = layers
-        .iter()
-        .zip(&layer_sections)
-        .flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()))
-        .collect();
+    let places = layers.iter().zip(&sections);
+    let places = places.flat_map(|(layer, section)| std::iter::repeat_n(section, layer.sublayers()));
+    let places: Vec<&TableAt<'_>> = places.collect();
     magnitude::layers(&half_space, &places, counterbody.cell())?;
 
     let load = LoadSection::read_table(&root.required_section("load")?)?;
@@ -263,64 +232,4 @@ fn title(root: &TableAt<'_>) -> Result<String, Refusal> {
         text if text.contains('\n') => Err(title.refuse_form()),
         text => Ok(text),
     }
-}
-
-/// What is pressed into the body, and the sections that say so.
-struct Pressed<'a> {
-    levels: Vec<LevelSection>,
-    lattice: LatticeSection,
-    /// Where the cell is said to be what it is: a surface may say it itself.
-    cell_section: TableAt<'a>,
-    grid_section: TableAt<'a>,
-    /// A surface, the grid that it is on, and what is doubtful about it.
-    surface: Option<(SurfaceSection, Sampling, Vec<String>)>,
-    counterbody: Counterbody,
-}
-
-/// The levels of indenters, or the surface.
-fn read_counterbody<'a>(root: &TableAt<'a>, source: &Source) -> Result<Pressed<'a>, Refusal> {
-    let level_sections = root.sections("levels")?;
-    let levels: Vec<LevelSection> = level_sections.iter().map(LevelSection::read_table).collect::<Result<_, _>>()?;
-    let surface_section = match (&level_sections[..], root.section("surface")?) {
-        ([], Some(section)) => Some(section),
-        ([_, ..], None) => None,
-        ([_, ..], Some(section)) => return Err(root.both(["levels", "surface"], section.place)),
-        ([], None) => {
-            root.required_section("lattice")?;
-            let refusal = Refusal::new(root.place, "the case has neither [[levels]] nor [surface]", "none up to here");
-            return Err(refusal.help(format!("add a level, for example\n{}", root.example("levels"))));
-        }
-    };
-    let grid_section = root.section_or_empty("grid")?;
-    let lattice_section = root.section("lattice")?;
-    if let Some(section) = surface_section {
-        let (lattice, grid) = (lattice_section.clone(), grid_section.clone());
-        let around = Around { source, lattice, grid, length: length_unit(root)? };
-        let read = surface::read(&section, &around)?;
-        return Ok(Pressed {
-            levels,
-            lattice: read.lattice,
-            cell_section: lattice_section.unwrap_or(section),
-            grid_section,
-            surface: Some((read.section, read.sampling, read.doubts)),
-            counterbody: Counterbody::from(read.topography),
-        });
-    }
-    let cell_section = root.required_section("lattice")?;
-    let lattice_section = LatticeSection::read_table(&cell_section)?;
-    let lattice = lattice::build(&lattice_section, &cell_section, &levels, &level_sections)?;
-    let built = levels.iter().zip(&level_sections).map(|(level, section)| level.build(section));
-    let built: Vec<Level> = built.collect::<Result<_, _>>()?;
-    magnitude::profiles(&built, &level_sections, lattice.cell())?;
-    // Both were checked key by key.
-    let counterbody = Indenters::new(lattice, built)
-        .map(Counterbody::from)
-        .map_err(|error| Refusal::new(cell_section.place, format!("`lattice`: {error}"), "no counterbody"))?;
-    Ok(Pressed { levels, lattice: lattice_section, cell_section, grid_section, surface: None, counterbody })
-}
-
-/// `units.length`, where the case names its units.
-fn length_unit(root: &TableAt<'_>) -> Result<Option<String>, Refusal> {
-    let length = root.section("units")?.and_then(|units| units.optional("length"));
-    length.map(|length| length.name().map(str::to_owned)).transpose()
 }

@@ -1,5 +1,4 @@
-//! Strict reading of a value: which types and ranges are right, the table of [`keys`] says. What it does not know is
-//! refused, whatever the reader of a section asks for.
+//! Strict reading of a value: a key of [`keys`] has the types and ranges that it admits; every other value is refused.
 
 use std::borrow::Cow;
 

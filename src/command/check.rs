@@ -1,10 +1,10 @@
 //! `percoat check`: what a case means, without solving it.
 
-use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{default_folder, read_case};
 use super::roughness;
 use super::terminal::{self, tell};
+use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::output::Check;
 use crate::plain;
@@ -14,7 +14,8 @@ use std::path::Path;
 pub fn run(path: &Path, output: Option<&Path>, set: &[String]) -> Result<Ending, Failure> {
     let (case, name) = read_case(Some(path), set)?;
     let job = Job::Solve { pictures: true, fields: true };
-    let Allowed { room, .. } = Allowed::new(&case, &default_folder(&name).unwrap_or_else(|_| "out".into()), job)?;
+    let Allowed { room, .. } =
+        Allowed::new(&case, &default_folder(&name).unwrap_or_else(|_| "out".into()), job).map_err(Failure::Refused)?;
     let check = Check::of(&case, &name, room).map_err(Failure::refused)?;
     let mut out = terminal::out();
     write!(out, "{check}")?;

@@ -1,6 +1,5 @@
 //! `percoat compare`: spectral and localized solution of a case side by side.
 
-use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::options::{Changes, Common};
@@ -8,6 +7,7 @@ use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
+use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::comparison::{Comparison, ComparisonTask};
@@ -35,7 +35,8 @@ pub fn run(
     let started = Instant::now();
     let (task, steps) = (case.comparison(), case.load.values().len());
     let run = Run { loads: vec![task.load], stress: None, ..case.run() };
-    let allowed = Allowed::new(&case, &folder, Job::Compare { pictures: pictures.wanted() })?;
+    let job = Job::Compare { pictures: pictures.wanted() };
+    let allowed = Allowed::new(&case, &folder, job).map_err(Failure::Refused)?;
     run.check()?;
     task.check().map_err(Failure::refused)?;
     let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();

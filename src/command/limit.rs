@@ -1,6 +1,5 @@
 //! `percoat limit`: the mean pressures at which materials and interfaces fail.
 
-use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::options::{Changes, Common};
@@ -8,6 +7,7 @@ use super::pictures::PictureOptions;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
+use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::output::{LimitFile, Plan, Writer, number, summary, table, with_error};
@@ -70,7 +70,7 @@ pub fn run(
     let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &changes.set)?;
     let folder = output_folder(common, &name)?;
     let run = case.run();
-    let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() })?;
+    let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     run.check_limits()?;
     let names = ["limit.json", "limit.csv"].map(str::to_owned).into_iter();
     let names = names.chain(pictures.files(&["limit", "limit-section"])).collect();

@@ -1,6 +1,5 @@
 //! The commands of the program.
 
-mod allowed;
 mod arguments;
 mod cases;
 mod check;

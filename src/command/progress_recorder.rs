@@ -1,10 +1,10 @@
 //! The recorder of a run that writes files and shows the progress.
 
-use super::allowed::Allowed;
 use super::interruption::{self, Saved};
 use super::options::Common;
 use super::progress::Progress;
 use super::terminal;
+use crate::case::feasibility::Allowed;
 use crate::output::{Clock, OutputError, Recording, RunFolder};
 use crate::run::{Finished, Recorder, Run, StepRecord};
 use crate::spectral::Checkpoint;

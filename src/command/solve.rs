@@ -1,6 +1,5 @@
 //! `percoat solve`: every load step of a case, the table and the output folder.
 
-use super::allowed::Allowed;
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption::{self, Saved};
@@ -11,6 +10,7 @@ use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
 use super::results::Results;
 use super::terminal::{self, tell};
+use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::machine::Capacity;
@@ -52,8 +52,8 @@ pub fn run(
     // An earlier run that has solved its first load and finished no step leaves nothing to set aside; a run of the same case
     // takes over that load.
     let resumes = options.resume || output::has_solved_alone(&folder);
-    let room = room(&folder, resumes);
-    let allowed = Allowed::within(&case, room, Job::Solve { pictures: pictures.wanted(), fields })?;
+    let (room, job) = (room(&folder, resumes), Job::Solve { pictures: pictures.wanted(), fields });
+    let allowed = Allowed::within(&case, room, job).map_err(Failure::Refused)?;
     run.check()?;
     let plan = Plan { resumes, ..may_write(&case, steps, fields, pictures) };
     let mut results = Results::claim(&folder, plan, common.quiet)?;

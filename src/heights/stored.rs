@@ -42,9 +42,9 @@ impl Format {
 pub struct Stored {
     /// Along a₁ and a₂, as written.
     pub heights: Heights,
-    /// Its sides along a₁ and a₂, if it knows them.
+    /// Its sides along a₁ and a₂; none where the file has none.
     pub sides: Option<[Length; 2]>,
-    /// What its heights are in, if it says so.
+    /// Unit of its heights; none where the file has none.
     pub unit: Option<HeightsUnit>,
     /// Whether it is a text whose lines run along a₁ because nothing in it says what they are.
     pub lines_along_a1: bool,

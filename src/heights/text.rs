@@ -1,7 +1,7 @@
 //! Matrices of numbers as text: one line a row along **a**₁, its numbers along **a**₂.
 //!
 //! Numbers stand apart by semicolons, tabs, commas or blanks, whichever the first line has, in this order. Where commas do
-//! not separate, they are decimal commas. Lines that begin with # or % are comments, of which [`Header`] knows some; empty ones
+//! not separate, they are decimal commas. Lines that begin with # or % are comments, some of which [`Header`] reads; empty ones
 //! count for nothing.
 
 use super::decimal_commas::Commas;

@@ -5,7 +5,7 @@ use std::ops::{Bound, RangeBounds};
 use crate::plain::float;
 use crate::units::CARRIED;
 
-/// What a number that is not carried is told.
+/// Help of the refusal of a number that double precision does not carry.
 const WHY: &str = "double precision carries the products of five such numbers, no others; choose other units";
 
 /// The numbers that a key takes, all of them finite.

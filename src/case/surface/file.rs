@@ -38,7 +38,7 @@ pub(super) struct FromFile {
     pub heights: Array2<f64>,
     /// How its border runs out, if it does.
     pub run_out: Option<RunOut>,
-    /// Its own period along a₁ and a₂, if it knows it, a length of the case.
+    /// Its own period along a₁ and a₂, lengths of the case; none where the file has none.
     pub period: Option<[f64; 2]>,
     /// How its heights became these.
     pub treatment: Treatment,

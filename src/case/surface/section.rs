@@ -45,7 +45,7 @@ section! {
             .never_written(),
         /// whether its mean plane is taken away
         pub level: Option<bool> = Key::new(&[Form::Boolean], "true").default("false").rule(OF_A_FILE),
-        /// tapers its border; true is "tukey"
+        /// taper of its border; true is "tukey"
         pub window: Option<Taper> =
             Key::new(&[Form::Boolean, Form::Word(Window::WORDS)], "\"tukey\"").default("false").rule(OF_A_FILE),
         /// a self-affine surface
