@@ -9,9 +9,9 @@ pub enum FieldError {
     /// Another shape than that of the finest grid.
     #[error(transparent)]
     Shape(#[from] NotOnGrid),
-    /// A value that is not finite.
-    #[error("an initial gap must be finite, not {value}, at sample ({}, {})", sample[0], sample[1])]
-    NotFinite {
+    /// An initial gap that is negative or not finite.
+    #[error("an initial gap must be finite and not negative, not {value} as at sample ({}, {})", sample[0], sample[1])]
+    Gap {
         /// [i, j], from 0.
         sample: [usize; 2],
         /// The value.

@@ -55,20 +55,18 @@ impl Solver {
     /// Solver with a given initial gap in the place of that of the counterbody: of a worn or deformed surface, or between two
     /// rough ones. Pressures of earlier loads are dropped.
     ///
-    /// `gap` holds lengths, one per sample of the finest grid, axes along a₁ and a₂. Only their differences count: they are
-    /// measured from the least one, first touch. Coarser grids receive every k-th sample where they have a whole fraction of
+    /// `gap` holds lengths f ≥ 0, one per sample of the finest grid, axes along a₁ and a₂. The penetration is measured from
+    /// f = 0: from first touch, where the least f is 0. Coarser grids receive every k-th sample where they have a whole fraction of
     /// the points, else the waves that they hold, as for a [`Topography`](crate::Topography). The samples of each indenter
     /// stay those of the counterbody.
     ///
     /// # Errors
-    /// [`FieldError`] for another shape, and for a value that is not finite.
-    pub fn with_gap(mut self, gap: Array2<f64>) -> Result<Self, FieldError> {
+    /// [`FieldError`] for another shape, and for a value that is negative or not finite.
+    pub fn with_gap(mut self, mut gap: Array2<f64>) -> Result<Self, FieldError> {
         self.grid().check(gap.dim().into())?;
-        if let Some((index, &value)) = gap.indexed_iter().find(|(_, gap)| !gap.is_finite()) {
-            return Err(FieldError::NotFinite { sample: index.into(), value });
+        if let Some((index, &value)) = gap.indexed_iter().find(|(_, gap)| !(gap.is_finite() && **gap >= 0.0)) {
+            return Err(FieldError::Gap { sample: index.into(), value });
         }
-        let least = gap.iter().copied().fold(f64::INFINITY, f64::min);
-        let mut gap = gap.mapv(|f| f - least);
         for level in &mut self.levels {
             gap = level.give_gap(gap);
         }

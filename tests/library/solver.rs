@@ -553,16 +553,18 @@ fn a_given_gap_is_that_of_the_equivalent_topography() {
                 let given = Solver::new(flat(points), points, Settings::default()).unwrap();
                 given.with_gap(gap).unwrap().solve(load)
             };
-            let (same, shifted) = (given(0.0), given(-0.3));
+            let (same, shifted) = (given(0.0), given(0.004));
             assert!(own.report.stop.solved(), "{own}");
             assert!(own.pressure() == same.pressure() && own.gap() == same.gap(), "{points:?}: bit for bit");
-            assert!(relative_difference(own.pressure(), shifted.pressure()) < 1e-6, "only differences count");
-            assert!((own.penetration() / shifted.penetration() - 1.0).abs() < 1e-9);
+            if load.is_mean_pressure() {
+                assert!(relative_difference(own.pressure(), shifted.pressure()) < 1e-4);
+                assert!((own.penetration() + 0.004 - shifted.penetration()).abs() < 1e-6 * own.penetration());
+            }
         }
     }
 }
 
-/// The gap of the indenters themselves leaves everything as it is; a worn apex carries less.
+/// The gap of the indenters themselves leaves everything as it is; worn indenters carry less.
 #[test]
 fn a_given_gap_leaves_the_samples_to_their_indenters() {
     let (case, points) = (PAPER[0], [96, 96]);
@@ -573,11 +575,13 @@ fn a_given_gap_leaves_the_samples_to_their_indenters() {
     let mut given = Solver::new(case.problem(), points, Settings::default()).unwrap().with_gap(gap.clone()).unwrap();
     let same = given.solve(load);
     assert!(own.pressure() == same.pressure() && own.reading() == same.reading());
-    gap.mapv_inplace(|f| f.max(0.3 * own.penetration()));
+    let depth = 0.1 * own.penetration();
+    let worn = |sample: &usize| own.surface().level_at(*sample) == 1;
+    gap.iter_mut().enumerate().filter(|(sample, _)| worn(sample)).for_each(|(_, f)| *f += depth);
     let worn = given.with_gap(gap).unwrap().solve(load);
     assert!(worn.report.stop.solved(), "{worn}");
-    let peak = |step: &Step| step.pressure().iter().copied().fold(0.0, f64::max);
-    assert!(peak(&worn) < 0.9 * peak(&own), "{} {}", peak(&worn), peak(&own));
+    let share = |step: &Step| step.reading().levels[0].load_share;
+    assert!(share(&worn) < 0.95 * share(&own), "{} {}", share(&worn), share(&own));
     assert!((worn.pressure().mean().unwrap() / case.pressure - 1.0).abs() < 1e-8);
 }
 
@@ -587,10 +591,12 @@ fn fields_that_do_not_fit_the_grid_are_refused() {
     let error = solver().with_gap(Array2::zeros([24, 32])).unwrap_err();
     assert!(matches!(error, FieldError::Shape(_)), "{error}");
     assert!(error.to_string().contains("24 × 32") && error.to_string().contains("32 × 24"), "{error}");
-    let mut gap = Array2::zeros([32, 24]);
-    gap[[3, 5]] = f64::NAN;
-    let error = solver().with_gap(gap).unwrap_err();
-    assert!(matches!(error, FieldError::NotFinite { sample: [3, 5], .. }), "{error}");
+    for value in [f64::NAN, f64::INFINITY, -1e-9] {
+        let mut gap = Array2::zeros([32, 24]);
+        gap[[3, 5]] = value;
+        let error = solver().with_gap(gap).unwrap_err();
+        assert!(matches!(error, FieldError::Gap { sample: [3, 5], .. }), "{error}");
+    }
     assert!(matches!(solver().with_mask(Array2::from_elem([32, 1], true)).unwrap_err(), FieldError::Shape(_)));
     assert_eq!(solver().with_mask(Array2::from_elem([32, 24], false)).unwrap_err(), FieldError::EmptyMask);
 }
