@@ -1,7 +1,6 @@
 //! `compare.json`: spectral and localized solution side by side.
 
-use super::indented;
-use super::read_back::{Unreadable, read_back};
+use super::json::{Unreadable, indented, read_back};
 use super::summary::{UnitNames, check};
 use crate::case::Case;
 use crate::comparison::{CircleComparison, Comparison, Deviation, StressPair};

@@ -1,6 +1,7 @@
 //! A file that is written under a temporary name and gets its own when it is whole.
 
-use super::{At, OutputError, disk};
+use super::error::At;
+use super::{OutputError, disk};
 use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};

@@ -1,5 +1,6 @@
 //! An output folder that a run has for itself, see the [module's head](super) for its life.
 
+use super::error::At;
 use super::files::{FileRecord, Files};
 use super::folder_error::FolderError;
 use super::foreign::{refuse_in_own_places, refuse_in_staging, refuse_planned};
@@ -10,7 +11,7 @@ use super::manifest::{self, published};
 use super::plan::Plan;
 use super::staging::{create, discard, plan_more, remove_retired, set_aside};
 use super::writer::Writer;
-use super::{At, OutputError, disk, publication};
+use super::{OutputError, disk, publication};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};

@@ -2,13 +2,14 @@
 //! edited. They are refused before anything is written.
 
 use super::disk::{self, found, kind};
+use super::error::At;
 use super::files::Files;
 use super::folder_error::FolderError;
 use super::layout::{LIST, OWN, RETIRED, is_staging, names, staging};
 use super::plan::Plan;
 use super::staging::{Entry, Item, entries};
 use super::writer::Writer;
-use super::{At, lock, manifest};
+use super::{lock, manifest};
 use std::fs::Metadata;
 use std::path::Path;
 

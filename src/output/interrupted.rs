@@ -1,10 +1,11 @@
 //! An interrupted run: what a kill or a power cut has left in its staging folder, and the steps that a finer grid leaves behind.
 
+use super::error::At;
 use super::layout::{COARSER, MARK, SWEEP_LOG, is_staging, staging};
 use super::log::{cut, has_whole_line};
 use super::staging::{Entry, entries, remove_or_set_aside, remove_own};
 use super::writer::Writer;
-use super::{At, OutputError, checkpoint, disk, steps_log};
+use super::{OutputError, checkpoint, disk, steps_log};
 use std::path::{Path, PathBuf};
 
 /// Whether anything is saved in a staging folder, on any grid, be it a load of which nothing is read off yet.

@@ -1,7 +1,8 @@
 //! What stands where in an output folder.
 
+use super::error::At;
 use super::writer::Writer;
-use super::{At, OutputError, disk};
+use super::{OutputError, disk};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,6 @@
 //! `limit.json`: the mean pressure at which each criterion is reached, the first of them, and every load that was solved.
 
-use super::indented;
-use super::read_back::{Unreadable, read_back};
+use super::json::{Unreadable, indented, read_back};
 use super::summary::{UnitNames, check};
 use crate::case::Case;
 use crate::reading::{Criterion, names};

@@ -5,7 +5,8 @@
 //! the program, the lines that end are whole; the beginning of one more is cut off before the log is used again.
 
 use super::disk::{self, Appended};
-use super::{At, OutputError, write_file, write_text};
+use super::error::At;
+use super::{OutputError, write_file, write_text};
 use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 

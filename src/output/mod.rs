@@ -41,6 +41,7 @@ mod comparison;
 mod described;
 pub(crate) mod disk;
 mod draft;
+mod error;
 mod fields;
 mod files;
 mod fingerprint;
@@ -54,6 +55,7 @@ mod image;
 mod interrupted;
 #[cfg(test)]
 pub(crate) mod journal;
+mod json;
 mod kernel;
 mod layout;
 mod limit;
@@ -67,7 +69,6 @@ mod plan;
 #[cfg(test)]
 mod power_cut;
 mod publication;
-mod read_back;
 mod recording;
 mod release;
 mod solved;
@@ -87,8 +88,8 @@ pub use checkpoint::{read_checkpoint, write_checkpoint};
 pub use checksum::checksum;
 pub use clock::{Clock, Phase, Timing};
 pub use comparison::ComparisonFile;
-use draft::Draft;
 pub use draft::{write_file, write_text};
+pub use error::OutputError;
 pub use files::Files;
 pub use fingerprint::fingerprint;
 pub use finished::{CannotGoOn, finished};
@@ -96,6 +97,7 @@ pub use folder::RunFolder;
 pub use folder_error::FolderError;
 pub use histograms::histograms;
 pub use interrupted::{coarser, has_begun, has_solved_alone, staged_bytes};
+pub use json::Unreadable;
 pub use kernel::{Traction, kernel};
 pub use layout::{COMBINATIONS, SWEEP_LOG, is_staging};
 pub use limit::{FirstLimit, LimitFile};
@@ -106,7 +108,6 @@ pub use npy::{npy_bytes, npy_shared};
 pub use number::number;
 pub(crate) use number::with_error;
 pub use plan::{Plan, Scope};
-pub use read_back::Unreadable;
 pub use recording::Recording;
 pub use release::{is_released, release};
 pub use solved::{solved_plan, write_scalars};
@@ -116,39 +117,8 @@ pub use trailer::{TrailerError, digest, with_checksum, without_checksum};
 pub use volume::write_volume;
 pub use writer::Writer;
 
-use serde::Serialize;
-use std::io;
-use std::path::{Path, PathBuf};
-
-/// Why an output could not be written: which path, and what the system says.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot write {}: {source}", path.display())]
-pub struct OutputError {
-    path: PathBuf,
-    source: io::Error,
-}
-
-impl OutputError {
-    pub(crate) fn new(path: &Path, source: io::Error) -> Self {
-        Self { path: path.to_owned(), source }
-    }
-}
-
-/// A record as indented JSON.
-fn indented(record: &impl Serialize) -> String {
-    serde_json::to_string_pretty(record).expect("a record is numbers and texts under names") + "\n"
-}
-
-/// Names the path at which the system failed.
-pub(crate) trait At<T> {
-    fn at(self, path: &Path) -> Result<T, OutputError>;
-}
-
-impl<T> At<T> for io::Result<T> {
-    fn at(self, path: &Path) -> Result<T, OutputError> {
-        self.map_err(|error| OutputError::new(path, error))
-    }
-}
+use error::At;
+use std::path::Path;
 
 /// Makes `folder` and what leads to it.
 ///

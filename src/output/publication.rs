@@ -12,6 +12,7 @@
 //! staging folder until it is listed; where files have one name only, each moves and the rest stays. What a step needs is on
 //! the disk before the step begins.
 
+use super::error::At;
 use super::files::{FileRecord, Ownership, parents};
 use super::folder_error::FolderError;
 use super::layout::{DECIDED, LIST, OWN, is_staging, staging};
@@ -19,7 +20,7 @@ use super::manifest::{self, published};
 use super::plan::Plan;
 use super::staging::discard;
 use super::writer::Writer;
-use super::{At, OutputError, disk, make_folder};
+use super::{OutputError, disk, make_folder};
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};

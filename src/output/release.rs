@@ -1,11 +1,12 @@
 //! A solved folder that becomes part of another result, as those of a sweep's combinations do: it gives up what percoat keeps for
 //! itself there.
 
+use super::error::At;
 use super::files::Files;
 use super::layout::{LIST, OWN, names, staging};
 use super::manifest::published;
 use super::writer::Writer;
-use super::{At, OutputError, disk, lock};
+use super::{OutputError, disk, lock};
 use std::io::ErrorKind;
 use std::path::Path;
 

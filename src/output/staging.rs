@@ -6,9 +6,10 @@
 //! a user has put into it, and finished steps, are kept in `interrupted-1/` or the next free number.
 
 use super::disk::{self, found};
+use super::error::At;
 use super::files::is_inside;
 use super::layout::{COARSER, COMBINATIONS, DECIDED, MARK, OWN, RETIRED, SWEEP_LOG, is_staging};
-use super::{At, OutputError, checkpoint, steps_log, write_text};
+use super::{OutputError, checkpoint, steps_log, write_text};
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fs::{self, Metadata};

@@ -3,10 +3,12 @@
 //! Until then the entries stand as one `.npy` file a step in `<archive>.partial/`, where NumPy reads them too.
 
 use super::checksum::Checksum;
+use super::draft::Draft;
+use super::error::At;
 use super::npy::{complete, header, npy, values};
 use super::npz::Archive;
 use super::staging::remove_own;
-use super::{At, Draft, Files, OutputError, disk, make_folder, write_file};
+use super::{Files, OutputError, disk, make_folder, write_file};
 use crate::plain;
 use std::fs;
 use std::io::{self, BufReader, BufWriter, Write};

@@ -4,10 +4,11 @@
 //! run it is of, the files that it has left with their checksums, and a [checksum](super::trailer) of the line itself. Whatever ends
 //! the run, the lines that end are whole steps: a step is finished where its line ends.
 
+use super::error::At;
+use super::json::read_back;
 use super::log::{LineLog, whole_lines};
-use super::read_back::read_back;
 use super::trailer::{with_checksum, without_checksum};
-use super::{At, Files, OutputError};
+use super::{Files, OutputError};
 use crate::load::Load;
 use crate::reading::Histogram;
 use crate::run::StepRecord;

@@ -1,9 +1,9 @@
 //! `summary.json` and `curve.csv`: every scalar of a run.
 
+use super::Timing;
 use super::columns::{csv, scalars};
 use super::fingerprint::fingerprint;
-use super::read_back::{Unreadable, read_back};
-use super::{Timing, indented};
+use super::json::{Unreadable, indented, read_back};
 use crate::case::Case;
 use crate::run::StepRecord;
 use serde::{Deserialize, Serialize};

@@ -148,7 +148,7 @@ fn unknown() -> f64 {
 /// additional displacement w_a of Eq. (8).
 #[cfg(feature = "serde")]
 mod both_names {
-    use super::serialised::number;
+    use crate::numeric::serialised::number;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     #[derive(Serialize, Deserialize)]

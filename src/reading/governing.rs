@@ -42,7 +42,7 @@ pub fn within_the_errors(rivals: &[Criterion]) -> String {
 /// Criteria by the names with which they print themselves.
 #[cfg(feature = "serde")]
 pub(crate) mod names {
-    use super::Criterion;
+    use crate::reading::Criterion;
     use serde::de::Error;
     use serde::{Deserialize, Deserializer, Serializer};
 

@@ -71,7 +71,7 @@ pub struct Sliding {
 /// Why an iteration ended, with `converged` beside it, which follows from that.
 #[cfg(feature = "serde")]
 mod with_verdict {
-    use super::Stop;
+    use crate::spectral::Stop;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     #[derive(Serialize, Deserialize)]

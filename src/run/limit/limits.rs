@@ -77,11 +77,6 @@ pub enum At {
 
 /// The limit load of a criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(into = "super::record::Keys", try_from = "super::record::Keys")
-)]
 pub struct Limit {
     /// The criterion.
     pub criterion: Criterion,

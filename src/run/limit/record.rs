@@ -1,9 +1,10 @@
 //! A limit in records: every limit has the keys of a load, null where the limit does not have it, and a code that says how it is
 //! reached.
 
-use super::{At, Limit};
+use super::limits::{At, Limit};
 use crate::reading::Criterion;
-use serde::{Deserialize, Serialize};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// How a limit is reached.
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -26,7 +27,7 @@ enum Reached {
 
 /// The keys of a limit.
 #[derive(Clone, Serialize, Deserialize)]
-pub(super) struct Keys {
+struct Keys {
     #[serde(flatten)]
     criterion: Criterion,
     mean_pressure: Option<f64>,
@@ -47,6 +48,18 @@ pub(super) struct Keys {
     utilisation_error: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     utilisation_at: Option<f64>,
+}
+
+impl Serialize for Limit {
+    fn serialize<S: Serializer>(&self, keys: S) -> Result<S::Ok, S::Error> {
+        Keys::from(*self).serialize(keys)
+    }
+}
+
+impl<'de> Deserialize<'de> for Limit {
+    fn deserialize<D: Deserializer<'de>>(keys: D) -> Result<Self, D::Error> {
+        Self::try_from(Keys::deserialize(keys)?).map_err(D::Error::custom)
+    }
 }
 
 impl From<Limit> for Keys {

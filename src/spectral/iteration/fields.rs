@@ -14,8 +14,8 @@
 //! working.direction   —                              direction t (4)
 //! ```
 
+use super::admissible::AdmissibleSet;
 use super::certificate::Certificate;
-use super::problem::AdmissibleSet;
 use crate::load::Load;
 use crate::numeric::lanes::{LANES, all_zero, vectorised};
 use crate::numeric::rows::{self, Totals};

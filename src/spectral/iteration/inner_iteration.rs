@@ -1,7 +1,7 @@
 //! Lines 3 to 5 of the method, and line 1 by changes: iterations in single precision from one gap in double precision to the
 //! next.
 
-use super::certificate::Check;
+use super::check::Check;
 use super::direction;
 use super::fields::{Fields, Unknowns};
 use super::problem::ContactProblem;

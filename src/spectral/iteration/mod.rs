@@ -7,13 +7,14 @@
 //! A [`ContactProblem`] is solved from and into [`Unknowns`], with any elastic operator:
 //!
 //! ```text
-//! init       problem          operator, initial gap, load, tolerance, where contact may occur
+//! init       problem          operator, initial gap, load, tolerance
+//!            admissible       where contact may occur
 //!            fields           unknowns and working fields, and what lies in whose memory
 //!            route, fallback  what iterates: nothing, a variant of the method, a search for the load
 //! step       preconditioned   the method, by inner_iteration; direction and update are its fused loops
 //!            plain            its twin in plain lines
 //!            polonsky_keer    the baseline
-//! terminate  certificate      criteria of convergence from one convolution
+//! terminate  check            criteria of convergence from one convolution, with the certificate
 //!            stopping         no progress, or nothing but rounding
 //!            report           reason and route
 //! ```
@@ -32,7 +33,9 @@
 //!
 //! Where an iteration stalls and rounding alone keeps it from these, it has converged to rounding (`stopping`).
 
+mod admissible;
 mod certificate;
+mod check;
 mod direction;
 mod fallback;
 mod fields;
@@ -47,7 +50,8 @@ mod route;
 mod stopping;
 mod update;
 
+pub use admissible::AdmissibleSet;
 pub use certificate::Certificate;
 pub use fields::{Unknowns, Working};
-pub use problem::{AdmissibleSet, ContactProblem, Method, Settings};
+pub use problem::{ContactProblem, Method, Settings};
 pub use report::{Progress, Report, Route, Stop};

@@ -196,9 +196,10 @@ mod tests {
     use crate::body::{HalfSpace, Interface, Layer, Material};
     use crate::friction::Friction;
     use crate::lattice::{Cell, Grid};
+    use crate::spectral::iteration::admissible::AdmissibleSet;
     use crate::spectral::iteration::fields::{Unknowns, Working};
     use crate::spectral::iteration::preconditioned;
-    use crate::spectral::iteration::problem::{AdmissibleSet, ContactProblem, Settings};
+    use crate::spectral::iteration::problem::{ContactProblem, Settings};
     use std::f64::consts::TAU;
     use std::ops::ControlFlow;
 

@@ -4,7 +4,7 @@
 //! − τt, 0); samples outside contact that penetrate join with p ← −τ g. Under load control g is freed of its mean over
 //! contact, Ct likewise, and p is scaled back to its mean.
 
-use super::certificate::Check;
+use super::check::Check;
 use super::fields::Unknowns;
 use super::problem::{ContactProblem, Settings};
 use super::report::{Progress, Report, Route, Stop};

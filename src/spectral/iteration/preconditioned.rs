@@ -30,7 +30,7 @@
 //! pressure is double, and when the criteria are met, or single precision is exhausted, the gap is computed afresh in double
 //! precision: that alone decides about convergence.
 
-use super::certificate::Check;
+use super::check::Check;
 use super::fields::Unknowns;
 use super::inner_iteration::{InnerIteration, LastDirection, Variant};
 use super::problem::ContactProblem;

@@ -6,7 +6,7 @@
 //! accepted by the criteria of displacement control; its tolerance is smaller than theirs, because its own error changes its
 //! penetration.
 
-use super::certificate::Check;
+use super::check::Check;
 use super::fallback::iterate;
 use super::fields::Unknowns;
 use super::problem::{ContactProblem, Method, Settings};
@@ -142,8 +142,8 @@ mod tests {
     use crate::counterbody::{Counterbody, Indenters, Level, Shape, Surface};
     use crate::lattice::Lattice;
     use crate::spectral::LayeredOperator;
+    use crate::spectral::iteration::admissible::AdmissibleSet;
     use crate::spectral::iteration::fields::Working;
-    use crate::spectral::iteration::problem::AdmissibleSet;
     use std::ops::ControlFlow;
 
     /// Cones on a stiff sliding plate, pushed in by a `part` of what makes contact complete, from a uniform pressure, after a

@@ -10,7 +10,7 @@
 //! are the residual, the energy gap and the penetration outside contact of an exact solution after rounding. An iteration that
 //! no longer advances while each criterion is below its tolerance, or below eight times this, has converged to rounding.
 
-use super::certificate::Check;
+use super::check::Check;
 use super::fields::Unknowns;
 use super::problem::ContactProblem;
 use super::report::Stop;

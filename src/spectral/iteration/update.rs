@@ -6,7 +6,7 @@
 //!
 //! Sums are taken in double precision, whatever the fields are stored in.
 
-use super::certificate::GapSums;
+use super::check::GapSums;
 use crate::numeric::lanes::{LANES, RUN, Real, all_zero, lowest, splat, total, vectorised};
 use crate::numeric::rows::{Parts, Totals, each, next, sweep};
 use crate::numeric::sums::BLOCK;

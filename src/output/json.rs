@@ -1,5 +1,6 @@
-//! Records read back from JSON, with the place of what is not as this version writes it.
+//! Records as JSON, and read back with the place of what is not as this version writes it.
 
+use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -22,4 +23,9 @@ pub(super) fn read_back<T: DeserializeOwned>(value: &Value) -> Result<T, Unreada
         },
         reason: error.into_inner().to_string(),
     })
+}
+
+/// A record as indented JSON.
+pub(super) fn indented(record: &impl Serialize) -> String {
+    serde_json::to_string_pretty(record).expect("a record is numbers and texts under names") + "\n"
 }

@@ -1,0 +1,29 @@
+//! Files and folders that cannot be written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why an output could not be written: which path, and what the system says.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", path.display())]
+pub struct OutputError {
+    path: PathBuf,
+    source: io::Error,
+}
+
+impl OutputError {
+    pub(crate) fn new(path: &Path, source: io::Error) -> Self {
+        Self { path: path.to_owned(), source }
+    }
+}
+
+/// Names the path at which the system failed.
+pub(crate) trait At<T> {
+    fn at(self, path: &Path) -> Result<T, OutputError>;
+}
+
+impl<T> At<T> for io::Result<T> {
+    fn at(self, path: &Path) -> Result<T, OutputError> {
+        self.map_err(|error| OutputError::new(path, error))
+    }
+}
