@@ -84,7 +84,7 @@ fn a_report_is_made_of_whole_results_alone() {
         ("run", "summary.json", "/case", Value::Null, "`case` is missing"),
         ("run", "summary.json", "/steps", Value::Null, "`steps`"),
         ("limit", "limit.json", "/limits/0/criterion", "x".into(), "`limits[0]`: unknown variant `x`"),
-        ("limit", "limit.json", "/limits/0/reached", "x".into(), "`limits[0]`: unknown variant `x`"),
+        ("limit", "limit.json", "/limits/0/reached", "x".into(), "`limits[0].reached`: unknown variant `x`"),
         ("limit", "limit.json", "/limits", Value::Null, "`limits`"),
         ("limit", "limit.json", "/warnings", 3.into(), "`warnings`"),
         ("sweep", "sweep.json", "/failed", "0".into(), "invalid type"),
@@ -113,7 +113,7 @@ fn a_report_is_made_of_whole_results_alone() {
     answer.complains(2, &["summary.json", "1 steps", "2 loads"]);
     for (what, change) in [
         ("has 2 lines", (|lines| drop(lines.remove(1))) as fn(&mut Vec<String>)),
-        ("line 2: combination 1 stands on line 1 too", |lines| lines[1] = lines[0].clone()),
+        ("line 1: combination 1 stands on line 2 too", |lines| lines[1] = lines[0].clone()),
         ("line 2: it is no row", |lines| lines[1] = resealed(&lines[1], |row| row["status"] = "dun".into())),
         ("line 2: it is no row", |lines| lines[1] = resealed(&lines[1], |row| drop(row["results"].take()))),
         ("`mean_pressure` is null", |lines| step(lines, "mean_pressure", Value::Null)),

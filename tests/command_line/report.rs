@@ -240,7 +240,7 @@ fn files_of_another_version_are_refused_with_what_is_missing() {
     summary["steps"][0]["levels"][1].as_object_mut().unwrap().remove("load_share");
     summary["steps"][0]["levels"][1].as_object_mut().unwrap().remove("resolution");
     desk.write("run/summary.json", summary.to_string());
-    let words = ["summary.json", "step 1", "resolution", "percoat 7.0.0", "compute it again"];
+    let words = ["summary.json", "`steps[0]`", "load_share", "percoat 7.0.0", "compute it again"];
     desk.percoat(&["report", "run"]).complains(2, &words);
     desk.write("run/summary.json", "{");
     desk.percoat(&["report", "run"]).complains(2, &["summary.json", "not JSON"]);
