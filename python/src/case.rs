@@ -214,6 +214,9 @@ fn array(heights: &Bound<'_, PyAny>) -> PyResult<Arc<ArrayD<f64>>> {
     }
     has_room(&sizes(heights)?)?;
     let py = heights.py();
+    // A table of another library says itself which array it is: taken as a sequence it is that of its columns.
+    let is_table = heights.hasattr("__array__")?;
+    let heights = if is_table { py.import("numpy")?.call_method1("asarray", (heights,))? } else { heights.clone() };
     let heights: PyArrayLikeDyn<'_, f64, numpy::AllowTypeChange> = heights.extract().map_err(|error: PyErr| {
         if error.is_instance_of::<PyMemoryError>(py) {
             return error;

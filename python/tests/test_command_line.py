@@ -376,7 +376,8 @@ def same_cells(column: Any, cells: list[str]) -> bool:
         return [str(bool(value)).lower() for value in column] == cells
     if column.dtype.kind in "if":
         return same(column.astype(float), [float(cell) if cell else np.nan for cell in cells])
-    return ["" if value is None else str(value) for value in column] == cells
+    # A cell of the table holds no comma.
+    return ["" if value is None else str(value).replace(",", ";") for value in column] == cells
 
 
 SWEEPS: list[tuple[list[str], dict[str, Any], dict[str, bool]]] = [

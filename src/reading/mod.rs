@@ -35,7 +35,7 @@ mod verdict;
 pub use boundary::Boundary;
 pub use contact::Reading;
 pub use errors::{Errors, LevelErrors};
-#[cfg(feature = "serde")]
+#[cfg(feature = "cli")]
 pub(crate) use governing::names;
 pub use governing::{Governing, within_the_errors};
 pub use histogram::Histogram;

@@ -43,6 +43,9 @@ pub enum LimitValue {
     Undecided,
 }
 
+/// A value with its error, where one is known.
+pub type Measured = (f64, Option<f64>);
+
 /// A scalar of a load step with its error.
 #[derive(Debug, Clone, Copy)]
 pub struct Scalar {
@@ -51,7 +54,7 @@ pub struct Scalar {
     /// What it is measured in.
     pub kind: Kind,
     /// Its value and error; `None` where the step does not have it, or it is infinite.
-    pub of: fn(&StepRecord) -> Option<(f64, Option<f64>)>,
+    pub of: fn(&StepRecord) -> Option<Measured>,
 }
 
 /// What a scalar is measured in.
@@ -68,7 +71,7 @@ pub enum Kind {
 /// The main scalars of a load step.
 pub const SCALARS: [Scalar; 7] = {
     use Kind::{Length, Part, Pressure};
-    const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<(f64, Option<f64>)>) -> Scalar {
+    const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<Measured>) -> Scalar {
         Scalar { name, kind, of }
     }
     [
@@ -82,7 +85,7 @@ pub const SCALARS: [Scalar; 7] = {
     ]
 };
 
-fn finite(peak: &crate::stress::Peak) -> Option<(f64, Option<f64>)> {
+fn finite(peak: &crate::stress::Peak) -> Option<Measured> {
     Some((peak.finite()?, peak.error))
 }
 

@@ -161,12 +161,12 @@ impl Keys {
     }
 }
 
+#[cfg(feature = "cli")]
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// Every way in which a limit is reached comes back from JSON as it was.
-    #[cfg(feature = "cli")]
     #[test]
     fn every_limit_is_read_back_as_it_was_written() {
         let (position, error) = ([0.1, -0.2, 0.3], Some(0.01));
