@@ -113,7 +113,7 @@ impl Canvas {
         self.dashed(points, width, Dash::Solid, colour);
     }
 
-    /// Draws a line through points, solid, dashed or dotted; points closer together than [`CLOSE`] are left out.
+    /// Draws a line through points, solid, dashed or dotted; points closer together than a quarter of a point are left out.
     pub fn dashed(&mut self, points: &[[f64; 2]], width: f64, dash: Dash, colour: Colour) {
         let Some((&last, others)) = points.split_last() else { return };
         let mut seen: Vec<[f64; 2]> = Vec::new();

@@ -1,7 +1,7 @@
 //! The elastic operator as the iteration uses it: pressure on the samples of a grid → normal displacement of the surface.
 //!
 //! A body is an implementation of [`ElasticOperator`]; the iteration calls nothing else of it. Fields pass
-//! through [by rows](ByRows).
+//! through `ByRows`.
 
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use crate::numeric::aligned::Aligned;

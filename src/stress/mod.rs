@@ -9,7 +9,7 @@
 //! depth z only waves with qz up to 41 count: shorter ones are lost in rounding.
 //!
 //! A counterbody that slides adds the stresses of its traction μp**e**, wave by wave: of the part μ**e**·**n** along **n** by
-//! the amplitudes of [`Interior::under`](crate::body::Interior::under), of the part across by those of
+//! the amplitudes of [`LayeredResponse::interior`](crate::body::LayeredResponse::interior), of the part across by those of
 //! [`Antiplane`](crate::body::Antiplane); its mean adds the shear σ_αz = −μe_α p̄ at every depth. The residual stress of a
 //! layer adds to its σ_xx and σ_yy. Coupled friction changes the pressure's square root at the edge of contact into the powers
 //! ½ ± η, |η| ≤ atan(μβ)/π, β = (1 − 2ν)/(2(1 − ν)): readings at edges treat them as square roots, and state the error
