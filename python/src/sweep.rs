@@ -18,11 +18,12 @@ use std::path::Path;
 /// A combination: its name, how it ended, why if not well, and what is doubtful about it.
 type Told = (String, &'static str, String, Vec<String>);
 
-/// Columns by their names, each a list, and what is told of each combination.
+/// The columns of the table of a sweep, each a name with a list of cells; and of each combination its name, status, reason and
+/// warnings.
 type Swept<'py> = (Bound<'py, PyAny>, Vec<Told>);
 
-/// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the columns of the table, and what is
-/// told of each combination.
+/// Solves the combinations of the values of `set`, those of several keys as pairs if `zip`: the columns of the table, and
+/// name, status, reason and warnings of each combination.
 #[pyfunction]
 #[pyo3(signature = (case, set, zip = false, limit = false, threads = None, progress = None))]
 pub fn sweep<'py>(

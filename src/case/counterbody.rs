@@ -10,7 +10,7 @@ use super::surface::{self, Around, SurfaceSection};
 use crate::counterbody::{Counterbody, Indenters, Level};
 use crate::run::Sampling;
 
-/// What is pressed into the body, and the sections that say so.
+/// The counterbody of a case, with the sections from which it is read: levels on a lattice, or a surface.
 pub(super) struct CounterbodySections<'a> {
     pub(super) levels: Vec<LevelSection>,
     pub(super) lattice: LatticeSection,

@@ -66,7 +66,7 @@ impl fmt::Display for Saved {
     }
 }
 
-/// From now on a signal to end prints what is saved, and ends the process. A signal that is ignored, as under nohup or behind
+/// Installs the handler of signals to end: it prints which files are saved, and ends the process. A signal that is ignored, as under nohup or behind
 /// `&` in a script, stays so, see [`watched`].
 pub fn watch() {
     // Without this the signal ends the process at once, as it does any other program.
@@ -112,7 +112,7 @@ fn answer() {
     exit(INTERRUPTED);
 }
 
-/// The record of what is saved; a signal is answered when the guard is dropped.
+/// Locks the record of the saved files; the handler of signals waits until the guard is dropped.
 pub fn hold() -> MutexGuard<'static, Saved> {
     SAVED.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -44,7 +44,7 @@ pub struct ComparisonFile {
     pub stresses: Vec<Stresses>,
 }
 
-/// Circles under the rule that was not asked for.
+/// Circles under the rule that the case does not prescribe.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OtherRule {
     /// The rule.

@@ -28,7 +28,7 @@ pub struct LimitFile {
     pub searched: Option<[f64; 2]>,
     /// Mean pressure at which contact becomes complete; `None` where it never does.
     pub complete_contact: Option<f64>,
-    /// Largest relative change of the limits against the next coarser grid, where an accuracy was asked for.
+    /// Largest relative change of the limits against the next coarser grid, where an accuracy was prescribed.
     pub change: Option<f64>,
     /// The limit of each criterion.
     pub limits: Vec<Limit>,

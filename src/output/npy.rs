@@ -3,7 +3,6 @@
 use bytemuck::Pod;
 use npyz::{AutoSerialize, WriterBuilder};
 use std::io::{self, Read, Write};
-use std::sync::Arc;
 
 /// Values that are written at a time.
 const CHUNK: usize = 1 << 13;
@@ -36,27 +35,6 @@ pub fn npy_bytes(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::
     let mut bytes = Vec::new();
     npy(&mut bytes, shape, values)?;
     Ok(bytes)
-}
-
-/// The content of a `.npy` file of numbers, values in C order, as many as the shape says. It is written where it stays, without
-/// a second copy in memory.
-///
-/// # Errors
-/// When there is no header of such a shape.
-pub fn npy_shared(shape: &[usize], values: impl IntoIterator<Item = f64>) -> io::Result<Arc<[u8]>> {
-    let (mut head, mut values, mut value) = (Vec::new(), values.into_iter(), [0; size_of::<f64>()]);
-    header::<f64>(&mut head, shape)?;
-    let (begin, end) = (head.len(), head.len() + size_of_val(&value) * shape.iter().product::<usize>());
-    // A mapped range has a known length: its bytes are collected in place.
-    let byte = |at: usize| {
-        let Some(at) = at.checked_sub(begin) else { return head[at] };
-        let at = at % value.len();
-        if at == 0 {
-            value = values.next().unwrap_or(f64::NAN).to_ne_bytes();
-        }
-        value[at]
-    };
-    Ok((0..end).map(byte).collect())
 }
 
 /// Writes the header of an array. `npyz` would write the values one by one too, which takes longer than the disk.
@@ -143,14 +121,6 @@ pub(super) fn complete(shape: &[usize], count: usize) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_array_written_where_it_stays_is_the_same() {
-        for shape in [&[][..], &[0], &[5], &[2, 3], &[3, 0, 2], &[40, 50]] {
-            let values = || (0..shape.iter().product::<usize>()).map(|k| (k as f64).sqrt() - 1.5);
-            assert_eq!(&*npy_shared(shape, values()).unwrap(), npy_bytes(shape, values()).unwrap(), "{shape:?}");
-        }
-    }
 
     #[test]
     fn an_array_is_read_back_and_has_as_many_values_as_its_shape_says() {

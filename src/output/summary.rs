@@ -26,7 +26,7 @@ pub struct Summary {
     /// Of the case and the version: with it a run recognises its own finished result.
     #[serde(default)]
     pub fingerprint: String,
-    /// Change between the two finest grids, where an accuracy was asked for.
+    /// Change between the two finest grids, where an accuracy was prescribed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<f64>,
     /// The load steps.
@@ -54,7 +54,7 @@ impl UnitNames {
 }
 
 impl Summary {
-    /// Of a run of a case; `accuracy`: the change between the two finest grids, where an accuracy was asked for.
+    /// Of a run of a case; `accuracy`: the change between the two finest grids, where an accuracy was prescribed.
     pub fn new(case: &Case, warnings: &[String], accuracy: Option<f64>, steps: &[StepRecord], timing: Timing) -> Self {
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),

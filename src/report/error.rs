@@ -75,8 +75,9 @@ impl From<PartError> for ReportError {
         match error {
             PartError::Input { path, error } => Self::Input { path, error },
             PartError::Damaged { path, reason } => Self::Damaged { path, reason },
-            // Of two parts alone.
-            PartError::Unlike { first, .. } => Self::Damaged { path: first.into(), reason: String::new() },
+            PartError::Unlike { first, second, named } => {
+                Self::Damaged { path: first.into(), reason: format!(" and {second} differ in {named}") }
+            }
         }
     }
 }

@@ -14,8 +14,10 @@ const STEP: usize = 32;
 const LEVEL: usize = 28;
 const PEAK: usize = 11;
 
-/// Bytes of a case that is kept from its reading to its solution.
-const CASE: u64 = 8 << 10;
+/// Bytes of a case that is kept from its reading to its solution, and of each of its layers and levels. Measured: 3.7 kB with one
+/// layer and three levels, 22 kB with a hundred sublayers.
+const CASE: u64 = 4 << 10;
+const PART: u64 = 256;
 
 /// Bytes of the case and the results of a combination, about.
 pub(super) fn of_results(case: &Case, task: Task) -> u64 {
@@ -31,5 +33,6 @@ pub(super) fn of_results(case: &Case, task: Task) -> u64 {
             case.load.values().len() * (STEP + LEVEL * case.counterbody().levels().len() + stress)
         }
     };
-    CASE + SCALAR * scalars as u64
+    let parts = half_space.layers().len() + case.counterbody().levels().len();
+    CASE + PART * parts as u64 + SCALAR * scalars as u64
 }

@@ -3,7 +3,7 @@
 use super::combinations::Combinations;
 use super::row::{Row, Status};
 use super::task::Task;
-use crate::output::columns::{Cells, csv, names};
+use crate::output::columns::{csv, names};
 use crate::output::{checksum, digest};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -20,9 +20,9 @@ pub fn table(rows: &[Row]) -> String {
 pub fn columns(rows: &[Row]) -> Vec<(String, Vec<Value>)> {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by_key(|row| row.combination);
-    let lines: Vec<Cells> = sorted.iter().flat_map(|row| row.cells()).collect();
-    let names = names(lines.iter().cloned());
-    let mut lines: Vec<HashMap<String, Value>> = lines.into_iter().map(|line| line.into_iter().collect()).collect();
+    let lines = || sorted.iter().flat_map(|row| row.cells());
+    let names = names(lines());
+    let mut lines: Vec<HashMap<String, Value>> = lines().map(|line| line.into_iter().collect()).collect();
     let column = |name: String| {
         let cells = lines.iter_mut().map(|line| line.remove(&name).unwrap_or_default()).collect();
         (name, cells)

@@ -120,12 +120,12 @@ impl Key {
         }
     }
 
-    /// It is left out of a written case where it is 0 or an empty list.
+    /// The key is left out of a written case where its value is 0 or an empty list.
     pub(in crate::case) const fn omitted_as_nothing(self) -> Self {
         Self { written: Written::UnlessNothing, ..self }
     }
 
-    /// It is left out of a written case, where other keys say the same.
+    /// The key is never written: a case is written with other keys that have the same meaning.
     pub(in crate::case) const fn never_written(self) -> Self {
         Self { written: Written::Never, ..self }
     }
