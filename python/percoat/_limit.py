@@ -12,6 +12,12 @@ from percoat._solve import Listener, listener
 from percoat._warnings import NotConverged, warn
 
 
+def criterion_name(entry: Record) -> str:
+    """What fails, as the command line prints it: "yield of TiN", or "yield of material 2" where the case gives no name."""
+    number = f"material {entry.material}" if "material" in entry else f"interface {entry.interface}"
+    return f"{entry.criterion} of {entry.get('name', number)}"
+
+
 class Limits(Record):
     """Limit loads, as ``limit.json`` has them. They print the table of the command line.
 
@@ -37,8 +43,7 @@ class Limits(Record):
     def __repr__(self) -> str:
         if self.first is None:
             return f"<percoat.Limits {self.title!r}: nothing fails>"
-        what = f"material {self.first.material}" if "material" in self.first else f"interface {self.first.interface}"
-        return f"<percoat.Limits {self.title!r}: {self.first.criterion} of {what} at {self.first.mean_pressure}>"
+        return f"<percoat.Limits {self.title!r}: {criterion_name(self.first)} at {self.first.mean_pressure}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Limits, (dict(self), self.__dict__["_case"])

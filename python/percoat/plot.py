@@ -16,6 +16,7 @@ from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from percoat._limit import criterion_name
 from percoat._solve import COMPONENTS, Array, Plane, Result, Section, Step
 
 try:
@@ -279,8 +280,7 @@ def _entry(entry: Any, list_: str, number: int) -> str:
     """What an entry of a list is called: a criterion by its name and what it is of, one of ``levels`` level 1, …"""
     if "criterion" not in entry:
         return f"{list_[:-1]} {number}"
-    of = "material" if "material" in entry else "interface"
-    return f"{entry['criterion']} of {of} {entry[of]}"
+    return criterion_name(entry)
 
 
 def _errors(result: Result, name: str, shape: tuple[int, ...]) -> Array:

@@ -1,6 +1,6 @@
 //! The coated half-space: layers on a substrate.
 
-use super::{Depth, Layer, LayeredResponse, Material, MaterialError, Strength};
+use super::{Depth, InterfaceId, Layer, LayeredResponse, Material, MaterialError, MaterialId, Strength};
 use crate::notation::number;
 use std::fmt;
 use std::sync::Arc;
@@ -54,6 +54,17 @@ impl HalfSpace {
     /// All materials: those of the layers from the surface down, then the substrate.
     pub fn materials(&self) -> impl Iterator<Item = Material> {
         self.layers.iter().map(Layer::material).chain([self.substrate])
+    }
+
+    /// Number and name of material `number`, from 1 at the surface down to the substrate.
+    pub fn material_id(&self, number: usize) -> MaterialId {
+        let name = number.checked_sub(1).and_then(|index| self.materials().nth(index)?.name());
+        MaterialId { number, name }
+    }
+
+    /// Number and name of interface `number`, from 1: the lower face of that layer.
+    pub fn interface_id(&self, number: usize) -> InterfaceId {
+        InterfaceId::between(self.material_id(number), self.material_id(number + 1))
     }
 
     /// Strengths of all materials, in the order of [`Self::materials`].
@@ -116,7 +127,8 @@ impl fmt::Display for HalfSpace {
         for (index, layer) in (1..).zip(&self.layers) {
             writeln!(
                 f,
-                "layer {index}: thickness {}, χ {}, {}, {}{}",
+                "layer {index}{}: thickness {}, χ {}, {}, {}{}",
+                layer.material().name_behind(),
                 number(layer.thickness()),
                 number(layer.material().shear() / self.substrate.shear()),
                 layer.material(),
@@ -127,7 +139,7 @@ impl fmt::Display for HalfSpace {
                 }
             )?;
         }
-        write!(f, "substrate: {}", self.substrate)
+        write!(f, "substrate{}: {}", self.substrate.name_behind(), self.substrate)
     }
 }
 

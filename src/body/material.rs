@@ -2,6 +2,7 @@
 //!
 //! E* = E/(1 − ν²) = 2G/(1 − ν); χ = G₁/G₂ = E₁(1 + ν₂)/(E₂(1 + ν₁)).
 
+use super::Name;
 use crate::notation::number;
 use std::fmt;
 
@@ -29,11 +30,12 @@ pub enum MaterialError {
     Stiffness(f64),
 }
 
-/// An isotropic linear elastic material.
+/// An isotropic linear elastic material, with a name if it was given one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     shear: f64,
     poisson: f64,
+    name: Option<Name>,
 }
 
 impl Material {
@@ -48,7 +50,7 @@ impl Material {
         if !(0.0..=0.5).contains(&poisson) {
             return Err(MaterialError::Poisson(poisson));
         }
-        Ok(Self { shear, poisson })
+        Ok(Self { shear, poisson, name: None })
     }
 
     /// Material with Young's modulus `young` (a pressure) and Poisson's ratio `poisson` in [0, 0.5].
@@ -60,6 +62,21 @@ impl Material {
             return Err(MaterialError::Modulus(young));
         }
         Self::from_shear(young / (2.0 * (1.0 + poisson)), poisson)
+    }
+
+    /// Material with this name.
+    pub fn with_name(self, name: Option<Name>) -> Self {
+        Self { name, ..self }
+    }
+
+    /// Its name; `None` where it was given none.
+    pub fn name(&self) -> Option<Name> {
+        self.name
+    }
+
+    /// Its name in parentheses with a space before; empty where it was given none.
+    pub(crate) fn name_behind(&self) -> String {
+        self.name.map_or(String::new(), |name| format!(" ({name})"))
     }
 
     /// Shear modulus G, a pressure.

@@ -4,9 +4,10 @@ use super::error::Refusal;
 use super::grading::{GRADING, Grading, LAYERS};
 use super::interface::{INTERFACE_STRENGTH, InterfaceSection, InterfaceStrengthSection, SPRING};
 use super::keys::{Form, Key, Range, Unit};
+use super::material_names::names;
 use super::reader::TableAt;
 use super::section::{demanded, section};
-use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Strength};
+use crate::body::{HalfSpace, Interface, InterfaceStrength, Layer, Material, MaterialError, Name, Strength};
 
 /// Most letters of a material's name.
 const LETTERS: usize = 40;
@@ -119,8 +120,9 @@ impl LayerSection {
         material.map(|material| vec![material])
     }
 
-    /// It, or its sublayers from the upper one down, bonded to each other; its lower face is that of the last.
-    fn build(&self, substrate: Material) -> Result<Vec<Layer>, MaterialError> {
+    /// It, or its sublayers from the upper one down, bonded to each other; its lower face is that of the last. Its material has
+    /// this name.
+    fn build(&self, name: Option<&str>, substrate: Material) -> Result<Vec<Layer>, MaterialError> {
         let materials = self.materials(substrate)?;
         let count = materials.len();
         let own = Strength { yielding: self.yield_strength, tensile: self.tensile_strength };
@@ -132,7 +134,11 @@ impl LayerSection {
             } else {
                 (Interface::Bonded, InterfaceStrength::default())
             };
-            Layer::new(material, self.thickness / count as f64, interface)?
+            let name = name.map(|name| match count {
+                1 => Name::new(name),
+                _ => Name::new(&format!("{name}, sublayer {} of {count}", index + 1)),
+            });
+            Layer::new(material.with_name(name), self.thickness / count as f64, interface)?
                 .with_residual_stress(self.residual_stress)?
                 .with_strengths(own, strength)
         };
@@ -177,11 +183,16 @@ fn build(
     let base = Material::from_young(substrate.young, substrate.poisson)
         .map_err(|error| refuse(substrate_section, "young", error))?;
     count(layers, layer_sections)?;
+    let names = names(layers, substrate);
     let built: Result<Vec<Vec<Layer>>, Refusal> = layers
         .iter()
         .zip(layer_sections)
-        .map(|(layer, section)| layer.build(base).map_err(|error| refuse(section, layer.stiffness_key(), error)))
+        .zip(&names)
+        .map(|((layer, section), name)| {
+            layer.build(name.as_deref(), base).map_err(|error| refuse(section, layer.stiffness_key(), error))
+        })
         .collect();
+    let base = base.with_name(names[layers.len()].as_deref().map(Name::new));
     let strength = Strength { yielding: substrate.yield_strength, tensile: substrate.tensile_strength };
     HalfSpace::new(built?.concat(), base)
         .with_substrate_strength(strength)
@@ -205,6 +216,6 @@ fn count(layers: &[LayerSection], sections: &[TableAt<'_>]) -> Result<(), Refusa
 /// The half-space with twice the sublayers in graded layers.
 pub(super) fn refined(layers: &[LayerSection], substrate: &SubstrateSection) -> Option<HalfSpace> {
     let base = Material::from_young(substrate.young, substrate.poisson).ok()?;
-    let layers = layers.iter().map(|layer| layer.refined().build(base).ok()).collect::<Option<Vec<_>>>()?;
+    let layers = layers.iter().map(|layer| layer.refined().build(None, base).ok()).collect::<Option<Vec<_>>>()?;
     Some(HalfSpace::new(layers.concat(), base))
 }

@@ -1,32 +1,20 @@
-//! What the materials of a body are called, by the `name` of their layer or the substrate.
+//! Names of the materials of a case, by the `name` of their layer or of the substrate.
 
 use super::{LayerSection, SubstrateSection};
 
-/// Names of the materials of a body: one a homogeneous layer from the surface down, sublayers counted, then the substrate's.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct MaterialNames(Vec<Option<String>>);
-
-impl MaterialNames {
-    pub(super) fn of(layers: &[LayerSection], substrate: &SubstrateSection) -> Self {
-        let sublayers = layers.iter().flat_map(|layer| {
-            let count = layer.sublayers();
-            (1..=count).map(move |number| match &layer.name {
-                Some(name) if count > 1 => Some(format!("{name}, sublayer {number} of {count}")),
-                name => name.clone(),
-            })
-        });
-        Self(sublayers.chain([substrate.name.clone()]).collect())
-    }
-
-    /// The name that the case gives to material `number`, from 1, if it gives one.
-    pub fn given(&self, number: usize) -> Option<&str> {
-        self.0.get(number.checked_sub(1)?)?.as_deref()
-    }
-
-    /// What material `number`, from 1, is called: "TiN", or "material 2" where the case gives it no name.
-    pub fn name(&self, number: usize) -> String {
-        self.given(number).map_or_else(|| format!("material {number}"), str::to_owned)
-    }
+/// The name of each layer from the surface down, then of the substrate, where the case gives one. One that several share has
+/// their number behind it: "TiN, layer 3".
+pub(super) fn names(layers: &[LayerSection], substrate: &SubstrateSection) -> Vec<Option<String>> {
+    let all: Vec<_> = layers.iter().map(|layer| layer.name.as_deref()).chain([substrate.name.as_deref()]).collect();
+    let distinct = |(index, name): (usize, &Option<&str>)| {
+        let name = (*name)?;
+        Some(match all.iter().filter(|own| **own == Some(name)).count() {
+            1 => name.to_owned(),
+            _ if index == layers.len() => format!("{name}, substrate"),
+            _ => format!("{name}, layer {}", index + 1),
+        })
+    };
+    all.iter().enumerate().map(distinct).collect()
 }
 
 #[cfg(test)]
@@ -38,18 +26,33 @@ mod tests {
         Case::read(&embedded::source("dlc-on-steel").unwrap(), &settings).unwrap_or_else(|error| panic!("{error}"))
     }
 
+    fn named(settings: &[&str]) -> Vec<String> {
+        let case = case(settings);
+        let half_space = case.half_space();
+        (1..=half_space.materials().count()).map(|number| half_space.material_id(number).to_string()).collect()
+    }
+
     #[test]
     fn materials_have_the_names_of_the_case_or_their_numbers() {
-        let names = case(&["layers.0.name=DLC", "substrate.name=\"steel 100Cr6\""]).material_names();
-        assert_eq!([1, 2, 3, 4].map(|number| names.name(number)), ["DLC", "material 2", "steel 100Cr6", "material 4"]);
-        assert_eq!((names.given(1), names.given(2), names.given(0)), (Some("DLC"), None, None));
+        let own = ["layers.0.name=DLC", "substrate.name=\"steel 100Cr6\""];
+        assert_eq!(named(&own), ["DLC", "material 2", "steel 100Cr6"]);
+        let case = case(&own);
+        let interfaces = [1, 2].map(|number| case.half_space().interface_id(number).to_string());
+        assert_eq!(interfaces, ["DLC/material 2", "material 2/steel 100Cr6"]);
+    }
+
+    #[test]
+    fn a_name_that_several_share_has_their_number() {
+        let own = ["layers.0.name=TiN", "layers.1.name=Ti", "substrate.name=TiN"];
+        assert_eq!(named(&own), ["TiN, layer 1", "Ti", "TiN, substrate"]);
     }
 
     #[test]
     fn sublayers_of_a_graded_layer_share_its_name() {
         let graded = "layers.1.graded={ young = [2, 1], poisson = [0.2, 0.3], sublayers = 2 }";
-        let names = case(&["layers.1.name=\"graded Cr\"", graded]).material_names();
-        assert_eq!(names.name(3), "graded Cr, sublayer 2 of 2");
+        let own = ["layers.1.name=\"graded Cr\"", graded];
+        let sublayers = ["graded Cr, sublayer 1 of 2", "graded Cr, sublayer 2 of 2"];
+        assert_eq!(named(&own), ["material 1", sublayers[0], sublayers[1], "material 4"]);
     }
 
     #[test]

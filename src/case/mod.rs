@@ -66,7 +66,6 @@ pub use levels::{LevelSection, ShapeKind};
 pub use load::{LoadSection, Steps};
 pub use localized::LocalizedSection;
 pub use lookup::{NoCase, find};
-pub use material_names::MaterialNames;
 pub use model::Case;
 pub use named_pipes::Pipes;
 pub use source::Source;

@@ -12,7 +12,6 @@ use super::layers::{self, Body, LAYER, SUBSTRATE};
 use super::levels::LEVELS;
 use super::load::LOAD;
 use super::localized::LOCALIZED;
-use super::material_names::MaterialNames;
 use super::overrides;
 use super::place::Place;
 use super::reader::TableAt;
@@ -125,11 +124,6 @@ impl Case {
     pub fn units(&self) -> Units {
         let name = |of: fn(&UnitsSection) -> &Option<String>| self.units.as_ref().and_then(|own| of(own).as_deref());
         Units::of(&self.problem).named(name(|own| &own.length), name(|own| &own.pressure))
-    }
-
-    /// What the materials of the body are called.
-    pub fn material_names(&self) -> MaterialNames {
-        MaterialNames::of(&self.layers, &self.substrate)
     }
 
     /// What was found doubtful when its surface was read, a sentence each.

@@ -95,14 +95,16 @@ pub(super) fn half_space(units: &Units, half_space: &HalfSpace) -> String {
             residual => format!(", σ_r {}", pressure(units, residual)),
         };
         format!(
-            "layer {index}: thickness {}, χ {}, {}, {}{residual}\n",
+            "layer {index}{}: thickness {}, χ {}, {}, {}{residual}\n",
+            layer.material().name_behind(),
             length(units, layer.thickness()),
             number(layer.material().shear() / substrate.shear()),
             material(units, layer.material()),
             interface(units, layer.interface())
         )
     });
-    format!("{}substrate: {}", layers.collect::<String>(), material(units, substrate))
+    let substrate = format!("substrate{}: {}", substrate.name_behind(), material(units, substrate));
+    layers.collect::<String>() + &substrate
 }
 
 /// Its points, and how far they stand apart.

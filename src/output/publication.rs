@@ -1,10 +1,12 @@
 //! Publication: a complete result in a staging folder takes the place of the one before.
 //!
 //! 1. *Gathered*: the staging folder has every file, `written.json` lists the old result. Nothing is decided.
-//! 2. *Decided*: `.publish.json` beside the files is the list to come, kept entries and new ones. From here on any run that
-//!    claims the folder completes what this one does not.
-//! 3. *Placed*: every staged file of the new list has its place, every unchanged file that the old list has alone is gone.
-//! 4. *Listed*: the new list is `written.json`.
+//! 2. *Decided*: `.publish.json` beside the files lists those of this command to come, kept and new ones. From here on any run
+//!    that claims the folder completes what this one does not.
+//! 3. *Placed*: every staged file of that list has its place, and every unchanged file of this command's earlier result that has
+//!    no successor is gone. Between the removal of an old file and the new one in its place neither stands there: a rename over
+//!    it would leave no such moment, and would overwrite what a user has just put there.
+//! 4. *Listed*: `written.json` has these files beside those of other commands.
 //! 5. *Retired*: the staging folder has gone to `.percoat/retired` in one move, and is removed there.
 //!
 //! Each step can be done again after a kill at any moment of it. Invariants: a user's file is looked for before the first
@@ -28,10 +30,7 @@ use std::path::{Path, PathBuf};
 /// Decides that the staged files of the planned names are the new result. Nothing is decided if that fails.
 pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
     let (staging, writer, old) = (staging(folder, plan.writer), plan.writer, published(folder));
-    let mut new = old.clone().filtered(|name, by| match by {
-        by if by == writer => !plan.scope.contains(name),
-        by => by != Writer::Report || !writer.outdates_report(),
-    });
+    let mut new = old.clone().filtered(|name, by| by == writer && !plan.scope.contains(name));
     let staged = |name: &&String| disk::is_file(&staging.join(name));
     for name in plan.names.iter().filter(staged) {
         let [gathered, path] = [&staging, folder].map(|place| place.join(name));
@@ -53,10 +52,12 @@ pub(super) fn decide(folder: &Path, plan: &Plan) -> Result<(), FolderError> {
 pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>, FolderError> {
     let staging = staging(folder, writer);
     let decided = manifest::read(&staging.join(DECIDED)).filter(|_| disk::is_folder(&staging) && is_staging(&staging));
-    let (old, Some(new)) = (published(folder), decided) else { return Ok(None) };
+    let (old, Some(decided)) = (published(folder), decided) else { return Ok(None) };
+    let new = decided.filtered(|_, by| by == writer);
+    let mut list = old.clone().filtered(|_, by| by != writer && (by != Writer::Report || !writer.outdates_report()));
+    list.append(new.clone());
     let mut waiting = Vec::new();
-    let own = new.clone().filtered(|_, by| by == writer);
-    for name in own.names().filter(|name| disk::is_file(&staging.join(name))) {
+    for name in new.names().filter(|name| disk::is_file(&staging.join(name))) {
         let path = folder.join(name);
         if new.ownership(folder, name).at(&path)? == Ownership::AsWritten {
             continue;
@@ -72,7 +73,7 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
         path.parent().map_or(Ok(()), make_folder)?;
         place(&staging.join(name), &path, before).at(&path)?;
     }
-    for name in old.names().filter(|name| !new.has(name)) {
+    for name in old.names().filter(|name| !list.has(name)) {
         let path = folder.join(name);
         // What its owner has changed in the meantime stays.
         if old.ownership(folder, name).at(&path)? == Ownership::AsWritten {
@@ -80,8 +81,8 @@ pub(super) fn complete(folder: &Path, writer: Writer) -> Result<Option<PathBuf>,
         }
     }
     // What is in its place stays there, and what has gone does not come back.
-    sync_folders(folder, old.names().chain(own.names()))?;
-    manifest::write(&folder.join(LIST), new)?;
+    sync_folders(folder, old.names().chain(new.names()))?;
+    manifest::write(&folder.join(LIST), list)?;
     disk::sync_folder(&folder.join(OWN)).at(folder)?;
     Ok(discard(&staging, folder)?)
 }

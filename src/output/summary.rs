@@ -120,7 +120,8 @@ mod tests {
     #[test]
     fn every_case_is_read_back_as_it_was_written() {
         for (name, _) in embedded::all() {
-            let coarse = ["grid={ points = 32 }", "stress={ planes = [0.0] }"].map(str::to_owned);
+            let coarse =
+                ["grid={ points = 32 }", "stress={ planes = [0.0] }", "substrate.name=steel"].map(str::to_owned);
             let case = Case::read(&embedded::source(name).unwrap(), &coarse).unwrap();
             let Outcome { steps, .. } = case.run().solve(&mut ()).unwrap();
             let steps: Vec<StepRecord> = steps.into_iter().map(kept).collect();
@@ -128,6 +129,8 @@ mod tests {
             let written = Summary::new(&case, &["doubtful".to_owned()], Some(1e-3), &steps, timing);
             let read = Summary::read(&serde_json::from_str(&written.to_json()).unwrap()).unwrap();
             assert_eq!(read, written, "{name}");
+            let substrate = &json!(steps)[steps.len() - 1]["stress"]["materials"][case.half_space().layers().len()];
+            assert_eq!(substrate["max_tau1"]["name"], "steel", "{name}");
             if case.run().check_limits().is_ok() {
                 let mut limits = case.run().limits(&mut ()).unwrap();
                 limits.steps = limits.steps.into_iter().map(kept).collect();

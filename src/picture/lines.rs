@@ -16,18 +16,22 @@ const MANY: usize = NUMBERED_COLOURS;
 pub fn lines(snapshot: &Snapshot, section: &VerticalSection) -> Canvas {
     let distances = section.line.distances();
     let interfaces = section.interfaces().len();
+    let half_space = snapshot.step.problem().half_space();
     // Whether a row lies on the lower side of an interface.
     let below = |row: usize| row > 0 && section.depths[row - 1].z == section.depths[row].z;
     let name = |row: usize| {
         let depth = section.depths[row];
-        match (row, interfaces, !below(row)) {
+        let (material, above) = (half_space.material_id(depth.material), !below(row));
+        let interface = half_space.interface_id(if above { depth.material } else { depth.material - 1 });
+        match (row, interfaces, above) {
             (0, ..) => "surface".to_owned(),
+            (_, 1, _) if material.name.is_some() => format!("interface, {material}"),
             (_, 1, true) => "interface, coating".to_owned(),
             (_, 1, false) => "interface, substrate".to_owned(),
-            (_, MANY.., true) => format!("interface {}", depth.material),
+            (_, MANY.., true) => interface.to_string(),
             (_, MANY.., false) => String::new(),
-            (_, _, true) => format!("interface {}, above", depth.material),
-            (_, _, false) => format!("interface {}, below", depth.material - 1),
+            (_, _, true) => format!("{interface}, above"),
+            (_, _, false) => format!("{interface}, below"),
         }
     };
     let points = |row: usize, measure: SectionMeasure| {

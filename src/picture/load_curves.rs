@@ -130,13 +130,14 @@ impl LoadPath<'_> {
 
     /// Charts of the largest stresses in each material; empty for runs without stresses.
     fn stresses(&self) -> Vec<Chart> {
-        let materials = self.steps.iter().filter_map(|step| step.stress.as_ref()).map(|stress| stress.materials.len());
-        let Some(materials) = materials.max() else { return Vec::new() };
-        let name = |index: usize| match (index + 1 == materials, materials) {
-            (true, 1) => String::new(),
-            (true, _) => "substrate".to_owned(),
-            (false, 2) => "coating".to_owned(),
-            (false, _) => format!("layer {}", index + 1),
+        let Some(any) = self.steps.iter().find_map(|step| step.stress.as_ref()) else { return Vec::new() };
+        let materials = any.materials.len();
+        let name = |index: usize| match (any.materials[index].tau1.material.name, materials - index, materials) {
+            (Some(name), ..) => name.to_string(),
+            (None, 1, 1) => String::new(),
+            (None, 1, _) => "substrate".to_owned(),
+            (None, _, 2) => "coating".to_owned(),
+            (None, ..) => format!("layer {}", index + 1),
         };
         let curves = |value: fn(&Extremes) -> Peak| -> Vec<Curve> {
             let of = |index: usize| {
@@ -158,13 +159,14 @@ impl LoadPath<'_> {
 
     /// Chart of the largest tension and shear of each interface.
     fn interfaces(&self) -> Option<Chart> {
-        let interfaces = self.steps.iter().filter_map(|step| Some(step.stress.as_ref()?.interfaces.len())).max()?;
+        let any = &self.steps.iter().find_map(|step| step.stress.as_ref())?.interfaces;
+        let interfaces = any.len();
         let curve = |index: usize, what: &str, value: fn(&Carried) -> Peak, dashed: bool| {
             let name = match interfaces {
                 1 => what.to_owned(),
                 NUMBERED_COLOURS.. if dashed => String::new(),
-                NUMBERED_COLOURS.. => format!("interface {}", index + 1),
-                _ => format!("{what}, interface {}", index + 1),
+                NUMBERED_COLOURS.. => any[index].interface.to_string(),
+                _ => format!("{what}, {}", any[index].interface),
             };
             let of = |step: &StepRecord| step.stress.as_ref()?.interfaces.get(index).map(value);
             let curve = self.peaks(&name, Ink::by_depth(index, interfaces), of);

@@ -2,7 +2,7 @@
 
 use super::label::equals;
 use super::number::{degrees, short};
-use crate::body::{HalfSpace, Interface, Layer};
+use crate::body::{HalfSpace, Interface, Layer, Material};
 use crate::counterbody::{Counterbody, Level, Shape};
 use crate::friction::Friction;
 use crate::lattice::{Cell, LatticeError};
@@ -105,7 +105,8 @@ fn materials(half_space: &HalfSpace, units: &Units) -> String {
     for (number, layer) in (1..).zip(half_space.layers()) {
         let index = lowered(number);
         let own = if single { "" } else { &index };
-        let mut part = [
+        let mut part = before(layer.material());
+        part += &[
             equals(&format!("χ{own}"), &[layer.material().shear() / substrate.shear()]),
             units.length_equals(&format!("h{own}"), &[layer.thickness()]),
             equals(&format!("ν{index}"), &[layer.material().poisson()]),
@@ -154,10 +155,15 @@ fn many_layers(half_space: &HalfSpace, units: &Units) -> String {
     parts.join(", ")
 }
 
+/// The name of a material with a colon; empty where it has none.
+fn before(material: Material) -> String {
+    material.name().map_or(String::new(), |name| format!("{name}: "))
+}
+
 fn substrate_words(half_space: &HalfSpace, units: &Units) -> String {
     let substrate = half_space.substrate();
     let index = substrate_index(half_space);
-    let mut last = equals(&format!("ν{index}"), &[substrate.poisson()]);
+    let mut last = before(substrate) + &equals(&format!("ν{index}"), &[substrate.poisson()]);
     if !matches!(units.pressure(), Unit::Relative(_)) {
         last += &format!(", {}", units.pressure_equals(&format!("E{index}"), &[substrate.young()]));
     }

@@ -76,16 +76,16 @@ pub(super) fn utilisation_curves(steps: &[StepRecord], criteria: impl IntoIterat
 /// of failure and colours by depth.
 fn drawn(criterion: Criterion, index: usize, all: &[Criterion]) -> (Style, Ink) {
     let depth = |criterion: &Criterion| match *criterion {
-        Criterion::Yield { material } | Criterion::Cracking { material } => material,
-        Criterion::Delamination { interface } => interface,
+        Criterion::Yield(material) | Criterion::Cracking(material) => material.number,
+        Criterion::Delamination(interface) => interface.number,
     };
     if all.len() <= COLOURS {
         return (Style::Line, Ink::Number(index + 1));
     }
     let style = match criterion {
-        Criterion::Yield { .. } => Style::Line,
-        Criterion::Cracking { .. } => Style::Dashed,
-        Criterion::Delamination { .. } => Style::Dotted,
+        Criterion::Yield(_) => Style::Line,
+        Criterion::Cracking(_) => Style::Dashed,
+        Criterion::Delamination(_) => Style::Dotted,
     };
     let deepest = all.iter().map(depth).max().unwrap_or(1);
     (style, Ink::by_depth(depth(&criterion) - 1, deepest))

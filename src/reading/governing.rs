@@ -39,7 +39,7 @@ pub fn within_the_errors(rivals: &[Criterion]) -> String {
     if names.is_empty() { String::new() } else { format!(", or {} within the errors", names.join(" or ")) }
 }
 
-/// Criteria by the names with which they print themselves.
+/// Criteria by their codes, with the name of a material or an interface behind in parentheses: "yield of material 2 (TiN)".
 #[cfg(feature = "serde")]
 pub(crate) mod names {
     use crate::reading::Criterion;
@@ -47,7 +47,7 @@ pub(crate) mod names {
     use serde::{Deserialize, Deserializer, Serializer};
 
     pub fn serialize<S: Serializer>(criteria: &[Criterion], names: S) -> Result<S::Ok, S::Error> {
-        names.collect_seq(criteria.iter().map(Criterion::to_string))
+        names.collect_seq(criteria.iter().map(|own| own.code_with_name()))
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(names: D) -> Result<Vec<Criterion>, D::Error> {
@@ -66,11 +66,8 @@ mod tests {
 
     #[test]
     fn what_may_govern_within_the_errors_is_a_rival() {
-        let [yields, cracks, parts] = [
-            Criterion::Yield { material: 2 },
-            Criterion::Cracking { material: 1 },
-            Criterion::Delamination { interface: 1 },
-        ];
+        let [yields, cracks, parts] =
+            [Criterion::yield_of(2), Criterion::cracking_of(1), Criterion::delamination_of(1)];
         let words = |crack: f64, error: f64, part: f64| {
             let all = [taken(yields, 0.93, Some(0.02)), taken(cracks, crack, Some(error)), taken(parts, part, None)];
             let Governing { criterion, rivals, .. } = Governing::of(&all).unwrap();
@@ -88,8 +85,7 @@ mod tests {
 
     #[test]
     fn a_criterion_fails_or_holds_only_beyond_its_error() {
-        let verdict =
-            |value: f64, error: Option<f64>| taken(Criterion::Yield { material: 1 }, value, error).verdict.name();
+        let verdict = |value: f64, error: Option<f64>| taken(Criterion::yield_of(1), value, error).verdict.name();
         assert_eq!(verdict(1.2, Some(0.19)), "fails");
         assert_eq!(verdict(1.2, Some(0.21)), "undecided");
         assert_eq!(verdict(0.737, Some(3.4)), "undecided");

@@ -38,9 +38,9 @@ impl VerticalSection {
     /// largest.
     pub(crate) fn governing_measure(&self, criterion: Criterion, half_space: &HalfSpace) -> SectionMeasure {
         let interface = match criterion {
-            Criterion::Yield { .. } => return SectionMeasure::Mises,
-            Criterion::Cracking { .. } => return SectionMeasure::Tension,
-            Criterion::Delamination { interface } => interface,
+            Criterion::Yield(_) => return SectionMeasure::Mises,
+            Criterion::Cracking(_) => return SectionMeasure::Tension,
+            Criterion::Delamination(interface) => interface.number,
         };
         let strength = half_space.layers()[interface - 1].interface_strength();
         let (opening, shear) =
@@ -120,7 +120,7 @@ mod tests {
                 StressState { zz: part * zz, xz: part * xz, ..StressState::default() }
             });
             let section = VerticalSection { line, depths, states, highest: None };
-            section.governing_measure(Criterion::Delamination { interface: 1 }, &HalfSpace::new(vec![layer], material))
+            section.governing_measure(Criterion::delamination_of(1), &HalfSpace::new(vec![layer], material))
         };
         assert_eq!(shown([1.0, 2.0], bears(Some(1.0), None)), SectionMeasure::Opening);
         assert_eq!(shown([1.0, 0.1], bears(None, Some(1.0))), SectionMeasure::Shear);

@@ -6,7 +6,7 @@
 
 use super::StressReading;
 use super::verdict::Verdict;
-use crate::body::HalfSpace;
+use crate::body::{HalfSpace, InterfaceId, MaterialId, Name};
 #[cfg(feature = "serde")]
 use crate::numeric::serialised;
 use crate::stress::Peak;
@@ -23,20 +23,11 @@ use std::str::FromStr;
 #[non_exhaustive]
 pub enum Criterion {
     /// A material yields: von Mises.
-    Yield {
-        /// The material, from 1.
-        material: usize,
-    },
+    Yield(MaterialId),
     /// A material cracks: largest principal stress.
-    Cracking {
-        /// The material, from 1.
-        material: usize,
-    },
+    Cracking(MaterialId),
     /// An interface comes off.
-    Delamination {
-        /// The interface, from 1: the lower face of that layer.
-        interface: usize,
-    },
+    Delamination(InterfaceId),
 }
 
 impl Criterion {
@@ -47,37 +38,68 @@ impl Criterion {
         let cracks = strengths().filter(|(_, strength)| strength.tensile.is_some());
         let interfaces = (1..).zip(half_space.layers()).filter(|(_, layer)| !layer.interface_strength().is_empty());
         yields
-            .map(|(material, _)| Self::Yield { material })
-            .chain(cracks.map(|(material, _)| Self::Cracking { material }))
-            .chain(interfaces.map(|(interface, _)| Self::Delamination { interface }))
+            .map(|(number, _)| Self::Yield(half_space.material_id(number)))
+            .chain(cracks.map(|(number, _)| Self::Cracking(half_space.material_id(number))))
+            .chain(interfaces.map(|(number, _)| Self::Delamination(half_space.interface_id(number))))
             .collect()
     }
 
-    /// Its name in outputs.
+    /// Yield of the material with this number, from 1, without its name.
+    pub const fn yield_of(material: usize) -> Self {
+        Self::Yield(MaterialId::numbered(material))
+    }
+
+    /// Cracking of the material with this number, from 1, without its name.
+    pub const fn cracking_of(material: usize) -> Self {
+        Self::Cracking(MaterialId::numbered(material))
+    }
+
+    /// Delamination of the interface with this number, from 1, without its name.
+    pub const fn delamination_of(interface: usize) -> Self {
+        Self::Delamination(InterfaceId::numbered(interface))
+    }
+
+    /// What fails, in one word of outputs.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Yield { .. } => "yield",
-            Self::Cracking { .. } => "cracking",
-            Self::Delamination { .. } => "delamination",
+            Self::Yield(_) => "yield",
+            Self::Cracking(_) => "cracking",
+            Self::Delamination(_) => "delamination",
         }
+    }
+
+    /// It by number, as files have it: "yield of material 2".
+    pub fn code(self) -> String {
+        match self {
+            Self::Yield(own) | Self::Cracking(own) => format!("{} of material {}", self.name(), own.number),
+            Self::Delamination(own) => format!("{} of interface {}", self.name(), own.number),
+        }
+    }
+
+    /// Its code, with the name of its material or interface behind: "yield of material 2 (TiN)".
+    pub fn code_with_name(self) -> String {
+        let (Self::Yield(MaterialId { name, .. })
+        | Self::Cracking(MaterialId { name, .. })
+        | Self::Delamination(InterfaceId { name, .. })) = self;
+        name.map_or_else(|| self.code(), |name| format!("{} ({name})", self.code()))
     }
 
     /// Its strength, a pressure; 1 for an interface, whose utilisation is searched itself.
     fn strength(self, half_space: &HalfSpace) -> Option<f64> {
         match self {
-            Self::Yield { material } => half_space.strengths().nth(material - 1)?.yielding,
-            Self::Cracking { material } => half_space.strengths().nth(material - 1)?.tensile,
-            Self::Delamination { .. } => Some(1.0),
+            Self::Yield(material) => half_space.strengths().nth(material.number - 1)?.yielding,
+            Self::Cracking(material) => half_space.strengths().nth(material.number - 1)?.tensile,
+            Self::Delamination(_) => Some(1.0),
         }
     }
 
     /// What residual stress alone takes up of it: in a layer under σ_r in both directions, von Mises is |σ_r|.
     pub fn at_rest(self, half_space: &HalfSpace) -> f64 {
-        let residual = |material: usize| half_space.residual_stresses().nth(material - 1).unwrap_or(0.0);
+        let residual = |material: MaterialId| half_space.residual_stresses().nth(material.number - 1).unwrap_or(0.0);
         let stress = match self {
-            Self::Yield { material } => residual(material).abs(),
-            Self::Cracking { material } => residual(material).max(0.0),
-            Self::Delamination { .. } => 0.0,
+            Self::Yield(material) => residual(material).abs(),
+            Self::Cracking(material) => residual(material).max(0.0),
+            Self::Delamination(_) => 0.0,
         };
         self.strength(half_space).map_or(0.0, |strength| stress / strength)
     }
@@ -86,9 +108,9 @@ impl Criterion {
 impl fmt::Display for Criterion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Yield { material } => write!(f, "yield of material {material}"),
-            Self::Cracking { material } => write!(f, "cracking of material {material}"),
-            Self::Delamination { interface } => write!(f, "delamination of interface {interface}"),
+            Self::Yield(material) => write!(f, "yield of {material}"),
+            Self::Cracking(material) => write!(f, "cracking of {material}"),
+            Self::Delamination(interface) => write!(f, "delamination of {interface}"),
         }
     }
 }
@@ -96,12 +118,17 @@ impl fmt::Display for Criterion {
 impl FromStr for Criterion {
     type Err = String;
 
-    /// Reads a criterion as it prints itself.
+    /// Reads a [code](Criterion::code), with a name behind it or without.
     fn from_str(text: &str) -> Result<Self, String> {
-        let number = |start: &str| text.strip_prefix(start)?.parse().ok();
-        let yields = number("yield of material ").map(|material| Self::Yield { material });
-        let cracks = || number("cracking of material ").map(|material| Self::Cracking { material });
-        let parts = || number("delamination of interface ").map(|interface| Self::Delamination { interface });
+        let (own, name) = match text.strip_suffix(')').and_then(|text| text.split_once(" (")) {
+            Some((own, name)) => (own, Some(Name::new(name))),
+            None => (text, None),
+        };
+        let number = |start: &str| own.strip_prefix(start)?.parse().ok();
+        let yields = number("yield of material ").map(|number| Self::Yield(MaterialId { number, name }));
+        let cracks = || number("cracking of material ").map(|number| Self::Cracking(MaterialId { number, name }));
+        let parts =
+            || number("delamination of interface ").map(|number| Self::Delamination(InterfaceId { number, name }));
         yields.or_else(cracks).or_else(parts).ok_or_else(|| format!("criterion {text:?} is not known"))
     }
 }
@@ -151,9 +178,9 @@ impl Utilisation {
     pub fn all(half_space: &HalfSpace, stress: &StressReading) -> Vec<Self> {
         let of = |criterion: Criterion| {
             let peak: Peak = match criterion {
-                Criterion::Yield { material } => stress.materials.get(material - 1)?.mises,
-                Criterion::Cracking { material } => stress.materials.get(material - 1)?.tension,
-                Criterion::Delamination { interface } => stress.interfaces.get(interface - 1)?.delamination?,
+                Criterion::Yield(material) => stress.materials.get(material.number - 1)?.mises,
+                Criterion::Cracking(material) => stress.materials.get(material.number - 1)?.tension,
+                Criterion::Delamination(interface) => stress.interfaces.get(interface.number - 1)?.delamination?,
             };
             let strength = criterion.strength(half_space)?;
             let error = peak.error.map(|error| error / strength);
@@ -174,6 +201,21 @@ mod tests {
     use crate::body::{Interface, InterfaceStrength, Layer, Material, Strength};
 
     #[test]
+    fn a_code_is_read_back_with_its_name() {
+        let name = Some(Name::new("TiN (PVD)"));
+        let named = [
+            Criterion::Yield(MaterialId { number: 2, name }),
+            Criterion::Delamination(InterfaceId { number: 1, name }),
+        ];
+        for own in named.into_iter().chain([Criterion::cracking_of(3)]) {
+            assert_eq!(own.code_with_name().parse(), Ok(own));
+        }
+        assert_eq!(named.map(|own| own.to_string()), ["yield of TiN (PVD)", "delamination of TiN (PVD)"]);
+        assert_eq!(named[0].code_with_name(), "yield of material 2 (TiN (PVD))");
+        assert!("yield of TiN".parse::<Criterion>().is_err());
+    }
+
+    #[test]
     fn residual_stress_takes_up_its_part_of_yield_and_in_tension_of_cracking() {
         let material = Material::from_young(1.0, 0.3).unwrap();
         let strength = Strength { yielding: Some(4.0), tensile: Some(2.0) };
@@ -185,11 +227,7 @@ mod tests {
         for (residual, known) in [(-3.0, [0.75, 0.0, 0.0]), (3.0, [0.75, 1.5, 0.0])] {
             let half_space = HalfSpace::new(vec![layer(residual)], material);
             let all = Criterion::all(&half_space);
-            let expected = [
-                Criterion::Yield { material: 1 },
-                Criterion::Cracking { material: 1 },
-                Criterion::Delamination { interface: 1 },
-            ];
+            let expected = [Criterion::yield_of(1), Criterion::cracking_of(1), Criterion::delamination_of(1)];
             assert_eq!(all, expected);
             assert_eq!(all.iter().map(|criterion| criterion.at_rest(&half_space)).collect::<Vec<_>>(), known);
         }

@@ -46,10 +46,15 @@ impl StressReading {
         };
         let surface_error = maxima.surface_error();
         let Maxima { mut materials, mut faces, mut interfaces, .. } = maxima;
+        let half_space = step.problem().half_space();
         for peak in peaks(&mut materials, &mut faces, &mut interfaces) {
-            peak.position = beside_site(step, peak.position);
-            peak.rival.iter_mut().for_each(|rival| rival.position = beside_site(step, rival.position));
+            let rival = peak.rival.as_mut().map(|rival| (&mut rival.position, &mut rival.material));
+            for (position, material) in [(&mut peak.position, &mut peak.material)].into_iter().chain(rival) {
+                *position = beside_site(step, *position);
+                *material = half_space.material_id(material.number);
+            }
         }
+        interfaces.iter_mut().for_each(|own| own.interface = half_space.interface_id(own.interface.number));
         // A tip is infinitely stressed, whatever a grid shows of it.
         if let Some(tip) = tips(step, reading).next() {
             let [x, y] = step.grid().cell().point(tip.place);
@@ -60,7 +65,7 @@ impl StressReading {
                     *peak = Peak {
                         value: f64::INFINITY,
                         position: [x, y, 0.0],
-                        material: 1,
+                        material: half_space.material_id(1),
                         error: None,
                         rival: None,
                         ..*peak

@@ -30,7 +30,7 @@ const NAMES: [(&str, &str); 19] = [
 ];
 
 /// Keys of a list of which the columns come first.
-const FRONT: [&str; 4] = ["thickness", "shear_ratio", "young", "graded"];
+const FRONT: [&str; 5] = ["name", "thickness", "shear_ratio", "young", "graded"];
 
 /// What these sections of a case say is shown each by itself or is of no matter for the result.
 const APART: [&str; 6] = ["title", "levels", "layers", "substrate", "localized", "units"];

@@ -167,9 +167,9 @@ mod tests {
     use super::*;
     use crate::sweep::examples::{below, never, reached, row, step};
 
-    const YIELDS: Criterion = Criterion::Yield { material: 1 };
-    const CRACKS: Criterion = Criterion::Cracking { material: 1 };
-    const PARTS: Criterion = Criterion::Delamination { interface: 1 };
+    const YIELDS: Criterion = Criterion::yield_of(1);
+    const CRACKS: Criterion = Criterion::cracking_of(1);
+    const PARTS: Criterion = Criterion::delamination_of(1);
 
     /// The sentences and the table of these results, one a combination that sets `a` to its number; without results it has
     /// failed.

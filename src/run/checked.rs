@@ -1,6 +1,7 @@
 //! Which numbers a record of a load step must have when it is read back.
 
 use super::StepRecord;
+use crate::reading::{Governing, Utilisation};
 use crate::spectral::{Certificate, Stop};
 
 /// What a record that is read back must have: a number that is null was not finite, which only a step with [`Stop::NotANumber`]
@@ -44,7 +45,20 @@ impl StepRecord {
             let between = between.flat_map(|own| [("max_normal", own.normal.value), ("max_shear", own.shear.value)]);
             within.chain(between).try_for_each(|(name, value)| number(name, value))?;
         }
-        self.strength.iter().try_for_each(|own| number(&format!("utilisation of {}", own.criterion), own.value))
+        for own in &self.strength {
+            number(&format!("utilisation of {}", own.criterion), own.value)?;
+            let due = Utilisation::new(own.criterion, own.value, own.error, own.position).verdict;
+            if own.verdict != due {
+                let (criterion, is) = (own.criterion, own.verdict);
+                return Err(format!(
+                    "the `state` of {criterion} is {is} where its utilisation and error make it {due}"
+                ));
+            }
+        }
+        if self.governing != Governing::of(&self.strength) {
+            return Err("`governing` is not what `strength` makes it".to_owned());
+        }
+        Ok(())
     }
 }
 
@@ -69,4 +83,24 @@ fn at_least_zero(name: &str, value: f64) -> Result<(), String> {
 /// A largest pressure, which may be infinite.
 fn peak(name: &str, value: f64) -> Result<(), String> {
     if value == f64::INFINITY { Ok(()) } else { at_least_zero(name, value) }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::{Case, embedded};
+    use crate::reading::Verdict;
+
+    #[test]
+    fn a_state_that_its_utilisation_contradicts_is_refused() {
+        let case = Case::read(&embedded::source("dlc-on-steel").unwrap(), &["grid.points=32".to_owned()]).unwrap();
+        let step = case.run().solve(&mut ()).unwrap().steps.pop().unwrap();
+        assert_eq!(step.check(), Ok(()));
+        let mut other = step.clone();
+        let own = other.strength.iter_mut().find(|own| own.verdict == Verdict::Fails).unwrap();
+        own.verdict = Verdict::Holds;
+        assert!(other.check().unwrap_err().contains("is holds where its utilisation and error make it fails"));
+        let mut other = step;
+        other.governing.as_mut().unwrap().rivals = vec![other.strength[0].criterion; 9];
+        assert!(other.check().unwrap_err().contains("`governing`"));
+    }
 }

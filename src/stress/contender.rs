@@ -123,13 +123,14 @@ impl Rival {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::MaterialId;
 
     fn peak(value: f64, error: f64, z: f64) -> Peak {
         Peak {
             value,
             error: Some(error),
             position: [0.0, 0.0, z],
-            material: 1,
+            material: MaterialId::numbered(1),
             direction: [1.0, 0.0, 0.0],
             rival: None,
         }

@@ -14,6 +14,7 @@ use super::crest::Crest;
 use super::field::StressField;
 use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
+use crate::body::InterfaceId;
 
 /// Largest stresses of a material or a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,8 +35,9 @@ pub struct Extremes {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Carried {
-    /// The interface, from 1: the lower face of that layer.
-    pub interface: usize,
+    /// The interface.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub interface: InterfaceId,
     /// Largest σ_zz; negative where all of the interface is in compression.
     #[cfg_attr(feature = "serde", serde(rename = "max_normal"))]
     pub normal: Peak,
@@ -103,7 +105,7 @@ impl Maxima {
         let carried = |(interface, contenders): &(usize, Contenders)| {
             let strength = contenders.iter().map(|(measure, _)| *measure).find(StressMeasure::is_delamination);
             Some(Carried {
-                interface: *interface,
+                interface: InterfaceId::numbered(*interface),
                 normal: stated(contenders, StressMeasure::Opening, apart)?,
                 shear: stated(contenders, StressMeasure::Shear, apart)?,
                 delamination: strength.and_then(|measure| stated(contenders, measure, apart)),

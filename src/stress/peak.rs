@@ -1,5 +1,6 @@
 //! A largest stress with its position, its error and its rival.
 
+use crate::body::MaterialId;
 #[cfg(feature = "serde")]
 use crate::numeric::serialised;
 
@@ -16,8 +17,9 @@ pub struct Peak {
     /// Position x, y, z; lengths.
     #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::place"))]
     pub position: [f64; 3],
-    /// Material, from 1; the substrate is layers + 1.
-    pub material: usize,
+    /// Material of the position.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub material: MaterialId,
     /// Direction of σ₁ at the position, a unit vector: a crack opens across it.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "serialised::numbers"))]
     pub direction: [f64; 3],
@@ -38,8 +40,9 @@ pub struct Rival {
     /// Position x, y, z; lengths.
     #[cfg_attr(feature = "serde", serde(flatten, with = "serialised::place"))]
     pub position: [f64; 3],
-    /// Material, from 1.
-    pub material: usize,
+    /// Material of the position.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub material: MaterialId,
 }
 
 impl Peak {

@@ -18,7 +18,7 @@ use super::measure::{MATERIAL_MEASURES, StressMeasure};
 use super::peak::Peak;
 use super::plane_search::{Candidate, SEARCH_REACH};
 use super::tensor::StressState;
-use crate::body::{Depth, Layer};
+use crate::body::{Depth, Layer, MaterialId};
 
 /// The largest samples of a plane.
 #[derive(Debug)]
@@ -186,7 +186,7 @@ impl StressField {
     /// depth `near`.
     pub(super) fn value_beside(&self, contender: &Contender, measure: StressMeasure, near: f64) -> f64 {
         let Peak { position: [x, y, z], material, .. } = contender.peak;
-        let (depth, step) = (Depth { z, material }, self.grid().spacing());
+        let (depth, step) = (Depth { z, material: material.number }, self.grid().spacing());
         if z < near {
             let states = self.stresses_at(&self.depth_response(depth, REACH), &self.samples_around([x, y]));
             return states.iter().map(|state| measure.of(state)).fold(f64::NEG_INFINITY, f64::max);
@@ -229,7 +229,7 @@ impl StressField {
         let peak = Peak {
             value,
             position: [x, y, depth.z],
-            material: depth.material,
+            material: MaterialId::numbered(depth.material),
             direction: state.s1_direction(),
             error: None,
             rival: None,

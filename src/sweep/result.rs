@@ -155,7 +155,7 @@ impl SweepResult {
             Some(limit) => json!(FirstLimit { limit: *limit, rivals }),
             None if rivals.is_empty() => json!(null),
             None => {
-                let rivals: Vec<String> = rivals.iter().map(Criterion::to_string).collect();
+                let rivals: Vec<String> = rivals.into_iter().map(Criterion::code_with_name).collect();
                 json!({ "criterion": null, "reached": "undecided", "rivals": rivals })
             }
         };
@@ -163,9 +163,9 @@ impl SweepResult {
             let mut keys = json!(limit);
             if let Some(keys) = keys.as_object_mut() {
                 // They stand in the names of the columns.
-                ["criterion", "material", "interface"].iter().for_each(|key| drop(keys.shift_remove(*key)));
+                ["criterion", "material", "interface", "name"].iter().for_each(|key| drop(keys.shift_remove(*key)));
             }
-            json!({ limit.criterion.to_string().replace(' ', "_"): keys })
+            json!({ limit.criterion.code().replace(' ', "_"): keys })
         });
         [json!({ "first": first })].into_iter().chain(named).flat_map(|value| scalars(&value)).collect()
     }
@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn limits_are_shown_with_their_errors_or_a_bound() {
-        let [yields, parts] = [Criterion::Yield { material: 2 }, Criterion::Delamination { interface: 2 }];
+        let [yields, parts] = [Criterion::yield_of(2), Criterion::delamination_of(2)];
         let told = |limits: Vec<Limit>, of: Option<Criterion>| {
             SweepResult::Limits(limits).limit_value(of).map(|value| value.to_string())
         };
@@ -238,7 +238,7 @@ mod tests {
 
     #[test]
     fn the_cells_of_limits_are_the_first_and_each_under_its_name() {
-        let [yields, parts] = [Criterion::Yield { material: 2 }, Criterion::Delamination { interface: 1 }];
+        let [yields, parts] = [Criterion::yield_of(2), Criterion::delamination_of(1)];
         let cells = SweepResult::Limits(vec![reached(yields, 0.2, 0.05), reached(parts, 0.24, 0.01)]).cells();
         let cell = |name: &str| cells.iter().find(|(own, _)| own == name).map(|(_, cell)| cell.clone());
         for (name, value) in [

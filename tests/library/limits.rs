@@ -55,12 +55,8 @@ fn at_its_limit_each_criterion_is_one_at_the_place_that_is_told() {
     let problem = coated([1.0; 2]);
     let found = limits(problem.clone(), Load::MeanPressure(0.05), 96);
     assert!(found.converged() && found.steps.is_sorted_by_key(|step| step.reading.mean_pressure));
-    let expected = [
-        Criterion::Yield { material: 1 },
-        Criterion::Yield { material: 2 },
-        Criterion::Cracking { material: 1 },
-        Criterion::Delamination { interface: 1 },
-    ];
+    let expected =
+        [Criterion::yield_of(1), Criterion::yield_of(2), Criterion::cracking_of(1), Criterion::delamination_of(1)];
     assert_eq!(found.limits.iter().map(|limit| limit.criterion).collect::<Vec<_>>(), expected);
     for limit in &found.limits {
         let At::Load { mean_pressure, position, error, .. } = limit.at else { panic!("{limit:?}") };
@@ -308,7 +304,7 @@ fn the_limit_of_a_coarse_sliding_sphere_covers_the_closed_form() {
 #[test]
 fn an_error_is_told_with_what_else_may_come_first() {
     let limit = |material: usize, mean_pressure: f64, error: f64| Limit {
-        criterion: Criterion::Cracking { material },
+        criterion: Criterion::cracking_of(material),
         at: At::Load {
             mean_pressure,
             error: Some(error),

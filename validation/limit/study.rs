@@ -289,10 +289,10 @@ fn bare(points: &Points) -> Result<Data, StudyError> {
         let yields = slider.failing(|radius, axis| mises(slider.stress(radius, place)) * axis / yielding);
         let cracks = slider.failing(|radius, axis| slider.stress(radius, EDGE)[0] * axis / tensile);
         let limits = slider.limits(half_space, &yields)?;
-        let found = slider.found(&limits, Criterion::Yield { material: 1 }, &yields)?;
+        let found = slider.found(&limits, Criterion::yield_of(1), &yields)?;
         let mut row = vec![worst[1], found.axis / yielding, found.exact / yielding, found.stated];
         row.extend([found.place[0], x, found.place[1], y, found.place[2], z]);
-        let found = slider.found(&limits, Criterion::Cracking { material: 1 }, &cracks)?;
+        let found = slider.found(&limits, Criterion::cracking_of(1), &cracks)?;
         row.extend([found.axis / tensile, found.exact / tensile, found.stated]);
         row.extend(found.place);
         data.rows.push(row);
@@ -337,14 +337,14 @@ fn coated(points: &Points) -> Result<Data, StudyError> {
                 });
                 let bears = Strength { yielding: Some(strength), tensile: None };
                 let half_space = layered(slider.material, THICK, part * strength, bears, InterfaceStrength::default())?;
-                let found = slider.limit(&half_space, Criterion::Yield { material: 1 }, &exact)?;
+                let found = slider.limit(&half_space, Criterion::yield_of(1), &exact)?;
                 data.rows.push(row(part, 0.0, &found, 0.0));
             }
             let strength = slider.stress(RADIUS, EDGE)[0] * unit / (1.0 - part);
             let exact = slider.failing(|radius, axis| part + slider.stress(radius, EDGE)[0] * axis / strength);
             let bears = Strength { yielding: None, tensile: Some(strength) };
             let half_space = layered(slider.material, THICK, part * strength, bears, InterfaceStrength::default())?;
-            let found = slider.limit(&half_space, Criterion::Cracking { material: 1 }, &exact)?;
+            let found = slider.limit(&half_space, Criterion::cracking_of(1), &exact)?;
             data.rows.push(row(part, 1.0, &found, 0.0));
         }
         for &deep in interfaces {
@@ -360,7 +360,7 @@ fn coated(points: &Points) -> Result<Data, StudyError> {
             let exact = slider.failing(|radius, axis| carried(radius) * axis / normal);
             let bears = InterfaceStrength { normal: Some(normal), shear: Some(SHEAR * normal) };
             let half_space = layered(slider.material, deep, 0.0, Strength::default(), bears)?;
-            let found = slider.limit(&half_space, Criterion::Delamination { interface: 1 }, &exact)?;
+            let found = slider.limit(&half_space, Criterion::delamination_of(1), &exact)?;
             data.rows.push(row(0.0, 2.0, &found, deep));
         }
     }

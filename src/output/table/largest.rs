@@ -18,7 +18,7 @@ pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
         Row { name, found: steps.iter().map(of).collect() }
     };
     let material = |index: usize| {
-        let own = format!("material {}", index + 1);
+        let own = any.materials[index].tau1.material;
         [
             row(format!("τ₁ in {own}"), &|stress| Some(stress.materials.get(index)?.tau1)),
             row(format!("tension in {own}"), &|stress| Some(stress.materials.get(index)?.tension)),
@@ -26,7 +26,7 @@ pub fn largest_stresses(steps: &[StepRecord], units: &Units) -> Option<Table> {
         ]
     };
     let interface = |index: usize| {
-        let own = format!("interface {}", index + 1);
+        let own = any.interfaces[index].interface;
         [
             row(format!("tension on {own}"), &|stress| Some(stress.interfaces.get(index)?.normal)),
             row(format!("shear on {own}"), &|stress| Some(stress.interfaces.get(index)?.shear)),

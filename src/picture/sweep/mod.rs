@@ -99,9 +99,9 @@ mod tests {
     use crate::reading::{Criterion, Utilisation};
     use crate::sweep::examples::{self, below, never, reached, row, strained};
 
-    const YIELDS: Criterion = Criterion::Yield { material: 2 };
-    const CRACKS: Criterion = Criterion::Cracking { material: 1 };
-    const PARTS: Criterion = Criterion::Delamination { interface: 1 };
+    const YIELDS: Criterion = Criterion::yield_of(2);
+    const CRACKS: Criterion = Criterion::cracking_of(1);
+    const PARTS: Criterion = Criterion::delamination_of(1);
 
     /// All that stands on a picture, in a line.
     fn words(picture: Option<Canvas>) -> String {
@@ -227,7 +227,7 @@ mod tests {
     fn every_quantity_has_its_map_or_is_told() {
         let rows = |limits: usize| -> Vec<Row> {
             let result = |p: usize| {
-                let criteria = (1..=limits).map(|material| Criterion::Yield { material });
+                let criteria = (1..=limits).map(Criterion::yield_of);
                 SweepResult::Limits(criteria.zip(p..).map(|(own, load)| reached(own, load as f64, 0.01)).collect())
             };
             let pairs = (0..9).map(|n| (n, [("a", (n / 3).to_string()), ("b", (n % 3).to_string())]));

@@ -42,10 +42,11 @@ struct Keys {
     below: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     up_to: Option<f64>,
+    /// Null where it is infinite, as the error where it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    utilisation: Option<f64>,
+    utilisation: Option<Option<f64>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    utilisation_error: Option<f64>,
+    utilisation_error: Option<Option<f64>>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     utilisation_at: Option<f64>,
 }
@@ -92,22 +93,22 @@ impl From<Limit> for Keys {
             At::Below { mean_pressure, utilisation, .. } => Self {
                 reached: Reached::ContactOfFewSamples,
                 below: Some(mean_pressure),
-                utilisation: finite(utilisation),
+                utilisation: Some(finite(utilisation)),
                 ..own
             },
             At::Never { up_to, complete, utilisation, error, at } => Self {
                 interval: None,
                 reached: if complete { Reached::NotUpToCompleteContact } else { Reached::NotUpToLargestLoad },
                 up_to: Some(up_to),
-                utilisation: Some(utilisation),
-                utilisation_error: error,
+                utilisation: Some(Some(utilisation)),
+                utilisation_error: Some(error),
                 utilisation_at: Some(at),
                 ..own
             },
             At::Undecided { up_to, utilisation, error, at, .. } => Self {
                 up_to: Some(up_to),
-                utilisation: Some(utilisation),
-                utilisation_error: error,
+                utilisation: Some(Some(utilisation)),
+                utilisation_error: Some(error),
                 utilisation_at: Some(at),
                 ..own
             },
@@ -133,7 +134,7 @@ impl Keys {
         }
         let position = || Some([self.x?, self.y?, self.z?]);
         let interval = || Some(self.interval?.map(|end| end.unwrap_or(f64::INFINITY)));
-        let error = self.utilisation_error;
+        let (utilisation, error) = (self.utilisation.flatten(), self.utilisation_error.flatten());
         Some(match self.reached {
             Reached::ResidualStressAlone => At::Rest,
             Reached::TipAtAnyLoad => At::Tip { position: position()? },
@@ -142,19 +143,19 @@ impl Keys {
                 At::Load { mean_pressure, error, interval: interval()?, position: position()? }
             }
             Reached::ContactOfFewSamples => {
-                let utilisation = self.utilisation.unwrap_or(f64::INFINITY);
+                let utilisation = utilisation.unwrap_or(f64::INFINITY);
                 At::Below { mean_pressure: self.below?, utilisation, position: position()? }
             }
             Reached::NotUpToCompleteContact | Reached::NotUpToLargestLoad => At::Never {
                 up_to: self.up_to?,
                 complete: self.reached == Reached::NotUpToCompleteContact,
-                utilisation: self.utilisation?,
+                utilisation: utilisation?,
                 error,
                 at: self.utilisation_at?,
             },
             Reached::Undecided => {
                 let [from, _] = interval()?;
-                let (up_to, utilisation, at) = (self.up_to?, self.utilisation?, self.utilisation_at?);
+                let (up_to, utilisation, at) = (self.up_to?, utilisation?, self.utilisation_at?);
                 At::Undecided { from, up_to, utilisation, error, at, position: position()? }
             }
         })
@@ -181,9 +182,14 @@ mod tests {
             At::Undecided { from: 0.0, up_to: 1.0, utilisation: 0.5, error, at: 0.7, position },
         ];
         for at in all {
-            let limit = Limit { criterion: Criterion::Delamination { interface: 1 }, at };
+            let limit = Limit { criterion: Criterion::delamination_of(1), at };
             let text = serde_json::to_string(&limit).unwrap();
             assert_eq!(serde_json::from_str::<Limit>(&text).unwrap(), limit, "{text}");
+            // A key that a limit has is written where it is null, too.
+            let keys = |key: &str| text.contains(&format!("\"{key}\":"));
+            let is_far = matches!(at, At::Never { .. } | At::Undecided { .. });
+            assert_eq!(keys("utilisation_error"), is_far, "{text}");
+            assert_eq!(keys("utilisation"), is_far || matches!(at, At::Below { .. }), "{text}");
         }
         let unknown = r#"{"criterion":"yield","material":1,"mean_pressure":null,"error":null,"interval":null,"x":null,"y":null,"z":null,"reached":"x"}"#;
         assert!(serde_json::from_str::<Limit>(unknown).unwrap_err().to_string().contains("unknown variant `x`"));
