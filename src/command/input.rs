@@ -26,6 +26,11 @@ pub fn read_source(case: Option<&Path>) -> Result<(Source, String), Failure> {
     Ok((find(path)?, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
 }
 
+/// The text of a file.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error })
+}
+
 /// The output folder of a case: that of `-o`, or `out/<case name>`.
 pub fn output_folder(common: &Common, name: &str) -> Result<PathBuf, Failure> {
     common.output.clone().map_or_else(|| default_folder(name), Ok)

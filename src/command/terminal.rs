@@ -69,10 +69,19 @@ pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     }
 }
 
-/// Prints the damage of an earlier run, the place where the run is kept, and what is done; also with --quiet, since work is lost.
-pub fn tell_damage(reason: &str, aside: Option<&Path>, done: &str) {
+/// Warning of the damage of an earlier run, with the place where the run is kept and what is done. It is printed also with --quiet,
+/// since work is lost.
+pub fn damage(reason: &str, aside: Option<&Path>, done: &str) -> String {
     let aside = aside.map_or(String::new(), |place| format!("; it is kept in {}", plain::path(place)));
-    tell!("warning: {reason}{aside}; {done}");
+    format!("{reason}{aside}; {done}")
+}
+
+/// The first five of some warnings, and one on the number of the `others`, which the text describes.
+pub fn first_five(mut warnings: Vec<String>, others: &str) -> Vec<String> {
+    let more = warnings.len().saturating_sub(5);
+    warnings.truncate(5);
+    warnings.extend((more > 0).then(|| format!("and {more} more{others}")));
+    warnings
 }
 
 /// Width of a line of standard output in characters; 80 without a terminal.

@@ -1,10 +1,11 @@
 //! `percoat validate`: the studies, their verdicts, and a report of them.
 
 use super::ending::{Ending, Failure};
-use super::interruption;
-use super::options::Studies;
+use super::input::read_text;
+use super::options::{Saying, Studies};
+use super::results::Results;
 use super::terminal::{self, tell};
-use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
+use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder};
 use crate::picture::Format;
 use crate::plain;
 use crate::validation::paper::table;
@@ -18,31 +19,27 @@ const PAGE: &str = "paper/README.md";
 
 pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Result<Ending, Failure> {
     let studies = chosen(name)?;
-    let expected = expected
-        .map(|path| std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error }));
-    let expected = expected.transpose()?;
+    let expected = expected.map(read_text).transpose()?;
     let folder = options.output.clone().unwrap_or_else(|| PathBuf::from("out/validate"));
     // The report of one study stays in its folder, so that it does not pass for the whole.
     let within = name.map_or_else(String::new, |name| format!("{name}/"));
     let path = format!("{within}REPORT.md");
-    interruption::watch();
-    let mut claim = RunFolder::claim(&folder, may_write(&folder, &path, within, &studies))?;
+    let (report_path, plan) = (folder.join(&path), may_write(&folder, &path, within, &studies));
+    let mut results = Results::claim(folder, plan, Saying { quiet: options.quiet, json: false })?;
     // Without a study of the paper that comes to its end there is no new page.
-    claim.keep(PAGE.to_owned());
-    terminal::tell_aside(claim.set_aside(), options.quiet);
+    results.claim.keep(PAGE.to_owned());
     let started = Instant::now();
-    let (report, outcomes) = carry_out(&studies, &mut claim, options);
+    let (report, outcomes) = carry_out(&studies, &mut results.claim, options);
     let markdown = report.markdown();
     let statements = report.statements();
-    let staged = Staged(claim.staging());
-    staged.text(&path, &markdown)?;
+    results.write(&path, &markdown)?;
     for (study, outcome) in &outcomes {
-        staged.study(study, outcome)?;
+        write(&results, study, outcome)?;
     }
     if !statements.is_empty() {
-        staged.text(PAGE, &table::renewed(&statements))?;
+        results.write(PAGE, &table::renewed(&statements))?;
     }
-    interruption::publish(claim, &folder, options.quiet)?;
+    results.publish()?;
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let differences = expected.map(|expected| {
         let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));
@@ -52,7 +49,7 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
         tell!("error: {line}");
     }
     if !options.quiet {
-        print(&report, &folder.join(path), started)?;
+        print(&report, &report_path, started)?;
     }
     let as_expected = differences.is_none_or(|differences| differences.is_empty());
     Ok(if report.holds() && as_expected { Ending::Done } else { Ending::Failed })
@@ -125,28 +122,14 @@ fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) ->
     Plan { names, adopted, scope: Scope { within, except: Vec::new() }, ..Plan::new(Writer::Validate) }
 }
 
-/// The staging folder of the result.
-struct Staged(PathBuf);
-
-impl Staged {
-    fn text(&self, name: &str, text: &str) -> Result<(), Failure> {
-        let path = self.0.join(name);
-        make_folder(path.parent().unwrap_or(&self.0))?;
-        Ok(write_text(&path, text)?)
+/// Writes the figures and data of a study.
+fn write(results: &Results, study: &str, outcome: &Outcome) -> Result<(), Failure> {
+    let folder = results.staging().join(study);
+    make_folder(&folder)?;
+    for (name, figure) in &outcome.figures {
+        figure.draw().write(&folder, name, Format::Png)?;
     }
-
-    /// The figures and data of a study.
-    fn study(&self, study: &str, outcome: &Outcome) -> Result<(), Failure> {
-        let folder = self.0.join(study);
-        make_folder(&folder)?;
-        for (name, figure) in &outcome.figures {
-            figure.draw().write(&folder, name, Format::Png)?;
-        }
-        for (name, data) in outcome.tables() {
-            write_text(&folder.join(name), &data.csv())?;
-        }
-        Ok(())
-    }
+    outcome.tables().try_for_each(|(name, data)| results.write(&format!("{study}/{name}"), &data.csv()))
 }
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {

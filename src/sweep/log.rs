@@ -4,7 +4,7 @@
 //! A line says which sweep it is of and ends with a [checksum](crate::output::with_checksum): one that is not as it was written is no row.
 
 use super::row::Row;
-use crate::output::{LineLog, OutputError, SWEEP_LOG as LOG, whole_lines, with_checksum, without_checksum};
+use crate::output::{LineLog, OutputError, SWEEP_LOG as LOG, disk, whole_lines, with_checksum, without_checksum};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt;
@@ -83,12 +83,13 @@ fn line(sweep: &str, row: &Row) -> String {
     with_checksum(&line.expect("a row is numbers and texts under names")) + "\n"
 }
 
-/// The whole lines of a log: rows, or what is the matter with them. Of a combination that stands there twice no line is a row.
+/// The whole lines of a log, each a row or its damage; none without a file, as of a sweep that was killed before its first
+/// combination. Of a combination that stands on two lines neither is a row.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When the file cannot be read.
 pub fn read(path: &Path) -> io::Result<Vec<Result<Logged, Damage>>> {
-    let whole = whole_lines(path)?;
+    let whole = if matches!(disk::found(path), Ok(None)) { Vec::new() } else { whole_lines(path)? };
     let mut lines: Vec<Result<Logged, Damage>> = (1..).zip(&whole).map(|(number, line)| logged(number, line)).collect();
     let mut first: HashMap<usize, usize> = HashMap::new();
     for at in 0..lines.len() {

@@ -82,11 +82,7 @@ impl Part {
         let bytes = disk::read(&path).map_err(|error| input(&path, error))?;
         let description: Description = serde_json::from_slice(&bytes)
             .map_err(|error| damaged(&path, format!(" is no description of a sweep: {error}")))?;
-        // A part that was killed before its first combination has no log.
-        let lines = match disk::found(&log) {
-            Ok(None) => Vec::new(),
-            _ => read(&log).map_err(|error| input(&log, error))?,
-        };
+        let lines = read(&log).map_err(|error| input(&log, error))?;
         let (whole, identity) = (lines.len(), description.identity());
         let line = |own: Result<Logged, Damage>| {
             let own = own.map_err(|damage| damaged(&log, format!(", {damage}")))?;
@@ -110,9 +106,7 @@ impl Part {
         }
         Ok(Some(Self { description, log, lines }))
     }
-}
 
-impl Part {
     /// Its rows, by ascending number.
     pub fn rows(self) -> Vec<Row> {
         let mut rows: Vec<Row> = self.lines.into_iter().map(|own| own.row).collect();

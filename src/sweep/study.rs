@@ -1,12 +1,13 @@
 //! A sweep: which combinations are solved, how many at once, and what comes out.
 
 use super::combinations::{Combination, Combinations};
-use super::fields::{Fits, keep};
+use super::fields::{Scalars, keep};
 use super::memory::of_results;
 use super::row::{Ended, Row};
 use super::task::Task;
 use super::workers;
-use crate::case::resources::{Job, needs, refusal};
+use crate::case::feasibility::Allowed;
+use crate::case::resources::{Job, needs};
 use crate::case::{Case, CaseError, Source};
 use crate::machine::{Capacity, bytes};
 use crate::output::{self, COMBINATIONS, solved_plan};
@@ -47,14 +48,13 @@ pub struct Study<'a> {
     room: Capacity,
     pub(super) keeps_fields: bool,
     stop: Arc<AtomicBool>,
-    pub(super) planned: Vec<Planned>,
+    pub(super) planned: Vec<Planned<'a>>,
 }
 
 /// A combination before it is solved.
 #[derive(Debug)]
-pub(super) struct Planned {
-    /// Its index among the combinations.
-    pub(super) index: usize,
+pub(super) struct Planned<'a> {
+    pub(super) combination: &'a Combination,
     pub(super) fingerprint: String,
     /// What solving it takes, bytes.
     memory: u64,
@@ -81,17 +81,17 @@ impl<'a> Study<'a> {
         let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, stop, planned };
         study.has_room_for(study.foreseen())?;
         let (mut first, mut results) = (None, 0);
-        for (index, combination) in combinations.all.iter().enumerate() {
+        for combination in &combinations.all {
             let case = study.case(combination).map_err(StudyError::from);
             let planned = match case.and_then(|case| study.check(&case).map(|()| case)) {
                 Ok(case) => {
                     results += of_results(&case, task);
-                    study.planned(index, case)
+                    study.planned(combination, case)
                 }
                 Err(error) => {
                     first.get_or_insert(error);
                     let (fingerprint, files) = (String::new(), Vec::new());
-                    Planned { index, fingerprint, memory: 0, is_small: true, files, case: None }
+                    Planned { combination, fingerprint, memory: 0, is_small: true, files, case: None }
                 }
             };
             study.planned.push(planned);
@@ -105,14 +105,14 @@ impl<'a> Study<'a> {
     }
 
     /// A combination whose case is allowed.
-    fn planned(&self, index: usize, case: Case) -> Planned {
+    fn planned(&self, combination: &'a Combination, case: Case) -> Planned<'a> {
         let points = match case.grid {
             Sampling::Points(points) => Some(points),
             // How far it goes is not known.
             Sampling::Accuracy(_) => None,
         };
         Planned {
-            index,
+            combination,
             fingerprint: output::fingerprint(&case, &format!("{:?}", self.task)),
             memory: points.map_or(self.room.memory, |points| needs(&case, points, self.job()).memory),
             is_small: points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL),
@@ -157,7 +157,7 @@ impl<'a> Study<'a> {
     pub fn files(&self) -> Vec<String> {
         let kept = self.planned.iter().filter(|_| self.keeps_fields);
         kept.flat_map(|planned| {
-            let folder = folder_of(self.combinations.all[planned.index].number);
+            let folder = folder_of(planned.combination.number);
             planned.files.iter().map(move |name| format!("{folder}/{name}"))
         })
         .collect()
@@ -181,7 +181,7 @@ impl<'a> Study<'a> {
         folder: &Path,
         mut done: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let is_known = |planned: &&Planned| known.contains(&self.combinations.all[planned.index].number);
+        let is_known = |planned: &&Planned| known.contains(&planned.combination.number);
         let pending = self.planned.iter().filter(|planned| !is_known(planned));
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());
@@ -198,7 +198,7 @@ impl<'a> Study<'a> {
             Task::Limit => run.check_limits(),
         };
         possible.map_err(|error| StudyError::Refused(error.to_string()))?;
-        refusal(case, self.room, self.job()).map_or(Ok(()), |why| Err(StudyError::Refused(why)))
+        Allowed::within(case, self.room, self.job()).map(drop).map_err(StudyError::Refused)
     }
 
     pub(super) fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
@@ -217,7 +217,7 @@ impl<'a> Study<'a> {
     }
 
     fn row(&self, planned: &Planned, folder: &Path, room: Capacity) -> Row {
-        let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
+        let (combination, started) = (planned.combination, Instant::now());
         // One combination that brings the program down leaves the others as they are.
         let ended = catch_unwind(AssertUnwindSafe(|| self.ended(planned, folder, room)));
         let Ended { status, reason, warnings, results, files } =
@@ -236,11 +236,10 @@ impl<'a> Study<'a> {
     }
 
     fn ended(&self, planned: &Planned, folder: &Path, room: Capacity) -> Ended {
-        let combination = &self.combinations.all[planned.index];
         let read;
         let case = match &planned.case {
             Some(case) => case,
-            None => match self.case(combination) {
+            None => match self.case(planned.combination) {
                 Ok(case) => {
                     read = case;
                     &read
@@ -248,20 +247,21 @@ impl<'a> Study<'a> {
                 Err(error) => return Ended::failed(error.message()),
             },
         };
-        if let Some(why) = refusal(case, room, self.job()) {
-            return Ended::failed(why);
-        }
-        let mut fits = Fits { case, job: self.job(), room, stop: &self.stop };
+        let allowed = match Allowed::within(case, room, self.job()) {
+            Ok(allowed) => allowed,
+            Err(why) => return Ended::failed(why),
+        };
+        let mut scalars = Scalars { allowed, stop: &self.stop };
         match (self.task, self.keeps_fields) {
             (Task::Solve, true) => {
-                let folder = folder.join(folder_of(combination.number));
-                keep(case, &folder, fits).unwrap_or_else(|error| Ended::failed(error.to_string()))
+                let folder = folder.join(folder_of(planned.combination.number));
+                keep(case, &folder, allowed).unwrap_or_else(|error| Ended::failed(error.to_string()))
             }
-            (Task::Solve, false) => match case.run().solve(&mut fits) {
+            (Task::Solve, false) => match case.run().solve(&mut scalars) {
                 Ok(outcome) => Ended::solved(&outcome, case),
                 Err(error) => Ended::failed(error.told()),
             },
-            (Task::Limit, _) => match case.run().limits(&mut fits) {
+            (Task::Limit, _) => match case.run().limits(&mut scalars) {
                 Ok(limits) => Ended::limited(&limits, case),
                 Err(error) => Ended::failed(error.told()),
             },
