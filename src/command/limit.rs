@@ -19,7 +19,7 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::time::Instant;
 
-/// Name of the embedded case that is taken where none is given: it has strengths.
+/// Name of the embedded case that is solved without CASE: it has strengths.
 const DEFAULT: &str = "dlc-on-steel";
 
 /// Shows the progress of the search.

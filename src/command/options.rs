@@ -32,7 +32,7 @@ impl Common {
     }
 }
 
-/// Options of printing of the commands that compute nothing.
+/// Options of printing.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct Saying {
     /// Print nothing but errors

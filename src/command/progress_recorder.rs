@@ -34,7 +34,7 @@ impl<'a> ProgressRecorder<'a> {
         finished
     }
 
-    /// The steps on disk, for the answer to a signal.
+    /// The steps on disk, which the handler of signals prints.
     fn saved(&self) -> Saved {
         Saved::Steps { done: self.recording.steps(), of: self.steps, folder: self.results.staging() }
     }
@@ -57,7 +57,7 @@ impl Recorder for ProgressRecorder<'_> {
 
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
         self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
-        // A signal is answered after the steps of a coarser grid have moved aside.
+        // The handler of signals waits until the steps of a coarser grid have moved aside.
         let mut saved = interruption::hold();
         self.recording.begin(solver)?;
         *saved = self.saved();

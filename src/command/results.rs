@@ -20,7 +20,7 @@ pub struct Results {
 }
 
 impl Results {
-    /// Claims a folder for the files of a plan; from here on a signal to end is answered with the saved files.
+    /// Claims a folder for the files of a plan. From here on the handler of signals to end prints the saved files.
     pub fn claim(folder: PathBuf, plan: Plan, saying: Saying) -> Result<Self, Failure> {
         interruption::watch();
         let claim = RunFolder::claim(&folder, plan)?;

@@ -144,8 +144,8 @@ fn done(earlier: &Finished) -> usize {
     earlier.steps.len() + usize::from(earlier.last.is_some())
 }
 
-/// Ending and summary of the finished result in a folder; `None` if it is of another case, or not whole. A warning names files that
-/// are missing.
+/// Ending and summary of the finished result in a folder; `None` if the result is of another case, or not whole. A warning
+/// names a file that is missing or damaged.
 fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(Ending, String)> {
     let is_own =
         |name: &str| disk::is_file(&folder.join(name)) && is_beside("summary.json", folder, name).unwrap_or(false);
@@ -172,5 +172,5 @@ fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(E
         Sampling::Points(_) => true,
     };
     let converged = summary.steps.iter().all(StepRecord::converged);
-    Some((if reached && converged { Ending::Done } else { Ending::NotConverged }, text))
+    Some((Ending::of(reached && converged), text))
 }

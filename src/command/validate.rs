@@ -21,12 +21,12 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     let studies = chosen(name)?;
     let expected = expected.map(read_text).transpose()?;
     let folder = options.output.clone().unwrap_or_else(|| PathBuf::from("out/validate"));
-    // The report of one study stays in its folder, so that it does not pass for the whole.
+    // The report of one study stands in its folder, so that it is not taken for that of all.
     let within = name.map_or_else(String::new, |name| format!("{name}/"));
     let path = format!("{within}REPORT.md");
     let (report_path, plan) = (folder.join(&path), may_write(&folder, &path, within, &studies));
     let mut results = Results::claim(folder, plan, Saying { quiet: options.quiet, json: false })?;
-    // Without a study of the paper that comes to its end there is no new page.
+    // Where each study of the paper fails, or none is run, the page stays as it is.
     results.claim.keep(PAGE.to_owned());
     let started = Instant::now();
     let (report, outcomes) = carry_out(&studies, &mut results.claim, options);
@@ -55,8 +55,8 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
     Ok(if report.holds() && as_expected { Ending::Done } else { Ending::Failed })
 }
 
-/// Runs the studies one after another: their report, and the outcome of each that came to its end. What a study that failed has
-/// shown before stays in the folder.
+/// Runs the studies one after another; returns their report, and the outcomes of studies without an error. The earlier files of a
+/// study with an error stay in the folder.
 fn carry_out(
     studies: &[&'static Study],
     claim: &mut RunFolder,
@@ -86,7 +86,7 @@ fn carry_out(
     (report, outcomes)
 }
 
-/// Prints the studies that there are: all, or those of a name.
+/// Prints names and titles of the studies: all, or those of a name.
 pub fn list(name: Option<&str>) -> Result<Ending, Failure> {
     let mut out = terminal::out();
     for study in chosen(name)? {

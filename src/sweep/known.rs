@@ -23,8 +23,9 @@ pub struct Known {
 }
 
 impl Study<'_> {
-    /// The combinations of this sweep with results in the log of the folder `from`. A combination that failed is solved again; where
-    /// fields are kept, so is one without files under its number in that folder, or with [damaged](Known::damaged) ones.
+    /// The combinations of this sweep with results in the log of the folder `from`. A combination that failed is solved
+    /// again; where fields are kept, so is one without files under its number in that folder, or with
+    /// [damaged](Known::damaged) ones.
     ///
     /// # Errors
     /// When the log cannot be read.
@@ -62,8 +63,8 @@ impl Study<'_> {
         Ok(found)
     }
 
-    /// Whether a combination that is none of the `known` ones has files in the folder `from`: the sweep was killed before the row of
-    /// the combination was written, or the row is lost. These files would be in the way of the solution.
+    /// Whether a combination that is none of the `known` ones has files in the folder `from`: the sweep was killed before the
+    /// row of the combination was written, or the row is lost. These files would be in the way of the solution.
     pub fn has_unlogged(&self, known: &[Row], from: &Path) -> bool {
         let known: HashSet<usize> = known.iter().map(|row| row.combination).collect();
         let numbers = self.planned.iter().map(|planned| planned.combination.number);
@@ -71,7 +72,7 @@ impl Study<'_> {
         self.keeps_fields && numbers.into_iter().any(unlogged)
     }
 
-    /// Gives the files of known combinations a second name in the folder `to`, where the result is gathered.
+    /// Links or copies the files of `known` combinations from one folder to another.
     ///
     /// # Errors
     /// [`OutputError`] with the path.
