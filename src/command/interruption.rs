@@ -14,7 +14,7 @@ const INTERRUPTED: i32 = 130;
 
 static SAVED: Mutex<Saved> = Mutex::new(Saved::Nothing);
 
-/// What of the command's result is on the disk.
+/// The part of the result that is on the disk.
 #[derive(Debug)]
 pub enum Saved {
     /// Nothing.
@@ -118,7 +118,7 @@ pub fn publish(claim: RunFolder, folder: &Path, quiet: bool) -> Result<(), Outpu
     Ok(())
 }
 
-/// Prints what is saved of a run that fails, if anything is.
+/// Prints which part of a failed run is saved, if any.
 pub fn tell_saved() {
     let saved = hold();
     if saved.anything() {

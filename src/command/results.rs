@@ -15,7 +15,7 @@ pub struct Results {
     pub claim: RunFolder,
     /// Its path.
     pub folder: PathBuf,
-    /// What is printed of the results.
+    /// Options of printing.
     pub saying: Saying,
 }
 

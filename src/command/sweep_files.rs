@@ -1,4 +1,4 @@
-//! The result of a sweep, or of its parts joined: its files, its picture and what is printed of it.
+//! The result of a sweep, or of its parts joined: its files, picture and printed lines.
 
 use super::ending::{Ending, Failure};
 use super::pictures::PictureOptions;

@@ -11,7 +11,7 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-/// The log of a sweep that goes on.
+/// The log of an unfinished sweep.
 #[derive(Debug)]
 pub struct Log {
     lines: LineLog,
