@@ -44,8 +44,6 @@ pub enum Command {
         #[command(flatten)]
         options: SolveOptions,
         #[command(flatten)]
-        pictures: PictureOptions,
-        #[command(flatten)]
         common: Common,
     },
     /// Solve a case by both methods, spectral and localized, and show their differences (the last load step)
@@ -56,8 +54,6 @@ pub enum Command {
         #[command(flatten)]
         changes: Changes,
         #[command(flatten)]
-        pictures: PictureOptions,
-        #[command(flatten)]
         common: Common,
     },
     /// Find the limit loads: the mean pressures at which materials and interfaces fail (without CASE: a DLC coating on steel)
@@ -67,8 +63,6 @@ pub enum Command {
         case: Option<PathBuf>,
         #[command(flatten)]
         changes: Changes,
-        #[command(flatten)]
-        pictures: PictureOptions,
         #[command(flatten)]
         common: Common,
     },
@@ -82,8 +76,6 @@ pub enum Command {
         set: Vec<String>,
         #[command(flatten)]
         options: SweepOptions,
-        #[command(flatten)]
-        pictures: PictureOptions,
         #[command(flatten)]
         common: Common,
     },
@@ -211,7 +203,7 @@ impl Arguments {
             Command::Solve { common, .. }
             | Command::Compare { common, .. }
             | Command::Limit { common, .. }
-            | Command::Sweep { common, .. } => Some((common.threads, common.quiet)),
+            | Command::Sweep { common, .. } => Some((common.work.threads, common.quiet)),
             Command::Check { work, .. } => Some((work.threads, false)),
             #[cfg(feature = "validate")]
             Command::Validate { work, studies, .. } => Some((work.threads, studies.quiet)),

@@ -10,8 +10,7 @@ pub fn run(name: Option<&str>, set: &[String]) -> Result<Ending, Failure> {
     match name {
         Some(name) => {
             let Some(source) = embedded::source(name) else {
-                let names: Vec<&str> = embedded::all().iter().map(|(name, _)| *name).collect();
-                let names = names.join(", ");
+                let names = embedded::all().iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
                 return Err(Failure::Refused(format!("there is no embedded case {name}; there are {names}")));
             };
             if set.is_empty() {
@@ -22,9 +21,7 @@ pub fn run(name: Option<&str>, set: &[String]) -> Result<Ending, Failure> {
             }
         }
         None if !set.is_empty() => {
-            return Err(Failure::Refused(
-                "--set changes a case: say which one, as in percoat cases fig2 --set …".to_owned(),
-            ));
+            return Err(Failure::refused("--set changes a case: say which one, as in percoat cases fig2 --set …"));
         }
         None => {
             for (name, _) in embedded::all() {

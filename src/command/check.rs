@@ -1,4 +1,4 @@
-//! `percoat check`: what a case means, without solving it.
+//! `percoat check`: cell, grid, materials, memory and loads of first touch of a case, without a solution.
 
 use super::ending::{Ending, Failure};
 use super::input::{default_folder, read_case};

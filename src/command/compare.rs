@@ -2,8 +2,8 @@
 
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
-use super::options::{Changes, Common};
-use super::pictures::PictureOptions;
+use super::options::Common;
+use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
@@ -11,51 +11,43 @@ use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::comparison::{Comparison, ComparisonTask};
-use crate::output::{ComparisonFile, Plan, Writer, table};
+use crate::output::{ComparisonFile, Writer, table};
 use crate::picture;
 use crate::run::{RefinementEnd, Run, Sampling};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-pub fn run(
-    case: Option<&Path>,
-    changes: &Changes,
-    pictures: &PictureOptions,
-    common: &Common,
-) -> Result<Ending, Failure> {
-    let (case, name) = read_case(case, &changes.set)?;
+pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Ending, Failure> {
+    let (case, name) = read_case(case, set)?;
     if case.counterbody().indenters().is_none() {
-        return Err(Failure::Refused(
-            "compare needs [[levels]]: the localized method knows indenters, not a [surface]; use percoat solve"
-                .to_owned(),
+        return Err(Failure::refused(
+            "compare needs [[levels]]: the localized method knows indenters, not a [surface]; use percoat solve",
         ));
     }
     let folder = output_folder(common, &name)?;
-    let started = Instant::now();
+    let (started, pictures) = (Instant::now(), &common.pictures);
     let (task, steps) = (case.comparison(), case.load.values().len());
     let run = Run { loads: vec![task.load], stress: None, ..case.run() };
     let job = Job::Compare { pictures: pictures.wanted() };
     let allowed = Allowed::new(&case, &folder, job).map_err(Failure::Refused)?;
     run.check()?;
     task.check().map_err(Failure::refused)?;
-    let names = ["compare.json".to_owned()].into_iter().chain(pictures.files(&["comparison"])).collect();
-    let results = Results::claim(&folder, Plan { names, ..Plan::new(Writer::Compare) }, common.quiet)?;
+    let plan = plan(Writer::Compare, &["compare.json"], pictures, &["comparison"]);
+    let results = Results::claim(folder, plan, common.saying())?;
     let (points, end) = grid(&case, &run, allowed)?;
     let comparison = compare(&task, points, common)?;
     let json = ComparisonFile::new(&comparison, &case, steps).to_json();
     results.write("compare.json", &json)?;
     pictures
         .write(&results.staging(), "comparison", || picture::comparison(&case.title, &case.units(), &comparison))?;
-    let published = results.publish()?;
-    let tables = || table::compared(&case, &comparison, terminal::width());
-    let line = format!("{:.2} s", started.elapsed().as_secs_f64());
-    published.print(common, || json, tables, &line)?;
     let mut warnings = [comparison.warnings(), plausibility::of_case(&case)].concat();
     if end != RefinementEnd::Reached {
         warnings.push(format!("grid.accuracy is not reached: {end}"));
     }
-    terminal::warn(&warnings, common.quiet);
+    let tables = || table::compared(&case, &comparison, terminal::width());
+    let line = || format!("{:.2} s", started.elapsed().as_secs_f64());
+    results.finish(|| json, tables, line, &warnings)?;
     Ok(Ending::of(comparison.converged() && end == RefinementEnd::Reached))
 }
 
@@ -74,9 +66,7 @@ fn grid(case: &Case, run: &Run, mut allowed: Allowed<'_>) -> Result<([usize; 2],
 fn compare(task: &ComparisonTask, points: [usize; 2], common: &Common) -> Result<Comparison, Failure> {
     let progress = Progress::new("", 0, 0, common);
     let comparison = task.compare(points, &mut |what| {
-        if common.verbose {
-            progress.tell(what);
-        }
+        progress.tell(what);
         progress.say(what);
         ControlFlow::Continue(())
     });

@@ -11,7 +11,7 @@ use std::convert::Infallible;
 use std::fmt;
 use std::path::PathBuf;
 
-/// How a command that did its work ended.
+/// How a command without an error ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
     /// All of it is done.
@@ -19,7 +19,7 @@ pub enum Ending {
     /// A study of the validation fails.
     #[cfg(feature = "validate")]
     Failed,
-    /// Everything computed is written and marked.
+    /// Something did not converge; everything computed is written and marked.
     NotConverged,
 }
 
@@ -55,7 +55,7 @@ pub enum Failure {
     /// A file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The system gives no more threads.
+    /// Threads cannot be started.
     #[error(
         "cannot start {count} threads: {error}; allow this process more threads and memory (ulimit -u, ulimit -v), or give --threads 1"
     )]
@@ -86,7 +86,7 @@ impl From<FolderError> for Failure {
 impl<E: std::error::Error + Into<Failure> + 'static> From<RunError<E>> for Failure {
     fn from(error: RunError<E>) -> Self {
         match error {
-            // The recorder's error says more than that the run cannot be recorded.
+            // The recorder's error has the reason, the error of the run does not.
             RunError::Recorder(error) => error.into(),
             refused => Self::refused(refused),
         }

@@ -1,11 +1,11 @@
-//! `percoat explain`: what the keys of a case are.
+//! `percoat explain`: the keys of a case with types, units, ranges and defaults.
 
 use super::ending::{Ending, Failure};
 use super::terminal;
 use crate::case;
 use std::io::Write;
 
-/// The sections, or all that is to be said of a key.
+/// Prints the sections of a case, or the explanation of a key.
 pub fn run(key: Option<&str>) -> Result<Ending, Failure> {
     let mut out = terminal::out();
     let Some(key) = key else {
@@ -18,7 +18,7 @@ pub fn run(key: Option<&str>) -> Result<Ending, Failure> {
     Ok(Ending::Done)
 }
 
-/// The JSON schema of a case.
+/// Prints the JSON schema of a case.
 pub fn schema() -> Result<Ending, Failure> {
     writeln!(terminal::out(), "{:#}", case::schema())?;
     Ok(Ending::Done)

@@ -19,11 +19,16 @@ pub fn read_source(case: Option<&Path>) -> Result<(Source, String), Failure> {
         return Ok((source, "stdin".to_owned()));
     }
     let Some(path) = case else {
-        // A file of that name is not meant.
+        // A file of that name is not read.
         let source = embedded::source(embedded::DEFAULT).ok_or(NoCase::Unknown(embedded::DEFAULT.into()))?;
         return Ok((source, embedded::DEFAULT.to_owned()));
     };
     Ok((find(path)?, path.file_stem().unwrap_or_default().to_string_lossy().into_owned()))
+}
+
+/// The text of a file.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error })
 }
 
 /// The output folder of a case: that of `-o`, or `out/<case name>`.
@@ -31,11 +36,11 @@ pub fn output_folder(common: &Common, name: &str) -> Result<PathBuf, Failure> {
     common.output.clone().map_or_else(|| default_folder(name), Ok)
 }
 
-/// `out/<case name>`, where the name is that of a folder in `out`, and not one that is hard to see or to type.
+/// `out/<case name>`; a name is refused that cannot be that of a folder in `out`, or has hidden characters.
 pub fn default_folder(name: &str) -> Result<PathBuf, Failure> {
-    // Scripts and small pictures join letters by marks without width.
+    // Some scripts, and emoji, join letters by marks without width.
     let is_hidden = |c: char| plain::is_hidden(c) && !matches!(c, '\u{200c}' | '\u{200d}');
-    // Systems that drop dots and spaces at the end would see `..` in `.. `.
+    // Some systems drop dots and spaces at the end: `.. ` is `..` there.
     let is_plain = !name.is_empty() && !name.ends_with(['.', ' ']) && name != ".percoat" && !name.contains('/');
     if is_plain && !name.contains(is_hidden) {
         return Ok(Path::new("out").join(name));

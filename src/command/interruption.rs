@@ -1,4 +1,4 @@
-//! Ctrl-C, SIGTERM, a hang-up and the end of the time allowed (`ulimit -t`): the command ends at once and says what it has saved.
+//! Ctrl-C, SIGTERM, a hang-up and the end of the time allowed (`ulimit -t`): the command ends at once and prints what it has saved.
 
 use super::terminal::{self, tell};
 use crate::output::{self, OutputError, RunFolder};
@@ -14,7 +14,7 @@ const INTERRUPTED: i32 = 130;
 
 static SAVED: Mutex<Saved> = Mutex::new(Saved::Nothing);
 
-/// What of the command's result is on the disk.
+/// The part of the result that is on the disk.
 #[derive(Debug)]
 pub enum Saved {
     /// Nothing.
@@ -28,7 +28,7 @@ pub enum Saved {
 }
 
 impl Saved {
-    /// Whether any of it is on the disk.
+    /// Whether anything is on the disk.
     fn anything(&self) -> bool {
         match self {
             Self::Nothing => false,
@@ -41,33 +41,25 @@ impl Saved {
 
 impl fmt::Display for Saved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Steps { of, .. } if !self.anything() => {
-                write!(f, "none of {of} steps is finished, nothing is saved")
-            }
-            Self::Steps { done, of, folder } => {
-                write!(f, "{done} of {of} steps saved in {}", plain::path(folder))?;
-                if let Some(path) = output::coarser(folder) {
-                    write!(f, ", all of them on a coarser grid in {}", plain::path(&path))?;
-                }
-                f.write_str("; the same command with --resume goes on from there")
-            }
-            Self::Combinations { of, .. } if !self.anything() => {
-                write!(f, "none of {of} combinations is done, nothing is saved")
-            }
-            Self::Combinations { done, of, folder } => write!(
-                f,
-                "{done} of {of} combinations saved in {}; the same command with --resume goes on from there",
-                plain::path(folder)
-            ),
-            Self::Nothing => f.write_str("nothing is saved"),
-            Self::Result(folder) => write!(f, "the whole result is saved in {}", plain::path(folder)),
+        let (done, of, folder, units, ended) = match self {
+            Self::Nothing => return f.write_str("nothing is saved"),
+            Self::Result(folder) => return write!(f, "the whole result is saved in {}", plain::path(folder)),
+            Self::Steps { done, of, folder } => (done, of, folder, "steps", "finished"),
+            Self::Combinations { done, of, folder } => (done, of, folder, "combinations", "done"),
+        };
+        if !self.anything() {
+            return write!(f, "none of {of} {units} is {ended}, nothing is saved");
         }
+        write!(f, "{done} of {of} {units} saved in {}", plain::path(folder))?;
+        if let Some(path) = output::coarser(folder) {
+            write!(f, ", all of them on a coarser grid in {}", plain::path(&path))?;
+        }
+        f.write_str("; the same command with --resume goes on from there")
     }
 }
 
-/// Installs the handler of signals to end: it prints which files are saved, and ends the process. A signal that is ignored, as under nohup or behind
-/// `&` in a script, stays so, see [`watched`].
+/// Installs the handler of signals to end: it prints which files are saved, and ends the process. A signal that is ignored,
+/// as under nohup or behind `&` in a script, stays so, see [`watched`].
 pub fn watch() {
     // Without this the signal ends the process at once, as it does any other program.
     #[cfg(unix)]
@@ -82,15 +74,14 @@ pub fn watch() {
     let _ = ctrlc::set_handler(answer);
 }
 
-/// From now on a file that grows beyond the largest one allowed (`ulimit -f`) fails to be written; without this the process ends
-/// without a word.
+/// From now on a file beyond the largest size allowed (`ulimit -f`) cannot be written; without this the system ends the
+/// process, and no message is printed.
 pub fn outlive_large_files() {
     #[cfg(unix)]
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
 }
 
-/// Numbers of the signals to end that are not ignored. Where the system does not say which are, a hang-up alone is taken for
-/// ignored.
+/// Numbers of the signals to end that are not ignored. Where the system does not list those, a hang-up alone counts as ignored.
 #[cfg(unix)]
 fn watched() -> Vec<i32> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
@@ -117,7 +108,7 @@ pub fn hold() -> MutexGuard<'static, Saved> {
     SAVED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Publishes a result in its `folder`, in the place of the one before; a signal is answered afterwards.
+/// Publishes a result in its `folder`, in the place of the one before; the handler of signals waits until this is done.
 pub fn publish(claim: RunFolder, folder: &Path, quiet: bool) -> Result<(), OutputError> {
     let mut saved = hold();
     let aside = claim.publish()?;
@@ -127,7 +118,7 @@ pub fn publish(claim: RunFolder, folder: &Path, quiet: bool) -> Result<(), Outpu
     Ok(())
 }
 
-/// Prints what is saved of a run that fails, if anything is.
+/// Prints which part of a failed run is saved, if any.
 pub fn tell_saved() {
     let saved = hold();
     if saved.anything() {

@@ -2,15 +2,16 @@
 
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
-use super::options::{Changes, Common};
+use super::options::Common;
 use super::pictures::PictureOptions;
+use super::plan::plan;
 use super::progress::Progress;
 use super::results::Results;
 use super::terminal;
 use crate::case::feasibility::Allowed;
 use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
-use crate::output::{LimitFile, Plan, Writer, number, summary, table, with_error};
+use crate::output::{LimitFile, Writer, number, summary, table, with_error};
 use crate::picture::{self, Snapshot};
 use crate::run::{LimitStep, Limits, Recorder, Run, StepRecord};
 use crate::{Solver, Step, StressField};
@@ -18,13 +19,12 @@ use std::convert::Infallible;
 use std::path::Path;
 use std::time::Instant;
 
-/// Name of the embedded case that is taken where none is given: it has strengths.
+/// Name of the embedded case that is solved without CASE: it has strengths.
 const DEFAULT: &str = "dlc-on-steel";
 
 /// Shows the progress of the search.
 struct Searching<'a> {
     allowed: Allowed<'a>,
-    common: &'a Common,
     progress: Progress,
 }
 
@@ -36,9 +36,7 @@ impl Recorder for Searching<'_> {
     }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), Infallible> {
-        if self.common.verbose {
-            self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
-        }
+        self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
         self.progress.grid(solver.grid().points(), 0);
         Ok(())
     }
@@ -46,36 +44,26 @@ impl Recorder for Searching<'_> {
     fn step(&mut self, _step: &Step, record: &StepRecord, _field: Option<&StressField>) -> Result<(), Infallible> {
         let words = record.governing_in_words(with_error).unwrap_or("no contact".to_owned());
         let words = format!("mean pressure {}: {words}", number(record.reading.mean_pressure));
-        if self.common.verbose {
-            self.progress.tell(&words);
-        }
+        self.progress.tell(&words);
         self.progress.say(words);
         Ok(())
     }
 
     fn refined(&mut self, points: [usize; 2], change: f64) {
-        if self.common.verbose {
-            self.progress.tell(format_args!("{points:?} points: change {change:.2e}"));
-        }
+        self.progress.tell(format_args!("{points:?} points: change {change:.2e}"));
     }
 }
 
-pub fn run(
-    case: Option<&Path>,
-    changes: &Changes,
-    pictures: &PictureOptions,
-    common: &Common,
-) -> Result<Ending, Failure> {
-    let started = Instant::now();
-    let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), &changes.set)?;
+pub fn run(case: Option<&Path>, set: &[String], common: &Common) -> Result<Ending, Failure> {
+    let (started, pictures) = (Instant::now(), &common.pictures);
+    let (case, name) = read_case(Some(case.unwrap_or(Path::new(DEFAULT))), set)?;
     let folder = output_folder(common, &name)?;
     let run = case.run();
     let allowed = Allowed::new(&case, &folder, Job::Limit { pictures: pictures.wanted() }).map_err(Failure::Refused)?;
     run.check_limits()?;
-    let names = ["limit.json", "limit.csv"].map(str::to_owned).into_iter();
-    let names = names.chain(pictures.files(&["limit", "limit-section"])).collect();
-    let results = Results::claim(&folder, Plan { names, ..Plan::new(Writer::Limit) }, common.quiet)?;
-    let mut searching = Searching { allowed, common, progress: Progress::new("", 0, 0, common) };
+    let plan = plan(Writer::Limit, &["limit.json", "limit.csv"], pictures, &["limit", "limit-section"]);
+    let results = Results::claim(folder, plan, common.saying())?;
+    let mut searching = Searching { allowed, progress: Progress::new("", 0, 0, common) };
     let limits = run.limits(&mut searching)?;
     searching.progress.finish();
     let warnings = [limits.warnings.clone(), plausibility::of_case(&case)].concat();
@@ -85,10 +73,8 @@ pub fn run(
         results.write("limit.csv", &summary::curve(&limits.steps))?;
     }
     draw(&results, &case, &run, &limits, pictures)?;
-    let published = results.publish()?;
-    let line = format!("{} loads solved; {:.2} s", limits.steps.len(), started.elapsed().as_secs_f64());
-    published.print(common, || json, || table::limited(&case, &limits, terminal::width()), &line)?;
-    terminal::warn(&warnings, common.quiet);
+    let line = || format!("{} loads solved; {:.2} s", limits.steps.len(), started.elapsed().as_secs_f64());
+    results.finish(|| json, || table::limited(&case, &limits, terminal::width()), line, &warnings)?;
     Ok(Ending::of(limits.converged()))
 }
 

@@ -1,12 +1,12 @@
 //! `percoat merge`: the parts of a sweep, joined to the table of the whole.
 
 use super::ending::{Ending, Failure};
-use super::interruption;
 use super::options::Saying;
 use super::pictures::PictureOptions;
-use super::sweep;
-use super::terminal::{self, tell};
-use crate::output::{RunFolder, SWEEP_LOG, damaged_results, disk};
+use super::results::Results;
+use super::sweep_files::{finish, may_write};
+use super::terminal::tell;
+use crate::output::{SWEEP_LOG, damaged_results, disk};
 use crate::plain;
 use crate::sweep::{Description, Part, PartError, Row, UNFINISHED, join};
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ pub fn run(
     folders: &[PathBuf],
     output: Option<&Path>,
     pictures: &PictureOptions,
-    saying: &Saying,
+    saying: Saying,
 ) -> Result<Ending, Failure> {
     let parts: Vec<Vec<Part>> = folders.iter().map(|folder| parts(folder)).collect::<Result<_, _>>()?;
     let first = parts[0][0].description.clone();
@@ -52,17 +52,14 @@ pub fn run(
         tell!("note: {twice} combinations stand in several parts, with the same results");
     }
     let folder = output.map_or_else(|| common_parent(folders), |folder| Ok(folder.to_owned()))?;
-    interruption::watch();
-    let claim = RunFolder::claim(&folder, sweep::plan(pictures))?;
-    terminal::tell_aside(claim.set_aside(), saying.quiet);
-    let (description, of) = (first.after(&rows, seconds), first.of);
-    sweep::finish(claim, &folder, &rows, &description, pictures, saying.quiet)?;
-    sweep::print(&rows, &description, &folder, saying)?;
+    let results = Results::claim(folder, may_write(pictures), saying)?;
+    let of = first.of;
+    let ending = finish(results, &rows, &first.after(&rows, seconds), pictures)?;
     if rows.len() < of {
         tell!("warning: {} of {of} combinations are missing: {}", of - rows.len(), missing(&rows, of));
         return Ok(Ending::NotConverged);
     }
-    Ok(sweep::ending(&rows))
+    Ok(ending)
 }
 
 /// The first key of `sweep.json` that describes the whole sweep and differs between two parts.

@@ -23,6 +23,7 @@ mod results;
 mod roughness;
 mod solve;
 mod sweep;
+mod sweep_files;
 mod terminal;
 mod threads;
 #[cfg(feature = "validate")]
@@ -58,16 +59,12 @@ fn run(arguments: &Arguments) -> u8 {
 
 fn carry_out(command: &Command) -> Result<Ending, Failure> {
     match command {
-        Command::Solve { case, changes, options, pictures, common } => {
-            solve::run(case.as_deref(), changes, options, pictures, common)
-        }
-        Command::Compare { case, changes, pictures, common } => {
-            compare::run(case.as_deref(), changes, pictures, common)
-        }
-        Command::Limit { case, changes, pictures, common } => limit::run(case.as_deref(), changes, pictures, common),
-        Command::Sweep { case, set, options, pictures, common } => sweep::run(case, set, options, pictures, common),
+        Command::Solve { case, changes, options, common } => solve::run(case.as_deref(), &changes.set, options, common),
+        Command::Compare { case, changes, common } => compare::run(case.as_deref(), &changes.set, common),
+        Command::Limit { case, changes, common } => limit::run(case.as_deref(), &changes.set, common),
+        Command::Sweep { case, set, options, common } => sweep::run(case, set, options, common),
         Command::Merge { folders, output, pictures, saying } => {
-            merge::run(folders, output.as_deref(), pictures, saying)
+            merge::run(folders, output.as_deref(), pictures, *saying)
         }
         Command::Report { folder, output, quiet } => report::run(folder, output.as_deref(), *quiet),
         Command::Kernel { case, wavenumber, depth, traction, changes } => {

@@ -1,17 +1,19 @@
 //! Options of several commands.
 
+use super::pictures::PictureOptions;
 use clap::Args;
 use std::path::PathBuf;
 
 /// Options of the commands that solve a case into a folder.
 #[derive(Debug, Args)]
 pub struct Common {
+    #[command(flatten)]
+    pub pictures: PictureOptions,
     /// Output folder [default: out/<case name>]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Threads to use [default: all cores]; results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub work: Work,
     /// Print nothing but errors
     #[arg(short, long, conflicts_with = "verbose")]
     pub quiet: bool,
@@ -23,8 +25,15 @@ pub struct Common {
     pub json: bool,
 }
 
-/// Options of printing of the commands that compute nothing.
-#[derive(Debug, Args)]
+impl Common {
+    /// The options of printing alone.
+    pub fn saying(&self) -> Saying {
+        Saying { quiet: self.quiet, json: self.json }
+    }
+}
+
+/// Options of printing.
+#[derive(Debug, Clone, Copy, Args)]
 pub struct Saying {
     /// Print nothing but errors
     #[arg(short, long)]

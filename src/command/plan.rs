@@ -1,8 +1,14 @@
-//! Names of the files that `percoat solve` may write, known before anything is solved.
+//! Names of the files that a command may write, known before anything is solved.
 
 use super::pictures::PictureOptions;
 use crate::case::Case;
-use crate::output::{Plan, solved_plan};
+use crate::output::{Plan, Writer, solved_plan};
+
+/// Files of a result with these names, and pictures with the names `drawn`.
+pub fn plan(writer: Writer, files: &[&str], pictures: &PictureOptions, drawn: &[&str]) -> Plan {
+    let names = files.iter().map(|name| (*name).to_owned()).chain(pictures.files(drawn)).collect();
+    Plan { names, ..Plan::new(writer) }
+}
 
 /// Files that a run of the case may write, with its fields or without.
 pub fn may_write(case: &Case, steps: usize, fields: bool, pictures: &PictureOptions) -> Plan {

@@ -18,6 +18,8 @@ const PERIOD: Duration = Duration::from_secs(10);
 pub struct Progress {
     state: Arc<Mutex<ProgressState>>,
     bar: ProgressBar,
+    /// Whether `--verbose` is given.
+    verbose: bool,
     /// Ends the lines when it is dropped.
     _lines: Option<Sender<()>>,
 }
@@ -60,7 +62,7 @@ impl Progress {
             let state = Arc::clone(&state);
             lines(PERIOD, move || tell!("{}", held(&state)))
         });
-        Self { state, bar, _lines: lines }
+        Self { state, bar, verbose: common.verbose, _lines: lines }
     }
 
     /// Shows a description of the present work.
@@ -86,9 +88,11 @@ impl Progress {
         self.bar.set_message(state.to_string());
     }
 
-    /// Prints a line between those of the progress.
+    /// Prints a line between those of the progress where `--verbose` is given.
     pub fn tell(&self, line: impl fmt::Display) {
-        self.bar.suspend(|| tell!("{line}"));
+        if self.verbose {
+            self.bar.suspend(|| tell!("{line}"));
+        }
     }
 
     /// Ends the display.

@@ -3,9 +3,9 @@
 use super::interruption::{self, Saved};
 use super::options::Common;
 use super::progress::Progress;
+use super::results::Results;
 use super::terminal;
-use crate::case::feasibility::Allowed;
-use crate::output::{Clock, OutputError, Recording, RunFolder};
+use crate::output::{Clock, OutputError, Recording};
 use crate::run::{Finished, Recorder, Run, StepRecord};
 use crate::spectral::Checkpoint;
 use crate::{Load, Solver, Step, StressField, VerticalSection};
@@ -13,9 +13,7 @@ use crate::{Load, Solver, Step, StressField, VerticalSection};
 /// Records a run and shows its progress.
 pub struct ProgressRecorder<'a> {
     recording: Recording<'a>,
-    claim: &'a RunFolder,
-    allowed: Allowed<'a>,
-    common: &'a Common,
+    results: &'a Results,
     /// Number of all load steps.
     steps: usize,
     progress: Progress,
@@ -23,15 +21,9 @@ pub struct ProgressRecorder<'a> {
 
 impl<'a> ProgressRecorder<'a> {
     /// Recorder of a run with its recording and the claimed folder.
-    pub fn new(
-        recording: Recording<'a>,
-        claim: &'a RunFolder,
-        run: &Run,
-        allowed: Allowed<'a>,
-        common: &'a Common,
-    ) -> Self {
+    pub fn new(recording: Recording<'a>, results: &'a Results, run: &Run, common: &Common) -> Self {
         let steps = run.loads.len();
-        Self { recording, claim, allowed, common, steps, progress: Progress::new("step", steps, 0, common) }
+        Self { recording, results, steps, progress: Progress::new("step", steps, 0, common) }
     }
 
     /// Finishes the recording, as [`Recording::finish`].
@@ -42,9 +34,9 @@ impl<'a> ProgressRecorder<'a> {
         finished
     }
 
-    /// The steps on disk, for the answer to a signal.
+    /// The steps on disk, which the handler of signals prints.
     fn saved(&self) -> Saved {
-        Saved::Steps { done: self.recording.steps(), of: self.steps, folder: self.claim.staging() }
+        Saved::Steps { done: self.recording.steps(), of: self.steps, folder: self.results.staging() }
     }
 }
 
@@ -60,19 +52,17 @@ impl Recorder for ProgressRecorder<'_> {
     }
 
     fn fits(&self, points: [usize; 2]) -> bool {
-        self.allowed.fits(points)
+        self.recording.fits(points)
     }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
-        if self.common.verbose {
-            self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
-        }
-        // A signal is answered after the steps of a coarser grid have moved aside.
+        self.progress.tell(format_args!("{}\n{solver}", solver.problem()));
+        // The handler of signals waits until the steps of a coarser grid have moved aside.
         let mut saved = interruption::hold();
         self.recording.begin(solver)?;
         *saved = self.saved();
         drop(saved);
-        terminal::tell_aside(self.recording.set_aside(), self.common.quiet);
+        terminal::tell_aside(self.recording.set_aside(), self.results.saying.quiet);
         self.progress.grid(solver.grid().points(), self.recording.steps());
         Ok(())
     }
@@ -96,9 +86,7 @@ impl Recorder for ProgressRecorder<'_> {
     }
 
     fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
-        if self.common.verbose {
-            self.progress.tell(format_args!("{}\n{}\n{}", record.reading, record.report(), record.certificate));
-        }
+        self.progress.tell(format_args!("{}\n{}\n{}", record.reading, record.report(), record.certificate));
         self.recording.step(step, record, field)?;
         *interruption::hold() = self.saved();
         self.progress.advance();
@@ -107,8 +95,6 @@ impl Recorder for ProgressRecorder<'_> {
 
     fn refined(&mut self, points: [usize; 2], change: f64) {
         self.recording.refined(points, change);
-        if self.common.verbose {
-            self.progress.tell(format_args!("{points:?} points: change {change:.2e}"));
-        }
+        self.progress.tell(format_args!("{points:?} points: change {change:.2e}"));
     }
 }

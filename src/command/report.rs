@@ -43,14 +43,14 @@ pub fn run(folder: &Path, output: Option<&Path>, quiet: bool) -> Result<Ending, 
     Ok(Ending::Done)
 }
 
-/// Writes the page beside its result, in the place of the one before.
+/// Writes the page beside its result, in the place of an earlier page.
 fn publish(folder: &Path, name: &str, own: bool) -> Result<Page, Failure> {
     let names = vec![name.to_owned()];
     let adopted = if own { names.clone() } else { Vec::new() };
     // Pages with other names are kept.
     let scope = Scope { within: name.to_owned(), except: Vec::new() };
     let claim = RunFolder::claim(folder, Plan { names, adopted, scope, ..Plan::new(Writer::Report) })?;
-    // With the claim no run writes there: the files that are read belong together.
+    // While the folder is claimed no other run writes there: the files that are read belong together.
     let page = report::page(folder)?;
     write_text(&claim.staging().join(name), &page.html)?;
     interruption::publish(claim, folder, true)?;

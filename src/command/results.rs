@@ -2,33 +2,30 @@
 
 use super::ending::Failure;
 use super::interruption;
-use super::options::Common;
+use super::options::Saying;
 use super::terminal;
-use crate::output::{Plan, RunFolder, write_text};
+use crate::output::{Plan, RunFolder, make_folder, write_text};
 use crate::plain;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// A folder that is claimed for the results of a command, and where these are gathered.
+/// A folder that is claimed for the results of a command, and in which these are gathered.
 pub struct Results {
     /// The claimed folder.
     pub claim: RunFolder,
-    folder: PathBuf,
-    quiet: bool,
-}
-
-/// A folder with published results.
-pub struct Published {
-    folder: PathBuf,
+    /// Its path.
+    pub folder: PathBuf,
+    /// Options of printing.
+    pub saying: Saying,
 }
 
 impl Results {
-    /// Claims a folder for the files of a plan; from here on a signal to end is answered with the saved files.
-    pub fn claim(folder: &Path, plan: Plan, quiet: bool) -> Result<Self, Failure> {
+    /// Claims a folder for the files of a plan. From here on the handler of signals to end prints the saved files.
+    pub fn claim(folder: PathBuf, plan: Plan, saying: Saying) -> Result<Self, Failure> {
         interruption::watch();
-        let claim = RunFolder::claim(folder, plan)?;
-        terminal::tell_aside(claim.set_aside(), quiet);
-        Ok(Self { claim, folder: folder.to_owned(), quiet })
+        let claim = RunFolder::claim(&folder, plan)?;
+        terminal::tell_aside(claim.set_aside(), saying.quiet);
+        Ok(Self { claim, folder, saying })
     }
 
     /// The folder in which the files are gathered.
@@ -36,34 +33,36 @@ impl Results {
         self.claim.staging()
     }
 
-    /// Writes a text file, given its name in the folder.
+    /// Writes a text file, given its name in the folder; a folder in the name is made.
     pub fn write(&self, name: &str, text: &str) -> Result<(), Failure> {
-        Ok(write_text(&self.staging().join(name), text)?)
+        let path = self.staging().join(name);
+        path.parent().filter(|_| name.contains('/')).map_or(Ok(()), make_folder)?;
+        Ok(write_text(&path, text)?)
     }
 
     /// Puts all files in their place, instead of those of the results before.
-    pub fn publish(self) -> Result<Published, Failure> {
-        interruption::publish(self.claim, &self.folder, self.quiet)?;
-        Ok(Published { folder: self.folder })
+    pub fn publish(self) -> Result<(), Failure> {
+        Ok(interruption::publish(self.claim, &self.folder, self.saying.quiet)?)
     }
-}
 
-impl Published {
-    /// Prints the results: as JSON where `--json` is given, else as tables and a line on the computation, unless quiet.
-    pub fn print(
-        &self,
-        common: &Common,
+    /// [Publishes](Self::publish) the files and prints the results: as JSON where `--json` is given, else as tables and a line on
+    /// the computation, unless quiet; then the warnings.
+    pub fn finish(
+        self,
         json: impl FnOnce() -> String,
         tables: impl FnOnce() -> String,
-        line: &str,
+        line: impl FnOnce() -> String,
+        warnings: &[String],
     ) -> Result<(), Failure> {
-        let mut out = terminal::out();
-        if common.json {
-            write!(out, "{}", json())?;
-        } else if !common.quiet {
-            write!(out, "{}", tables())?;
-            writeln!(out, "{line}; written to {}", plain::path(&self.folder))?;
+        let (folder, saying) = (self.folder.clone(), self.saying);
+        self.publish()?;
+        let line = line();
+        if saying.json {
+            write!(terminal::out(), "{}", json())?;
+        } else if !saying.quiet {
+            writeln!(terminal::out(), "{}{line}; written to {}", tables(), plain::path(&folder))?;
         }
+        terminal::warn(warnings, saying.quiet);
         Ok(())
     }
 }

@@ -25,8 +25,8 @@ pub fn write(case: &Case, folder: &Path) -> Result<(), Failure> {
     Ok(interruption::publish(claim, folder, false)?)
 }
 
-/// One row a ring of wavevectors: its mean wavenumber q, the mean of C with h_rms² = ∫ C d²q, how many waves it has, and 4π²C,
-/// which others call the density (h_rms² = ∫ 4π²C d²q/4π²).
+/// One row for each ring of wavevectors: mean wavenumber q, mean of C with h_rms² = ∫ C d²q, number of waves, and 4π²C, the
+/// density of the convention h_rms² = ∫ 4π²C d²q/4π².
 fn table(rings: &[Radial]) -> String {
     let row = |ring: &Radial| {
         format!("{:e},{:e},{},{:e}\n", ring.wavenumber, ring.density, ring.waves, TAU * TAU * ring.density)

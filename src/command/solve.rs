@@ -3,8 +3,7 @@
 use super::ending::{Ending, Failure};
 use super::input::{output_folder, read_case};
 use super::interruption::{self, Saved};
-use super::options::{Changes, Common};
-use super::pictures::PictureOptions;
+use super::options::Common;
 use super::plan::may_write;
 use super::progress::Progress;
 use super::progress_recorder::ProgressRecorder;
@@ -15,7 +14,7 @@ use crate::case::resources::Job;
 use crate::case::{Case, plausibility};
 use crate::machine::Capacity;
 use crate::output::{
-    self, CannotGoOn, Clock, Plan, Recording, RunFolder, Summary, damaged_results, disk, is_beside, solved_plan, table,
+    self, CannotGoOn, Clock, Plan, Recording, Summary, damaged_results, disk, is_beside, solved_plan, table,
     write_scalars,
 };
 use crate::picture::Snapshot;
@@ -37,15 +36,9 @@ pub struct SolveOptions {
     resume: bool,
 }
 
-pub fn run(
-    case: Option<&Path>,
-    changes: &Changes,
-    options: &SolveOptions,
-    pictures: &PictureOptions,
-    common: &Common,
-) -> Result<Ending, Failure> {
-    let clock = Clock::start();
-    let (case, name) = read_case(case, &changes.set)?;
+pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: &Common) -> Result<Ending, Failure> {
+    let (clock, pictures) = (Clock::start(), &common.pictures);
+    let (case, name) = read_case(case, set)?;
     let folder = output_folder(common, &name)?;
     let (run, fields) = (case.run(), !options.no_fields);
     let steps = run.loads.len();
@@ -56,17 +49,17 @@ pub fn run(
     let allowed = Allowed::within(&case, room, job).map_err(Failure::Refused)?;
     run.check()?;
     let plan = Plan { resumes, ..may_write(&case, steps, fields, pictures) };
-    let mut results = Results::claim(&folder, plan, common.quiet)?;
+    let mut results = Results::claim(folder, plan, common.saying())?;
     let fingerprint = output::fingerprint(&case, if fields { "fields" } else { "scalars" });
     let was_begun = results.claim.resumes();
-    let earlier = earlier(&mut results.claim, &fingerprint, &run, options.resume, common.quiet)?;
+    let earlier = earlier(&mut results, &fingerprint, &run, options.resume)?;
     if options.resume
         && !was_begun
-        && let Some((ending, summary)) = finished(&case, &folder, steps, fields)
+        && let Some((ending, summary)) = finished(&case, &results.folder, steps, fields)
     {
         results.claim.abandon()?;
         if !common.quiet {
-            tell!("note: {} is finished; leave --resume out to solve it again", plain::path(&folder));
+            tell!("note: {} is finished; leave --resume out to solve it again", plain::path(&results.folder));
         }
         if common.json {
             write!(terminal::out(), "{summary}")?;
@@ -76,21 +69,20 @@ pub fn run(
     if let Some(earlier) = &earlier {
         *interruption::hold() = Saved::Steps { done: done(earlier), of: steps, folder: results.staging() };
     }
-    let recording = Recording::new(&results.claim, &run, case.to_toml(), clock).resumable(fingerprint, earlier);
+    let recording = Recording::new(&results.claim, &run, case.to_toml(), clock).within(allowed);
+    let recording = recording.resumable(fingerprint, earlier);
     let recording = if fields { recording } else { recording.without_fields() };
-    let mut recording = ProgressRecorder::new(recording, &results.claim, &run, allowed, common);
+    let mut recording = ProgressRecorder::new(recording, &results, &run, common);
     let outcome = run.solve(&mut recording)?;
     let (section, mut clock) = recording.finish()?;
     let warnings = [outcome.warnings.clone(), plausibility::of_case(&case)].concat();
-    draw(&results, &case, &outcome, section.as_ref(), pictures, common)?;
+    draw(&results, &case, &outcome, section.as_ref(), common)?;
     let timing = clock.timing();
     write_scalars(&results.staging(), &case, &outcome, &warnings, timing)?;
-    let published = results.publish()?;
     let json = || Summary::new(&case, &warnings, outcome.change, &outcome.steps, timing).to_json();
     let tables = || table::outcome(&case, &outcome.steps, outcome.change, terminal::width());
-    let line = format!("{:.2} s ({})", clock.seconds(), table::timing(&timing));
-    published.print(common, json, tables, &line)?;
-    terminal::warn(&warnings, common.quiet);
+    let line = || format!("{:.2} s ({})", clock.seconds(), table::timing(&timing));
+    results.finish(json, tables, line, &warnings)?;
     Ok(Ending::of(outcome.converged()))
 }
 
@@ -106,15 +98,14 @@ fn draw(
     case: &Case,
     outcome: &Outcome,
     section: Option<&VerticalSection>,
-    pictures: &PictureOptions,
     common: &Common,
 ) -> Result<(), Failure> {
-    if let (Some(last), Some(record), true) = (&outcome.last, outcome.steps.last(), pictures.wanted()) {
+    if let (Some(last), Some(record), true) = (&outcome.last, outcome.steps.last(), common.pictures.wanted()) {
         let snapshot = Snapshot::new(&case.title, last.clone(), record.reading.clone());
         let snapshot = snapshot.with_strength(record.strength.clone()).with_units(case.units());
         let progress = Progress::new("", 0, 0, common);
         progress.say("drawing pictures");
-        pictures.draw(&results.staging(), &snapshot, section, &outcome.steps)?;
+        common.pictures.draw(&results.staging(), &snapshot, section, &outcome.steps)?;
         progress.finish();
     }
     Ok(())
@@ -122,41 +113,30 @@ fn draw(
 
 /// Steps of an earlier run into the folder with which this one goes on. With `demanded` (`--resume`) steps of another run are an
 /// error, and damaged ones are moved aside and solved again.
-fn earlier(
-    claim: &mut RunFolder,
-    fingerprint: &str,
-    run: &Run,
-    demanded: bool,
-    quiet: bool,
-) -> Result<Option<Finished>, Failure> {
+fn earlier(results: &mut Results, fingerprint: &str, run: &Run, demanded: bool) -> Result<Option<Finished>, Failure> {
+    let (claim, quiet) = (&mut results.claim, results.saying.quiet);
     if !claim.resumes() {
         return Ok(None);
     }
-    let found = match output::finished(&claim.staging(), fingerprint, run) {
-        Err(damaged @ CannotGoOn::Damaged { .. }) if demanded => {
-            let reason = damaged.to_string();
-            terminal::tell_damage(&reason, claim.begin_after_damage()?.as_deref(), "all steps are solved again");
-            return Ok(None);
+    let reason = match output::finished(&claim.staging(), fingerprint, run) {
+        Ok(Some(found)) => {
+            if !quiet {
+                let [n1, n2] = found.points;
+                tell!("note: goes on after step {} on {n1} × {n2} samples", done(&found));
+            }
+            return Ok(Some(found));
         }
-        Err(foreign) if demanded => return Err(Failure::refused(foreign)),
-        Ok(found) => found,
-        Err(_) => None,
+        Err(foreign @ CannotGoOn::Foreign(_)) if demanded => return Err(Failure::refused(foreign)),
+        Err(damaged) => damaged.to_string(),
+        Ok(None) => format!("{}/checkpoint.npz is missing, no load can be given again", plain::path(&claim.staging())),
     };
-    let Some(found) = found else {
-        if demanded {
-            let reason =
-                format!("{}/checkpoint.npz is missing, no load can be given again", plain::path(&claim.staging()));
-            terminal::tell_damage(&reason, claim.begin_after_damage()?.as_deref(), "all steps are solved again");
-        } else {
-            terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
-        }
-        return Ok(None);
-    };
-    if !quiet {
-        let [n1, n2] = found.points;
-        tell!("note: goes on after step {} on {n1} × {n2} samples", done(&found));
+    if demanded {
+        let aside = claim.begin_after_damage()?;
+        tell!("warning: {}", terminal::damage(&reason, aside.as_deref(), "all steps are solved again"));
+    } else {
+        terminal::tell_aside(claim.begin_anew()?.as_deref(), quiet);
     }
-    Ok(Some(found))
+    Ok(None)
 }
 
 /// Number of loads that an earlier run has solved on its last grid.
@@ -164,8 +144,8 @@ fn done(earlier: &Finished) -> usize {
     earlier.steps.len() + usize::from(earlier.last.is_some())
 }
 
-/// Ending and summary of the finished result in a folder; `None` if it is of another case, or not whole. A warning names files that
-/// are missing.
+/// Ending and summary of the finished result in a folder; `None` if the result is of another case, or not whole. A warning
+/// names a file that is missing or damaged.
 fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(Ending, String)> {
     let is_own =
         |name: &str| disk::is_file(&folder.join(name)) && is_beside("summary.json", folder, name).unwrap_or(false);
@@ -192,5 +172,5 @@ fn finished(case: &Case, folder: &Path, steps: usize, fields: bool) -> Option<(E
         Sampling::Points(_) => true,
     };
     let converged = summary.steps.iter().all(StepRecord::converged);
-    Some((if reached && converged { Ending::Done } else { Ending::NotConverged }, text))
+    Some((Ending::of(reached && converged), text))
 }

@@ -1,13 +1,12 @@
 //! Standard error and standard output: colours (<https://no-color.org>), and terminals without a cursor.
 
 use crate::plain;
+use clap::{ColorChoice, ValueEnum};
 use std::env;
 use std::ffi::OsString;
 use std::fmt;
 use std::io::{self, ErrorKind, IsTerminal, StdoutLock, Write};
 use std::path::Path;
-
-use clap::{ColorChoice, ValueEnum};
 use std::sync::OnceLock;
 
 /// Prints a line on standard error, hidden characters as their escapes ([`plain`]). A line that cannot be written is no error.
@@ -56,7 +55,7 @@ fn unless_unread<T>(result: io::Result<T>, otherwise: T) -> io::Result<T> {
 
 /// Clears the line of the terminal.
 pub fn clear_line() {
-    let _ = write!(std::io::stderr(), "\r\x1b[K");
+    let _ = write!(io::stderr(), "\r\x1b[K");
 }
 
 /// Prints the place to which the finished steps of an interrupted run, or foreign files beside them, have been moved.
@@ -69,10 +68,19 @@ pub fn tell_aside(place: Option<&Path>, quiet: bool) {
     }
 }
 
-/// Prints the damage of an earlier run, the place where the run is kept, and what is done; also with --quiet, since work is lost.
-pub fn tell_damage(reason: &str, aside: Option<&Path>, done: &str) {
+/// Warning of the damage of an earlier run, with the place where the run is kept and what is done. It is printed also with --quiet,
+/// since work is lost.
+pub fn damage(reason: &str, aside: Option<&Path>, done: &str) -> String {
     let aside = aside.map_or(String::new(), |place| format!("; it is kept in {}", plain::path(place)));
-    tell!("warning: {reason}{aside}; {done}");
+    format!("{reason}{aside}; {done}")
+}
+
+/// The first five of some warnings, and one on the number of the `others`, which the text describes.
+pub fn first_five(mut warnings: Vec<String>, others: &str) -> Vec<String> {
+    let more = warnings.len().saturating_sub(5);
+    warnings.truncate(5);
+    warnings.extend((more > 0).then(|| format!("and {more} more{others}")));
+    warnings
 }
 
 /// Width of a line of standard output in characters; 80 without a terminal.
@@ -109,33 +117,32 @@ pub fn choose_colour(colour: Colour) {
     let _ = CHOSEN.set(colour);
 }
 
+fn chosen_colour() -> Colour {
+    CHOSEN.get().copied().unwrap_or_default()
+}
+
 /// Whether messages may be coloured.
 pub fn coloured() -> bool {
-    match CHOSEN.get() {
-        Some(Colour::Always) => true,
-        Some(Colour::Never) => false,
-        Some(Colour::Auto) | None => moves() && allows_colour(env::var_os("NO_COLOR")),
+    match chosen_colour() {
+        Colour::Always => true,
+        Colour::Never => false,
+        Colour::Auto => moves() && allows_colour(env::var_os("NO_COLOR")),
     }
 }
 
 /// Use of colours in the help and in errors of arguments: on terminals with a cursor, also in continuous integration, where clap alone
 /// would colour terminals without one.
 pub fn parser_colour() -> ColorChoice {
-    match CHOSEN.get() {
-        Some(Colour::Always) => return ColorChoice::Always,
-        Some(Colour::Never) => return ColorChoice::Never,
-        Some(Colour::Auto) | None => {}
-    }
-    if has_cursor(env::var_os("TERM")) && allows_colour(env::var_os("NO_COLOR")) {
-        ColorChoice::Auto
-    } else {
-        ColorChoice::Never
+    match chosen_colour() {
+        Colour::Always => ColorChoice::Always,
+        Colour::Auto if has_cursor(env::var_os("TERM")) && allows_colour(env::var_os("NO_COLOR")) => ColorChoice::Auto,
+        Colour::Auto | Colour::Never => ColorChoice::Never,
     }
 }
 
 /// Whether lines can be redrawn in their place, as the progress is.
 pub fn moves() -> bool {
-    std::io::stderr().is_terminal() && has_cursor(env::var_os("TERM"))
+    io::stderr().is_terminal() && has_cursor(env::var_os("TERM"))
 }
 
 fn allows_colour(no_color: Option<OsString>) -> bool {

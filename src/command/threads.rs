@@ -22,7 +22,8 @@ pub fn on_own_stack(command: impl FnOnce() -> u8 + Send + 'static) -> u8 {
     }
 }
 
-/// Starts as many threads as `--threads` or the environment prescribe, else one for each core; a note says if their number is lowered.
+/// Starts as many threads as `--threads` or the environment prescribe, else one for each core; a note says if their number is
+/// lowered.
 pub fn start(prescribed: Option<u16>, quiet: bool) -> Result<(), Failure> {
     let threads = Threads::new("--threads", prescribed.map(usize::from)).map_err(Failure::Refused)?;
     if let (Some(lowered), false) = (&threads.lowered, quiet) {

@@ -1,10 +1,11 @@
 //! `percoat validate`: the studies, their verdicts, and a report of them.
 
 use super::ending::{Ending, Failure};
-use super::interruption;
-use super::options::Studies;
+use super::input::read_text;
+use super::options::{Saying, Studies};
+use super::results::Results;
 use super::terminal::{self, tell};
-use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder, write_text};
+use crate::output::{Plan, RunFolder, Scope, Writer, disk, make_folder};
 use crate::picture::Format;
 use crate::plain;
 use crate::validation::paper::table;
@@ -18,31 +19,27 @@ const PAGE: &str = "paper/README.md";
 
 pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Result<Ending, Failure> {
     let studies = chosen(name)?;
-    let expected = expected
-        .map(|path| std::fs::read_to_string(path).map_err(|error| Failure::Input { path: path.to_owned(), error }));
-    let expected = expected.transpose()?;
+    let expected = expected.map(read_text).transpose()?;
     let folder = options.output.clone().unwrap_or_else(|| PathBuf::from("out/validate"));
-    // The report of one study stays in its folder, so that it does not pass for the whole.
+    // The report of one study stands in its folder, so that it is not taken for that of all.
     let within = name.map_or_else(String::new, |name| format!("{name}/"));
     let path = format!("{within}REPORT.md");
-    interruption::watch();
-    let mut claim = RunFolder::claim(&folder, may_write(&folder, &path, within, &studies))?;
-    // Without a study of the paper that comes to its end there is no new page.
-    claim.keep(PAGE.to_owned());
-    terminal::tell_aside(claim.set_aside(), options.quiet);
+    let (report_path, plan) = (folder.join(&path), may_write(&folder, &path, within, &studies));
+    let mut results = Results::claim(folder, plan, Saying { quiet: options.quiet, json: false })?;
+    // Where each study of the paper fails, or none is run, the page stays as it is.
+    results.claim.keep(PAGE.to_owned());
     let started = Instant::now();
-    let (report, outcomes) = carry_out(&studies, &mut claim, options);
+    let (report, outcomes) = carry_out(&studies, &mut results.claim, options);
     let markdown = report.markdown();
     let statements = report.statements();
-    let staged = Staged(claim.staging());
-    staged.text(&path, &markdown)?;
+    results.write(&path, &markdown)?;
     for (study, outcome) in &outcomes {
-        staged.study(study, outcome)?;
+        write(&results, study, outcome)?;
     }
     if !statements.is_empty() {
-        staged.text(PAGE, &table::renewed(&statements))?;
+        results.write(PAGE, &table::renewed(&statements))?;
     }
-    interruption::publish(claim, &folder, options.quiet)?;
+    results.publish()?;
     let names: Vec<&str> = studies.iter().map(|study| study.name).collect();
     let differences = expected.map(|expected| {
         let rows = differences(&expected, &markdown, name.is_some().then_some(&names[..]));
@@ -52,14 +49,14 @@ pub fn run(name: Option<&str>, expected: Option<&Path>, options: &Studies) -> Re
         tell!("error: {line}");
     }
     if !options.quiet {
-        print(&report, &folder.join(path), started)?;
+        print(&report, &report_path, started)?;
     }
     let as_expected = differences.is_none_or(|differences| differences.is_empty());
     Ok(if report.holds() && as_expected { Ending::Done } else { Ending::Failed })
 }
 
-/// Runs the studies one after another: their report, and the outcome of each that came to its end. What a study that failed has
-/// shown before stays in the folder.
+/// Runs the studies one after another; returns their report, and the outcomes of studies without an error. The earlier files of a
+/// study with an error stay in the folder.
 fn carry_out(
     studies: &[&'static Study],
     claim: &mut RunFolder,
@@ -89,7 +86,7 @@ fn carry_out(
     (report, outcomes)
 }
 
-/// Prints the studies that there are: all, or those of a name.
+/// Prints names and titles of the studies: all, or those of a name.
 pub fn list(name: Option<&str>) -> Result<Ending, Failure> {
     let mut out = terminal::out();
     for study in chosen(name)? {
@@ -125,28 +122,14 @@ fn may_write(folder: &Path, report: &str, within: String, studies: &[&Study]) ->
     Plan { names, adopted, scope: Scope { within, except: Vec::new() }, ..Plan::new(Writer::Validate) }
 }
 
-/// The staging folder of the result.
-struct Staged(PathBuf);
-
-impl Staged {
-    fn text(&self, name: &str, text: &str) -> Result<(), Failure> {
-        let path = self.0.join(name);
-        make_folder(path.parent().unwrap_or(&self.0))?;
-        Ok(write_text(&path, text)?)
+/// Writes the figures and data of a study.
+fn write(results: &Results, study: &str, outcome: &Outcome) -> Result<(), Failure> {
+    let folder = results.staging().join(study);
+    make_folder(&folder)?;
+    for (name, figure) in &outcome.figures {
+        figure.draw().write(&folder, name, Format::Png)?;
     }
-
-    /// The figures and data of a study.
-    fn study(&self, study: &str, outcome: &Outcome) -> Result<(), Failure> {
-        let folder = self.0.join(study);
-        make_folder(&folder)?;
-        for (name, figure) in &outcome.figures {
-            figure.draw().write(&folder, name, Format::Png)?;
-        }
-        for (name, data) in outcome.tables() {
-            write_text(&folder.join(name), &data.csv())?;
-        }
-        Ok(())
-    }
+    outcome.tables().try_for_each(|(name, data)| results.write(&format!("{study}/{name}"), &data.csv()))
 }
 
 fn print(report: &Report, path: &Path, started: Instant) -> Result<(), Failure> {

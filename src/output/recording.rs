@@ -6,6 +6,7 @@ use super::fields::Fields;
 use super::steps_log::StepsLog;
 use super::stress::Stresses;
 use super::{Files, OutputError, RunFolder, disk, write_text};
+use crate::case::feasibility::Allowed;
 use crate::load::Load;
 use crate::run::{Finished, Recorder, Run, StepRecord, StressRequest};
 use crate::spectral::{Checkpoint, Solver, Step};
@@ -24,6 +25,8 @@ pub struct Recording<'a> {
     loads: usize,
     /// Whether fields are kept.
     fields: bool,
+    /// Ends a refinement before a grid that does not fit; `None`: every grid is solved.
+    allowed: Option<Allowed<'a>>,
     clock: Clock,
     /// When the present load began, by the clock.
     load_began: f64,
@@ -65,6 +68,7 @@ impl<'a> Recording<'a> {
             stress: run.stress.clone(),
             loads: run.loads.len(),
             fields: true,
+            allowed: None,
             clock,
             checkpoints: None,
             earlier: None,
@@ -91,6 +95,11 @@ impl<'a> Recording<'a> {
     /// The same without `contact.npz`, `stress.npz` and volumes: scalars, and what pictures show of the last step.
     pub fn without_fields(self) -> Self {
         Self { fields: false, ..self }
+    }
+
+    /// The same, where a refinement ends before a grid for which memory or disk do not suffice.
+    pub fn within(self, allowed: Allowed<'a>) -> Self {
+        Self { allowed: Some(allowed), ..self }
     }
 
     /// The files of the steps on the grid of a solver, of which an earlier run has left so many.
@@ -153,6 +162,10 @@ const BEGUN: &str = "a run begins a grid before its steps";
 
 impl Recorder for Recording<'_> {
     type Error = OutputError;
+
+    fn fits(&self, points: [usize; 2]) -> bool {
+        self.allowed.is_none_or(|allowed| allowed.fits(points))
+    }
 
     fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
         self.clock.turn(Phase::Output);

@@ -1,16 +1,16 @@
-//! A key and the values it takes: `KEY=V1,V2,…`, `KEY=A:B:N` or `KEY=A:B:N:log`.
+//! A key with its values: `KEY=V1,V2,…`, `KEY=A:B:N` or `KEY=A:B:N:log`.
 
 use std::fmt;
 
 /// Most values of a key.
 const MOST: usize = 100_000;
 
-/// A key of the case and the values it takes one after another.
+/// A key of the case with its values in their order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Axis {
-    /// As in the case file, such as `layers.0.thickness`.
+    /// The key as in the case file, such as `layers.0.thickness`.
     pub key: String,
-    /// As they would stand behind the key, such as `0.2`.
+    /// The values as texts of TOML, such as `0.2`.
     pub values: Vec<String>,
 }
 
@@ -29,7 +29,7 @@ impl Axis {
     /// `load.mean_pressure=[0.01, 0.02],[0.03]`.
     ///
     /// # Errors
-    /// [`AxisError`] without `=`, with a value that is empty, or for a range that has no such values.
+    /// [`AxisError`] without `=`, with an empty value, or for a range without a valid number, spacing or end.
     pub fn parse(text: &str) -> Result<Self, AxisError> {
         let refuse = |reason: &str| AxisError { text: text.to_owned(), reason: reason.to_owned() };
         let (key, values) = text.split_once('=').ok_or_else(|| refuse("a key needs values"))?;
@@ -101,12 +101,12 @@ fn range(text: &str) -> Option<Result<Vec<String>, String>> {
     Some(spaced())
 }
 
-/// Without the last digit of double precision, which is noise: 0.3 and not 0.30000000000000004.
+/// A number without the last digits of double precision, which are noise: 0.3 and not 0.30000000000000004.
 fn short(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
-/// As a person would write it; TOML reads it back.
+/// A number as TOML: in decimals between 1e-4 and 1e15, else with an exponent.
 fn plain(value: f64) -> String {
     let size = value.abs();
     if value != 0.0 && !(1e-4..1e15).contains(&size) { format!("{value:e}") } else { value.to_string() }

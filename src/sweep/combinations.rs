@@ -1,4 +1,4 @@
-//! Which settings are solved together: the product of axes, their pairs, or the rows of a table; and a part of them.
+//! The combinations of a sweep: the product of axes, their pairs, or the rows of a table; and a part of them.
 
 use super::axis::Axis;
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,12 +7,12 @@ use std::iter;
 /// Most combinations of a sweep.
 const MOST: usize = 1_000_000;
 
-/// Settings of the case, solved together.
+/// Values of the keys of a sweep for which the case is solved once.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combination {
-    /// Its place in the whole sweep, from 1.
+    /// Its number in the whole sweep, from 1.
     pub number: usize,
-    /// Its values, one a key of the sweep.
+    /// One value for each key of the sweep.
     pub values: Vec<String>,
 }
 
@@ -25,7 +25,7 @@ pub struct Combinations {
     pub all: Vec<Combination>,
 }
 
-/// Why there are no such combinations.
+/// Why keys and values make no sweep.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CombinationsError {
     /// Nothing is varied.
@@ -36,32 +36,32 @@ pub enum CombinationsError {
     /// A key is given twice.
     #[error("`{0}` is given twice")]
     Twice(String),
-    /// Pairs need as many values of each key.
+    /// Keys to be paired have different numbers of values.
     #[error("--zip pairs values one by one: `{first}` has {first_count} of them, `{other}` {other_count}")]
     Unequal {
         /// One key.
         first: String,
-        /// How many values it has.
+        /// Number of its values.
         first_count: usize,
-        /// Another.
+        /// Another key.
         other: String,
-        /// How many it has.
+        /// Number of its values.
         other_count: usize,
     },
-    /// There are too many.
+    /// There are more than a million.
     #[error("{0} combinations are more than {MOST}: sweep over fewer values")]
     TooMany(String),
     /// The table cannot be read.
     #[error("line {line}: {reason}")]
     Table {
-        /// Which, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// What is wrong.
+        /// The fault of the line.
         reason: String,
     },
 }
 
-/// Keys whose values belong together, one row a set of them.
+/// Keys that change together: each row has one value for each key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
     keys: Vec<String>,
@@ -93,7 +93,7 @@ impl Group {
         Ok(Self { keys: axes.iter().map(|axis| axis.key.clone()).collect(), rows: (0..count).map(row).collect() })
     }
 
-    /// A table: the first line names the keys, each further one has a value for each, separated by commas or semicolons.
+    /// A table: the first line has the keys, each further line one value for each key, separated by commas or semicolons.
     /// Empty lines and those that begin with `#` are skipped. A cell in double quotes may hold the separator.
     ///
     /// # Errors
@@ -135,7 +135,7 @@ impl Group {
     }
 }
 
-/// The cells of a line, without blanks around them; quotes around a cell go, doubled ones within it are one.
+/// The cells of a line, without blanks and quotes around them; two quotes within a quoted cell are one.
 fn cells(line: &str, separator: char) -> Vec<String> {
     let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
     let mut characters = line.chars().peekable();
@@ -179,15 +179,15 @@ impl Combinations {
         Ok(Self { keys, all })
     }
 
-    /// Every `of`-th combination from the `part`-th on, both counted from 1: neighbours, which take alike, go to
-    /// different parts.
+    /// Every `of`-th combination from the `part`-th on, which is counted from 1. Neighbouring combinations, which take similar
+    /// times, go to different parts.
     pub fn shard(mut self, part: usize, of: usize) -> Self {
         self.all.retain(|combination| (combination.number - 1) % of == part - 1);
         self
     }
 
-    /// Combinations that are alike but for numbers which change nothing in how much comes out, one of each kind and how many
-    /// there are of it; `None` for more than `most` kinds. A number of load steps or sublayers changes it.
+    /// One combination of each kind, with the number of combinations of that kind; `None` for more than `most` kinds. Within a
+    /// kind only numbers differ that do not change the size of the results, so no number of load steps or sublayers.
     pub(super) fn kinds(&self, most: usize) -> Option<Vec<(&Combination, usize)>> {
         let counts = |key: &str| ["steps", "sublayers"].iter().any(|word| key.trim_end().ends_with(word));
         let is_number = |value: &str| value.parse::<f64>().is_ok();
@@ -204,7 +204,7 @@ impl Combinations {
         Some(kinds.into_values().collect())
     }
 
-    /// What a combination sets, `KEY=VALUE` each.
+    /// The settings of a combination, `KEY=VALUE` each.
     pub fn settings(&self, combination: &Combination) -> Vec<String> {
         self.keys.iter().zip(&combination.values).map(|(key, value)| format!("{key}={value}")).collect()
     }
@@ -219,6 +219,7 @@ pub fn column(key: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::examples::product;
     use super::*;
 
     fn axes(texts: &[&str]) -> Vec<Axis> {
@@ -236,12 +237,11 @@ mod tests {
 
     #[test]
     fn a_product_has_the_last_key_fastest_and_pairs_go_together() {
-        let axes = axes(&["a=1,2", "b.0.c=x,y"]);
-        let groups: Vec<Group> = axes.iter().map(Group::of).collect();
-        let product = Combinations::product(&groups).unwrap();
+        let keys = ["a=1,2", "b.0.c=x,y"];
+        let product = product(&keys);
         assert_eq!(values(&product), ["1: 1 x", "2: 1 y", "3: 2 x", "4: 2 y"]);
         assert_eq!(product.settings(&product.all[1]), ["a=1", "b.0.c=y"]);
-        let pairs = Combinations::product(&[Group::zip(&axes).unwrap()]).unwrap();
+        let pairs = Combinations::product(&[Group::zip(&axes(&keys)).unwrap()]).unwrap();
         assert_eq!(values(&pairs), ["1: 1 x", "2: 2 y"]);
     }
 
@@ -264,8 +264,7 @@ mod tests {
     #[test]
     fn numbers_make_no_kind_of_their_own_but_counts_and_words_do() {
         let kinds = |texts: &[&str]| {
-            let groups: Vec<Group> = axes(texts).iter().map(Group::of).collect();
-            let all = Combinations::product(&groups).unwrap();
+            let all = product(texts);
             all.kinds(3).map(|kinds| kinds.iter().map(|(own, count)| (own.number, *count)).collect::<Vec<_>>())
         };
         assert_eq!(kinds(&["a=1:2:50", "b=3:4:20"]), Some(vec![(1, 1000)]));
@@ -276,8 +275,7 @@ mod tests {
 
     #[test]
     fn parts_are_disjoint_and_make_up_the_whole() {
-        let groups = axes(&["a=1:7:7"]).iter().map(Group::of).collect::<Vec<_>>();
-        let whole = Combinations::product(&groups).unwrap();
+        let whole = product(&["a=1:7:7"]);
         let mut numbers: Vec<usize> =
             (1..=3).flat_map(|part| whole.clone().shard(part, 3).all.into_iter().map(|own| own.number)).collect();
         assert_eq!(whole.clone().shard(2, 3).all.iter().map(|own| own.number).collect::<Vec<_>>(), [2, 5]);

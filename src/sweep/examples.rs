@@ -1,11 +1,17 @@
 //! Rows and results for tests.
 
-use super::{Row, Status, SweepResult};
+use super::{Axis, Combinations, Group, Row, Status, SweepResult};
 use crate::reading::{Criterion, Governing, Reading, Utilisation};
 use crate::run::{At, Limit, StepRecord};
 use crate::spectral::{Certificate, Route, Stop};
 
-/// A combination that is done.
+/// All combinations of the values of some keys, `KEY=VALUES` each.
+pub fn product(axes: &[&str]) -> Combinations {
+    let groups: Vec<Group> = axes.iter().map(|text| Group::of(&Axis::parse(text).unwrap())).collect();
+    Combinations::product(&groups).unwrap()
+}
+
+/// A combination that is done, with its results.
 pub fn row(combination: usize, settings: &[(&str, String)], results: Vec<SweepResult>) -> Row {
     Row {
         combination,
@@ -56,24 +62,24 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
     }
 }
 
-/// A load step that takes up so much of strengths.
+/// A load step with these utilisations of strengths.
 pub fn strained(strength: Vec<Utilisation>) -> SweepResult {
     let governing = Governing::of(&strength);
     SweepResult::Step(Box::new(StepRecord { strength, governing, ..step(1.0, None, 0.5) }))
 }
 
-/// A limit that is reached at a load with its error.
+/// A limit at a mean pressure with its error.
 pub fn reached(criterion: Criterion, mean_pressure: f64, error: f64) -> Limit {
     let interval = [mean_pressure - error, mean_pressure + error];
     Limit { criterion, at: At::Load { mean_pressure, error: Some(error), interval, position: [0.0; 3] } }
 }
 
-/// A limit that is known to lie below a load only.
+/// A limit below a mean pressure.
 pub fn below(criterion: Criterion, mean_pressure: f64) -> Limit {
     Limit { criterion, at: At::Below { mean_pressure, utilisation: 2.0, position: [0.0; 3] } }
 }
 
-/// A limit that is not reached up to a load.
+/// A limit that is not reached up to a mean pressure.
 pub fn never(criterion: Criterion, up_to: f64) -> Limit {
     Limit { criterion, at: At::Never { up_to, complete: true, utilisation: 0.5, error: None, at: up_to } }
 }

@@ -1,36 +1,32 @@
-//! What hears of a combination: what keeps nothing of it, and what keeps its fields, as a solved case in a folder of its own.
+//! How a combination is recorded: its scalars alone, or its fields too, as a solved case in a folder of its own.
 
 use super::row::Ended;
-use crate::case::resources::{Job, needs};
+use crate::case::feasibility::Allowed;
 use crate::case::{Case, plausibility};
-use crate::load::Load;
-use crate::machine::Capacity;
-use crate::output::{Clock, FolderError, OutputError, Recording, RunFolder, release, solved_plan, write_scalars};
-use crate::run::{Recorder, RunError, StepRecord};
-use crate::spectral::{Progress, Solver, Step};
-use crate::stress::StressField;
+use crate::output::{Clock, Recording, RunFolder, release, solved_plan, write_scalars};
+use crate::run::Recorder;
+use crate::spectral::Progress;
+use std::error::Error;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Keeps nothing of a combination but that it finds room, and ends it when nobody waits for it any more.
+/// Writes nothing, and ends the run of a combination when `stop` is true.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Fits<'a> {
-    pub(super) case: &'a Case,
-    pub(super) job: Job,
-    pub(super) room: Capacity,
+pub(super) struct Scalars<'a> {
+    pub(super) allowed: Allowed<'a>,
     pub(super) stop: &'a AtomicBool,
 }
 
-/// Nobody waits for the combination any more.
+/// The sweep was stopped.
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before its end")]
 pub(super) struct Stopped;
 
-impl Recorder for Fits<'_> {
+impl Recorder for Scalars<'_> {
     type Error = Stopped;
 
     fn fits(&self, points: [usize; 2]) -> bool {
-        needs(self.case, points, self.job).fit(self.room)
+        self.allowed.fits(points)
     }
 
     fn iteration(&mut self, _progress: Progress) -> Result<(), Stopped> {
@@ -42,59 +38,13 @@ impl Recorder for Fits<'_> {
     }
 }
 
-/// Why it cannot be kept.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum KeepError {
-    #[error(transparent)]
-    Folder(#[from] FolderError),
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    #[error("{}", .0.told())]
-    Run(#[from] RunError<OutputError>),
-}
-
-/// Records a combination that finds room.
-struct Keeping<'a> {
-    recording: Recording<'a>,
-    fits: Fits<'a>,
-}
-
-impl Recorder for Keeping<'_> {
-    type Error = OutputError;
-
-    fn fits(&self, points: [usize; 2]) -> bool {
-        self.fits.fits(points)
-    }
-
-    fn begin(&mut self, solver: &Solver) -> Result<(), OutputError> {
-        self.recording.begin(solver)
-    }
-
-    fn load(&mut self, load: Load) {
-        self.recording.load(load);
-    }
-
-    fn clock(&self) -> Option<f64> {
-        self.recording.clock()
-    }
-
-    fn stresses(&mut self) {
-        self.recording.stresses();
-    }
-
-    fn step(&mut self, step: &Step, record: &StepRecord, field: Option<&StressField>) -> Result<(), OutputError> {
-        self.recording.step(step, record, field)
-    }
-}
-
-/// Solves a case into `folder`, as `percoat solve --no-pictures` does.
-pub(super) fn keep(case: &Case, folder: &Path, fits: Fits<'_>) -> Result<Ended, KeepError> {
+/// Solves a case into `folder`, as `percoat solve --no-pictures` does. The error is the reason of a failed combination.
+pub(super) fn keep(case: &Case, folder: &Path, allowed: Allowed) -> Result<Ended, Box<dyn Error>> {
     let (clock, run) = (Clock::start(), case.run());
     let claim = RunFolder::claim(folder, solved_plan(case, run.loads.len(), true))?;
-    let recording = Recording::new(&claim, &run, case.to_toml(), clock);
-    let mut keeping = Keeping { recording, fits };
-    let outcome = run.solve(&mut keeping)?;
-    let (_, mut clock) = keeping.recording.finish()?;
+    let mut recording = Recording::new(&claim, &run, case.to_toml(), clock).within(allowed);
+    let outcome = run.solve(&mut recording).map_err(|error| error.told())?;
+    let (_, mut clock) = recording.finish()?;
     let warnings = [outcome.warnings.clone(), plausibility::of_case(case)].concat();
     write_scalars(&claim.staging(), case, &outcome, &warnings, clock.timing())?;
     claim.publish()?;

@@ -1,17 +1,17 @@
-//! `sweep.jsonl`: every combination that is done, one line each, appended when it is.
+//! `sweep.jsonl`: a line for every combination that is done, appended when it ends.
 //!
-//! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
-//! A line says which sweep it is of and ends with a [checksum](crate::output::with_checksum): one that is not as it was written is no row.
+//! However the sweep ends, every line with an end is whole; the beginning of one more is cut off when the sweep goes on. A line
+//! has the identity of its sweep and a [checksum](crate::output::with_checksum): one that is not as it was written is no row.
 
 use super::row::Row;
-use crate::output::{LineLog, OutputError, SWEEP_LOG as LOG, whole_lines, with_checksum, without_checksum};
+use crate::output::{LineLog, OutputError, SWEEP_LOG as LOG, disk, whole_lines, with_checksum, without_checksum};
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::fmt;
 use std::io;
 use std::path::Path;
 
-/// The log of a sweep that goes on.
+/// The log of an unfinished sweep.
 #[derive(Debug)]
 pub struct Log {
     lines: LineLog,
@@ -19,7 +19,7 @@ pub struct Log {
     sweep: String,
 }
 
-/// A line: the row, and of which sweep it is.
+/// A line: the row, and the identity of its sweep.
 #[derive(Serialize, Deserialize)]
 struct Line<R> {
     sweep: String,
@@ -30,7 +30,7 @@ struct Line<R> {
 /// A row that is as it was written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Logged {
-    /// The line on which it stands, from 1.
+    /// Number of its line, from 1.
     pub line: usize,
     /// The [identity](super::Description::identity) of its sweep.
     pub sweep: String,
@@ -38,12 +38,12 @@ pub struct Logged {
     pub row: Row,
 }
 
-/// A line that is no row of a sweep, or no longer one.
+/// A line that is not as a sweep wrote it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damage {
-    /// Which, from 1.
+    /// Number of the line, from 1.
     pub line: usize,
-    /// What is the matter with it.
+    /// Its damage.
     pub reason: String,
 }
 
@@ -54,11 +54,11 @@ impl fmt::Display for Damage {
 }
 
 impl Log {
-    /// Begins the log of a sweep of this [identity](super::Description::identity) in a folder, with the rows that are known already.
-    /// The file is there from the first row on.
+    /// Begins the log of a sweep of this [identity](super::Description::identity) in a folder, with the `known` rows. The file is
+    /// made with the first row.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// [`OutputError`] with the path.
     pub fn begin(folder: &Path, sweep: &str, known: &[Row]) -> Result<Self, OutputError> {
         let lines = known.iter().map(|row| line(sweep, row)).collect();
         let mut log = Self { lines: LineLog::after(folder.join(LOG), lines), sweep: sweep.to_owned() };
@@ -71,7 +71,7 @@ impl Log {
     /// Appends a combination.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// [`OutputError`] with the path.
     pub fn add(&mut self, row: &Row) -> Result<(), OutputError> {
         self.lines.add(&line(&self.sweep, row))
     }
@@ -83,12 +83,13 @@ fn line(sweep: &str, row: &Row) -> String {
     with_checksum(&line.expect("a row is numbers and texts under names")) + "\n"
 }
 
-/// The whole lines of a log: rows, or what is the matter with them. Of a combination that stands there twice no line is a row.
+/// The whole lines of a log, each a row or its damage; none without a file, as of a sweep that was killed before its first
+/// combination. Of a combination that stands on two lines neither is a row.
 ///
 /// # Errors
-/// When it cannot be read.
+/// When the file cannot be read.
 pub fn read(path: &Path) -> io::Result<Vec<Result<Logged, Damage>>> {
-    let whole = whole_lines(path)?;
+    let whole = if matches!(disk::found(path), Ok(None)) { Vec::new() } else { whole_lines(path)? };
     let mut lines: Vec<Result<Logged, Damage>> = (1..).zip(&whole).map(|(number, line)| logged(number, line)).collect();
     let mut first: HashMap<usize, usize> = HashMap::new();
     for at in 0..lines.len() {
@@ -117,25 +118,16 @@ fn logged(line: usize, text: &str) -> Result<Logged, Damage> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::examples::step;
+    use super::super::examples::{self, step};
     use super::super::result::SweepResult;
     use super::super::row::Status;
     use super::*;
-    use crate::output::Files;
     use std::io::Write;
 
     fn row(combination: usize) -> Row {
-        Row {
-            combination,
-            settings: vec![("a.b".to_owned(), "0.1".to_owned())],
-            fingerprint: "00".to_owned(),
-            status: Status::Done,
-            reason: None,
-            warnings: vec!["thin".to_owned()],
-            results: vec![SweepResult::Step(Box::new(step(0.1 + 0.2, None, 0.5)))],
-            seconds: 1.5,
-            files: Files::default(),
-        }
+        let results = vec![SweepResult::Step(Box::new(step(0.1 + 0.2, None, 0.5)))];
+        let row = examples::row(combination, &[("a.b", "0.1".to_owned())], results);
+        Row { warnings: vec!["thin".to_owned()], seconds: 1.5, ..row }
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! What the cases and results of combinations take in memory until the table is made.
+//! Memory of the cases and results of combinations until the table is made.
 //!
 //! Measured: rows of one step of three levels, 115 scalars, take 28.5 kB each at the peak, when the table is made, and rows of
-//! layers with strengths as much a scalar. All rows stay until the sweep ends.
+//! layers with strengths as much for each scalar. All rows stay until the sweep ends.
 
 use super::task::Task;
 use crate::case::Case;
@@ -9,7 +9,7 @@ use crate::reading::Criterion;
 
 /// Bytes of a scalar of a result, with its name.
 const SCALAR: u64 = 256;
-/// Scalars of a load step, of each of its levels, of a place where a stress is largest or a criterion is nearest to its limit.
+/// Scalars of a load step, of each of its levels, and of each place where a stress or utilisation is largest.
 const STEP: usize = 32;
 const LEVEL: usize = 28;
 const PEAK: usize = 11;
@@ -19,7 +19,7 @@ const PEAK: usize = 11;
 const CASE: u64 = 4 << 10;
 const PART: u64 = 256;
 
-/// Bytes of the case and the results of a combination, about.
+/// Estimated bytes of the case and the results of a combination.
 pub(super) fn of_results(case: &Case, task: Task) -> u64 {
     let half_space = case.half_space();
     let criteria = Criterion::all(half_space).len();

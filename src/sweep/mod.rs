@@ -1,11 +1,11 @@
 //! Studies: one case, solved for many settings of its keys.
 //!
-//! [`Axis`] says which values a key takes, [`Group`] which keys change together, [`Combinations`] makes every combination of
-//! the groups, a [`Study`] solves them, and a [`Row`] says what is known of one that is done. Small grids are solved several
-//! at once, large ones one after another by all threads; the rows are the same, bit for bit.
+//! An [`Axis`] is a key with its values, a [`Group`] has keys that change together, [`Combinations`] are all combinations of
+//! the groups, a [`Study`] solves them, and a [`Row`] has the results of one. Small grids are solved several at once, large
+//! ones one after another by all threads; the rows are the same, bit for bit.
 //!
-//! A row is kept in a [`Log`] as soon as it is done. Whoever goes on after a kill gives the study the rows of the log: those
-//! of the same case, told by a fingerprint, are not solved again. A line of the log that is not as it was written is no row.
+//! A [`Log`] holds each row from the moment its combination is done. After a kill, [`Study::known`] reads it: combinations whose
+//! case has the fingerprint of a row are not solved again. A line of the log that is not as it was written is no row.
 
 mod axis;
 mod combinations;

@@ -10,7 +10,7 @@ use std::collections::btree_map::Entry;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a part is none, or not of the same sweep as another.
+/// Why a folder is no part of a sweep, or two are not of the same one.
 #[derive(Debug, thiserror::Error)]
 pub enum PartError {
     /// A file cannot be read.
@@ -18,7 +18,7 @@ pub enum PartError {
     Input {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         error: io::Error,
     },
     /// A file is not as the sweep has written it.
@@ -26,25 +26,25 @@ pub enum PartError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is the matter with it.
+        /// Its damage.
         reason: String,
     },
-    /// Two places say different things of one combination.
+    /// Two parts have different results of one combination.
     #[error(
         "{first} and {second} have different results of {named}: they are not parts of one sweep, or were solved by \
          processors of different kinds, which differ in the last digits; give one of both"
     )]
     Unlike {
-        /// A log and its line.
+        /// Log and line of one of them.
         first: String,
-        /// Another.
+        /// Log and line of the other.
         second: String,
-        /// The combination.
+        /// Number and settings of the combination.
         named: String,
     },
 }
 
-/// What can be done about a part that is damaged.
+/// The advice on a damaged file.
 fn advice(path: &Path) -> &'static str {
     let is_begun = path.parent().is_some_and(|place| place.ends_with(UNFINISHED));
     if is_begun {
@@ -54,21 +54,21 @@ fn advice(path: &Path) -> &'static str {
     }
 }
 
-/// Where a sweep that is not finished stands.
+/// Folder of a sweep that is not finished, in the folder of its result.
 pub const UNFINISHED: &str = "unfinished-sweep";
 
-/// A part of a sweep that stands in a place, finished or not.
+/// A part of a sweep in a folder, finished or not.
 #[derive(Debug)]
 pub struct Part {
-    /// What it says of the whole.
+    /// The content of its `sweep.json`.
     pub description: Description,
     log: PathBuf,
     lines: Vec<Logged>,
 }
 
 impl Part {
-    /// The part in a place, if there is one. Every line of its log must be as it was written and of the sweep that the part
-    /// says it is of; a part that is finished has as many as it says.
+    /// The part in a folder; `None` without `sweep.json`. Every line of its log must be as it was written and of the sweep of
+    /// `sweep.json`, which for a finished part also has the number of lines.
     ///
     /// # Errors
     /// [`PartError`] with the file, and its line.
@@ -82,11 +82,7 @@ impl Part {
         let bytes = disk::read(&path).map_err(|error| input(&path, error))?;
         let description: Description = serde_json::from_slice(&bytes)
             .map_err(|error| damaged(&path, format!(" is no description of a sweep: {error}")))?;
-        // A part that was killed before its first combination has no log.
-        let lines = match disk::found(&log) {
-            Ok(None) => Vec::new(),
-            _ => read(&log).map_err(|error| input(&log, error))?,
-        };
+        let lines = read(&log).map_err(|error| input(&log, error))?;
         let (whole, identity) = (lines.len(), description.identity());
         let line = |own: Result<Logged, Damage>| {
             let own = own.map_err(|damage| damaged(&log, format!(", {damage}")))?;
@@ -110,9 +106,7 @@ impl Part {
         }
         Ok(Some(Self { description, log, lines }))
     }
-}
 
-impl Part {
     /// Its rows, by ascending number.
     pub fn rows(self) -> Vec<Row> {
         let mut rows: Vec<Row> = self.lines.into_iter().map(|own| own.row).collect();
@@ -121,10 +115,11 @@ impl Part {
     }
 }
 
-/// Rows of several parts, one a combination, by ascending number; and how many stood in two of them alike.
+/// Rows of several parts, one for each combination, by ascending number; and the number of combinations with equal results in
+/// two parts.
 ///
 /// # Errors
-/// [`PartError::Unlike`] where two parts say different things of one combination.
+/// [`PartError::Unlike`] where two parts have different results of one combination.
 pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
     let (mut rows, mut twice): (BTreeMap<usize, (String, Row)>, _) = (BTreeMap::new(), 0);
     for Part { log, lines, .. } in parts {
@@ -135,7 +130,7 @@ pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
                 Entry::Occupied(mut there) => {
                     let (first, own) = there.get();
                     let is_same_case = own.fingerprint == row.fingerprint && own.settings == row.settings;
-                    // What was solved twice is the same, unless one of them failed.
+                    // Two solutions have the same results, unless one of them failed.
                     let is_alike = own.results.is_empty() || row.results.is_empty() || own.results == row.results;
                     if !is_same_case || !is_alike {
                         let (first, named) = (first.clone(), row.named());

@@ -1,10 +1,11 @@
-//! A power cut at any moment of a sweep that keeps fields leaves what a kill leaves: what its log names is there, and whole.
+//! After a power cut at any moment of a sweep with fields, the files that its log names are there and whole.
 
+use super::Log;
+use super::examples::product;
 use super::log::read;
 use super::row::Row;
 use super::study::{Study, folder_of};
 use super::task::Task;
-use super::{Axis, Combinations, Group, Log};
 use crate::case::embedded;
 use crate::machine::Capacity;
 use crate::output::journal::Journal;
@@ -12,13 +13,12 @@ use crate::output::{OutputError, Plan, RunFolder, SWEEP_LOG, Writer};
 use std::collections::HashSet;
 use std::path::Path;
 
-/// Whatever of the changes has come to the disk.
+/// For every part of the changes that may have come to the disk.
 #[test]
 fn after_a_power_cut_the_fields_of_every_combination_of_the_log_are_whole() {
     let source = embedded::source("fig2").unwrap();
     let fixed = ["grid.points=16".to_owned()];
-    let axis = Axis::parse("layers.0.poisson=0.1,0.2,0.3").unwrap();
-    let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
+    let combinations = product(&["layers.0.poisson=0.1,0.2,0.3"]);
     let room = Capacity { memory: 1 << 30, disk: u64::MAX };
     let study = Study::new(&source, &fixed, &combinations, Task::Solve, room).unwrap().keeping_fields();
     let place = tempfile::tempdir().unwrap();

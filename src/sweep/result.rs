@@ -1,4 +1,4 @@
-//! What a combination results in: load steps, or limit loads; and what tables, pictures and the report show of it.
+//! A result of a combination: a load step, or the limit loads; and its numbers for tables, pictures and the report.
 
 use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
@@ -13,33 +13,33 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SweepResult {
-    /// One of its load steps, without the time it took.
+    /// One of its load steps, without the time of its solution.
     Step(Box<StepRecord>),
     /// The limit load of each criterion.
     Limits(Vec<Limit>),
 }
 
-/// What comes first: in a search for limit loads the first criterion that is reached, under a load the one that governs.
+/// The first criterion that is reached in a search for limit loads, or the governing one under a load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Foremost {
     /// This criterion.
     Criterion(Criterion),
-    /// No criterion is reached, and by the errors some may be.
+    /// No criterion is reached, and some may be within the errors.
     Undecided,
     /// Nothing fails.
     Nothing,
 }
 
-/// What is known of a limit, a mean pressure.
+/// A limit, or a bound of it; mean pressures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LimitValue {
     /// The limit and its error.
     At(f64, Option<f64>),
-    /// It is reached below this load, the least one that the grid resolves.
+    /// The limit is below this load, the smallest one that the grid resolves.
     Below(f64),
-    /// It is not reached up to this load.
+    /// The limit is not reached up to this load.
     Above(f64),
-    /// By its error it may be reached.
+    /// The limit may be reached within its error.
     Undecided,
 }
 
@@ -51,20 +51,20 @@ pub type Measured = (f64, Option<f64>);
 pub struct Scalar {
     /// Its name in tables.
     pub name: &'static str,
-    /// What it is measured in.
+    /// The kind of its unit.
     pub kind: Kind,
-    /// Its value and error; `None` where the step does not have it, or it is infinite.
+    /// Its value and error; `None` where the step has none, or an infinite one.
     pub of: fn(&StepRecord) -> Option<Measured>,
 }
 
-/// What a scalar is measured in.
+/// The kind of a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A pressure.
     Pressure,
     /// A length.
     Length,
-    /// A part of a whole.
+    /// A fraction.
     Part,
 }
 
@@ -109,8 +109,8 @@ impl SweepResult {
         }
     }
 
-    /// What is known of the first limit, or of that of a criterion. Where nothing is reached first, by the errors something may
-    /// be, or `None`.
+    /// Value or bound of the first limit, or of that of a criterion. Where no limit comes first: undecided if one may within the
+    /// errors, else `None`.
     pub fn limit_value(&self, of: Option<Criterion>) -> Option<LimitValue> {
         match self.limit(of) {
             Some(limit) => Some(limit.into()),
@@ -118,7 +118,7 @@ impl SweepResult {
         }
     }
 
-    /// What comes first; `None` of a load step without strengths.
+    /// The criterion that comes first; `None` of a load step without strengths.
     pub fn foremost(&self) -> Option<Foremost> {
         match self {
             Self::Step(step) => step.governing.as_ref().map(|governing| Foremost::Criterion(governing.criterion)),
@@ -162,7 +162,7 @@ impl SweepResult {
         let named = limits.iter().map(|limit| {
             let mut keys = json!(limit);
             if let Some(keys) = keys.as_object_mut() {
-                // They stand in the names of the columns.
+                // The names of the columns have them.
                 ["criterion", "material", "interface", "name"].iter().for_each(|key| drop(keys.shift_remove(*key)));
             }
             json!({ limit.criterion.code().replace(' ', "_"): keys })
@@ -172,7 +172,7 @@ impl SweepResult {
 }
 
 impl Foremost {
-    /// What comes first in any of the results, the most frequent first, with how often it does.
+    /// What comes first in each of the results, with the number of results; the most frequent first.
     pub fn counted<'a>(results: impl Iterator<Item = &'a SweepResult>) -> Vec<(Self, usize)> {
         let mut counts: BTreeMap<Self, usize> = BTreeMap::new();
         results.filter_map(SweepResult::foremost).for_each(|own| *counts.entry(own).or_default() += 1);
@@ -204,7 +204,7 @@ impl From<&Limit> for LimitValue {
     }
 }
 
-/// As a table has it: 0.007 ± 0.003, < 0.01 or > 2.
+/// As in tables: 0.007 ± 0.003, < 0.01 or > 2.
 impl fmt::Display for LimitValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {

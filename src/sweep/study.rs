@@ -1,12 +1,13 @@
-//! A sweep: which combinations are solved, how many at once, and what comes out.
+//! A sweep: every combination is read and checked before the first is solved, and ends as a row.
 
 use super::combinations::{Combination, Combinations};
-use super::fields::{Fits, keep};
+use super::fields::{Scalars, keep};
 use super::memory::of_results;
 use super::row::{Ended, Row};
 use super::task::Task;
 use super::workers;
-use crate::case::resources::{Job, needs, refusal};
+use crate::case::feasibility::Allowed;
+use crate::case::resources::{Job, needs};
 use crate::case::{Case, CaseError, Source};
 use crate::machine::{Capacity, bytes};
 use crate::output::{self, COMBINATIONS, solved_plan};
@@ -18,58 +19,57 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// Samples of the largest grid of which several combinations are solved at once, each by one thread. On larger ones all
-/// threads work on one combination after another: what several have in memory no longer fits the caches.
+/// Samples of the largest grid on which several combinations are solved at once, each by one thread. On larger grids all
+/// threads solve one combination after another: the memory of several does not fit the caches.
 const SMALL: usize = 256 * 256;
 
-/// Kinds of combinations of which one each is read before all are.
+/// Largest number of kinds of combinations for which memory is estimated from one combination each, before all are read.
 const KINDS: usize = 64;
 
-/// Why no combination can be solved.
+/// Why a sweep cannot be solved.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// Its case is refused.
+    /// The case of its first combination is refused.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// What it asks for is.
+    /// Its first combination cannot be solved, or all together take too much memory.
     #[error("{0}")]
     Refused(String),
 }
 
-/// A sweep that is checked and can begin.
+/// A sweep whose combinations are read and checked.
 #[derive(Debug)]
 pub struct Study<'a> {
     source: &'a Source,
-    /// What all combinations set, `KEY=VALUE`.
+    /// Settings of all combinations, `KEY=VALUE`.
     fixed: &'a [String],
     pub(super) combinations: &'a Combinations,
     task: Task,
     room: Capacity,
     pub(super) keeps_fields: bool,
     stop: Arc<AtomicBool>,
-    pub(super) planned: Vec<Planned>,
+    pub(super) planned: Vec<Planned<'a>>,
 }
 
 /// A combination before it is solved.
 #[derive(Debug)]
-pub(super) struct Planned {
-    /// Its index among the combinations.
-    pub(super) index: usize,
+pub(super) struct Planned<'a> {
+    pub(super) combination: &'a Combination,
     pub(super) fingerprint: String,
-    /// What solving it takes, bytes.
+    /// Memory of its solution, bytes.
     memory: u64,
     is_small: bool,
-    /// What it leaves when its fields are kept.
+    /// Names of its files where fields are kept.
     pub(super) files: Vec<String>,
-    /// Its case; `None` where it is refused, and of a topography, whose heights are read again when it is solved.
+    /// Its case; `None` where it is refused, and for a topography, whose heights are read again for the solution.
     case: Option<Box<Case>>,
 }
 
 impl<'a> Study<'a> {
-    /// Reads the case of every combination. Those that are refused are rows like any other, unless all are.
+    /// Reads the case of every combination. A refused combination ends as a failed row, unless all are refused.
     ///
     /// # Errors
-    /// [`StudyError`] of the first combination, when every one is refused.
+    /// [`StudyError`] of the first combination where every one is refused, or where memory does not suffice for all results.
     pub fn new(
         source: &'a Source,
         fixed: &'a [String],
@@ -81,17 +81,17 @@ impl<'a> Study<'a> {
         let mut study = Self { source, fixed, combinations, task, room, keeps_fields: false, stop, planned };
         study.has_room_for(study.foreseen())?;
         let (mut first, mut results) = (None, 0);
-        for (index, combination) in combinations.all.iter().enumerate() {
+        for combination in &combinations.all {
             let case = study.case(combination).map_err(StudyError::from);
             let planned = match case.and_then(|case| study.check(&case).map(|()| case)) {
                 Ok(case) => {
                     results += of_results(&case, task);
-                    study.planned(index, case)
+                    study.planned(combination, case)
                 }
                 Err(error) => {
                     first.get_or_insert(error);
                     let (fingerprint, files) = (String::new(), Vec::new());
-                    Planned { index, fingerprint, memory: 0, is_small: true, files, case: None }
+                    Planned { combination, fingerprint, memory: 0, is_small: true, files, case: None }
                 }
             };
             study.planned.push(planned);
@@ -105,14 +105,14 @@ impl<'a> Study<'a> {
     }
 
     /// A combination whose case is allowed.
-    fn planned(&self, index: usize, case: Case) -> Planned {
+    fn planned(&self, combination: &'a Combination, case: Case) -> Planned<'a> {
         let points = match case.grid {
             Sampling::Points(points) => Some(points),
-            // How far it goes is not known.
+            // The last grid is not known.
             Sampling::Accuracy(_) => None,
         };
         Planned {
-            index,
+            combination,
             fingerprint: output::fingerprint(&case, &format!("{:?}", self.task)),
             memory: points.map_or(self.room.memory, |points| needs(&case, points, self.job()).memory),
             is_small: points.is_some_and(|[n1, n2]| n1 * n2 <= SMALL),
@@ -121,7 +121,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Bytes of the results of all combinations, by their number and the case of one of each kind; 0 where that says nothing.
+    /// Bytes of the results of all combinations, estimated from one case of each kind; 0 for more than [`KINDS`] kinds.
     fn foreseen(&self) -> u64 {
         let kinds = self.combinations.kinds(KINDS).unwrap_or_default();
         let of_kind = |(combination, count): &(&Combination, usize)| {
@@ -130,7 +130,7 @@ impl<'a> Study<'a> {
         kinds.iter().map(of_kind).fold(0, u64::saturating_add)
     }
 
-    /// Refuses results that memory does not hold.
+    /// Refuses results for which memory does not suffice.
     fn has_room_for(&self, results: u64) -> Result<(), StudyError> {
         if results <= self.room.memory {
             return Ok(());
@@ -143,12 +143,12 @@ impl<'a> Study<'a> {
         )))
     }
 
-    /// Keeps the fields of every combination, as a solved case in `combinations/NNNN`.
+    /// The same with the fields of every combination kept, as a solved case in `combinations/NNNN`.
     pub fn keeping_fields(self) -> Self {
         Self { keeps_fields: true, ..self }
     }
 
-    /// Ends what is being solved, between two iterations, as soon as `stop` is true; its rows are failures.
+    /// The same, where combinations without fields fail at their next iteration once `stop` is true.
     pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Self {
         Self { stop, ..self }
     }
@@ -157,21 +157,21 @@ impl<'a> Study<'a> {
     pub fn files(&self) -> Vec<String> {
         let kept = self.planned.iter().filter(|_| self.keeps_fields);
         kept.flat_map(|planned| {
-            let folder = folder_of(self.combinations.all[planned.index].number);
+            let folder = folder_of(planned.combination.number);
             planned.files.iter().map(move |name| format!("{folder}/{name}"))
         })
         .collect()
     }
 
-    /// How many combinations are solved at once by `threads`.
+    /// Number of combinations that `threads` solve at once.
     pub fn workers(&self, threads: usize) -> usize {
         let small = self.planned.iter().filter(|planned| planned.is_small);
         let memory = small.map(|planned| planned.memory).max().unwrap_or(0).max(1);
         usize::try_from(self.room.memory / memory).unwrap_or(usize::MAX).min(threads).max(1)
     }
 
-    /// Solves every combination whose number is not among the `known` ones; `done` receives the row of each when it ends. Fields that are kept
-    /// are gathered in `folder`.
+    /// Solves every combination whose number is not among the `known` ones; `done` receives the row of each when it ends.
+    /// Kept fields are gathered in `folder`.
     ///
     /// # Errors
     /// Those of `done`.
@@ -181,7 +181,7 @@ impl<'a> Study<'a> {
         folder: &Path,
         mut done: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let is_known = |planned: &&Planned| known.contains(&self.combinations.all[planned.index].number);
+        let is_known = |planned: &&Planned| known.contains(&planned.combination.number);
         let pending = self.planned.iter().filter(|planned| !is_known(planned));
         let (small, large): (Vec<&Planned>, Vec<&Planned>) = pending.partition(|planned| planned.is_small);
         let workers = self.workers(rayon::current_num_threads());
@@ -190,7 +190,7 @@ impl<'a> Study<'a> {
         workers::each(&large, 1, |planned| self.row(planned, folder, self.room), &mut done)
     }
 
-    /// Refuses what cannot be solved before it is tried.
+    /// Refuses a case that cannot be solved.
     fn check(&self, case: &Case) -> Result<(), StudyError> {
         let run = case.run();
         let possible = match self.task {
@@ -198,7 +198,7 @@ impl<'a> Study<'a> {
             Task::Limit => run.check_limits(),
         };
         possible.map_err(|error| StudyError::Refused(error.to_string()))?;
-        refusal(case, self.room, self.job()).map_or(Ok(()), |why| Err(StudyError::Refused(why)))
+        Allowed::within(case, self.room, self.job()).map(drop).map_err(StudyError::Refused)
     }
 
     pub(super) fn settings(&self, combination: &Combination) -> Vec<(String, String)> {
@@ -217,8 +217,8 @@ impl<'a> Study<'a> {
     }
 
     fn row(&self, planned: &Planned, folder: &Path, room: Capacity) -> Row {
-        let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
-        // One combination that brings the program down leaves the others as they are.
+        let (combination, started) = (planned.combination, Instant::now());
+        // A panic fails this combination alone.
         let ended = catch_unwind(AssertUnwindSafe(|| self.ended(planned, folder, room)));
         let Ended { status, reason, warnings, results, files } =
             ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
@@ -236,11 +236,10 @@ impl<'a> Study<'a> {
     }
 
     fn ended(&self, planned: &Planned, folder: &Path, room: Capacity) -> Ended {
-        let combination = &self.combinations.all[planned.index];
         let read;
         let case = match &planned.case {
             Some(case) => case,
-            None => match self.case(combination) {
+            None => match self.case(planned.combination) {
                 Ok(case) => {
                     read = case;
                     &read
@@ -248,20 +247,21 @@ impl<'a> Study<'a> {
                 Err(error) => return Ended::failed(error.message()),
             },
         };
-        if let Some(why) = refusal(case, room, self.job()) {
-            return Ended::failed(why);
-        }
-        let mut fits = Fits { case, job: self.job(), room, stop: &self.stop };
+        let allowed = match Allowed::within(case, room, self.job()) {
+            Ok(allowed) => allowed,
+            Err(why) => return Ended::failed(why),
+        };
+        let mut scalars = Scalars { allowed, stop: &self.stop };
         match (self.task, self.keeps_fields) {
             (Task::Solve, true) => {
-                let folder = folder.join(folder_of(combination.number));
-                keep(case, &folder, fits).unwrap_or_else(|error| Ended::failed(error.to_string()))
+                let folder = folder.join(folder_of(planned.combination.number));
+                keep(case, &folder, allowed).unwrap_or_else(|error| Ended::failed(error.to_string()))
             }
-            (Task::Solve, false) => match case.run().solve(&mut fits) {
+            (Task::Solve, false) => match case.run().solve(&mut scalars) {
                 Ok(outcome) => Ended::solved(&outcome, case),
                 Err(error) => Ended::failed(error.told()),
             },
-            (Task::Limit, _) => match case.run().limits(&mut fits) {
+            (Task::Limit, _) => match case.run().limits(&mut scalars) {
                 Ok(limits) => Ended::limited(&limits, case),
                 Err(error) => Ended::failed(error.told()),
             },
@@ -269,14 +269,14 @@ impl<'a> Study<'a> {
     }
 }
 
-/// Where a combination keeps its fields.
+/// Folder of the fields of a combination, relative to that of the result.
 pub(super) fn folder_of(number: usize) -> String {
     format!("{COMBINATIONS}/{number:04}")
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Axis, Group};
+    use super::super::examples::product;
     use super::*;
     use crate::case::embedded;
 
@@ -284,8 +284,7 @@ mod tests {
     fn results_that_take_more_memory_than_there_is_are_refused() {
         let source = embedded::source("fig2").unwrap();
         let fixed = ["grid.points=32", "load.mean_pressure={ from = 0.01, to = 0.06, steps = 500 }"].map(str::to_owned);
-        let axis = Axis::parse("layers.0.poisson=0.1:0.4:20").unwrap();
-        let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
+        let combinations = product(&["layers.0.poisson=0.1:0.4:20"]);
         // 20 × 500 steps of three levels, 30 kB each, beside what a case takes.
         let study = |mebibytes: u64| {
             let room = Capacity { memory: mebibytes << 20, disk: u64::MAX };
@@ -313,8 +312,7 @@ mod tests {
             &["layers.0.poisson=0.1:0.4:100000", "stress={},{ planes = [0.1] }"],
         ] {
             let fixed = ["load.mean_pressure={ from = 0.01, to = 0.06, steps = 2 }".to_owned()];
-            let groups: Vec<Group> = axes.iter().map(|text| Group::of(&Axis::parse(text).unwrap())).collect();
-            let combinations = Combinations::product(&groups).unwrap();
+            let combinations = product(axes);
             assert!(combinations.kinds(KINDS).is_some_and(|kinds| kinds.len() <= 4), "{axes:?}");
             let unplanned = Study {
                 source: &source,
@@ -333,15 +331,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_being_solved_ends_when_nobody_waits_for_it() {
+    fn a_stopped_study_ends_with_failed_combinations() {
         let source = embedded::source("fig2").unwrap();
-        let fixed = ["grid.points=48".to_owned()];
-        let axis = Axis::parse("layers.0.poisson=0.1,0.2,0.3").unwrap();
-        let combinations = Combinations::product(&[Group::of(&axis)]).unwrap();
+        let combinations = product(&["layers.0.poisson=0.1,0.2,0.3"]);
         let room = Capacity { memory: 1 << 30, disk: u64::MAX };
         for task in [Task::Solve, Task::Limit] {
             // Limits need strengths.
-            let fixed = [&fixed[..], &["layers.0.yield_strength=1".to_owned()]].concat();
+            let fixed = ["grid.points=48", "layers.0.yield_strength=1"].map(str::to_owned);
             let study = Study::new(&source, &fixed, &combinations, task, room).unwrap();
             let stop = Arc::new(AtomicBool::new(true));
             let (study, mut reasons) = (study.stopped_by(Arc::clone(&stop)), Vec::new());

@@ -1,14 +1,14 @@
-//! What a sweep does with its combinations.
+//! The task of a sweep.
 
 use serde::{Deserialize, Serialize};
 
-/// What is done with every combination.
+/// The task for every combination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Task {
-    /// Its load steps are solved.
+    /// Solve the load steps.
     Solve,
-    /// Its limit loads are looked for.
+    /// Search for the limit loads.
     Limit,
 }
 

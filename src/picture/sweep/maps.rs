@@ -16,75 +16,59 @@ use std::collections::BTreeMap;
 /// Numbers of more than this ratio have a logarithmic bar.
 const WIDE: f64 = 20.0;
 
-/// Where the values of a map stand, and what the map shows there; `None` where a combination is not.
+/// A value of each cell, the first key fastest; `None` where a combination has none.
 type Field<T> = Vec<Option<T>>;
+
+/// Words over the cells of a map, with their colours.
+type Signs = Field<(&'static str, Colour)>;
 
 impl Keys {
     /// A map of what comes first where limits are searched for, and one for each number.
     pub fn maps(&self, rows: &[Row], numbers: &[Number], caption: &str) -> Option<Canvas> {
-        let (along, up) = (&self.along, self.pair.as_ref()?);
-        let columns = along.1.len();
-        let [x, y] = [along, up].map(|(_, values)| Cells::new(values));
-        let cell = |[u, v]: [f64; 2]| y.at(v) * columns + x.at(u);
-        let map = |title: String, fill, over| {
-            let (x, y) = (x.axis(&self.names[along.0]), y.axis(&self.names[up.0]));
-            Map { title, x, y, aspect: 0.8, fill, over }
-        };
+        let plane = Plane::new(self)?;
         let counted = Foremost::counted(rows.iter().filter_map(|row| row.results.last()));
         let coloured = |(index, (first, _)): (usize, &(Foremost, usize))| (*first, colour(*first, index));
         let colours: BTreeMap<Foremost, Colour> = counted.iter().enumerate().map(coloured).collect();
         let firsts = self.field(rows, |result| colours.get(&result.foremost()?).copied());
-        let first = |place: [f64; 2]| firsts[cell(place)].unwrap_or(Colour::PALE);
-        let undecided = self.field(rows, |result| (!result.rivals().is_empty()).then_some(()));
-        let place = |at: usize| [x.values[at % columns], y.values[at / columns]];
-        let question = |(at, own): (usize, &Option<()>)| {
-            let ink = |colour: Colour| if colour.lightness() > 0.6 { Colour::BLACK } else { Colour::WHITE };
-            own.map(|()| Over::Word { word: "?".to_owned(), at: place(at), colour: ink(first(place(at))) })
-        };
-        let questions: Vec<Over> = undecided.iter().enumerate().filter_map(question).collect();
+        let first = |place: [f64; 2]| firsts[plane.cell(place)].unwrap_or(Colour::PALE);
+        let undecided = self.field(rows, |result| (!result.rivals().is_empty()).then_some("?"));
+        let question = |(word, first): (Option<_>, &Option<_>)| Some((word?, ink(first.unwrap_or(Colour::PALE))));
+        let questions = undecided.into_iter().zip(&firsts).map(question).collect();
         let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
         let what = if of_loads { "what governs" } else { "what comes first" };
         let names = counted.iter().map(|(first, count)| (colours[first], format!("{first} ({count})")));
         let first = (!counted.is_empty()).then(|| Named {
-            map: map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions),
+            map: plane.map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions),
             names: names.collect(),
         });
-        let fields: Vec<Field<f64>> = numbers
-            .iter()
-            .map(|shown| self.field(rows, |result| shown.value(result).filter(|value| value.is_finite())))
-            .collect();
-        let lookups: Vec<_> = fields.iter().map(|field| move |place: [f64; 2]| field[cell(place)]).collect();
+        let finite = |shown: &Number| self.field(rows, |result| shown.value(result).filter(|value| value.is_finite()));
+        let fields: Vec<Field<f64>> = numbers.iter().map(finite).collect();
+        let lookups: Vec<_> = fields.iter().map(|field| |place: [f64; 2]| field[plane.cell(place)]).collect();
         let maps = numbers.iter().zip(&fields).zip(&lookups).map(|((shown, field), value)| {
-            let values: Vec<f64> = field.iter().copied().flatten().collect();
-            let bar = bar(shown, &values);
-            let is_log = bar.scale == Scale::Log;
-            let bounds = self.field(rows, |result| shown.bound(result));
-            let doubts = self.field(rows, |result| shown.is_undecided(result).then_some(()));
-            let table = bar.colours.table();
-            let sign = |((value, bound), doubt): ((&Option<f64>, Option<Bound>), Option<()>)| match (value, bound) {
-                (None, Some(Bound::Below)) => Some(("<", Colour::BLACK)),
-                (None, Some(Bound::Above)) => Some((">", Colour::BLACK)),
-                (None, Some(Bound::Undecided)) => Some(("?", Colour::BLACK)),
-                // It has no place on the bar.
-                (Some(0.0), _) if is_log => Some(("0", Colour::WHITE)),
-                (Some(value), _) if doubt.is_some() => {
-                    let is_light = bar.colour(&table, *value).lightness() > 0.6;
-                    Some(("?", if is_light { Colour::BLACK } else { Colour::WHITE }))
-                }
-                _ => None,
-            };
-            let signs: Vec<_> = field.iter().zip(bounds).zip(doubts).map(sign).collect();
-            let signs = signs.into_iter().enumerate().filter_map(|(at, sign)| {
-                let (word, colour) = sign?;
-                Some(Over::Word { word: word.to_owned(), at: place(at), colour })
-            });
-            let signs = signs.collect();
-            let fill = Fill::Values(bar, value);
-            map(shown.quantity.text().to_owned(), fill, signs)
+            let bar = bar(shown, &field.iter().copied().flatten().collect::<Vec<_>>());
+            let signs = self.signs(rows, shown, field, &bar);
+            plane.map(shown.quantity.text().to_owned(), Fill::Values(bar, value), signs)
         });
         let maps: Vec<Map> = maps.collect();
         let panels = first.iter().map(|first| first as &dyn Panel).chain(maps.iter().map(|map| map as &dyn Panel));
         Some(sheet(caption, &panels.collect::<Vec<_>>()))
+    }
+
+    /// The words over a map of numbers: the bound where there is no number, 0 where a logarithmic bar has no place for it, and a
+    /// question mark where the errors leave it open.
+    fn signs(&self, rows: &[Row], shown: &Number, field: &[Option<f64>], bar: &Bar) -> Signs {
+        let bounds = self.field(rows, |result| shown.bound(result));
+        let doubts = self.field(rows, |result| shown.is_undecided(result).then_some(()));
+        let table = bar.colours.table();
+        let sign = |((value, bound), doubt): ((&Option<f64>, Option<Bound>), Option<()>)| match (value, bound) {
+            (None, Some(Bound::Below)) => Some(("<", Colour::BLACK)),
+            (None, Some(Bound::Above)) => Some((">", Colour::BLACK)),
+            (None, Some(Bound::Undecided)) => Some(("?", Colour::BLACK)),
+            (Some(0.0), _) if bar.scale == Scale::Log => Some(("0", Colour::WHITE)),
+            (Some(value), _) => doubt.map(|()| ("?", ink(bar.colour(&table, *value)))),
+            _ => None,
+        };
+        field.iter().zip(bounds).zip(doubts).map(sign).collect()
     }
 
     /// What the last results of the rows have, cell by cell: first the lowest row.
@@ -102,6 +86,11 @@ impl Keys {
         }
         field
     }
+}
+
+/// Black or white, whichever is seen on a colour.
+fn ink(ground: Colour) -> Colour {
+    if ground.lightness() > 0.6 { Colour::BLACK } else { Colour::WHITE }
 }
 
 /// The bar of a map whose title has the words: logarithmic where most of a linear one would be of one colour.
@@ -122,6 +111,40 @@ fn bar(shown: &Number, values: &[f64]) -> Bar {
     }
     let span = if low < high { [low, high] } else { [0.0, high.abs().max(1e-300)] };
     Bar { span, without: Colour::PALE, ..Bar::sequential(label, high) }
+}
+
+/// The cells over two keys.
+struct Plane<'a> {
+    axes: [Cells; 2],
+    names: [&'a str; 2],
+}
+
+impl<'a> Plane<'a> {
+    fn new(keys: &'a Keys) -> Option<Self> {
+        let both = [&keys.along, keys.pair.as_ref()?];
+        Some(Self {
+            axes: both.map(|(_, values)| Cells::new(values)),
+            names: both.map(|(index, _)| keys.names[*index].as_str()),
+        })
+    }
+
+    /// Index of the cell around a place, the first key fastest.
+    fn cell(&self, [u, v]: [f64; 2]) -> usize {
+        let [x, y] = &self.axes;
+        y.at(v) * x.values.len() + x.at(u)
+    }
+
+    /// A map with words over its cells.
+    fn map<'b>(&self, title: String, fill: Fill<'b>, signs: Signs) -> Map<'b> {
+        let ([x, y], [along, up]) = (&self.axes, self.names);
+        let word = |(at, sign): (usize, Option<(&str, Colour)>)| {
+            let (word, colour) = sign?;
+            let at = [x.values[at % x.values.len()], y.values[at / x.values.len()]];
+            Some(Over::Word { word: word.to_owned(), at, colour })
+        };
+        let over = signs.into_iter().enumerate().filter_map(word).collect();
+        Map { title, x: x.axis(along), y: y.axis(up), aspect: 0.8, fill, over }
+    }
 }
 
 /// The cells of an axis around its values.

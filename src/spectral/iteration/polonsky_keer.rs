@@ -73,8 +73,7 @@ pub(super) fn solve<O: ElasticOperator>(
         conjugate = joined == 0.0;
         unknowns.admit(load, problem.admissible);
         if (problem.progress)(Progress { iteration: iterations, residual: check.residual }).is_break() {
-            let Check { residual, .. } = Check::new(problem, unknowns);
-            return Report::new(Stop::Interrupted, Route::Baseline, iterations, residual);
+            return Report::new(Stop::Interrupted, Route::Baseline, iterations, Check::new(problem, unknowns).residual);
         }
     }
 }

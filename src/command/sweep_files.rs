@@ -1,0 +1,82 @@
+//! The result of a sweep, or of its parts joined: its files, picture and printed lines.
+
+use super::ending::{Ending, Failure};
+use super::pictures::PictureOptions;
+use super::plan::plan;
+use super::results::Results;
+use super::terminal;
+use crate::case::{Case, Source};
+use crate::output::{Plan, SWEEP_LOG, Writer};
+use crate::picture;
+use crate::sweep::{self, Description, Log, Row, Status};
+use crate::units::Units;
+use std::collections::HashSet;
+
+/// Files of the result, without those of single combinations.
+pub fn may_write(pictures: &PictureOptions) -> Plan {
+    plan(Writer::Sweep, &["sweep.csv", "sweep.json", SWEEP_LOG], pictures, &["sweep"])
+}
+
+/// Writes, publishes and prints the result with `rows` by ascending combination.
+pub fn finish(
+    results: Results,
+    rows: &[Row],
+    description: &Description,
+    pictures: &PictureOptions,
+) -> Result<Ending, Failure> {
+    let (staging, saying) = (results.staging(), results.saying);
+    // The log so far has the order in which combinations ended.
+    drop(Log::begin(&staging, &description.identity(), rows)?);
+    results.write("sweep.csv", &sweep::table(rows))?;
+    results.write("sweep.json", &description.to_json())?;
+    let text = description.case.clone();
+    let common = Source { name: "the common case".to_owned(), text, ..Source::default() };
+    let units = Case::read(&common, &[]).map_or_else(|_| Units::unknown(), |case| case.units());
+    pictures.write(&staging, "sweep", || picture::sweep(&description.title, &units, rows))?;
+    let warnings = if saying.json { Vec::new() } else { [warnings(rows), failures(rows)].concat() };
+    results.finish(|| description.to_json(), String::new, || counts(description), &warnings)?;
+    Ok(Ending::of(description.done == rows.len()))
+}
+
+/// Numbers of combinations by how they ended, and the wall time.
+fn counts(description: &Description) -> String {
+    let Description { done, combinations, not_converged, failed, timing, .. } = description;
+    let mut words = format!("{done} of {combinations} combinations done");
+    for (count, what) in [(not_converged, "not converged"), (failed, "failed")] {
+        if *count > 0 {
+            words += &format!(", {count} {what}");
+        }
+    }
+    format!("{words}; {:.2} s", timing.wall)
+}
+
+/// The reasons of combinations that failed or did not converge.
+fn failures(rows: &[Row]) -> Vec<String> {
+    let open = rows.iter().filter(|row| row.status != Status::Done);
+    let reason = |row: &Row| format!("{}: {}", row.named(), row.reason.as_deref().unwrap_or("not converged"));
+    terminal::first_five(open.map(reason).collect(), ", see the column `reason` of sweep.csv")
+}
+
+/// Each warning once, whatever its numbers, with the number of combinations that have it.
+fn warnings(rows: &[Row]) -> Vec<String> {
+    let mut counted: Vec<(String, &str, HashSet<usize>)> = Vec::new();
+    for (row, warning) in rows.iter().flat_map(|row| row.warnings.iter().map(move |warning| (row, warning))) {
+        let words = without_numbers(warning);
+        let at = counted.iter().position(|(own, ..)| *own == words).unwrap_or(counted.len());
+        if at == counted.len() {
+            counted.push((words, warning, HashSet::new()));
+        }
+        counted[at].2.insert(row.combination);
+    }
+    let of = rows.len();
+    let told = counted.iter().map(|(_, first, combinations)| match combinations.len() {
+        1 => format!("{first} (1 of {of})"),
+        count => format!("{first} (this or with other numbers in {count} of {of})"),
+    });
+    terminal::first_five(told.collect(), ", see the column `warnings` of sweep.csv")
+}
+
+/// A sentence without its words that have digits.
+fn without_numbers(text: &str) -> String {
+    text.split(' ').filter(|word| !word.contains(|letter: char| letter.is_ascii_digit())).collect::<Vec<_>>().join(" ")
+}
