@@ -6,6 +6,7 @@
 use super::row::Row;
 use crate::output::{LineLog, OutputError, SWEEP_LOG as LOG, disk, whole_lines, with_checksum, without_checksum};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::collections::HashMap;
 use std::fmt;
 use std::io;
@@ -110,10 +111,21 @@ pub fn read(path: &Path) -> io::Result<Vec<Result<Logged, Damage>>> {
 fn logged(line: usize, text: &str) -> Result<Logged, Damage> {
     let damage = |reason: String| Damage { line, reason };
     let object = without_checksum(text).map_err(|error| damage(error.to_string()))?;
-    let Line { sweep, row }: Line<Row> =
-        serde_json::from_str(&object).map_err(|error| damage(format!("it is no row of a sweep: {error}")))?;
+    let Line { sweep, row }: Line<Row> = serde_json::from_str(&object).map_err(|error| {
+        damage(if is_of_earlier_version(&object) {
+            "an earlier version of percoat wrote it, whose rows this one does not read".to_owned()
+        } else {
+            format!("it is no row of a sweep: {error}")
+        })
+    })?;
     row.checked().map_err(damage)?;
     Ok(Logged { line, sweep, row })
+}
+
+/// Whether a line has results without their kind, as versions before [`SweepResult`](super::SweepResult) wrote them.
+fn is_of_earlier_version(line: &str) -> bool {
+    let line: Value = serde_json::from_str(line).unwrap_or_default();
+    line["results"][0].as_object().is_some_and(|own| ["step", "limits"].iter().all(|kind| !own.contains_key(*kind)))
 }
 
 #[cfg(test)]
@@ -162,6 +174,7 @@ mod tests {
             (lines[1].replace("0.30000000000000004", "null"), &[2], "changed or damaged"),
             (unsigned, &[2], "no checksum"),
             (with_checksum("{\"steps\":3}") + "\n", &[2], "no row of a sweep"),
+            (with_checksum("{\"results\":[{\"penetration\":1}]}") + "\n", &[2], "an earlier version of percoat"),
             (lines[0].to_owned(), &[1, 2], "combination 1 stands on line"),
             (line("1-2", &failed), &[2], "has results"),
         ] {

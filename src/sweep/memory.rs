@@ -14,10 +14,12 @@ const STEP: usize = 32;
 const LEVEL: usize = 28;
 const PEAK: usize = 11;
 
-/// Bytes of a case that is kept from its reading to its solution, and of each of its layers and levels. Measured: 3.7 kB with one
-/// layer and three levels, 22 kB with a hundred sublayers.
+/// Bytes of a case that is kept until the sweep ends, and of each of its layers and levels. Measured: 3.7 kB with one layer and
+/// three levels, 22 kB with a hundred sublayers.
 const CASE: u64 = 4 << 10;
 const PART: u64 = 256;
+/// Bytes of a number in a list of a case, in its section and where it is used.
+const LISTED: u64 = 16;
 
 /// Estimated bytes of the case and the results of a combination.
 pub(super) fn of_results(case: &Case, task: Task) -> u64 {
@@ -33,6 +35,10 @@ pub(super) fn of_results(case: &Case, task: Task) -> u64 {
             case.load.values().len() * (STEP + LEVEL * case.counterbody().levels().len() + stress)
         }
     };
-    let parts = half_space.layers().len() + case.counterbody().levels().len();
-    CASE + PART * parts as u64 + SCALAR * scalars as u64
+    let sites: usize = case.levels.iter().flat_map(|level| &level.sites).map(Vec::len).sum();
+    let stress = case.stress.as_ref().map_or(0, |own| 3 * own.points.len() + own.planes.len());
+    let listed = 2 * sites + stress + case.load.values().len();
+    CASE + PART * (half_space.layers().len() + case.levels.len()) as u64
+        + LISTED * listed as u64
+        + SCALAR * scalars as u64
 }

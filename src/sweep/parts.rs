@@ -5,6 +5,7 @@ use super::row::Row;
 use super::table::Description;
 use crate::output::{SWEEP_LOG, disk, is_staging};
 use crate::plain;
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::io;
@@ -83,6 +84,9 @@ impl Part {
         let description: Description = serde_json::from_slice(&bytes)
             .map_err(|error| damaged(&path, format!(" is no description of a sweep: {error}")))?;
         let lines = read(&log).map_err(|error| input(&log, error))?;
+        if !is_staging(place) && description.combinations > 0 && matches!(disk::found(&log), Ok(None)) {
+            return Err(damaged(&log, ", which has the rows of the sweep, is missing".to_owned()));
+        }
         let (whole, identity) = (lines.len(), description.identity());
         let line = |own: Result<Logged, Damage>| {
             let own = own.map_err(|damage| damaged(&log, format!(", {damage}")))?;
@@ -130,8 +134,9 @@ pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
                 Entry::Occupied(mut there) => {
                     let (first, own) = there.get();
                     let is_same_case = own.fingerprint == row.fingerprint && own.settings == row.settings;
-                    // Two solutions have the same results, unless one of them failed.
-                    let is_alike = own.results.is_empty() || row.results.is_empty() || own.results == row.results;
+                    // Two solutions have the same results, unless one of them failed. In JSON a number that is none equals itself.
+                    let is_equal = || json!(own.results) == json!(row.results);
+                    let is_alike = own.results.is_empty() || row.results.is_empty() || is_equal();
                     if !is_same_case || !is_alike {
                         let (first, named) = (first.clone(), row.named());
                         return Err(PartError::Unlike { first, second: at, named });
@@ -145,4 +150,27 @@ pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
         }
     }
     Ok((rows.into_values().map(|(_, row)| row).collect(), twice))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::examples::{row, step};
+    use super::super::result::SweepResult;
+    use super::*;
+    use crate::spectral::Stop;
+
+    /// One row of a part, with one step.
+    fn logged(penetration: f64) -> Logged {
+        let mut own = step(0.2, None, 0.5);
+        (own.reading.penetration, own.stop) = (penetration, Stop::NotANumber);
+        Logged { line: 1, sweep: String::new(), row: row(1, &[], vec![SweepResult::Step(Box::new(own))]) }
+    }
+
+    #[test]
+    fn equal_results_are_joined_where_a_number_is_none() {
+        let description = || Description::new("", "", super::super::Task::Solve, String::new(), 1);
+        let part = |own| Part { description: description(), log: PathBuf::new(), lines: vec![own] };
+        assert_eq!(join(vec![part(logged(f64::NAN)), part(logged(f64::NAN))]).unwrap().1, 1);
+        assert!(join(vec![part(logged(f64::NAN)), part(logged(0.1))]).is_err());
+    }
 }

@@ -69,7 +69,7 @@ pub enum Kind {
 }
 
 /// The main scalars of a load step.
-pub const SCALARS: [Scalar; 7] = {
+pub static SCALARS: [Scalar; 7] = {
     use Kind::{Length, Part, Pressure};
     const fn scalar(name: &'static str, kind: Kind, of: fn(&StepRecord) -> Option<Measured>) -> Scalar {
         Scalar { name, kind, of }

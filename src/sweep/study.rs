@@ -86,6 +86,8 @@ impl<'a> Study<'a> {
             let planned = match case.and_then(|case| study.check(&case).map(|()| case)) {
                 Ok(case) => {
                     results += of_results(&case, task);
+                    let (read, all) = (study.planned.len() as u64 + 1, combinations.all.len() as u64);
+                    study.has_room_for(results / read * all)?;
                     study.planned(combination, case)
                 }
                 Err(error) => {

@@ -2,8 +2,7 @@
 
 use super::super::label::Label;
 use crate::reading::{Criterion, Verdict};
-use crate::run::StepRecord;
-use crate::sweep::{LimitValue, Row, SweepResult};
+use crate::sweep::{LimitValue, Row, SCALARS, Scalar, SweepResult};
 use crate::units::Units;
 
 /// A number of a result.
@@ -14,8 +13,8 @@ pub struct Number {
 
 /// Which number it is.
 enum Of {
-    /// A scalar of a load step.
-    Scalar(fn(&StepRecord) -> Option<f64>),
+    /// One of the main scalars of a load step.
+    Scalar(&'static Scalar),
     /// The largest utilisation of a load step.
     Utilisation,
     /// The first limit load, or that of a criterion.
@@ -34,14 +33,16 @@ pub enum Bound {
 }
 
 impl Number {
-    fn scalar(quantity: impl Into<Label>, of: fn(&StepRecord) -> Option<f64>) -> Self {
-        Self { quantity: quantity.into(), of: Of::Scalar(of) }
+    /// The one of [`SCALARS`] with this name.
+    fn scalar(quantity: impl Into<Label>, name: &str) -> Self {
+        let scalar = SCALARS.iter().find(|scalar| scalar.name == name).expect("the name of a scalar");
+        Self { quantity: quantity.into(), of: Of::Scalar(scalar) }
     }
 
     /// Its value; `None` where the result does not have it, or it is infinite.
     pub fn value(&self, result: &SweepResult) -> Option<f64> {
         match self.of {
-            Of::Scalar(of) => of(result.step()?),
+            Of::Scalar(scalar) => (scalar.of)(result.step()?).map(|(value, _)| value),
             Of::Utilisation => {
                 let values = result.step()?.strength.iter().map(|own| own.value);
                 values.filter(|value| value.is_finite()).reduce(f64::max)
@@ -92,13 +93,11 @@ pub fn numbers(units: &Units, rows: &[Row]) -> Vec<Number> {
     };
     let mut all = vec![
         limit("first limit", None),
-        Number::scalar(units.pressure_of("peak pressure", "p"), |step| step.reading.finite_peak()),
-        Number::scalar(units.length_of("penetration", "δ"), |step| Some(step.reading.penetration)),
-        Number::scalar("fraction in contact", |step| Some(step.reading.contact_fraction)),
+        Number::scalar(units.pressure_of("peak pressure", "p"), "peak pressure"),
+        Number::scalar(units.length_of("penetration", "δ"), "penetration"),
+        Number::scalar("fraction in contact", "contact"),
         Number { quantity: "largest utilisation".into(), of: Of::Utilisation },
-        Number::scalar(units.pressure_of("largest shear stress", "τ₁"), |step| {
-            step.stress.as_ref()?.materials.iter().filter_map(|own| own.tau1.finite()).reduce(f64::max)
-        }),
+        Number::scalar(units.pressure_of("largest shear stress", "τ₁"), "largest τ₁"),
     ];
     let limits = rows.iter().flat_map(|row| &row.results).next().and_then(SweepResult::limits).unwrap_or_default();
     all.extend(limits.iter().map(|own| limit(&own.criterion.to_string(), Some(own.criterion))));
