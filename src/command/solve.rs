@@ -57,7 +57,7 @@ pub fn run(case: Option<&Path>, set: &[String], options: &SolveOptions, common: 
         && !was_begun
         && let Some((ending, summary)) = finished(&case, &results.folder, steps, fields)
     {
-        results.claim.abandon()?;
+        terminal::tell_aside(results.claim.abandon()?.as_deref(), common.quiet);
         if !common.quiet {
             tell!("note: {} is finished; leave --resume out to solve it again", plain::path(&results.folder));
         }

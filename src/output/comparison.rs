@@ -155,3 +155,26 @@ impl From<&StressPair> for Stresses {
         Self { x, y, z, side, spectral: pair.spectral, localized: pair.localized }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::embedded;
+    use std::ops::ControlFlow;
+
+    #[test]
+    fn a_comparison_is_read_back_as_it_was_written() {
+        let coarse = ["grid.points=32", "localized={ indenters = [1, 4], elements = 6 }"].map(str::to_owned);
+        let case = Case::read(&embedded::source("fig2").unwrap(), &coarse).unwrap();
+        let mut comparison = case.comparison().compare([32, 32], &mut |_| ControlFlow::Continue(())).unwrap();
+        // As a file keeps the step: without what only the estimate of errors and pictures need.
+        comparison.spectral = serde_json::from_value(json!(comparison.spectral)).unwrap();
+        let mut written = ComparisonFile::new(&comparison, &case, 1);
+        for circle in written.localized.iter_mut().chain(&mut written.lattice_sum) {
+            circle.levels.iter_mut().for_each(|level| level.uncertainty = Default::default());
+        }
+        assert!(written.localized.len() == 2 && written.localized[0].levels.len() == 3);
+        let read = ComparisonFile::read(&serde_json::from_str(&written.to_json()).unwrap()).unwrap();
+        assert_eq!(read, written);
+    }
+}

@@ -79,12 +79,12 @@ impl RunFolder {
         self.resumed
     }
 
-    /// Ends without a result: the staging folder goes.
+    /// Ends without a result: the staging folder goes. Returns where files of a user are now that stood in it.
     ///
     /// # Errors
     /// [`OutputError`] with the path that cannot be removed.
-    pub fn abandon(self) -> Result<(), OutputError> {
-        discard(&self.staging(), &self.folder).map(|_| ())
+    pub fn abandon(self) -> Result<Option<PathBuf>, OutputError> {
+        discard(&self.staging(), &self.folder)
     }
 
     /// Begins anew although this run was to go on. Returns where the steps are now that an earlier one finished.
