@@ -6,7 +6,7 @@ use super::progress::Progress;
 use super::terminal;
 use crate::case::feasibility::Allowed;
 use crate::output::{Clock, OutputError, Recording, RunFolder};
-use crate::run::{Finished, Recorder, Run, StepRecord};
+use crate::run::{EarlierRun, Recorder, Run, StepRecord};
 use crate::spectral::Checkpoint;
 use crate::{Load, Solver, Step, StressField, VerticalSection};
 
@@ -51,7 +51,7 @@ impl<'a> ProgressRecorder<'a> {
 impl Recorder for ProgressRecorder<'_> {
     type Error = OutputError;
 
-    fn finished(&mut self) -> Option<Finished> {
+    fn finished(&mut self) -> Option<EarlierRun> {
         self.recording.finished()
     }
 

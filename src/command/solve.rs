@@ -20,7 +20,7 @@ use crate::output::{
 };
 use crate::picture::Snapshot;
 use crate::plain;
-use crate::run::{Finished, Outcome, Run, Sampling, StepRecord};
+use crate::run::{EarlierRun, Outcome, Run, Sampling, StepRecord};
 use crate::stress::VerticalSection;
 use clap::Args;
 use std::io::Write;
@@ -128,7 +128,7 @@ fn earlier(
     run: &Run,
     demanded: bool,
     quiet: bool,
-) -> Result<Option<Finished>, Failure> {
+) -> Result<Option<EarlierRun>, Failure> {
     if !claim.resumes() {
         return Ok(None);
     }
@@ -160,7 +160,7 @@ fn earlier(
 }
 
 /// Number of loads that an earlier run has solved on its last grid.
-fn done(earlier: &Finished) -> usize {
+fn done(earlier: &EarlierRun) -> usize {
     earlier.steps.len() + usize::from(earlier.last.is_some())
 }
 

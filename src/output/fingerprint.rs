@@ -1,4 +1,4 @@
-//! The fingerprint of a run: one word of all that decides about its result, equal for two runs with the same result.
+//! The fingerprint of a run: length and checksum of all that its result depends on, equal for two runs with equal results.
 
 use super::checksum;
 use crate::case::Case;

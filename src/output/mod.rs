@@ -1,11 +1,11 @@
-//! The output folder: what a run leaves behind, and how it comes to be there.
+//! The output folder: the files of a run, and how they are written.
 //!
 //! # The life of a folder
 //!
-//! Nothing a user owns is destroyed. A run replaces only files that percoat itself wrote there as a finished result and
-//! that were not changed since, and only when the new result is complete. The output folder may be a link that its user has
-//! made; below it no link is followed, and anything but a file or a folder itself in the place of percoat's own is refused
-//! before it is opened. Only in a folder that percoat has marked are files percoat's by their names, and removed by those alone.
+//! No file of a user is destroyed. A run replaces only files that percoat wrote there as a finished result and that were not
+//! changed since, and only when the new result is complete. The output folder may be a symbolic link; below it no link is
+//! followed, and anything but a regular file or folder in the place of percoat's own is refused before it is opened. Files are
+//! recognised as percoat's by their names only in a folder that percoat has marked.
 //!
 //! 1. **Claim** ([`RunFolder::claim`]), before anything is solved. A name of the [`Plan`] that belongs to a user is refused; so
 //!    is a folder into which another run writes, which a lock on `.percoat/lock` shows: the system releases it however a

@@ -17,8 +17,8 @@ pub(super) struct Archive<W: Write + Seek> {
 /// The error of the first write that failed.
 type Failure = Rc<RefCell<Option<io::Error>>>;
 
-/// A file that keeps its first error and takes everything after it without a word: `zip` ends an archive even when it is
-/// dropped, and would print the error.
+/// A writer that keeps its first error and ignores later writes: `zip` ends an archive even when it is dropped, and would print
+/// the error.
 struct KeepsFirstError<W> {
     file: W,
     position: u64,

@@ -1,6 +1,6 @@
 //! The recorder of a run: it is called while the run goes on, and decides whether it does.
 
-use super::{Finished, StepRecord};
+use super::{EarlierRun, StepRecord};
 use crate::load::Load;
 use crate::spectral::{Checkpoint, Progress, Solver, Step};
 use crate::stress::StressField;
@@ -13,7 +13,7 @@ pub trait Recorder: Send {
     type Error: Error + Send + Sync + 'static;
 
     /// The finished part of an earlier run, from which this one goes on. Called once, before the first load.
-    fn finished(&mut self) -> Option<Finished> {
+    fn finished(&mut self) -> Option<EarlierRun> {
         None
     }
 
