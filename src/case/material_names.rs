@@ -1,4 +1,4 @@
-//! What the materials of a body are called, by the `name` of their layer or the substrate.
+//! Names of the materials of a body, by the `name` of their layer or the substrate.
 
 use super::{LayerSection, SubstrateSection};
 
@@ -18,12 +18,12 @@ impl MaterialNames {
         Self(sublayers.chain([substrate.name.clone()]).collect())
     }
 
-    /// The name that the case gives to material `number`, from 1, if it gives one.
+    /// The name of material `number`, from 1, in the case; `None` without one.
     pub fn given(&self, number: usize) -> Option<&str> {
         self.0.get(number.checked_sub(1)?)?.as_deref()
     }
 
-    /// What material `number`, from 1, is called: "TiN", or "material 2" where the case gives it no name.
+    /// The name of material `number`, from 1: "TiN", or "material 2" where the case has no name for it.
     pub fn name(&self, number: usize) -> String {
         self.given(number).map_or_else(|| format!("material {number}"), str::to_owned)
     }

@@ -34,7 +34,7 @@ fn of_number(range: Range) -> Vec<Probe> {
     let own = match range {
         Range::Size => [vec![probe("0", false), probe("9.9e-61", false), probe("1e-60", true)], carried("").into()],
         Range::SizeOrZero => [vec![probe("-1e-60", false), unseen("9.9e-61"), probe("0", true)], carried("").into()],
-        Range::Place => [carried("-").into(), carried("").into()],
+        Range::Coordinate => [carried("-").into(), carried("").into()],
         Range::Factor => {
             let small =
                 vec![unseen("0"), unseen("9e-61"), unseen("-9e-61"), probe("-1e-60", true), probe("1e-60", true)];
