@@ -5,16 +5,16 @@ use std::fmt;
 /// Most values of a key.
 const MOST: usize = 100_000;
 
-/// A key of the case and the values it takes one after another.
+/// A key of the case and its values in the sweep.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Axis {
-    /// As in the case file, such as `layers.0.thickness`.
+    /// The key as in the case file, such as `layers.0.thickness`.
     pub key: String,
-    /// As they would stand behind the key, such as `0.2`.
+    /// The values in TOML, such as `0.2`.
     pub values: Vec<String>,
 }
 
-/// Why a text is no axis.
+/// Why a text is not an axis.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "--set {text}: {reason}; write KEY=V1,V2,…, KEY=A:B:N or KEY=A:B:N:log, for example layers.0.thickness=0.1:1:5:log"
@@ -29,7 +29,7 @@ impl Axis {
     /// `load.mean_pressure=[0.01, 0.02],[0.03]`.
     ///
     /// # Errors
-    /// [`AxisError`] without `=`, with a value that is empty, or for a range that has no such values.
+    /// [`AxisError`] without `=`, with an empty value, or for an invalid range.
     pub fn parse(text: &str) -> Result<Self, AxisError> {
         let refuse = |reason: &str| AxisError { text: text.to_owned(), reason: reason.to_owned() };
         let (key, values) = text.split_once('=').ok_or_else(|| refuse("a key needs values"))?;
@@ -64,7 +64,7 @@ impl fmt::Display for Axis {
     }
 }
 
-/// The values of `A:B:N` or `A:B:N:log`; `None` for a text that is neither.
+/// The values of `A:B:N` or `A:B:N:log`; `None` for any other text.
 fn range(text: &str) -> Option<Result<Vec<String>, String>> {
     let parts: Vec<&str> = text.split(':').map(str::trim).collect();
     let (from, to, count, spacing) = match parts[..] {
@@ -101,18 +101,18 @@ fn range(text: &str) -> Option<Result<Vec<String>, String>> {
     Some(spaced())
 }
 
-/// Without the last digit of double precision, which is noise: 0.3 and not 0.30000000000000004.
+/// The value without the last digit of double precision: 0.3 in place of 0.30000000000000004.
 fn short(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
-/// As a person would write it; TOML reads it back.
+/// A number as short TOML.
 fn plain(value: f64) -> String {
     let size = value.abs();
     if value != 0.0 && !(1e-4..1e15).contains(&size) { format!("{value:e}") } else { value.to_string() }
 }
 
-/// Parts between commas that stand outside brackets and quotes.
+/// Parts between commas outside brackets and quotes.
 fn listed(text: &str) -> Vec<&str> {
     let (mut parts, mut start, mut depth, mut quote) = (Vec::new(), 0, 0_usize, None);
     for (at, c) in text.char_indices() {

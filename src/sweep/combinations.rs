@@ -1,4 +1,4 @@
-//! Which settings are solved together: the product of axes, their pairs, or the rows of a table; and a part of them.
+//! Combinations of settings: the product of axes, their pairs, or the rows of a table; and parts of them.
 
 use super::axis::Axis;
 use std::collections::{BTreeMap, BTreeSet};
@@ -7,7 +7,7 @@ use std::iter;
 /// Most combinations of a sweep.
 const MOST: usize = 1_000_000;
 
-/// Settings of the case, solved together.
+/// A combination of settings of the case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combination {
     /// Its place in the whole sweep, from 1.
@@ -25,10 +25,10 @@ pub struct Combinations {
     pub all: Vec<Combination>,
 }
 
-/// Why there are no such combinations.
+/// Why combinations cannot be formed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CombinationsError {
-    /// Nothing is varied.
+    /// No key has several values.
     #[error(
         "a sweep needs a key with several values, for example --set layers.0.thickness=0.1,0.2,0.5, or a table of them"
     )]
@@ -36,32 +36,32 @@ pub enum CombinationsError {
     /// A key is given twice.
     #[error("`{0}` is given twice")]
     Twice(String),
-    /// Pairs need as many values of each key.
+    /// Keys to be paired have different numbers of values.
     #[error("--zip pairs values one by one: `{first}` has {first_count} of them, `{other}` {other_count}")]
     Unequal {
         /// One key.
         first: String,
-        /// How many values it has.
+        /// Number of its values.
         first_count: usize,
-        /// Another.
+        /// Another key.
         other: String,
-        /// How many it has.
+        /// Number of its values.
         other_count: usize,
     },
-    /// There are too many.
+    /// There are more than a million combinations.
     #[error("{0} combinations are more than {MOST}: sweep over fewer values")]
     TooMany(String),
     /// The table cannot be read.
     #[error("line {line}: {reason}")]
     Table {
-        /// Which, from 1.
+        /// Number of the line, from 1.
         line: usize,
         /// What is wrong.
         reason: String,
     },
 }
 
-/// Keys whose values belong together, one row a set of them.
+/// Keys that change together, one row a set of their values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Group {
     keys: Vec<String>,
@@ -93,13 +93,13 @@ impl Group {
         Ok(Self { keys: axes.iter().map(|axis| axis.key.clone()).collect(), rows: (0..count).map(row).collect() })
     }
 
-    /// A table: the first line names the keys, each further one has a value for each, separated by commas or semicolons.
-    /// Empty lines and those that begin with `#` are skipped. A cell in double quotes may hold the separator.
+    /// Reads a table: the first line has the keys, each further one their values, separated by commas or semicolons. Empty lines and
+    /// those that begin with `#` are skipped. A cell in double quotes may contain the separator.
     ///
     /// # Errors
     /// [`CombinationsError::Table`] with the line, `TooMany`.
     pub fn table(text: &str) -> Result<Self, CombinationsError> {
-        // Lines are counted before one is read.
+        // Lines are counted before they are read.
         let count = text.bytes().filter(|byte| *byte == b'\n').count();
         if count > 2 * MOST {
             return Err(CombinationsError::TooMany(count.to_string()));
@@ -135,7 +135,7 @@ impl Group {
     }
 }
 
-/// The cells of a line, without blanks around them; quotes around a cell go, doubled ones within it are one.
+/// The cells of a line, without blanks and quotes around them; doubled quotes within a cell become one.
 fn cells(line: &str, separator: char) -> Vec<String> {
     let (mut cells, mut cell, mut quoted) = (Vec::new(), String::new(), false);
     let mut characters = line.chars().peekable();
@@ -179,15 +179,14 @@ impl Combinations {
         Ok(Self { keys, all })
     }
 
-    /// Every `of`-th combination from the `part`-th on, both counted from 1: neighbours, which take alike, go to
-    /// different parts.
+    /// Every `of`-th combination from the `part`-th on, counted from 1: neighbours, which take similar times, go to different parts.
     pub fn shard(mut self, part: usize, of: usize) -> Self {
         self.all.retain(|combination| (combination.number - 1) % of == part - 1);
         self
     }
 
-    /// Combinations that are alike but for numbers which change nothing in how much comes out, one of each kind and how many
-    /// there are of it; `None` for more than `most` kinds. A number of load steps or sublayers changes it.
+    /// Kinds of combinations with results of equal size: one of each kind and their number; `None` for more than `most` kinds. The
+    /// number of load steps or sublayers changes the kind, most other numbers do not.
     pub(super) fn kinds(&self, most: usize) -> Option<Vec<(&Combination, usize)>> {
         let counts = |key: &str| ["steps", "sublayers"].iter().any(|word| key.trim_end().ends_with(word));
         let is_number = |value: &str| value.parse::<f64>().is_ok();
@@ -204,7 +203,7 @@ impl Combinations {
         Some(kinds.into_values().collect())
     }
 
-    /// What a combination sets, `KEY=VALUE` each.
+    /// The settings of a combination, `KEY=VALUE` each.
     pub fn settings(&self, combination: &Combination) -> Vec<String> {
         self.keys.iter().zip(&combination.values).map(|(key, value)| format!("{key}={value}")).collect()
     }

@@ -56,7 +56,7 @@ pub fn step(max_pressure: f64, error: Option<f64>, contact_fraction: f64) -> Ste
     }
 }
 
-/// A load step that takes up so much of strengths.
+/// A load step with these utilisations.
 pub fn strained(strength: Vec<Utilisation>) -> SweepResult {
     let governing = Governing::of(&strength);
     SweepResult::Step(Box::new(StepRecord { strength, governing, ..step(1.0, None, 0.5) }))

@@ -1,4 +1,4 @@
-//! What hears of a combination: what keeps nothing of it, and what keeps its fields, as a solved case in a folder of its own.
+//! Recorders of a combination: one that keeps no fields, and one that keeps them as a solved case in a folder of its own.
 
 use super::row::Ended;
 use crate::case::resources::{Job, needs};
@@ -12,7 +12,7 @@ use crate::stress::StressField;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Keeps nothing of a combination but that it finds room, and ends it when nobody waits for it any more.
+/// A recorder without fields, which checks memory and disk and ends the combination when the sweep is stopped.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fits<'a> {
     pub(super) case: &'a Case,
@@ -21,7 +21,7 @@ pub(super) struct Fits<'a> {
     pub(super) stop: &'a AtomicBool,
 }
 
-/// Nobody waits for the combination any more.
+/// The sweep was stopped.
 #[derive(Debug, thiserror::Error)]
 #[error("stopped before its end")]
 pub(super) struct Stopped;
@@ -42,7 +42,7 @@ impl Recorder for Fits<'_> {
     }
 }
 
-/// Why it cannot be kept.
+/// Why the fields of a combination cannot be kept.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum KeepError {
     #[error(transparent)]
@@ -53,7 +53,7 @@ pub(super) enum KeepError {
     Run(#[from] RunError<OutputError>),
 }
 
-/// Records a combination that finds room.
+/// A recorder of fields, which checks memory and disk.
 struct Keeping<'a> {
     recording: Recording<'a>,
     fits: Fits<'a>,

@@ -1,4 +1,4 @@
-//! What of an earlier sweep is known, and need not be solved again.
+//! Results of an earlier sweep that are not solved again.
 
 use super::row::Row;
 use super::study::{Study, folder_of};
@@ -8,19 +8,18 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::Path;
 
-/// What of some rows is known of a sweep.
+/// Rows of an earlier sweep, sorted by whether they can be used.
 #[derive(Debug, Default)]
 pub struct Known {
     /// Combinations that are not solved again.
     pub rows: Vec<Row>,
-    /// Files of others that are not as they were written, each with what is the matter with it.
+    /// Damaged files of other rows, each with what is wrong with it.
     pub damaged: Vec<String>,
 }
 
 impl Study<'_> {
-    /// Those of some rows that are results of this sweep, under its numbers. What failed is tried again; so is what keeps
-    /// fields and has none under its number in the folder `from`, where the rows stand, or some that are not as they were
-    /// written: these are in [`Known::damaged`].
+    /// The rows that are results of this sweep, under its numbers. Combinations that failed are not known; with fields neither are
+    /// those whose files in the folder `from` of the rows are missing, under another number, or damaged ([`Known::damaged`]).
     pub fn known(&self, rows: &[Row], from: &Path) -> Known {
         let by_print: HashMap<&str, &Row> =
             rows.iter().filter(|row| !row.results.is_empty()).map(|row| (row.fingerprint.as_str(), row)).collect();
@@ -29,7 +28,7 @@ impl Study<'_> {
             let combination = &self.combinations.all[planned.index];
             let Some(row) = by_print.get(planned.fingerprint.as_str()) else { continue };
             if self.keeps_fields {
-                // A row without files is one of a sweep that has kept none.
+                // A row without files is of a sweep without fields.
                 if row.combination != combination.number || row.files.is_empty() {
                     continue;
                 }
@@ -45,8 +44,8 @@ impl Study<'_> {
         found
     }
 
-    /// Whether a combination that is none of the `known` ones has its files in the folder `from`: it was killed before its row was
-    /// written, or the row is lost. Solved again it would find them in its way.
+    /// Whether a combination that is not `known` has files in the folder `from`: it was killed before its row was written, or the row
+    /// is lost. The files would be in the way of its solution.
     pub fn has_unlogged(&self, known: &[Row], from: &Path) -> bool {
         let known: HashSet<usize> = known.iter().map(|row| row.combination).collect();
         let numbers = self.planned.iter().map(|planned| self.combinations.all[planned.index].number);
@@ -54,7 +53,7 @@ impl Study<'_> {
         self.keeps_fields && numbers.into_iter().any(unlogged)
     }
 
-    /// Gives the files of known combinations a second name in the folder `to`, where the result is gathered.
+    /// Gives the files of known combinations a second name in the staging folder `to`.
     ///
     /// # Errors
     /// [`OutputError`] with the path.
@@ -75,7 +74,7 @@ impl Study<'_> {
             }
             disk::sync_folder(&place).map_err(|error| OutputError::new(&place, error))?;
         }
-        // The log is going to say that they are there.
+        // The names are on the disk before the log lists them.
         let all = to.join(COMBINATIONS);
         let synced =
             if known.is_empty() { Ok(()) } else { disk::sync_folder(&all).and_then(|()| disk::sync_folder(to)) };

@@ -1,7 +1,7 @@
-//! `sweep.jsonl`: every combination that is done, one line each, appended when it is.
+//! `sweep.jsonl`: a line for every finished combination, appended when it ends.
 //!
-//! Whatever ends the sweep, every line that ends is a whole one; what a kill left of one more is cut off when the sweep goes on.
-//! A line says which sweep it is of and ends with a [checksum](crate::output::with_checksum): one that is not as it was written is no row.
+//! After a kill every terminated line is whole; an unterminated one is cut off when the sweep is resumed. A line has the identity of
+//! its sweep and ends with a [checksum](crate::output::with_checksum); a line that was changed since is not a row.
 
 use super::row::Row;
 use crate::output::{LineLog, OutputError, SWEEP_LOG as LOG, whole_lines, with_checksum, without_checksum};
@@ -11,15 +11,15 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
-/// The log of a sweep that goes on.
+/// The log of a running sweep.
 #[derive(Debug)]
 pub struct Log {
     lines: LineLog,
-    /// See [`Description::identity`](super::Description::identity).
+    /// [Identity](super::Description::identity) of the sweep.
     sweep: String,
 }
 
-/// A line: the row, and of which sweep it is.
+/// A line: the row, and the identity of its sweep.
 #[derive(Serialize, Deserialize)]
 struct Line<R> {
     sweep: String,
@@ -27,10 +27,10 @@ struct Line<R> {
     row: R,
 }
 
-/// A row that is as it was written.
+/// An undamaged row of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Logged {
-    /// The line on which it stands, from 1.
+    /// Number of its line, from 1.
     pub line: usize,
     /// The [identity](super::Description::identity) of its sweep.
     pub sweep: String,
@@ -38,12 +38,12 @@ pub struct Logged {
     pub row: Row,
 }
 
-/// A line that is no row of a sweep, or no longer one.
+/// A damaged line of a log.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damage {
-    /// Which, from 1.
+    /// Number of the line, from 1.
     pub line: usize,
-    /// What is the matter with it.
+    /// What is wrong with it.
     pub reason: String,
 }
 
@@ -54,8 +54,8 @@ impl fmt::Display for Damage {
 }
 
 impl Log {
-    /// Begins the log of a sweep of this [identity](super::Description::identity) in a folder, with the rows that are known already.
-    /// The file is there from the first row on.
+    /// Begins the log of a sweep of this [identity](super::Description::identity) in a folder, with the `known` rows. The file exists
+    /// from the first row on.
     ///
     /// # Errors
     /// When it cannot be written.
@@ -83,7 +83,7 @@ fn line(sweep: &str, row: &Row) -> String {
     with_checksum(&line.expect("a row is numbers and texts under names")) + "\n"
 }
 
-/// The whole lines of a log: rows, or what is the matter with them. Of a combination that stands there twice no line is a row.
+/// The whole lines of a log: rows, or their damage. Lines of a combination that occurs twice are damaged.
 ///
 /// # Errors
 /// When it cannot be read.
@@ -149,7 +149,7 @@ mod tests {
         let mut file = std::fs::File::options().append(true).open(&path).unwrap();
         file.write_all(&"{\"combination\": 3, \"µ".as_bytes()[..21]).unwrap();
         assert_eq!(rows(&path), [row(1), row(2)]);
-        // Going on cuts it off.
+        // Resuming cuts it off.
         let mut log = Log::begin(folder.path(), "1-2", &rows(&path)).unwrap();
         log.add(&row(3)).unwrap();
         assert_eq!(rows(&path), [row(1), row(2), row(3)]);
@@ -185,7 +185,7 @@ mod tests {
                 }
             }
         }
-        // What is no text is no row either.
+        // Bytes that are not UTF-8 are not a row.
         let mut bytes = whole.clone().into_bytes();
         bytes[lines[0].len() + 20] = 0xff;
         std::fs::write(&path, bytes).unwrap();

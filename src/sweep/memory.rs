@@ -1,7 +1,7 @@
-//! What the cases and results of combinations take in memory until the table is made.
+//! Memory of the cases and results of combinations until the table is made.
 //!
-//! Measured: rows of one step of three levels, 115 scalars, take 28.5 kB each at the peak, when the table is made, and rows of
-//! layers with strengths as much a scalar. All rows stay until the sweep ends.
+//! Measured: a row of one step with three levels, 115 scalars, takes 28.5 kB at the peak, when the table is made; rows with
+//! strengths take as much per scalar. All rows stay until the sweep ends.
 
 use super::task::Task;
 use crate::case::Case;
@@ -9,17 +9,17 @@ use crate::reading::Criterion;
 
 /// Bytes of a scalar of a result, with its name.
 const SCALAR: u64 = 256;
-/// Scalars of a load step, of each of its levels, of a place where a stress is largest or a criterion is nearest to its limit.
+/// Scalars of a load step, of each level, and of each largest stress or utilisation.
 const STEP: usize = 32;
 const LEVEL: usize = 28;
 const PEAK: usize = 11;
 
-/// Bytes of a case that is kept from its reading to its solution, and of each of its layers and levels. Measured: 3.7 kB with one
-/// layer and three levels, 22 kB with a hundred sublayers.
+/// Bytes of a case between reading and solving, and of each of its layers and levels. Measured: 3.7 kB with one layer and three
+/// levels, 22 kB with a hundred sublayers.
 const CASE: u64 = 4 << 10;
 const PART: u64 = 256;
 
-/// Bytes of the case and the results of a combination, about.
+/// Estimated memory of the case and the results of a combination, bytes.
 pub(super) fn of_results(case: &Case, task: Task) -> u64 {
     let half_space = case.half_space();
     let criteria = Criterion::all(half_space).len();

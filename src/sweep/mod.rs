@@ -1,11 +1,11 @@
 //! Studies: one case, solved for many settings of its keys.
 //!
-//! [`Axis`] says which values a key takes, [`Group`] which keys change together, [`Combinations`] makes every combination of
-//! the groups, a [`Study`] solves them, and a [`Row`] says what is known of one that is done. Small grids are solved several
-//! at once, large ones one after another by all threads; the rows are the same, bit for bit.
+//! An [`Axis`] has the values of a key, a [`Group`] the keys that change together, [`Combinations`] every combination of the
+//! groups; a [`Study`] solves them, and a [`Row`] is the result of one. Small grids are solved several at once, large ones one
+//! after another by all threads; the rows are equal, bit for bit.
 //!
-//! A row is kept in a [`Log`] as soon as it is done. Whoever goes on after a kill gives the study the rows of the log: those
-//! of the same case, told by a fingerprint, are not solved again. A line of the log that is not as it was written is no row.
+//! A row is appended to a [`Log`] as soon as it is done. After a kill the study is resumed with the rows of the log: those whose case
+//! has an equal fingerprint are not solved again. A line of the log that was changed since it was written is not a row.
 
 mod axis;
 mod combinations;

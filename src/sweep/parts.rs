@@ -10,7 +10,7 @@ use std::collections::btree_map::Entry;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a part is none, or not of the same sweep as another.
+/// Why a part cannot be read, or does not belong to the sweep of another.
 #[derive(Debug, thiserror::Error)]
 pub enum PartError {
     /// A file cannot be read.
@@ -18,33 +18,33 @@ pub enum PartError {
     Input {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         error: io::Error,
     },
-    /// A file is not as the sweep has written it.
+    /// A file was changed since the sweep wrote it.
     #[error("{}{reason}; {advice}", plain::path(path), advice = advice(path))]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is the matter with it.
+        /// What is wrong with it.
         reason: String,
     },
-    /// Two places say different things of one combination.
+    /// Two parts have different results of one combination.
     #[error(
         "{first} and {second} have different results of {named}: they are not parts of one sweep, or were solved by \
          processors of different kinds, which differ in the last digits; give one of both"
     )]
     Unlike {
-        /// A log and its line.
+        /// One log and its line.
         first: String,
-        /// Another.
+        /// The other log and its line.
         second: String,
         /// The combination.
         named: String,
     },
 }
 
-/// What can be done about a part that is damaged.
+/// Advice for a damaged part.
 fn advice(path: &Path) -> &'static str {
     let is_begun = path.parent().is_some_and(|place| place.ends_with(UNFINISHED));
     if is_begun {
@@ -54,21 +54,21 @@ fn advice(path: &Path) -> &'static str {
     }
 }
 
-/// Where a sweep that is not finished stands.
+/// Name of the staging folder of a sweep.
 pub const UNFINISHED: &str = "unfinished-sweep";
 
-/// A part of a sweep that stands in a place, finished or not.
+/// A part of a sweep in a folder, finished or not.
 #[derive(Debug)]
 pub struct Part {
-    /// What it says of the whole.
+    /// Its `sweep.json`.
     pub description: Description,
     log: PathBuf,
     lines: Vec<Logged>,
 }
 
 impl Part {
-    /// The part in a place, if there is one. Every line of its log must be as it was written and of the sweep that the part
-    /// says it is of; a part that is finished has as many as it says.
+    /// Reads the part in a folder; `None` where there is none. Every line of its log must be undamaged and of the described sweep, and
+    /// their number that of a finished part.
     ///
     /// # Errors
     /// [`PartError`] with the file, and its line.
@@ -113,7 +113,7 @@ impl Part {
 }
 
 impl Part {
-    /// Its rows, by ascending number.
+    /// Rows of the part, by ascending number.
     pub fn rows(self) -> Vec<Row> {
         let mut rows: Vec<Row> = self.lines.into_iter().map(|own| own.row).collect();
         rows.sort_by_key(|row| row.combination);
@@ -121,10 +121,10 @@ impl Part {
     }
 }
 
-/// Rows of several parts, one a combination, by ascending number; and how many stood in two of them alike.
+/// Rows of several parts, one a combination, by ascending number; and the number of rows that occur in two parts.
 ///
 /// # Errors
-/// [`PartError::Unlike`] where two parts say different things of one combination.
+/// [`PartError::Unlike`] where two parts have different results of one combination.
 pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
     let (mut rows, mut twice): (BTreeMap<usize, (String, Row)>, _) = (BTreeMap::new(), 0);
     for Part { log, lines, .. } in parts {
@@ -135,7 +135,7 @@ pub fn join(parts: Vec<Part>) -> Result<(Vec<Row>, usize), PartError> {
                 Entry::Occupied(mut there) => {
                     let (first, own) = there.get();
                     let is_same_case = own.fingerprint == row.fingerprint && own.settings == row.settings;
-                    // What was solved twice is the same, unless one of them failed.
+                    // Results of one combination are equal, unless one of them failed.
                     let is_alike = own.results.is_empty() || row.results.is_empty() || own.results == row.results;
                     if !is_same_case || !is_alike {
                         let (first, named) = (first.clone(), row.named());

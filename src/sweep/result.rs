@@ -1,4 +1,4 @@
-//! What a combination results in: load steps, or limit loads; and what tables, pictures and the report show of it.
+//! Results of a combination, load steps or limit loads, and their scalars for tables, pictures and the report.
 
 use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
@@ -13,24 +13,24 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SweepResult {
-    /// One of its load steps, without the time it took.
+    /// A load step, without its wall time.
     Step(Box<StepRecord>),
     /// The limit load of each criterion.
     Limits(Vec<Limit>),
 }
 
-/// What comes first: in a search for limit loads the first criterion that is reached, under a load the one that governs.
+/// The foremost criterion: in a search for limit loads the first that is reached, in a load step the one that governs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Foremost {
-    /// This criterion.
+    /// A criterion.
     Criterion(Criterion),
-    /// No criterion is reached, and by the errors some may be.
+    /// No criterion is reached for certain, but within the errors some may be.
     Undecided,
-    /// Nothing fails.
+    /// No criterion is reached.
     Nothing,
 }
 
-/// What is known of a limit, a mean pressure.
+/// Value or bound of a limit, a mean pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LimitValue {
     /// The limit and its error.
@@ -39,7 +39,7 @@ pub enum LimitValue {
     Below(f64),
     /// It is not reached up to this load.
     Above(f64),
-    /// By its error it may be reached.
+    /// Within its error it may be reached.
     Undecided,
 }
 
@@ -49,15 +49,15 @@ pub type Measured = (f64, Option<f64>);
 /// A scalar of a load step with its error.
 #[derive(Debug, Clone, Copy)]
 pub struct Scalar {
-    /// Its name in tables.
+    /// Name in tables.
     pub name: &'static str,
-    /// What it is measured in.
+    /// Quantity, which determines its unit.
     pub kind: Kind,
-    /// Its value and error; `None` where the step does not have it, or it is infinite.
+    /// Value and error in a step; `None` where the step does not have it, or it is infinite.
     pub of: fn(&StepRecord) -> Option<Measured>,
 }
 
-/// What a scalar is measured in.
+/// Quantity of a scalar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A pressure.
@@ -90,17 +90,17 @@ fn finite(peak: &crate::stress::Peak) -> Option<Measured> {
 }
 
 impl SweepResult {
-    /// The load step; `None` of limits.
+    /// The load step; `None` for limits.
     pub fn step(&self) -> Option<&StepRecord> {
         if let Self::Step(step) = self { Some(step) } else { None }
     }
 
-    /// The limit of each criterion; `None` of a load step.
+    /// The limit of each criterion; `None` for a load step.
     pub fn limits(&self) -> Option<&[Limit]> {
         if let Self::Limits(limits) = self { Some(limits) } else { None }
     }
 
-    /// The first limit, or that of a criterion; `None` of a load step, and where none is reached first.
+    /// The first limit, or that of a criterion; `None` for a load step, and where none is reached first.
     pub fn limit(&self, of: Option<Criterion>) -> Option<&Limit> {
         let limits = self.limits()?;
         match of {
@@ -109,8 +109,8 @@ impl SweepResult {
         }
     }
 
-    /// What is known of the first limit, or of that of a criterion. Where nothing is reached first, by the errors something may
-    /// be, or `None`.
+    /// Value or bound of the first limit, or of that of a criterion. Where none is reached first: undecided, or `None` where none may be
+    /// within the errors.
     pub fn limit_value(&self, of: Option<Criterion>) -> Option<LimitValue> {
         match self.limit(of) {
             Some(limit) => Some(limit.into()),
@@ -118,7 +118,7 @@ impl SweepResult {
         }
     }
 
-    /// What comes first; `None` of a load step without strengths.
+    /// The foremost criterion; `None` for a load step without strengths.
     pub fn foremost(&self) -> Option<Foremost> {
         match self {
             Self::Step(step) => step.governing.as_ref().map(|governing| Foremost::Criterion(governing.criterion)),
@@ -130,7 +130,7 @@ impl SweepResult {
         }
     }
 
-    /// The criteria that may come first within the errors instead.
+    /// The criteria that may be foremost within the errors instead.
     pub fn rivals(&self) -> Vec<Criterion> {
         match self {
             Self::Step(step) => step.governing.as_ref().map_or(Vec::new(), |governing| governing.rivals.clone()),
@@ -138,7 +138,7 @@ impl SweepResult {
         }
     }
 
-    /// The criterion that comes first with its rivals in words; `None` where there is none.
+    /// The foremost criterion with its rivals in words; `None` for a load step without strengths.
     pub fn foremost_in_words(&self) -> Option<String> {
         let Foremost::Criterion(criterion) = self.foremost()? else { return None };
         Some(format!("{criterion}{}", within_the_errors(&self.rivals())))
@@ -162,7 +162,7 @@ impl SweepResult {
         let named = limits.iter().map(|limit| {
             let mut keys = json!(limit);
             if let Some(keys) = keys.as_object_mut() {
-                // They stand in the names of the columns.
+                // They are part of the names of the columns.
                 ["criterion", "material", "interface"].iter().for_each(|key| drop(keys.shift_remove(*key)));
             }
             json!({ limit.criterion.to_string().replace(' ', "_"): keys })
@@ -172,7 +172,7 @@ impl SweepResult {
 }
 
 impl Foremost {
-    /// What comes first in any of the results, the most frequent first, with how often it does.
+    /// The foremost criteria of results with their counts, the most frequent first.
     pub fn counted<'a>(results: impl Iterator<Item = &'a SweepResult>) -> Vec<(Self, usize)> {
         let mut counts: BTreeMap<Self, usize> = BTreeMap::new();
         results.filter_map(SweepResult::foremost).for_each(|own| *counts.entry(own).or_default() += 1);
@@ -204,7 +204,7 @@ impl From<&Limit> for LimitValue {
     }
 }
 
-/// As a table has it: 0.007 ± 0.003, < 0.01 or > 2.
+/// As in a table: 0.007 ± 0.003, < 0.01 or > 2.
 impl fmt::Display for LimitValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {

@@ -1,4 +1,4 @@
-//! What is known of a combination when it is done.
+//! The row of a finished combination.
 
 use super::combinations::column;
 use super::result::SweepResult;
@@ -13,16 +13,16 @@ use serde_json::{Value, json};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// As it should.
+    /// All results converged.
     Done,
-    /// Something did not converge; all numbers are there.
+    /// Some result did not converge; all numbers are present.
     NotConverged,
-    /// There are no numbers.
+    /// There are no results.
     Failed,
 }
 
 impl Status {
-    /// As the table has it.
+    /// Code in files and tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Done => "done",
@@ -32,31 +32,31 @@ impl Status {
     }
 }
 
-/// A combination that is done: a line of `sweep.jsonl`.
+/// A finished combination: a line of `sweep.jsonl`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its place in the sweep, from 1.
+    /// Number in the sweep, from 1.
     pub combination: usize,
-    /// What it sets, each key with its value as typed.
+    /// Its settings, each key with its value as typed.
     pub settings: Vec<(String, String)>,
-    /// Of the whole case that was solved, and how: equal only where the results are.
+    /// Fingerprint of the case and the task: equal only where the results are.
     pub fingerprint: String,
     /// How it ended.
     pub status: Status,
-    /// Why, where it did not end as it should.
+    /// Reason of a status other than done.
     pub reason: Option<String>,
-    /// What a reader should know before trusting the numbers.
+    /// Warnings, a sentence each.
     pub warnings: Vec<String>,
-    /// Its results: its load steps, or one with the limits; none where it has failed.
+    /// Its load steps, or one result with the limits; empty where it failed.
     pub results: Vec<SweepResult>,
     /// Wall time, seconds.
     pub seconds: f64,
-    /// Where fields are kept, its files by their names in its folder.
+    /// Its files by their names in its folder, where fields are kept.
     #[serde(default, skip_serializing_if = "Files::is_empty")]
     pub files: Files,
 }
 
-/// How a combination ended, and with what.
+/// The end of a combination: status and results.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Ended {
     pub(super) status: Status,
@@ -67,7 +67,7 @@ pub(super) struct Ended {
 }
 
 impl Ended {
-    /// Without results.
+    /// A failure for a reason.
     pub(super) fn failed(reason: impl Into<String>) -> Self {
         let (reason, files) = (Some(reason.into()), Files::default());
         Self { status: Status::Failed, reason, warnings: Vec::new(), results: Vec::new(), files }
@@ -78,7 +78,7 @@ impl Ended {
         let inaccurate =
             || outcome.end.filter(|_| !outcome.is_accurate()).map(|end| format!("accuracy not reached: {end}"));
         let reason = stopped.or_else(inaccurate);
-        // No two runs share the time.
+        // Times differ between equal runs.
         let results = outcome.steps.iter().map(|step| StepRecord { seconds: None, ..step.clone() });
         let results = results.map(|step| SweepResult::Step(Box::new(step)));
         Self::with(reason, [&outcome.warnings[..], &plausibility::of_case(case)].concat(), results.collect())
@@ -95,14 +95,14 @@ impl Ended {
         Self { status, reason, warnings, results, files: Files::default() }
     }
 
-    /// The same with the files that it has left.
+    /// With the files of its fields.
     pub(super) fn leaving(self, files: Files) -> Self {
         Self { files, ..self }
     }
 }
 
 impl Row {
-    /// Refuses what no combination ends with.
+    /// Refuses a row that no combination can have.
     pub(super) fn checked(&self) -> Result<(), String> {
         let has_failed = self.status == Status::Failed;
         if self.combination == 0 {
@@ -121,13 +121,13 @@ impl Row {
         Ok(())
     }
 
-    /// Its number and what it sets.
+    /// Number and settings, in words.
     pub fn named(&self) -> String {
         let settings: Vec<String> = self.settings.iter().map(|(key, value)| format!("{key}={value}")).collect();
         format!("combination {} ({})", self.combination, settings.join(", "))
     }
 
-    /// Its lines in `sweep.csv`: one a load step, or one alone.
+    /// Its lines in `sweep.csv`: one a load step, or a single one.
     pub fn cells(&self) -> Vec<Cells> {
         let cell = |name: &str, value: Value| (name.to_owned(), value);
         let line = |(step, results): (Option<usize>, Cells)| {

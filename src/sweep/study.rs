@@ -1,4 +1,4 @@
-//! A sweep: which combinations are solved, how many at once, and what comes out.
+//! A sweep: its combinations, how many are solved at once, and their rows.
 
 use super::combinations::{Combination, Combinations};
 use super::fields::{Fits, keep};
@@ -18,20 +18,20 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// Samples of the largest grid of which several combinations are solved at once, each by one thread. On larger ones all
-/// threads work on one combination after another: what several have in memory no longer fits the caches.
+/// Samples of the largest grid on which several combinations are solved at once, each by one thread. On larger grids all threads
+/// solve one combination after another, since the fields of several no longer fit into the caches.
 const SMALL: usize = 256 * 256;
 
-/// Kinds of combinations of which one each is read before all are.
+/// Most kinds of combinations for which memory is estimated from one of each kind before all are read.
 const KINDS: usize = 64;
 
 /// Why no combination can be solved.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// Its case is refused.
+    /// The case is refused.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// What it asks for is.
+    /// The sweep is refused.
     #[error("{0}")]
     Refused(String),
 }
@@ -40,7 +40,7 @@ pub enum StudyError {
 #[derive(Debug)]
 pub struct Study<'a> {
     source: &'a Source,
-    /// What all combinations set, `KEY=VALUE`.
+    /// Settings of all combinations, `KEY=VALUE`.
     fixed: &'a [String],
     pub(super) combinations: &'a Combinations,
     task: Task,
@@ -56,12 +56,12 @@ pub(super) struct Planned {
     /// Its index among the combinations.
     pub(super) index: usize,
     pub(super) fingerprint: String,
-    /// What solving it takes, bytes.
+    /// Memory of its solution, bytes.
     memory: u64,
     is_small: bool,
-    /// What it leaves when its fields are kept.
+    /// Names of its files when its fields are kept.
     pub(super) files: Vec<String>,
-    /// Its case; `None` where it is refused, and of a topography, whose heights are read again when it is solved.
+    /// Its case; `None` where it is refused, and for a topography, whose heights are read again when it is solved.
     case: Option<Box<Case>>,
 }
 
@@ -108,7 +108,7 @@ impl<'a> Study<'a> {
     fn planned(&self, index: usize, case: Case) -> Planned {
         let points = match case.grid {
             Sampling::Points(points) => Some(points),
-            // How far it goes is not known.
+            // The last grid is not known in advance.
             Sampling::Accuracy(_) => None,
         };
         Planned {
@@ -121,7 +121,7 @@ impl<'a> Study<'a> {
         }
     }
 
-    /// Bytes of the results of all combinations, by their number and the case of one of each kind; 0 where that says nothing.
+    /// Estimated memory of the results of all combinations, bytes, by their number and the case of one of each kind; 0 where unknown.
     fn foreseen(&self) -> u64 {
         let kinds = self.combinations.kinds(KINDS).unwrap_or_default();
         let of_kind = |(combination, count): &(&Combination, usize)| {
@@ -148,12 +148,12 @@ impl<'a> Study<'a> {
         Self { keeps_fields: true, ..self }
     }
 
-    /// Ends what is being solved, between two iterations, as soon as `stop` is true; its rows are failures.
+    /// Ends running combinations between two iterations when `stop` becomes true; their rows are failures.
     pub fn stopped_by(self, stop: Arc<AtomicBool>) -> Self {
         Self { stop, ..self }
     }
 
-    /// The files of all combinations, relative to the folder of the result; none where fields are not kept.
+    /// Names of the files of all combinations, relative to the output folder; empty where fields are not kept.
     pub fn files(&self) -> Vec<String> {
         let kept = self.planned.iter().filter(|_| self.keeps_fields);
         kept.flat_map(|planned| {
@@ -163,7 +163,7 @@ impl<'a> Study<'a> {
         .collect()
     }
 
-    /// How many combinations are solved at once by `threads`.
+    /// Number of combinations solved at once by `threads`.
     pub fn workers(&self, threads: usize) -> usize {
         let small = self.planned.iter().filter(|planned| planned.is_small);
         let memory = small.map(|planned| planned.memory).max().unwrap_or(0).max(1);
@@ -190,7 +190,7 @@ impl<'a> Study<'a> {
         workers::each(&large, 1, |planned| self.row(planned, folder, self.room), &mut done)
     }
 
-    /// Refuses what cannot be solved before it is tried.
+    /// Refuses a case that cannot be solved before it is started.
     fn check(&self, case: &Case) -> Result<(), StudyError> {
         let run = case.run();
         let possible = match self.task {
@@ -218,7 +218,7 @@ impl<'a> Study<'a> {
 
     fn row(&self, planned: &Planned, folder: &Path, room: Capacity) -> Row {
         let (combination, started) = (&self.combinations.all[planned.index], Instant::now());
-        // One combination that brings the program down leaves the others as they are.
+        // A panic in one combination does not end the others.
         let ended = catch_unwind(AssertUnwindSafe(|| self.ended(planned, folder, room)));
         let Ended { status, reason, warnings, results, files } =
             ended.unwrap_or_else(|_| Ended::failed("percoat itself failed on it, which is a fault of the program"));
@@ -269,7 +269,7 @@ impl<'a> Study<'a> {
     }
 }
 
-/// Where a combination keeps its fields.
+/// Folder of the fields of a combination, relative to the output folder.
 pub(super) fn folder_of(number: usize) -> String {
     format!("{COMBINATIONS}/{number:04}")
 }

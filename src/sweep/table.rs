@@ -1,4 +1,4 @@
-//! `sweep.csv` and `sweep.json`: the table of a sweep, and what was asked for.
+//! `sweep.csv` and `sweep.json`: the table of a sweep, and its description.
 
 use super::combinations::Combinations;
 use super::row::{Row, Status};
@@ -9,14 +9,14 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeSet, HashMap};
 
-/// One row a combination and load step, by ascending combination.
+/// The content of `sweep.csv`: one row a combination and load step, by ascending combination.
 pub fn table(rows: &[Row]) -> String {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by_key(|row| row.combination);
     csv(|| sorted.iter().flat_map(|row| row.cells()))
 }
 
-/// The columns of that table: their names, and the scalars of each.
+/// The columns of [`table`]: names and scalars.
 pub fn columns(rows: &[Row]) -> Vec<(String, Vec<Value>)> {
     let mut sorted: Vec<&Row> = rows.iter().collect();
     sorted.sort_by_key(|row| row.combination);
@@ -30,28 +30,28 @@ pub fn columns(rows: &[Row]) -> Vec<(String, Vec<Value>)> {
     names.into_iter().map(column).collect()
 }
 
-/// What a sweep was asked for, and how it ended: `sweep.json`.
+/// The content of `sweep.json`: keys, case and task of a sweep, and the numbers of its combinations.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Description {
     /// The version that wrote it.
     pub percoat: String,
     /// Title of the common case.
     pub title: String,
-    /// What is done with each combination.
+    /// Task of each combination.
     pub task: Task,
     /// The keys that change, with their values.
     pub keys: Vec<SweptKey>,
-    /// Of the case and of all that it sets: equal only for parts of one sweep.
+    /// Fingerprint of case, settings and combinations: equal only for parts of one sweep.
     pub fingerprint: String,
     /// Number of all combinations of the whole sweep.
     pub of: usize,
     /// Number of combinations here.
     pub combinations: usize,
-    /// Number of those that are done.
+    /// Number of finished combinations.
     pub done: usize,
-    /// Number of those in which something did not converge.
+    /// Number of combinations that did not converge.
     pub not_converged: usize,
-    /// Number of those without results.
+    /// Number of combinations without results.
     pub failed: usize,
     /// Each warning of any combination.
     pub warnings: Vec<String>,
@@ -73,14 +73,14 @@ pub struct SweptKey {
 /// Wall times of a sweep, seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
-    /// Of all combinations, one after the other.
+    /// Sum over all combinations.
     pub combinations: f64,
-    /// Of the whole.
+    /// Time of the whole sweep.
     pub wall: f64,
 }
 
 impl Description {
-    /// Of a sweep that has not begun: the title and text of the common case, the task, and the number of combinations.
+    /// The description of a sweep before it begins; `title` and `case` of the common case, `of`: number of all combinations.
     pub fn new(title: &str, case: &str, task: Task, fingerprint: String, of: usize) -> Self {
         Self {
             percoat: env!("CARGO_PKG_VERSION").to_owned(),
@@ -99,7 +99,7 @@ impl Description {
         }
     }
 
-    /// The same sweep after these rows and so much wall time.
+    /// The description after `rows`; `wall`: wall time, seconds.
     #[must_use]
     pub fn after(&self, rows: &[Row], wall: f64) -> Self {
         let keys = rows.first().map_or(&[][..], |row| &row.settings).iter().map(|(key, _)| {
@@ -119,25 +119,25 @@ impl Description {
         }
     }
 
-    /// What every line of its log says: equal only for parts of one sweep by one version of percoat.
+    /// Identity in every line of the log: equal only for parts of one sweep by one version of percoat.
     pub fn identity(&self) -> String {
         let Self { percoat, title, case, task, fingerprint, of, .. } = self;
         digest(&format!("{percoat}\n{} {of} {fingerprint}\n{title}\n{case}", task.name()))
     }
 
-    /// The file.
+    /// The content of `sweep.json`.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("a description is numbers and texts under names") + "\n"
     }
 }
 
-/// Texts in the order in which they first come, each once.
+/// Texts in their order of appearance, each once.
 fn distinct<'a>(texts: impl Iterator<Item = &'a String>) -> Vec<String> {
     let mut seen = BTreeSet::new();
     texts.filter(|text| seen.insert(*text)).cloned().collect()
 }
 
-/// A fingerprint of the common case, what all combinations set, and every combination.
+/// Fingerprint of the common case, the settings of all combinations, and every combination.
 pub fn fingerprint(case: &str, fixed: &[String], combinations: &Combinations) -> String {
     let each = combinations.all.iter().flat_map(|own| &own.values);
     let parts = [case].into_iter().chain(fixed.iter().chain(&combinations.keys).chain(each).map(String::as_str));

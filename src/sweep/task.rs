@@ -1,19 +1,19 @@
-//! What a sweep does with its combinations.
+//! The task of a sweep.
 
 use serde::{Deserialize, Serialize};
 
-/// What is done with every combination.
+/// Task of every combination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Task {
-    /// Its load steps are solved.
+    /// Solution of the load steps.
     Solve,
-    /// Its limit loads are looked for.
+    /// Search for the limit loads.
     Limit,
 }
 
 impl Task {
-    /// Its code in files.
+    /// Code in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Solve => "solve",

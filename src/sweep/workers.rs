@@ -1,18 +1,18 @@
-//! Independent pieces of work, several at once.
+//! Independent items, several solved at once.
 //!
-//! Each worker has one thread of its own for all that it solves, so that none waits for another and memory is that of as
-//! many solutions as there are workers. Results do not depend on it: they are those of any number of threads, bit for bit.
+//! Each worker has a thread of its own, so that no item waits for another, and memory is that of as many solutions as there are
+//! workers. Results do not depend on the number of threads, bit for bit.
 
 use rayon::ThreadPoolBuilder;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-/// Does `work` on every item, `workers` at once, and hands what comes out to `done` on the calling thread, as it comes. One
-/// worker uses all threads there are.
+/// Calls `work` for every item, `workers` at once, and `done` with each result on the calling thread, in the order of completion. A
+/// single worker uses all threads.
 ///
 /// # Errors
-/// The first one of `done`; what is begun then is finished and thrown away, nothing more begins.
+/// The first error of `done`; items that have begun are finished and discarded, no further ones begin.
 pub(super) fn each<T: Sync, R: Send, E>(
     items: &[T],
     workers: usize,
@@ -31,7 +31,7 @@ pub(super) fn each<T: Sync, R: Send, E>(
             let worker = move || {
                 let pool = ThreadPoolBuilder::new().num_threads(1).build();
                 while let Some(item) = items.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    // Where the system gives no more threads, the common ones do.
+                    // Without a thread of its own a worker uses the common ones.
                     let result = pool.as_ref().map_or_else(|_| work(item), |pool| pool.install(|| work(item)));
                     if stop.load(Ordering::Relaxed) || send.send(result).is_err() {
                         break;
