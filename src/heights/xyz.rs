@@ -1,8 +1,8 @@
-//! Points `x y z`, one a line, that stand on a regular grid along x and y, in any order: x along **a**₁, y along **a**₂.
+//! Points `x y z`, one a line, on a regular grid along x and y, in any order: x along **a**₁, y along **a**₂.
 //!
-//! Coordinates of one column differ by rounding, those of neighbours by the spacing: the sorted ones are cut where they
-//! rise by more than half of their largest rise. Every point must then stand within a tenth of a spacing of its place, and
-//! every place must have one point.
+//! Coordinates of one column differ by rounding, those of neighbours by the spacing: the sorted ones are divided where they rise by
+//! more than half of their largest rise. Every point must lie within a tenth of a spacing of a grid point, and every grid point
+//! must have one point.
 
 use super::fault::{Fault, Heights, MOST, fits};
 use super::header::Header;
@@ -10,9 +10,9 @@ use super::lines::{Line, Lines};
 use super::text::FEW;
 use std::io::BufRead;
 
-/// How far a point may stand from its place, in spacings.
+/// Largest distance of a point from its grid point, in spacings.
 const NEAR: f64 = 0.1;
-/// Memory per point: itself, its line, its place and a sorted coordinate, and the list before it has grown.
+/// Memory per point, bytes: the point, its line, its grid point, a sorted coordinate, and the list while it grows.
 const PER_POINT: u64 = 72;
 
 /// A point and its line.
@@ -40,7 +40,7 @@ impl Axis {
         Self { first, step: (last - first) / (count.max(2) - 1) as f64, count }
     }
 
-    /// Index of a coordinate; none away from every place.
+    /// Index of a coordinate; none away from every grid line.
     fn index(&self, x: f64) -> Option<usize> {
         let steps = if self.step > 0.0 { (x - self.first) / self.step } else { 0.0 };
         let index = steps.round();
@@ -55,13 +55,13 @@ impl Axis {
 /// A regular grid of points.
 #[derive(Debug)]
 pub struct Points {
-    /// Along x and y.
+    /// Heights, axis 0 along x, axis 1 along y.
     pub heights: Heights,
-    /// Along x and y, n times the spacing.
+    /// Period along x and y: n times the spacing.
     pub period: [f64; 2],
 }
 
-/// Read points from a file of `bytes` bytes; also what its comments say.
+/// Reads points from a file of `bytes` bytes, and its header.
 pub fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault> {
     let mut lines = Lines::new(reader);
     let mut points = Vec::new();
@@ -84,8 +84,8 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault>
     Ok((on_grid(&points)?, lines.header))
 }
 
-/// A table whose first two columns are the places of a regular grid; `None` of one whose are not. Refused where points are missing, and
-/// where more than a height follows. `lines` are the numbers of the table's in the file, or none: then they count from 1.
+/// Points of a table whose first two columns form a regular grid; `None` where they do not. Refused where points are missing, and
+/// with more than one height a point. `lines` are the numbers of the rows in the file; empty: they count from 1.
 pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault>> {
     let [count, columns] = table.points;
     if !(3..=FEW).contains(&columns) || count < 4 {
@@ -103,7 +103,7 @@ pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault
     }
     let axes = axes(&points);
     let [n1, n2] = axes.map(|axis| axis.count);
-    // Small whole numbers fill a grid by chance while they are few.
+    // A few small whole numbers fill a grid by chance.
     let most = if count < 9 { count } else { 2 * count };
     if n1.min(n2) < 2 || n1.max(n2) > count / 2 || !(count..=most).contains(&(n1 * n2)) {
         return None;
