@@ -17,7 +17,7 @@ use std::convert::Infallible;
 use std::fmt;
 use std::sync::Arc;
 
-/// Points along the shorter cell vector on which the first touches are looked for.
+/// Points along the shorter cell vector of the grid for first touches.
 const POINTS: usize = 192;
 
 /// Summary of a case before it is solved.
@@ -238,7 +238,7 @@ impl fmt::Display for Check {
         )?;
         writeln!(f, "disk: about {most}{}, {} while it runs{free}", bytes(disk), bytes(disk_while_running))?;
         let unit = if self.quantity == "penetration" { self.units.length() } else { self.units.pressure() };
-        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(|load| unit.told(load, number));
+        let [first, last] = [self.loads[0], self.loads[self.loads.len() - 1]].map(|load| unit.with_unit(load, number));
         match self.loads.len() {
             1 => writeln!(f, "load: {} {first}", self.quantity)?,
             count => writeln!(f, "load: {} {first} … {last}, {count} steps", self.quantity)?,

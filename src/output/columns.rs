@@ -7,8 +7,8 @@ use std::collections::{HashMap, HashSet};
 /// The cells of a row, each with the name of its column; a cell is a scalar of JSON, null where there is no value.
 pub type Cells = Vec<(String, Value)>;
 
-/// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1; texts of a list
-/// stand in one cell, with semicolons between them.
+/// The scalars of a value under names joined by underscores (`levels_1_load`), items of lists counted from 1; texts of a list are
+/// one cell, with semicolons between them.
 pub fn scalars(value: &Value) -> Cells {
     let mut cells = Vec::new();
     flatten("", value, &mut cells);

@@ -8,12 +8,12 @@ use crate::units::{Unit, Units};
 
 /// A length with its unit, five digits.
 pub(super) fn length(units: &Units, x: f64) -> String {
-    units.length().told(x, number)
+    units.length().with_unit(x, number)
 }
 
 /// A pressure with its unit, five digits.
 pub(super) fn pressure(units: &Units, x: f64) -> String {
-    units.pressure().told(x, number)
+    units.pressure().with_unit(x, number)
 }
 
 /// A pressure and its error with their unit.

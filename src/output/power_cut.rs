@@ -173,7 +173,7 @@ impl Recorder for Watched<'_> {
     }
 }
 
-/// Solves a case into a folder, going on with what stands there. After each step, how many images the journal has.
+/// Solves a case into a folder, resuming an interrupted run there. Returns the number of images of the journal after each step.
 fn solve(case: &Case, folder: &Path, journal: Option<&Mutex<Journal>>) -> Vec<usize> {
     let run = case.run();
     let plan = solved_plan(case, run.loads.len(), true);

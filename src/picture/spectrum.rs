@@ -52,7 +52,7 @@ pub fn spectrum(title: &str, topography: &Topography, units: &Units, random: Opt
         "{}{}, rms slope {}; {n1}\u{a0}×\u{a0}{n2} samples. C averaged over all directions; ∫\u{a0}C\u{a0}d²q is the mean \
          square ⟨h²⟩ of the heights; SurfaceTopography's C is 4π² times this one.",
         if title.is_empty() { String::new() } else { format!("{title}. ") },
-        units.length().told(statistics.rms_height, |x| format!("Rms height {}", short(x))),
+        units.length().with_unit(statistics.rms_height, |x| format!("Rms height {}", short(x))),
         short(own.rms_slope())
     );
     Some(plots(&caption, &[chart]))

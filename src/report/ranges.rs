@@ -12,7 +12,7 @@ use crate::sweep::{Foremost, Kind, LimitValue, Row, SCALARS, Scalar, SweepResult
 use crate::units::{Unit, Units};
 
 /// The least and the largest value of a result.
-struct Extremes {
+struct ValueRange {
     name: String,
     /// Least and largest value, each with the settings of its combination.
     ends: [(String, String); 2],
@@ -21,7 +21,7 @@ struct Extremes {
 /// The answer of a sweep in sentences; nothing where no combination has results.
 pub(super) fn sentences(rows: &[Row], keys: &[SweptKey], units: &Units) -> Vec<Markup> {
     let sentence = |text: String| with("p", &[("class", "answer")], numbers(&text));
-    let between = |Extremes { name, ends: [least, most] }: Extremes| {
+    let between = |ValueRange { name, ends: [least, most] }: ValueRange| {
         if least.0 == most.0 {
             return format!("The {name} is {}", least.0);
         }
@@ -61,7 +61,7 @@ pub(super) fn ranges(rows: &[Row], keys: &[SweptKey], units: &Units) -> Markup {
     // The mean pressure is prescribed.
     let scalars = SCALARS.iter().filter(|scalar| scalar.name != "mean pressure");
     let scalars = scalars.map(|scalar| scalar_range(rows, keys, scalar, units));
-    let row = |Extremes { name, ends: [least, most] }: Extremes| vec![name, least.0, least.1, most.0, most.1];
+    let row = |ValueRange { name, ends: [least, most] }: ValueRange| vec![name, least.0, least.1, most.0, most.1];
     let all: Vec<Vec<String>> = limits.chain(scalars).flatten().map(row).collect();
     if all.is_empty() || rows.len() < 2 {
         return Markup::default();
@@ -97,7 +97,7 @@ pub(super) fn are_limits(rows: &[Row]) -> bool {
 }
 
 /// The least and the largest of a scalar.
-fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units) -> Option<Extremes> {
+fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units) -> Option<ValueRange> {
     let unit = match scalar.kind {
         Kind::Pressure => Some(units.pressure()),
         Kind::Length => Some(units.length()),
@@ -107,7 +107,7 @@ fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units)
 }
 
 /// The least and the largest of the first limit, or of that of a criterion.
-fn limit_range(rows: &[Row], keys: &[SweptKey], name: &str, of: Option<Criterion>, units: &Units) -> Option<Extremes> {
+fn limit_range(rows: &[Row], keys: &[SweptKey], name: &str, of: Option<Criterion>, units: &Units) -> Option<ValueRange> {
     let value = |result: &SweepResult| match result.limit_value(of)? {
         LimitValue::At(load, error) => Some((load, error)),
         LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,
@@ -122,7 +122,7 @@ fn range(
     name: &str,
     value: impl Fn(&SweepResult) -> Option<(f64, Option<f64>)>,
     unit: Option<&Unit>,
-) -> Option<Extremes> {
+) -> Option<ValueRange> {
     let found = last(rows).filter_map(|(row, result)| value(result).map(|(x, error)| (x, error, row)));
     let found: Vec<(f64, Option<f64>, &Row)> = found.collect();
     let least = found.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -134,7 +134,7 @@ fn range(
         None => percent_with_error(x, error),
     };
     let end = |(x, error, row): &(f64, Option<f64>, &Row)| (text(*x, *error), settings(keys, row));
-    Some(Extremes { name: name.to_owned(), ends: [end(least), end(most)] })
+    Some(ValueRange { name: name.to_owned(), ends: [end(least), end(most)] })
 }
 
 /// How often each criterion is first, in a sentence.

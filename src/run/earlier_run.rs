@@ -1,30 +1,30 @@
-//! What an earlier run of the same kind has finished, with which a run goes on.
+//! The earlier run that a run resumes.
 
 use super::StepRecord;
 use crate::spectral::Checkpoint;
 
-/// What an earlier run has finished on a grid, and on those before it.
+/// Finished steps of an earlier run, which a run resumes.
 ///
-/// The last load that it solved is not solved again: its step comes from a checkpoint, and all that is read off it is
-/// read again. So a run that goes on ends as one that was never interrupted does, bit for bit.
+/// The last solved load is not solved again: its step is restored from a checkpoint, and its readings are computed again. The
+/// resumed run has the results of one that was never interrupted, bit for bit.
 #[derive(Debug, Clone)]
 pub struct EarlierRun {
     /// The grid, points along a₁ and a₂.
     pub points: [usize; 2],
-    /// Of a refinement, the changes that the grids before have brought.
+    /// Of a refinement, the changes between the grids before.
     pub changes: Vec<f64>,
     /// Of a refinement, the steps on the grid before; `None` on the first.
     pub coarser: Option<Vec<StepRecord>>,
     /// The steps on this grid before the last.
     pub steps: Vec<StepRecord>,
-    /// What the solver knew after the last; `None` where the grid has none.
+    /// The last load on this grid; `None` where none is solved.
     pub last: Option<LastLoad>,
 }
 
 /// The last load that an earlier run has solved.
 #[derive(Debug, Clone)]
 pub struct LastLoad {
-    /// What the solver knew after it.
+    /// State of the solver after it.
     pub checkpoint: Checkpoint,
     /// Wall time of its solution, seconds.
     pub seconds: f64,

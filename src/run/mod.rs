@@ -1,8 +1,7 @@
 //! The engine of a run: load path, refinement to an accuracy, stresses, warnings.
 //!
-//! A [`Run`] is what is solved. A [`Recorder`] is called with every step as it is done: that of the command line writes files, that
-//! of a study reads numbers, `()` keeps nothing. The result is an [`Outcome`]. A recorder with the [`EarlierRun`] part of an earlier
-//! run makes this one go on from there.
+//! A [`Run`] is solved with a [`Recorder`], which is called with every finished step: that of the command line writes files, that
+//! of a study reads numbers, `()` records nothing. The result is an [`Outcome`]. A recorder may give an [`EarlierRun`] to resume.
 //!
 //! ```
 //! use percoat::run::{Run, Sampling};
@@ -178,7 +177,7 @@ impl Run {
         self.stress.as_ref().map(|request| request.mean).or_else(|| has_strengths().then(MeanStress::default))
     }
 
-    /// Solves all loads on one grid, after those that an earlier run has `finished`.
+    /// Solves all loads on one grid, after those of the earlier run `finished`.
     fn on_grid<R: Recorder>(
         &self,
         points: [usize; 2],

@@ -68,7 +68,7 @@ pub fn reached(criterion: Criterion, mean_pressure: f64, error: f64) -> Limit {
     Limit { criterion, at: At::Load { mean_pressure, error: Some(error), interval, position: [0.0; 3] } }
 }
 
-/// A limit that is known to lie below a load only.
+/// A limit that is bounded by a load above.
 pub fn below(criterion: Criterion, mean_pressure: f64) -> Limit {
     Limit { criterion, at: At::Below { mean_pressure, utilisation: 2.0, position: [0.0; 3] } }
 }

@@ -74,7 +74,7 @@ fn modulus(young: f64, name: &str, exponent: i32) -> Option<String> {
             "Young's modulus {} of {name} is {} by [units], and those of all materials lie between 1 kPa and 1.3 TPa: is it in the \
              unit of units.pressure?",
             number(young),
-            Unit::Si { base: "Pa", exponent }.told(young, number)
+            Unit::Si { base: "Pa", exponent }.with_unit(young, number)
         )
     })
 }
@@ -85,7 +85,7 @@ fn length(x: f64, name: &str, exponent: i32) -> Option<String> {
         format!(
             "{name} = {} is {} by [units], not between 0.1 nm and 1 m: is it in the unit of units.length?",
             number(x),
-            Unit::Si { base: "m", exponent }.told(x, number)
+            Unit::Si { base: "m", exponent }.with_unit(x, number)
         )
     })
 }

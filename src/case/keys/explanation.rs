@@ -175,7 +175,7 @@ impl PlacedKey {
     }
 }
 
-/// Whether a section of the case may stand several times.
+/// Whether a section of the case may be repeated.
 fn is_list(section: &str) -> bool {
     CASE.get(section).is_some_and(|key| matches!(key.forms, [Form::Sections(..)]))
 }

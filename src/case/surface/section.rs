@@ -18,7 +18,8 @@ const SIZE: Form = Form::Number(Range::Size);
 const OF_A_FILE: &str = "of a file, not of a random surface";
 
 section! {
-    /// The section `[surface]`: complete, with an absolute path and its factor; its period stands in [`LatticeSection`](crate::case::LatticeSection).
+    /// The section `[surface]`, complete with an absolute path and its factor; its period is in
+    /// [`LatticeSection`](crate::case::LatticeSection).
     pub struct SurfaceSection = SURFACE {
         /// a file of heights, `.npy`, `.csv`, `.txt`, `.dat` or `.xyz`, relative to the case file
         pub heights: Option<String> = Key::new(&[Form::Text("the path of a file")], "\"surface.npy\""),

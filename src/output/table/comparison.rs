@@ -91,7 +91,7 @@ pub fn stresses(comparison: &Comparison, units: &Units) -> Option<String> {
         "stresses at {} points under the highest level agree within {:.2} % of the largest, worst at z = {} in material {}",
         comparison.stresses.len(),
         100.0 * worst.difference() / largest,
-        units.length().told(worst.depth.z, number),
+        units.length().with_unit(worst.depth.z, number),
         worst.depth.material
     ))
 }

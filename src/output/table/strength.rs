@@ -35,7 +35,7 @@ fn in_words(steps: &[StepRecord], half_space: Option<&HalfSpace>, units: &Units)
         return Some(format!("first: {criterion}, without load, by residual stress alone"));
     }
     let taken = || steps.iter().flat_map(|step| step.strength.iter().map(move |own| (step.reading.mean_pressure, own)));
-    let told = |pressure: f64| units.pressure().told(pressure, number);
+    let told = |pressure: f64| units.pressure().with_unit(pressure, number);
     let least = |loads: &mut dyn Iterator<Item = f64>| loads.min_by(f64::total_cmp);
     let fails = least(&mut taken().filter(|(_, own)| own.verdict == Verdict::Fails).map(|(load, _)| load));
     let Some(above) = fails else {
@@ -95,7 +95,7 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
     let place = |position: [f64; 3]| place(&length, position);
     let most = |utilisation: f64, error: Option<f64>, at: f64| {
         let utilisation = with_error(utilisation, error);
-        format!("takes up {utilisation} at p̄ = {}", units.pressure().told(at, number))
+        format!("takes up {utilisation} at p̄ = {}", units.pressure().with_unit(at, number))
     };
     let row = |limit: &&Limit| {
         let (pressure, place) = match limit.at {
@@ -122,6 +122,6 @@ pub fn limits(limits: &Limits, units: &Units) -> Worded {
     };
     let rows = limits.ordered().iter().map(row).collect();
     let header = ["criterion".to_owned(), pressure.headed("mean pressure"), length.headed("place (x, y, z)")];
-    let words = limits.in_words(|x| units.pressure().told(x, number));
+    let words = limits.in_words(|x| units.pressure().with_unit(x, number));
     Worded { words, table: Table::new(&header, rows, 1) }
 }

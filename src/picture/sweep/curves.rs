@@ -23,8 +23,8 @@ struct Found {
 }
 
 impl Keys {
-    /// A curve for each set of the other keys, or for each load step where there are no others, in so far as they can be told
-    /// apart; and how many there are.
+    /// A curve for each set of the other keys, or for each load step where there are no others, as many as are distinguishable; and
+    /// the number of all.
     pub fn chart(&self, rows: &[Row], shown: &Number) -> (Chart, usize) {
         let (index, values) = &self.along;
         let mut curves: BTreeMap<usize, Found> = BTreeMap::new();
@@ -42,7 +42,7 @@ impl Keys {
                 let load = result.step().map(|step| step.reading.mean_pressure).filter(|_| steps > 1);
                 let (own, label) = if steps > 1 { (step, format!("step {}", step + 1)) } else { (at, label.clone()) };
                 let curve = curves.entry(own).or_insert_with(|| Found { label, load, points: Vec::new() });
-                // A step whose load is not the same everywhere has a number only.
+                // A step whose load differs between rows is labelled by its number.
                 curve.load = curve.load.filter(|_| curve.load == load);
                 curve.points.push([x, shown.value(result).unwrap_or(f64::NAN)]);
             }

@@ -29,7 +29,7 @@ pub struct Named<'a> {
 }
 
 impl Named<'_> {
-    /// Where the samples stand relative to the corner of the names, and the height of all, at a width.
+    /// Positions of the samples relative to the corner of the names, and the height of all, at a width.
     fn places(&self, width: f64) -> (Vec<[f64; 2]>, f64) {
         let widths = self.names.iter().map(|(_, name)| SAMPLE + GAP + text::width(name, NUMBERS) + 3.0 * GAP);
         let pitch = widths.fold(1.0, f64::max);

@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 /// Numbers of more than this ratio have a logarithmic bar.
 const WIDE: f64 = 20.0;
 
-/// Where the values of a map stand, and what the map shows there; `None` where a combination is not.
+/// Values of a map, cell by cell; `None` where there is no combination.
 type Field<T> = Vec<Option<T>>;
 
 impl Keys {

@@ -103,7 +103,7 @@ mod tests {
     const CRACKS: Criterion = Criterion::Cracking { material: 1 };
     const PARTS: Criterion = Criterion::Delamination { interface: 1 };
 
-    /// All that stands on a picture, in a line.
+    /// All text of a picture, in a line.
     fn words(picture: Option<Canvas>) -> String {
         let marks = picture.unwrap().marks.into_iter();
         let words = marks.filter_map(|mark| if let Mark::Text { text, .. } = mark { Some(text) } else { None });

@@ -107,7 +107,7 @@ mod tests {
     use super::*;
     use crate::body::{HalfSpace, Material};
     use crate::lattice::{Cell, Grid};
-    use crate::reading::edge::Edge;
+    use crate::reading::edge::ContactEdge;
 
     /// Pressure and gap of a contact with E* = 1 in the middle of a cell of side 4.
     struct Fields {
@@ -154,7 +154,7 @@ mod tests {
     fn located(fields: &Fields, spacing: f64) -> Option<Boundary> {
         let bare = HalfSpace::new(vec![], Material::from_young(1.0, 0.0).unwrap());
         let [shortest, longest] = Scale::distances(&fields.grid);
-        let edge = Edge::new(bare.response(), None, shortest, longest);
+        let edge = ContactEdge::new(bare.response(), None, shortest, longest);
         let Fields { grid, pressure, gap, hole } = fields;
         let what = |index: usize| match (pressure[index] > 0.0, hole[index]) {
             (true, _) => Sample::Contact,

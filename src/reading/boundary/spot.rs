@@ -1,9 +1,9 @@
-//! A contact spot on its grid, seen from an axis.
+//! A contact spot on its grid, in polar coordinates about an axis.
 
 use super::constants::WEIGHT_RISE;
 use crate::lattice::runs::{SampleRun, annulus, samples};
 use crate::lattice::{Grid, ReducedBasis};
-use crate::reading::edge::Edge;
+use crate::reading::edge::ContactEdge;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -42,7 +42,7 @@ pub struct Spot<'a> {
 
 impl<'a> Spot<'a> {
     /// The spot around a `centre` (lengths), whose samples in contact are not farther from it than `farthest`, a length; `what`
-    /// says where a sample lies, by its flat index.
+    /// classifies a sample by its flat index.
     pub fn new(grid: &'a Grid, centre: [f64; 2], farthest: f64, what: &'a (dyn Fn(usize) -> Sample + Sync)) -> Self {
         let reduced = grid.cell().reduced();
         let [x, y] = reduced.short();
@@ -117,7 +117,7 @@ pub struct Scale<'a> {
     /// Contact modulus of the surface material, E* = E/(1 − ν²).
     pub modulus: f64,
     /// Pressure and gap at an edge on the half-space, at [`Scale::distances`].
-    pub edge: &'a Edge,
+    pub edge: &'a ContactEdge,
     /// Whether errors of boundaries are estimated.
     pub errors: bool,
 }

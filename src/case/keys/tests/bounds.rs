@@ -6,7 +6,7 @@ use super::bases::{self, Bases, all_keys};
 use super::schema::accepts;
 use std::ops::Bound;
 
-/// A value, where in it the fault is if it is one, and whether bounds alone see that.
+/// A value, the place of its fault, and whether bounds alone show the fault.
 #[derive(Debug, Clone)]
 struct Probe {
     value: String,

@@ -1,4 +1,4 @@
-//! The table is what the reader does, the README says, the schema demands and `percoat explain` prints.
+//! Reader, README, schema and `percoat explain` agree with the table of keys.
 
 mod bases;
 mod bounds;
@@ -20,7 +20,7 @@ fn is(key: &Key) -> String {
     }
 }
 
-/// One row a key; those of a range stand under the first key that takes one.
+/// One row a key; those of a range are listed under the first key that admits one.
 fn rows(keys: &Keys, path: &str) -> String {
     let names = |key: &Key| key.holds().all.iter().map(|key| key.name).collect::<Vec<_>>();
     let row = |(index, key): (usize, &Key)| {
