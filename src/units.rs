@@ -76,7 +76,7 @@ impl Units {
         Self { length: Unit::None, pressure: Unit::None }
     }
 
-    /// The same with names for lengths, for pressures or for both.
+    /// The units with names for lengths, for pressures or for both.
     #[must_use]
     pub fn named(self, length: Option<&str>, pressure: Option<&str>) -> Self {
         Self {

@@ -1,5 +1,3 @@
-//! The coated half-space: layers on a substrate.
-
 use super::{Depth, Layer, LayeredResponse, Material, MaterialError, Strength};
 use crate::notation::number;
 use std::fmt;

@@ -1,5 +1,3 @@
-//! The counterbody of a case: levels of indenters on their lattice, or a surface.
-
 use super::error::Refusal;
 use super::feasibility::magnitude;
 use super::lattice::{self, LatticeSection};

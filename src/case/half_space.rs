@@ -1,5 +1,3 @@
-//! A half-space read alone: layers and substrate without the other sections of a case.
-
 use super::Source;
 use super::error::{CaseError, Refusal};
 use super::layers;

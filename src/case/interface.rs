@@ -63,7 +63,6 @@ pub enum InterfaceSection {
 impl InterfaceSection {
     pub(super) const WORDS: &'static [&'static str] = InterfaceWord::WORDS;
 
-    /// The interface as an [`Interface`].
     pub(super) fn interface(self) -> Interface {
         match self {
             Self::Word(InterfaceWord::Bonded) => Interface::Bonded,
@@ -114,7 +113,6 @@ fn stiffness_advice(section: &TableAt<'_>) -> Option<&'static str> {
 }
 
 impl InterfaceStrengthSection {
-    /// The strengths as an [`InterfaceStrength`].
     pub(super) fn strength(&self) -> InterfaceStrength {
         InterfaceStrength { normal: self.normal, shear: self.shear }
     }

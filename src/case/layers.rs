@@ -97,7 +97,6 @@ impl LayerSection {
         self.graded.map_or(1, |graded| graded.sublayers)
     }
 
-    /// The key of its stiffness.
     fn stiffness_key(&self) -> &'static str {
         match (&self.graded, self.young) {
             (Some(_), _) => "graded",

@@ -65,7 +65,6 @@ impl LevelSection {
         }
     }
 
-    /// The level as a [`Level`].
     pub(super) fn build(&self, section: &TableAt<'_>) -> Result<Level, Refusal> {
         Level::new(self.shape(), self.height)
             .map_err(|error| Refusal::new(section.span, format!("`{}`: {error}", section.path("shape")), "this level"))

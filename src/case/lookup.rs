@@ -1,5 +1,3 @@
-//! Lookup of a case by a path or a name.
-
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 

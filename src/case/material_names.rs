@@ -1,5 +1,3 @@
-//! Names of the materials of a body, by the `name` of their layer or the substrate.
-
 use super::{LayerSection, SubstrateSection};
 
 /// Names of the materials of a body: one a homogeneous layer from the surface down, sublayers counted, then the substrate's.

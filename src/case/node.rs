@@ -54,7 +54,6 @@ impl Table {
         }
     }
 
-    /// The entry of a key.
     pub(super) fn get(&self, key: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.key == key)
     }
@@ -188,7 +187,7 @@ fn syntax(error: &toml::de::Error, whole: Span, text: &str) -> Refusal {
     let message = match error.message() {
         unquoted if unquoted.contains("string values must be quoted") => {
             if word.starts_with(char::is_alphabetic) {
-                "text must stand in quotes"
+                "text must be in quotes"
             } else {
                 "this is not one value"
             }
@@ -197,8 +196,8 @@ fn syntax(error: &toml::de::Error, whole: Span, text: &str) -> Refusal {
     };
     let refusal = Refusal::new(span, format!("not valid TOML: {message}"), message);
     match message {
-        "text must stand in quotes" => refusal.help(format!("write \"{word}\"")),
-        "duplicate key" => refusal.help("each key may stand once in a table: remove one of them"),
+        "text must be in quotes" => refusal.help(format!("write \"{word}\"")),
+        "duplicate key" => refusal.help("each key is allowed once in a table: remove one of them"),
         _ => refusal,
     }
 }

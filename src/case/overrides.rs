@@ -29,7 +29,7 @@ pub(super) fn apply(text: &str, source: usize, root: &mut Table, keys: &'static 
     let (key, value) = split(text, source)?;
     let steps = steps(key, source)?;
     if let Some(step) = steps.get(DEEPEST) {
-        return Err(Refusal::new(step.span, "no key of a case lies as deep as this", "too deep")
+        return Err(Refusal::new(step.span, "no key of a case has so many parts", "too many parts")
             .help("write KEY=VALUE, for example layers.0.thickness=0.2"));
     }
     let offset = key.len() + 1 + (value.len() - value.trim_start().len());

@@ -1,5 +1,3 @@
-//! Places in the text of a case.
-
 /// A span of bytes in one of the sources (0: the case file, n: the n-th `--set`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Span {

@@ -82,7 +82,6 @@ impl<'a> ValueAt<'a> {
         }
     }
 
-    /// A text.
     pub(super) fn text(&self) -> Result<&str, Refusal> {
         let known = self.forms.iter().any(|form| matches!(form, Form::Text(_)));
         match &self.node.value {

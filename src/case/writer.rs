@@ -1,5 +1,3 @@
-//! A case as TOML, with short numbers.
-
 use serde::Serialize;
 
 use crate::plain;

@@ -1,5 +1,3 @@
-//! Why a counterbody cannot be built.
-
 /// Why a counterbody cannot be built from its parts.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]

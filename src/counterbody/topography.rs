@@ -1,5 +1,3 @@
-//! One period of a measured or generated topography.
-
 use super::CounterbodyError;
 use super::roughness::{RunOut, Spectrum, apex};
 use crate::lattice::{Cell, LatticeError};

@@ -45,7 +45,7 @@ impl Head {
         let mut text = vec![0; size];
         reader.read_exact(&mut text)?;
         let text = std::str::from_utf8(&text).map_err(|_| invalid("its head is no text"))?;
-        Self::parse(text).ok_or_else(|| invalid("its head says neither type nor shape"))
+        Self::parse(text).ok_or_else(|| invalid("its head has no type or no shape"))
     }
 
     fn parse(text: &str) -> Option<Self> {

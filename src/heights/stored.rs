@@ -1,5 +1,3 @@
-//! The content of a file of heights of any format: axis 0 along a₁, axis 1 along a₂.
-
 use ndarray::ArrayD;
 use std::io::BufRead;
 use std::path::Path;

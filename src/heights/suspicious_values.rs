@@ -151,7 +151,7 @@ fn alone(heights: &Heights) -> Option<String> {
             let first = values.iter().position(|x| *x == code).expect("it occurs");
             let n2 = heights.points[1];
             format!(
-                "surface.heights: the same height stands at {count} of {} places, the first at [{}, {}], far from all others: does it \
+                "surface.heights: the same height occurs at {count} of {} places, the first at [{}, {}], far from all others: does it \
                  mark places without a measurement? Fill them before",
                 values.len(),
                 first / n2,
@@ -284,7 +284,7 @@ mod tests {
             ),
             (
                 surface([40, 40], |i, j| if (i + 3 * j).is_multiple_of(31) { 0.0 } else { 50.0 + 0.5 * rough(i, j) }),
-                "the same height stands at",
+                "the same height occurs at",
             ),
             (surface([64, 3], |i, j| hash(3 * i + j)), "64 lines of three numbers"),
         ] {

@@ -146,7 +146,7 @@ fn on_grid(points: &[Point]) -> Result<Points, Fault> {
         let place = axes[0].index(at[0]).zip(axes[1].index(at[1])).map(|(i, j)| i * counts[1] + j);
         let Some(place) = place.filter(|place| *place < values.len()) else {
             let what = format!(
-                "line {line}: its point stands on no grid of equal spacings along x and y ({} × {} were found)",
+                "line {line}: its point is on no grid of equal spacings along x and y ({} × {} were found)",
                 counts[0], counts[1]
             );
             return Err(Fault::new(what, format!("line {line}"))

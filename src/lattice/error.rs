@@ -1,5 +1,3 @@
-//! Why a lattice, or a grid on it, cannot be built.
-
 /// Why a lattice cannot be built.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]

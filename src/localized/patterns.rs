@@ -1,5 +1,3 @@
-//! Penetration, loads and pressures between two passes over the levels.
-
 use super::mesh::Mesh;
 use super::solution::Solution;
 

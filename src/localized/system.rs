@@ -1,5 +1,3 @@
-//! A system of indenters on a layered half-space, with the kernel of the localized method.
-
 use super::circle::Circle;
 use super::edge_ratios::EdgeRatios;
 use super::point::PointKernel;

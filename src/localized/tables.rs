@@ -1,5 +1,3 @@
-//! Influence tables of all pairs of sites.
-
 use super::circle::Circle;
 use super::exterior::Exterior;
 use super::mesh::{Influence, Mesh};

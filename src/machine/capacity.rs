@@ -1,5 +1,3 @@
-//! Available memory and disk of the machine.
-
 use super::threads::Threads;
 use crate::notation::number;
 use std::fs;

@@ -219,7 +219,7 @@ impl<R: Read + Seek> CheckpointReader<R> {
         let entry = self.zip.by_name(name).map_err(|error| unlike(format!("its entry `{name}`: {error}")))?;
         let bytes = entry.size();
         if bytes > most || entry.compressed_size() != bytes {
-            return Err(unlike(format!("its entry `{name}` is said to have {bytes} bytes")));
+            return Err(unlike(format!("its entry `{name}` has a wrong length of {bytes} bytes")));
         }
         Ok((bytes, entry))
     }

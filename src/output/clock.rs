@@ -1,5 +1,3 @@
-//! Wall time of a run by phases.
-
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 

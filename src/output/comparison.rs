@@ -1,5 +1,3 @@
-//! `compare.json`: spectral and localized solution side by side.
-
 use super::json::{Unreadable, indented, read_back};
 use super::summary::{UnitNames, check};
 use crate::case::Case;

@@ -16,7 +16,6 @@ pub(super) fn pressure(units: &Units, x: f64) -> String {
     units.pressure().with_unit(x, number)
 }
 
-/// A pressure and its error with their unit.
 pub(super) fn pressure_with_error(units: &Units, x: f64, error: Option<f64>) -> String {
     let prefixed = units.pressure().prefixed(x);
     prefixed.behind(&with_error(prefixed.shown(x), error.map(|error| prefixed.shown(error))))

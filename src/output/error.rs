@@ -1,5 +1,3 @@
-//! Files and folders that cannot be written.
-
 use std::io;
 use std::path::{Path, PathBuf};
 

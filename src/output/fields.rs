@@ -1,5 +1,3 @@
-//! `contact.npz`: the fields of every load step.
-
 use super::step_arrays::StepArrays;
 use super::{Files, OutputError};
 use crate::counterbody::Surface;

@@ -166,7 +166,7 @@ fn whole(folder: &Path, steps: &[LoggedStep]) -> Result<(), CannotGoOn> {
         if let Some((name, reason)) = step.files.damaged(folder) {
             return Err(CannotGoOn::Damaged {
                 path: folder.join(name),
-                reason: format!("what step {} has left there {reason}", step.identity.step),
+                reason: format!("the file of step {} {reason}", step.identity.step),
             });
         }
     }

@@ -1,5 +1,3 @@
-//! Errors of claiming an output folder.
-
 use super::OutputError;
 use std::path::PathBuf;
 

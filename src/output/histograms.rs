@@ -1,9 +1,7 @@
-//! `histograms.csv`: distributions of pressure, gap and spot areas of every load step.
-
 use crate::run::StepRecord;
 use std::fmt::Write;
 
-/// Histograms as CSV, one row an interval: step, quantity, ends, count, and density: part of the whole per unit of the quantity.
+/// The content of `histograms.csv`, one row an interval: step, quantity, ends, count, and density: part of the whole per unit of it.
 /// Pressures are counted over the samples in contact and gaps over the others, relative to all samples; areas over spots. `None`
 /// for indenters.
 pub fn histograms(steps: &[StepRecord]) -> Option<String> {

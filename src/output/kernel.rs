@@ -1,5 +1,3 @@
-//! The response of a layered half-space to a harmonic traction, the output of `percoat kernel`.
-
 use crate::body::{Amplitudes, Antiplane, Depth, HalfSpace, InPlane, LayeredResponse};
 use serde_json::{Value, json};
 

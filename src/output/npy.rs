@@ -61,7 +61,7 @@ pub(super) fn values(mut reader: impl Read, shape: &[usize]) -> io::Result<Vec<f
     let mut values = vec![0.0; shape.iter().product()];
     reader.read_exact(bytemuck::cast_slice_mut(&mut values)).map_err(short)?;
     if reader.read(&mut [0])? > 0 {
-        return Err(unlike(format!("more stands behind its {} numbers", values.len())));
+        return Err(unlike(format!("it has more than its {} numbers", values.len())));
     }
     Ok(values)
 }
@@ -96,7 +96,7 @@ pub(super) fn shape(mut reader: impl Read) -> io::Result<Vec<usize>> {
     });
     let mut wanted = Vec::new();
     let counted = |sizes: &Vec<usize>| sizes.iter().try_fold(1, |count: usize, &n| count.checked_mul(n)).is_some();
-    let sizes = sizes.filter(counted).ok_or_else(|| unlike("its header tells no shape".to_owned()))?;
+    let sizes = sizes.filter(counted).ok_or_else(|| unlike("its header has no shape".to_owned()))?;
     header::<f64>(&mut wanted, &sizes)?;
     if found == wanted { Ok(sizes) } else { Err(unlike("its header is not one of numbers".to_owned())) }
 }

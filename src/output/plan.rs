@@ -1,5 +1,3 @@
-//! The plan of a run: the files that it may write, and the earlier files that its result replaces.
-
 use super::writer::Writer;
 
 /// The files that a run may write.

@@ -1,5 +1,3 @@
-//! Files of a run that is being solved: its case, every finished step with its fields and stresses, checkpoints.
-
 use super::checkpoint::Checkpoints;
 use super::clock::{Clock, Phase};
 use super::fields::ContactArchive;

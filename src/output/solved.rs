@@ -1,5 +1,3 @@
-//! The files of a solved case, except its pictures.
-
 use super::histograms::histograms;
 use super::plan::Plan;
 use super::summary::{Summary, curve};

@@ -1,5 +1,3 @@
-//! The commands that write results into an output folder.
-
 use serde::{Deserialize, Serialize};
 
 /// A command that writes a result into an output folder. Each replaces only its own files, and the report that shows them.

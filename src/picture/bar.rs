@@ -1,5 +1,3 @@
-//! Colour bars: the values of the colours of a field.
-
 use super::canvas::{Anchor, Canvas, PIXELS};
 use super::colour::{Colour, ColourMap};
 use super::frame::{all, factor, tick, widest};
@@ -83,7 +81,6 @@ impl Bar {
         }
     }
 
-    /// The colour of a value.
     pub(super) fn colour(&self, table: &[Colour], value: f64) -> Colour {
         let [low, high] = self.span;
         let part = match self.colours {

@@ -1,5 +1,3 @@
-//! A picture as a file: PNG, SVG or PDF.
-
 use super::canvas::Canvas;
 use super::{paper, raster, vector};
 use crate::output::{OutputError, write_file};

@@ -1,5 +1,3 @@
-//! The spacing of values along an axis.
-
 /// The spacing of values along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {

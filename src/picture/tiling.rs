@@ -1,5 +1,3 @@
-//! The cell repeated over a window of the surface.
-
 use super::snapshot::Snapshot;
 use super::window::Window;
 use crate::lattice::{Cell, Grid};

@@ -1,5 +1,3 @@
-//! Estimated discretisation errors of a reading.
-
 /// Estimated errors of the scalars of a load step, each in the unit of its quantity; `None` where there is no
 /// coarser grid to compare with or no such quantity.
 ///

@@ -1,5 +1,3 @@
-//! The fraction of the cell in contact with its uncertainty.
-
 /// One reading of the fraction of the cell in contact, on one grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fraction {

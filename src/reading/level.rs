@@ -1,5 +1,3 @@
-//! What is read of the indenters of one level.
-
 use super::LevelErrors;
 #[cfg(feature = "serde")]
 use crate::numeric::serialised;

@@ -1,5 +1,3 @@
-//! Peak pressure between the samples, and its distance from the edge of contact.
-
 use crate::lattice::Grid;
 use crate::numeric::paraboloid;
 

@@ -1,5 +1,3 @@
-//! The answer of a run: its last load step with contact in a sentence, and its numbers with their errors.
-
 use super::markup::{Markup, numbers, tag, with};
 use super::table::pairs;
 use super::units::with_unit;

@@ -1,5 +1,3 @@
-//! Errors of reports.
-
 use crate::plain;
 use crate::sweep::PartError;
 use std::io;

@@ -13,7 +13,6 @@ pub(super) fn values(key: &SweptKey) -> String {
     listed(&key.values.iter().map(|text| shown(text, is_short)).collect::<Vec<_>>())
 }
 
-/// The value of a key in a row.
 pub(super) fn value(key: &SweptKey, row: &Row) -> Option<String> {
     let (_, text) = row.settings.iter().find(|(own, _)| *own == key.key)?;
     Some(shown(text, is_short(key)))

@@ -1,5 +1,3 @@
-//! The part of the page for a search for limit loads.
-
 use super::ReportError;
 use super::answer::doubts;
 use super::certificate::certificate;
@@ -29,7 +27,7 @@ const PICTURES: [PictureText; 2] = [
     ),
 ];
 
-/// The part of `limit.json`.
+/// The part of the page for a search for limit loads, from `limit.json`.
 pub(super) fn part(results: &Results, file: &LimitFile) -> Result<Part, ReportError> {
     let path = results.folder.join("limit.json");
     let (case, limits) = (&file.case, file.limits());

@@ -107,7 +107,13 @@ fn scalar_range(rows: &[Row], keys: &[SweptKey], scalar: &Scalar, units: &Units)
 }
 
 /// The least and the largest of the first limit, or of that of a criterion.
-fn limit_range(rows: &[Row], keys: &[SweptKey], name: &str, of: Option<Criterion>, units: &Units) -> Option<ValueRange> {
+fn limit_range(
+    rows: &[Row],
+    keys: &[SweptKey],
+    name: &str,
+    of: Option<Criterion>,
+    units: &Units,
+) -> Option<ValueRange> {
     let value = |result: &SweepResult| match result.limit_value(of)? {
         LimitValue::At(load, error) => Some((load, error)),
         LimitValue::Below(_) | LimitValue::Above(_) | LimitValue::Undecided => None,

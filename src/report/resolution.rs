@@ -1,5 +1,3 @@
-//! Resolution of a run, and its estimated errors.
-
 use super::markup::{Markup, tag, with};
 use super::table::pairs;
 use crate::numeric::search::largest;

@@ -1,5 +1,3 @@
-//! The finished results of an output folder.
-
 use super::ReportError;
 use crate::output::{LimitFile, SWEEP_LOG, Summary, Unreadable, damaged_results, disk, is_beside};
 use crate::sweep::{Description, Part, Row};

@@ -1,5 +1,3 @@
-//! The part of the page for a run.
-
 use super::ReportError;
 use super::answer::{answer, doubts};
 use super::certificate::certificate;
@@ -48,7 +46,7 @@ const PICTURES: [PictureText; 6] = [
     ),
 ];
 
-/// The part of `summary.json`.
+/// The part of the page for a run, from `summary.json`.
 pub(super) fn part(results: &Results, summary: &Summary) -> Result<Part, ReportError> {
     let path = results.folder.join("summary.json");
     let Summary { case, steps, .. } = summary;

@@ -1,5 +1,3 @@
-//! The part of the page for a sweep.
-
 use super::ReportError;
 use super::figures::{PictureText, figures};
 use super::given::{listed, value, values};
@@ -23,7 +21,7 @@ const PICTURES: [PictureText; 1] =
 /// Most rows of the table.
 const ROWS: usize = 300;
 
-/// The part of `sweep.json` and `sweep.jsonl`.
+/// The part of the page for a sweep, from `sweep.json` and `sweep.jsonl`.
 pub(super) fn part(results: &Results, swept: &Swept) -> Result<Part, ReportError> {
     let Swept { description, rows } = swept;
     let Description { keys, case: text, title, .. } = description;
@@ -118,7 +116,7 @@ fn shown(rows: &[Row], keys: &[SweptKey]) -> Markup {
     let shown = table(caption, &Table::new(&head, all.iter().take(ROWS).map(cells).collect(), 0));
     let more = all.len().saturating_sub(ROWS);
     let more = if more > 0 { format!("{more} further rows and all") } else { "All".to_owned() };
-    vec![shown, tag("p", format!("{more} columns stand in sweep.csv."))].into()
+    vec![shown, tag("p", format!("{more} columns are in sweep.csv."))].into()
 }
 
 fn columns<'a>(rows: &'a [Row], keys: &'a [SweptKey]) -> Vec<(String, Cell<'a>)> {

@@ -6,7 +6,6 @@ use crate::output::table::Table;
 /// Most columns of a table in letters of ordinary size.
 const MANY: usize = 9;
 
-/// A table with its caption.
 pub(super) fn table(caption: &str, table: &Table) -> Markup {
     let head = |(index, name): (usize, &String)| {
         with("th", &[("scope", "col"), ("class", class(index, table.words))], numbers(name))

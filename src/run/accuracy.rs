@@ -1,5 +1,3 @@
-//! Refinement: finer and finer grids until the results change by less than an accuracy.
-
 use super::StepRecord;
 use crate::lattice::Cell;
 use crate::numeric::fourier::fast_points;

@@ -1,5 +1,3 @@
-//! The earlier run that a run resumes.
-
 use super::StepRecord;
 use crate::spectral::Checkpoint;
 

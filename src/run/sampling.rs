@@ -1,5 +1,3 @@
-//! The sampling of the cell: a grid, or an accuracy.
-
 use super::accuracy::{Refinement, TooOblong};
 use crate::lattice::Cell;
 

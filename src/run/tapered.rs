@@ -1,5 +1,3 @@
-//! The parts of load and contact of a topography where a window tapers its heights.
-
 use crate::spectral::Contact;
 
 /// Parts of load and contact where the [window](crate::counterbody::roughness::Window) of a topography is below 1.

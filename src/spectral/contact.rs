@@ -1,5 +1,3 @@
-//! A contact solved on one grid.
-
 use super::iteration::{Certificate, Unknowns};
 use crate::counterbody::Surface;
 use crate::lattice::Grid;

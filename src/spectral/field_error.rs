@@ -1,5 +1,3 @@
-//! Errors of fields that are given to a solver.
-
 use crate::lattice::NotOnGrid;
 
 /// Reason why a field cannot be given to a solver.

@@ -1,5 +1,3 @@
-//! One load step, solved.
-
 use super::Contact;
 use super::iteration::{Certificate, Report};
 use crate::counterbody::Surface;

@@ -1,5 +1,3 @@
-//! Stress measures whose largest values are searched.
-
 use super::tensor::StressState;
 use crate::body::InterfaceStrength;
 use crate::numeric::search::first_largest;

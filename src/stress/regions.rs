@@ -1,5 +1,3 @@
-//! Contact spots and the open regions between and inside them, with the number of samples that resolves each.
-
 use crate::lattice::Grid;
 use crate::lattice::components::{contact_spots, open_regions};
 use std::f64::consts::PI;

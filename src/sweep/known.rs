@@ -1,5 +1,3 @@
-//! Results of an earlier sweep that are not solved again.
-
 use super::row::Row;
 use super::study::{Study, folder_of};
 use crate::output::{self, COMBINATIONS, OutputError, disk};

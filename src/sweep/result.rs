@@ -1,5 +1,3 @@
-//! Results of a combination, load steps or limit loads, and their scalars for tables, pictures and the report.
-
 use crate::output::columns::{Cells, scalars};
 use crate::output::{FirstLimit, number, with_error};
 use crate::reading::{Criterion, within_the_errors};

@@ -1,5 +1,3 @@
-//! The row of a finished combination.
-
 use super::combinations::column;
 use super::result::SweepResult;
 use crate::case::{Case, plausibility};

@@ -1,5 +1,3 @@
-//! The task of a sweep.
-
 use serde::{Deserialize, Serialize};
 
 /// Task of every combination.

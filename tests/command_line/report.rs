@@ -171,7 +171,7 @@ fn the_page_of_a_sweep_counts_what_is_solved_and_says_why_the_rest_is_not() {
         "mind the gap",
         ">layers.0.thickness<",
         "the &lt;penetration&gt; is too small",
-        "All columns stand in sweep.csv.",
+        "All columns are in sweep.csv.",
         "shear_ratio = 2.0",
     ] {
         assert!(page.contains(words), "no {words}");
@@ -182,7 +182,7 @@ fn the_page_of_a_sweep_counts_what_is_solved_and_says_why_the_rest_is_not() {
     write(&rows);
     let page = report(&desk, "sweep");
     assert!(page.contains("<figure id=\"sweep\" class=\"wide\">"));
-    assert!(page.contains("199 further rows and all columns stand in sweep.csv."));
+    assert!(page.contains("199 further rows and all columns are in sweep.csv."));
 }
 
 #[test]

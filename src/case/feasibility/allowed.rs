@@ -1,5 +1,3 @@
-//! Jobs for which memory and disk suffice.
-
 use super::resources::{Job, needs, refusal};
 use crate::case::Case;
 use crate::machine::Capacity;

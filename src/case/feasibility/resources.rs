@@ -259,12 +259,12 @@ pub fn refusal(case: &Case, room: Capacity, job: Job) -> Option<String> {
     let [n1, n2] = points;
     let advice = match largest_points(case, points, room, job) {
         Some([m1, m2]) if m1 * m2 < n1 * n2 => format!("the largest grid that fits is grid.points = [{m1}, {m2}]"),
-        _ if matches!(job, Job::Compare { .. }) => "no grid fits: ask for fewer localized.elements".to_owned(),
+        _ if matches!(job, Job::Compare { .. }) => "no grid fits: choose fewer localized.elements".to_owned(),
         _ if case.stress.as_ref().is_some_and(|stress| stress.volume.is_some()) => {
-            "no grid fits: ask for fewer rows or points in stress.volume".to_owned()
+            "no grid fits: choose fewer rows or points in stress.volume".to_owned()
         }
         _ if needs.memory > room.memory => "no grid fits".to_owned(),
-        _ => "no grid fits: ask for fewer load steps, or for another folder with -o".to_owned(),
+        _ => "no grid fits: choose fewer load steps, or another folder with -o".to_owned(),
     };
     Some(format!("{key}: {n1} × {n2} samples take {what}; {advice}"))
 }

@@ -61,7 +61,7 @@ fn names(case: &Case) -> Vec<String> {
     ] {
         let near = meant.iter().find(|own| own.to_lowercase() == name.to_lowercase());
         if let Some(near) = near.filter(|_| !is_known(name)) {
-            doubts.push(format!("units.{key} = \"{name}\" is no unit that is known: is it \"{near}\"?"));
+            doubts.push(format!("units.{key} = \"{name}\" is not a known unit: is it \"{near}\"?"));
         }
     }
     doubts
@@ -171,7 +171,7 @@ mod tests {
                 &["units.pressure=µm", "units.length=GPa"],
                 &["units.length = \"GPa\" is a unit of pressure", "exchanged"],
             ),
-            (&["units.pressure=Mpa"], &["units.pressure = \"Mpa\" is no unit that is known: is it \"MPa\"?"]),
+            (&["units.pressure=Mpa"], &["units.pressure = \"Mpa\" is not a known unit: is it \"MPa\"?"]),
             (&["units.pressure=Pa"], &["of the substrate is 210.00\u{a0}Pa"]),
             (&["units.pressure=mPa"], &["of layers[0] is"]),
             (

@@ -42,30 +42,30 @@ pub struct Explanation {
 
 /// The error for a key that no case has.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("there is no key `{asked}`{}", if .near.is_empty() {
+#[error("there is no key `{path}`{}", if .near.is_empty() {
     "; `percoat explain` lists the sections".to_owned()
 } else {
     format!("; did you mean {}?", alternatives(.near, '`'))
 })]
 pub struct UnknownKey {
     /// The unknown key.
-    pub asked: String,
+    pub path: String,
     /// Similar paths.
     pub near: Vec<String>,
 }
 
-/// Every key whose path ends with `asked`, such as `layers.poisson`, `layers.0.poisson` or `layers[0].poisson`; `points` are
+/// Every key whose path ends with `path`, such as `layers.poisson`, `layers.0.poisson` or `layers[0].poisson`; `points` are
 /// several.
 ///
 /// # Errors
 /// [`UnknownKey`] with similar paths.
-pub fn explain(asked: &str) -> Result<Vec<Explanation>, UnknownKey> {
-    let parts = parts(asked);
+pub fn explain(path: &str) -> Result<Vec<Explanation>, UnknownKey> {
+    let parts = parts(path);
     let all = all();
-    let ends = |path: &str| path.split('.').collect::<Vec<_>>().ends_with(&parts);
+    let ends = |whole: &str| whole.split('.').collect::<Vec<_>>().ends_with(&parts);
     let found: Vec<_> =
         all.iter().filter(|at| !parts.is_empty() && ends(&at.path)).map(PlacedKey::explanation).collect();
-    if found.is_empty() { Err(unknown(asked, &parts, &all)) } else { Ok(found) }
+    if found.is_empty() { Err(unknown(path, &parts, &all)) } else { Ok(found) }
 }
 
 /// Every key and section of the case itself.
@@ -74,12 +74,12 @@ pub(super) fn sections() -> Vec<Explanation> {
 }
 
 /// The names of a path, without the numbers of items.
-fn parts(asked: &str) -> Vec<&str> {
-    let parts = asked.split(['.', '[']).map(|part| part.trim_end_matches(']').trim());
+fn parts(path: &str) -> Vec<&str> {
+    let parts = path.split(['.', '[']).map(|part| part.trim_end_matches(']').trim());
     parts.filter(|part| !part.is_empty() && part.parse::<usize>().is_err()).collect()
 }
 
-fn unknown(asked: &str, parts: &[&str], all: &[PlacedKey]) -> UnknownKey {
+fn unknown(path: &str, parts: &[&str], all: &[PlacedKey]) -> UnknownKey {
     let word = parts.last().copied().unwrap_or_default();
     let within = &parts[..parts.len().saturating_sub(1)];
     let home =
@@ -92,7 +92,7 @@ fn unknown(asked: &str, parts: &[&str], all: &[PlacedKey]) -> UnknownKey {
         Some((name, _)) => vec![format!("{}.{name}", within.join("."))],
         None => nearest(word, &names).map_or(Vec::new(), |(name, _)| of(name)),
     };
-    UnknownKey { asked: asked.to_owned(), near }
+    UnknownKey { path: path.to_owned(), near }
 }
 
 /// A key with its path and table.

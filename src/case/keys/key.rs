@@ -15,7 +15,6 @@ pub(in crate::case) struct Keys {
 /// A key of a table.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::case) struct Key {
-    /// Its name.
     pub(in crate::case) name: &'static str,
     /// Meaning, a few words.
     pub(in crate::case) what: &'static str,
@@ -35,7 +34,6 @@ pub(in crate::case) struct Key {
     pub(in crate::case) instead_of: Option<&'static str>,
     /// Further keys that it excludes.
     pub(in crate::case) and_of: &'static [&'static str],
-    /// Whether a written case has it.
     pub(in crate::case) written: Written,
 }
 
@@ -78,7 +76,6 @@ pub(in crate::case) enum Form {
     Name(&'static str, usize),
     /// A fixed number of items in brackets, with a description such as "a vector [x, y]".
     Tuple(&'static str, &'static [Form]),
-    /// A list.
     List {
         /// The form of each item.
         of: &'static Form,
@@ -195,7 +192,6 @@ impl Keys {
         tables.filter(|(_, keys)| keys.get(name).is_some()).map(|(path, _)| path).collect()
     }
 
-    /// A key by its name.
     pub(in crate::case) fn get(&self, name: &str) -> Option<&'static Key> {
         self.all.iter().find(|key| key.name == name)
     }

@@ -95,7 +95,6 @@ impl Explanation {
     }
 }
 
-/// A name, and a text from a column on.
 fn entry(name: &str, column: usize, text: &str) -> String {
     let text = wrapped(text, column);
     let gap = if name.chars().count() < column { column - name.chars().count() } else { 1 };

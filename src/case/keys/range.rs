@@ -1,5 +1,3 @@
-//! Ranges of the numbers of keys.
-
 use std::ops::{Bound, RangeBounds};
 
 use crate::plain::float;

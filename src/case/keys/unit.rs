@@ -1,5 +1,3 @@
-//! Units of the numbers of keys.
-
 /// Unit of the numbers of a key. Any consistent units; `[units]` names them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::case) enum Unit {
@@ -14,7 +12,6 @@ pub(in crate::case) enum Unit {
 }
 
 impl Unit {
-    /// Its name.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Pure => "none",

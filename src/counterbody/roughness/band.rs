@@ -1,5 +1,3 @@
-//! The waves of a cell up to a wavenumber.
-
 use crate::lattice::Cell;
 use std::f64::consts::TAU;
 

@@ -1,5 +1,3 @@
-//! The largest stresses of the load steps, by material and interface.
-
 use super::Table;
 use super::by_step::{Quantity, QuantityInStep, by_step};
 use crate::reading::StressReading;

@@ -1,5 +1,3 @@
-//! Tables as text.
-
 use comfy_table::{CellAlignment, ContentArrangement, presets};
 use std::fmt;
 

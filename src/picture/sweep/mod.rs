@@ -80,7 +80,7 @@ fn unknown(rows: &[Row], numbers: &[Number], is_map: bool) -> Vec<String> {
     let mut words = Vec::new();
     if all().any(|own| value(own).is_none()) {
         let place = if is_map { "grey" } else { "a gap in a curve" };
-        words.push(format!("{place}: no number, the table tells why"));
+        words.push(format!("{place}: no number, see the table"));
     }
     for (bound, sign, meaning) in [
         (Bound::Below, "<", "it is reached below the smallest load that the grid resolves"),

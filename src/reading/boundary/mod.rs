@@ -114,7 +114,6 @@ mod tests {
         grid: Grid,
         pressure: Vec<f64>,
         gap: Vec<f64>,
-        /// Where the hole is.
         hole: Vec<bool>,
     }
 

@@ -1,5 +1,3 @@
-//! One load step on one grid, as the methods receive it.
-
 use super::admissible::AdmissibleSet;
 use super::fields::Working;
 use super::report::Progress;

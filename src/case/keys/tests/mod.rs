@@ -73,19 +73,19 @@ fn sizes_of_one_shape_exclude_those_of_the_others() {
 
 #[test]
 fn a_key_is_found_by_its_path_or_its_name_and_a_slip_is_told() {
-    let paths = |asked: &str| explain(asked).map(|found| found.into_iter().map(|key| key.path).collect::<Vec<_>>());
-    for asked in ["layers.poisson", "layers.0.poisson", "layers[0].poisson"] {
-        assert_eq!(paths(asked).unwrap(), ["layers.poisson"]);
+    let paths = |path: &str| explain(path).map(|found| found.into_iter().map(|key| key.path).collect::<Vec<_>>());
+    for path in ["layers.poisson", "layers.0.poisson", "layers[0].poisson"] {
+        assert_eq!(paths(path).unwrap(), ["layers.poisson"]);
     }
     assert_eq!(paths("points").unwrap(), ["grid.points", "stress.points", "stress.volume.points"]);
     assert_eq!(paths("volume.points").unwrap(), ["stress.volume.points"]);
-    let near = |asked: &str| paths(asked).unwrap_err().near;
+    let near = |path: &str| paths(path).unwrap_err().near;
     assert_eq!(near("layers.thicknes"), ["layers.thickness"]);
     assert_eq!(near("poison"), ["layers.poisson", "layers.graded.poisson", "substrate.poisson"]);
     assert_eq!(near("solver.acuracy"), ["grid.accuracy"]);
     assert_eq!(near("sovler.tolerance"), ["solver.tolerance"]);
     assert_eq!(near("sovler"), ["solver"]);
-    let strange = UnknownKey { asked: "xyzzy".to_owned(), near: vec![] };
+    let strange = UnknownKey { path: "xyzzy".to_owned(), near: vec![] };
     assert_eq!(explain("xyzzy").unwrap_err(), strange);
     assert!(strange.to_string().contains("lists the sections") && paths("").is_err() && paths("0").is_err());
 }
