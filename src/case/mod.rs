@@ -70,7 +70,7 @@ pub use material_names::MaterialNames;
 pub use model::Case;
 pub use named_pipes::Pipes;
 pub use source::Source;
-pub use stress::{Cut, Origin, StressSection, Toward};
+pub use stress::{CutSection, Origin, StressSection, Toward};
 pub use surface::{ORIENTATION, RandomSection, Sides, SurfaceSection, Taper};
 pub use units::UnitsSection;
 pub(crate) use writer::written;

@@ -49,7 +49,7 @@ impl Table {
     /// Parses a whole document, source number 0.
     pub(super) fn parse(text: &str) -> Result<Self, Refusal> {
         match DeTable::parse(text) {
-            Ok(table) => Ok(Origin { source: 0, offset: 0 }.table(table.get_ref())),
+            Ok(table) => Ok(SourceOffset { source: 0, offset: 0 }.table(table.get_ref())),
             Err(error) => Err(syntax(&error, Span::new(0, 0..0), text)),
         }
     }
@@ -79,7 +79,7 @@ impl Node {
     /// Parses the single value `text` at the byte `offset` of source number `source`.
     pub(super) fn parse(text: &str, source: usize, offset: usize) -> Result<Self, Refusal> {
         match DeValue::parse(text) {
-            Ok(value) => Ok(Origin { source, offset }.node(&value)),
+            Ok(value) => Ok(SourceOffset { source, offset }.node(&value)),
             Err(error) => Err(syntax(&error, Span::new(source, offset..offset + text.len()), text)),
         }
     }
@@ -132,12 +132,12 @@ impl From<&toml::Value> for Node {
 }
 
 /// Source of a parsed text, and the byte at which it begins there.
-struct Origin {
+struct SourceOffset {
     source: usize,
     offset: usize,
 }
 
-impl Origin {
+impl SourceOffset {
     fn span<T>(&self, spanned: &Spanned<T>) -> Span {
         let span = spanned.span();
         Span::new(self.source, span.start + self.offset..span.end + self.offset)

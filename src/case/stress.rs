@@ -34,7 +34,7 @@ section! {
         /// the mean lateral stress: that of no mean lateral strain, or under the centre of a wide loaded disc
         pub mean: MeanStress = Key::new(&[Form::Word(MeanStress::WORDS)], "\"half-space\"").default("\"confined\""),
         /// a vertical cut from one level or place toward another, or along a direction
-        pub section: Option<Cut> = Key::new(
+        pub section: Option<CutSection> = Key::new(
             &[Form::Table(&CUT)],
             "{ from = \"level 1\", toward = \"level 2\", length = 1.0, depth = 1.0 }",
         )
@@ -56,7 +56,7 @@ section! {
 section! {
     /// A vertical cut from the axis of an indenter toward a neighbour, or from any place along a direction.
     #[derive(Copy)]
-    pub struct Cut = CUT {
+    pub struct CutSection = CUT {
         /// origin of the cut: the axis of a level's first indenter, or a place
         pub from: Origin =
             Key::new(&[LEVEL, Form::Tuple("a place [x, y]", &[COORDINATE; 2])], "\"level 1\"").unit(Unit::Length),
@@ -122,7 +122,7 @@ impl StressSection {
     /// The request for a run on `counterbody`.
     pub(super) fn request(&self, counterbody: &Counterbody) -> StressRequest {
         let lattice = counterbody.indenters().map(Indenters::lattice);
-        let cut = |cut: Cut| Some(run::Cut { line: cut.line(lattice)?, depth: cut.depth });
+        let cut = |cut: CutSection| Some(run::Cut { line: cut.line(lattice)?, depth: cut.depth });
         StressRequest {
             mean: self.mean,
             planes: self.planes.clone(),
@@ -148,7 +148,7 @@ fn check_levels(cut: &ValueAt<'_>, levels: usize) -> Result<(), Refusal> {
     Ok(())
 }
 
-impl Cut {
+impl CutSection {
     /// The cut with the direction of sliding where it has none; it then begins behind the origin, to show both edges of a contact.
     fn completed(self, sliding: Option<[f64; 2]>) -> Self {
         let behind = if self.toward.is_none() { 0.5 * self.length } else { 0.0 };

@@ -16,4 +16,4 @@ mod xyz;
 
 pub use fault::{Fault, Heights, fits};
 pub use header::{HeightsUnit, Length};
-pub use stored::{FORMATS, Format, Stored};
+pub use stored::{FORMATS, HeightsFormat, Stored};

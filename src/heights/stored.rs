@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::fault::{Fault, Heights, fits};
 use super::header::{Header, HeightsUnit, Length};
-use super::text::Table;
-use super::xyz::Points;
+use super::text::NumberTable;
+use super::xyz::PointGrid;
 use super::{npy, suspicious_values, text, xyz};
 
 /// The formats, for error messages.
@@ -14,7 +14,7 @@ pub const FORMATS: &str =
 
 /// A format of heights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
+pub enum HeightsFormat {
     /// An array of NumPy.
     Npy,
     /// A matrix of numbers.
@@ -23,7 +23,7 @@ pub enum Format {
     Xyz,
 }
 
-impl Format {
+impl HeightsFormat {
     /// The format of the ending of a path; `None` for an unknown one.
     pub fn of(path: &Path) -> Option<Self> {
         match &path.extension()?.to_string_lossy().to_lowercase()[..] {
@@ -52,16 +52,16 @@ pub struct Stored {
 
 impl Stored {
     /// Reads a file of `bytes` bytes; without a `format`, as for a pipe, the first bytes determine it, by default a text.
-    pub fn read(mut reader: impl BufRead, bytes: u64, format: Option<Format>) -> Result<Self, Fault> {
+    pub fn read(mut reader: impl BufRead, bytes: u64, format: Option<HeightsFormat>) -> Result<Self, Fault> {
         let format = match format {
             Some(format) => format,
-            None if reader.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"\x93NUMPY")) => Format::Npy,
-            None => Format::Text,
+            None if reader.fill_buf().is_ok_and(|bytes| bytes.starts_with(b"\x93NUMPY")) => HeightsFormat::Npy,
+            None => HeightsFormat::Text,
         };
         let stored = match format {
-            Format::Npy => npy::read(reader, bytes).and_then(of_array),
-            Format::Xyz => xyz::read(reader, bytes).map(|(points, header)| Self::points(points, &header)),
-            Format::Text => text::read(reader, bytes).and_then(of_table),
+            HeightsFormat::Npy => npy::read(reader, bytes).and_then(of_array),
+            HeightsFormat::Xyz => xyz::read(reader, bytes).map(|(points, header)| Self::points(points, &header)),
+            HeightsFormat::Text => text::read(reader, bytes).and_then(of_table),
         }?;
         stored.checked()
     }
@@ -78,7 +78,7 @@ impl Stored {
         Ok(self)
     }
 
-    fn points(Points { heights, period }: Points, header: &Header) -> Self {
+    fn points(PointGrid { heights, period }: PointGrid, header: &Header) -> Self {
         let side = |value: f64| Length { value, unit: header.of_coordinates() };
         let (sides, unit) = (Some(period.map(side)), header.heights().cloned());
         Self { heights, sides, unit, lines_along_a1: false, doubts: Vec::new() }
@@ -98,8 +98,8 @@ fn of_array(heights: Heights) -> Result<Stored, Fault> {
 }
 
 /// The content of a text: points, an image, or lines along a₁.
-fn of_table(table: Table) -> Result<Stored, Fault> {
-    let Table { heights, lines, header, doubts } = table;
+fn of_table(table: NumberTable) -> Result<Stored, Fault> {
+    let NumberTable { heights, lines, header, doubts } = table;
     if let Some(points) = xyz::of_table(&heights, &lines) {
         return Ok(Stored::points(points?, &header));
     }

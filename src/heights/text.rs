@@ -55,7 +55,7 @@ impl Separator {
 
 /// A table of numbers, one row a line of the file.
 #[derive(Debug)]
-pub struct Table {
+pub struct NumberTable {
     /// Numbers line by line; points [lines, numbers of a line].
     pub heights: Heights,
     /// Numbers of the lines in the file; empty for tables of many columns.
@@ -70,7 +70,7 @@ pub struct Table {
 pub const FEW: usize = 6;
 
 /// Reads a matrix from a file of `bytes` bytes.
-pub fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
+pub fn read(reader: impl BufRead, bytes: u64) -> Result<NumberTable, Fault> {
     let mut lines = Lines::new(reader);
     let (mut values, mut rows, mut columns, mut separator) = (Vec::new(), 0, 0, None);
     let (mut commas, mut numbers, mut blocks) = (Commas::default(), Vec::new(), vec![0_usize]);
@@ -117,7 +117,7 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<Table, Fault> {
         _ => commas.doubt_decimal(heights.values.len()),
     };
     let doubts = doubt.into_iter().chain(several(&blocks, columns)).collect();
-    Ok(Table { heights, lines: numbers, header: lines.header, doubts })
+    Ok(NumberTable { heights, lines: numbers, header: lines.header, doubts })
 }
 
 const DECIMAL: &str = "if its commas are decimal ones, write points, or part the numbers by semicolons, tabs or blanks";

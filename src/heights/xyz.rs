@@ -24,13 +24,13 @@ struct Point {
 
 /// Equally spaced coordinates.
 #[derive(Debug, Clone, Copy)]
-struct Axis {
+struct EvenAxis {
     first: f64,
     step: f64,
     count: usize,
 }
 
-impl Axis {
+impl EvenAxis {
     fn of(mut coordinates: Vec<f64>) -> Self {
         coordinates.sort_unstable_by(f64::total_cmp);
         let rises = || coordinates.windows(2).map(|pair| pair[1] - pair[0]);
@@ -54,7 +54,7 @@ impl Axis {
 
 /// A regular grid of points.
 #[derive(Debug)]
-pub struct Points {
+pub struct PointGrid {
     /// Heights, axis 0 along x, axis 1 along y.
     pub heights: Heights,
     /// Period along x and y: n times the spacing.
@@ -62,7 +62,7 @@ pub struct Points {
 }
 
 /// Reads points from a file of `bytes` bytes, and its header.
-pub fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault> {
+pub fn read(reader: impl BufRead, bytes: u64) -> Result<(PointGrid, Header), Fault> {
     let mut lines = Lines::new(reader);
     let mut points = Vec::new();
     while let Some(Line { number: line, text, .. }) = lines.next_line()? {
@@ -86,7 +86,7 @@ pub fn read(reader: impl BufRead, bytes: u64) -> Result<(Points, Header), Fault>
 
 /// Points of a table whose first two columns form a regular grid; `None` where they do not. Refused where points are missing, and
 /// with more than one height a point. `lines` are the numbers of the rows in the file; empty: they count from 1.
-pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault>> {
+pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<PointGrid, Fault>> {
     let [count, columns] = table.points;
     if !(3..=FEW).contains(&columns) || count < 4 {
         return None;
@@ -125,12 +125,12 @@ pub fn of_table(table: &Heights, lines: &[usize]) -> Option<Result<Points, Fault
     })
 }
 
-fn axes(points: &[Point]) -> [Axis; 2] {
-    [0, 1].map(|axis| Axis::of(points.iter().map(|point| point.at[axis]).collect()))
+fn axes(points: &[Point]) -> [EvenAxis; 2] {
+    [0, 1].map(|axis| EvenAxis::of(points.iter().map(|point| point.at[axis]).collect()))
 }
 
 /// The heights of points, and the period along x and y.
-fn on_grid(points: &[Point]) -> Result<Points, Fault> {
+fn on_grid(points: &[Point]) -> Result<PointGrid, Fault> {
     if points.len() < 4 {
         return Err(Fault::new(format!("holds {} points, too few for a surface", points.len()), "too few points"));
     }
@@ -164,7 +164,7 @@ fn on_grid(points: &[Point]) -> Result<Points, Fault> {
         let what = format!("{missing} of {} × {} points are missing, the first at ({x}, {y})", counts[0], counts[1]);
         return Err(Fault::new(what, "points are missing").help("fill what was not measured before"));
     }
-    Ok(Points { heights: Heights::new(counts, values)?, period: axes.map(|axis| axis.count as f64 * axis.step) })
+    Ok(PointGrid { heights: Heights::new(counts, values)?, period: axes.map(|axis| axis.count as f64 * axis.step) })
 }
 
 #[cfg(test)]
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     fn of(text: &str) -> Result<(Heights, [f64; 2]), Fault> {
-        read(text.as_bytes(), text.len() as u64).map(|(Points { heights, period }, _)| (heights, period))
+        read(text.as_bytes(), text.len() as u64).map(|(PointGrid { heights, period }, _)| (heights, period))
     }
 
     /// 3 × 2 points, spacing ⅓ and 2, of height 10 i + j.

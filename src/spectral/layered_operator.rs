@@ -11,7 +11,7 @@
 use super::by_rows::{ByRows, ResultRows, rows_of, rows_to};
 use super::convolution::{Convolution, Convolved};
 use super::multiplier::{Action, Multiplier, SkewRatio};
-use super::operator::{ElasticOperator, Traction, Workspace};
+use super::operator::{ElasticOperator, TractionUpdate, Workspace};
 use crate::body::{Compliances, HalfSpace};
 use crate::friction::Friction;
 use crate::lattice::Grid;
@@ -144,15 +144,15 @@ impl ElasticOperator for LayeredOperator {
 
     fn displaced_single<'a>(
         &'a mut self,
-        traction: Traction,
+        traction: TractionUpdate,
         memory: &'a mut [f64],
         pressure: impl ByRows<f32>,
     ) -> Convolved<'a, f32> {
         self.convolutions += 0.5;
         let factor = 1.0 / self.unit;
         let action = match traction {
-            Traction::Updated => self.multiplied(factor),
-            Traction::Lagged => Action::Multiply(factor),
+            TractionUpdate::Updated => self.multiplied(factor),
+            TractionUpdate::Lagged => Action::Multiply(factor),
         };
         self.single.convolve(action, &self.compliance, memory, pressure)
     }

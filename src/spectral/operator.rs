@@ -26,7 +26,7 @@ impl Workspace {
 
 /// Which pressure the traction of coupled friction belongs to while the pressure changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Traction {
+pub enum TractionUpdate {
     /// The present one: the traction is updated in every step.
     Updated,
     /// The last one in double precision: the traction lags behind.
@@ -66,7 +66,7 @@ pub trait ElasticOperator {
     /// Changes of p → changes of w, in single precision: by A with an updated traction, by C with a lagged one.
     fn displaced_single<'a>(
         &'a mut self,
-        traction: Traction,
+        traction: TractionUpdate,
         memory: &'a mut [f64],
         pressure: impl ByRows<f32>,
     ) -> Self::Rows<'a, f32>;
@@ -182,7 +182,7 @@ mod tests {
 
         fn displaced_single<'a>(
             &'a mut self,
-            _: Traction,
+            _: TractionUpdate,
             _: &'a mut [f64],
             pressure: impl ByRows<f32>,
         ) -> Product<f32> {

@@ -9,7 +9,7 @@ use super::super::value::ValueAt;
 use super::section::{SurfaceSection, Taper};
 use crate::counterbody::roughness::{MAX_BORDER_JUMP, RunOut, Window, border_jumps, levelled, tapered};
 use crate::heights::unit::{self, KNOWN};
-use crate::heights::{FORMATS, Fault, Format, Heights, HeightsUnit, Length, Stored};
+use crate::heights::{FORMATS, Fault, Heights, HeightsFormat, HeightsUnit, Length, Stored};
 use crate::notation::number;
 use crate::numeric::array::field;
 use ndarray::Array2;
@@ -163,7 +163,7 @@ fn stored(source: &Source, path: &Path, written: &ValueAt<'_>) -> Result<Result<
     if let Some(array) = source.arrays.get(written.text()?) {
         return Ok(Stored::of(array));
     }
-    let format = Format::of(path);
+    let format = HeightsFormat::of(path);
     if format.is_none() && !source.is_pipe(written.text()?) {
         let message = format!("`{}`: {shown} has an ending by which no format is known", written.path);
         return Err(Refusal::new(written.node.span, message, "which format?").help(format!("allowed: {FORMATS}")));

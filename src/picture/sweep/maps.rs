@@ -7,7 +7,7 @@ use super::super::colour::Colour;
 use super::super::map::{Fill, Map, Over};
 use super::super::scale::Scale;
 use super::super::sheet::{Panel, sheet};
-use super::first::{Named, colour};
+use super::first::{NamedMap, colour};
 use super::keys::{Keys, number, scale};
 use super::numbers::{Bound, Number};
 use crate::sweep::{Foremost, Row, SweepResult};
@@ -17,14 +17,14 @@ use std::collections::BTreeMap;
 const WIDE: f64 = 20.0;
 
 /// Values of a map, cell by cell; `None` where there is no combination.
-type Field<T> = Vec<Option<T>>;
+type MapValues<T> = Vec<Option<T>>;
 
 impl Keys {
     /// A map of what comes first where limits are searched for, and one for each number.
     pub fn maps(&self, rows: &[Row], numbers: &[Number], caption: &str) -> Option<Canvas> {
         let (along, up) = (&self.along, self.pair.as_ref()?);
         let columns = along.1.len();
-        let [x, y] = [along, up].map(|(_, values)| Cells::new(values));
+        let [x, y] = [along, up].map(|(_, values)| AxisCells::new(values));
         let cell = |[u, v]: [f64; 2]| y.at(v) * columns + x.at(u);
         let map = |title: String, fill, over| {
             let (x, y) = (x.axis(&self.names[along.0]), y.axis(&self.names[up.0]));
@@ -45,11 +45,11 @@ impl Keys {
         let of_loads = rows.iter().filter_map(|row| row.results.last()).all(|result| result.step().is_some());
         let what = if of_loads { "what governs" } else { "what comes first" };
         let names = counted.iter().map(|(first, count)| (colours[first], format!("{first} ({count})")));
-        let first = (!counted.is_empty()).then(|| Named {
+        let first = (!counted.is_empty()).then(|| NamedMap {
             map: map(format!("{what} (in how many combinations)"), Fill::Colours(&first), questions),
             names: names.collect(),
         });
-        let fields: Vec<Field<f64>> = numbers
+        let fields: Vec<MapValues<f64>> = numbers
             .iter()
             .map(|shown| self.field(rows, |result| shown.value(result).filter(|value| value.is_finite())))
             .collect();
@@ -88,7 +88,7 @@ impl Keys {
     }
 
     /// What the last results of the rows have, cell by cell: first the lowest row.
-    fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&SweepResult) -> Option<T>) -> Field<T> {
+    fn field<T: Copy>(&self, rows: &[Row], value: impl Fn(&SweepResult) -> Option<T>) -> MapValues<T> {
         let Some(up) = &self.pair else { return Vec::new() };
         let mut field = vec![None; self.along.1.len() * up.1.len()];
         for row in rows {
@@ -125,7 +125,7 @@ fn bar(shown: &Number, values: &[f64]) -> Bar {
 }
 
 /// The cells of an axis around its values.
-struct Cells {
+struct AxisCells {
     /// Their places.
     values: Vec<f64>,
     /// Borders, one more than values.
@@ -133,7 +133,7 @@ struct Cells {
     scale: Scale,
 }
 
-impl Cells {
+impl AxisCells {
     fn new(values: &[f64]) -> Self {
         let scale = scale(values);
         let is_log = scale == Scale::Log;
@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn a_map_over_a_logarithmic_key_has_cells_of_one_width() {
-        let cells = Cells::new(&[0.01, 0.1, 1.0, 10.0]);
+        let cells = AxisCells::new(&[0.01, 0.1, 1.0, 10.0]);
         let [low, high] = cells.axis("").range.unwrap();
         let quarter = |part: f64| cells.at(cells.scale.between(low, high, part));
         assert_eq!([0.01, 0.24, 0.26, 0.49, 0.51, 0.74, 0.76, 0.99].map(quarter), [0, 0, 1, 1, 2, 2, 3, 3]);
@@ -173,10 +173,10 @@ mod tests {
 
     #[test]
     fn cells_reach_half_way_to_their_neighbours() {
-        let cells = Cells::new(&[1.0, 10.0, 100.0]);
+        let cells = AxisCells::new(&[1.0, 10.0, 100.0]);
         assert_eq!(cells.scale, Scale::Log);
         assert_eq!([0.5, 2.0, 4.0, 30.0, 1e4].map(|x| cells.at(x)), [0, 0, 1, 1, 2]);
-        let cells = Cells::new(&[0.0, 1.0, 3.0]);
+        let cells = AxisCells::new(&[0.0, 1.0, 3.0]);
         assert_eq!([cells.at(0.4), cells.at(0.6), cells.at(1.9), cells.at(2.1)], [0, 1, 1, 2]);
     }
 }

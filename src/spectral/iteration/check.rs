@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// Residual, certificate and energy of an iterate.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Check {
+pub(super) struct ConvergenceCheck {
     /// ε = Σ p|g| / (δ Σp).
     pub residual: f64,
     /// Bounds on the error of the pressure.
@@ -54,8 +54,8 @@ impl GapSums {
     }
 }
 
-impl Check {
-    /// Check of the present pressure of `unknowns`, whose gap, penetration and certificate are set, from one convolution.
+impl ConvergenceCheck {
+    /// Convergence check of the present pressure of `unknowns`, whose gap, penetration and certificate are set, from one convolution.
     pub fn new<O: ElasticOperator>(problem: &mut ContactProblem<'_, O>, unknowns: &mut Unknowns) -> Self {
         let (load_control, len) = (problem.load.is_mean_pressure(), problem.initial_gap.len() as f64);
         let [load, energy, work, open] = displaced_gap(problem, unknowns);
@@ -87,7 +87,7 @@ impl Check {
         check
     }
 
-    /// Check from the sums of a gap; `energy` is the elastic one over the number of samples `len`.
+    /// Convergence check from the sums of a gap; `energy` is the elastic one over the number of samples `len`.
     pub fn of(gap: GapSums, penetration: f64, energy: f64, load_control: bool, len: f64) -> Self {
         let GapSums { load, work, complementarity, least, outside } = gap;
         let least = if load_control { least } else { least.min(0.0) };

@@ -1,7 +1,7 @@
 //! Lines 3 to 5 of the method, and line 1 by changes: iterations in single precision from one gap in double precision to the
 //! next.
 
-use super::check::Check;
+use super::check::ConvergenceCheck;
 use super::direction;
 use super::fields::{Fields, Unknowns};
 use super::problem::ContactProblem;
@@ -10,7 +10,7 @@ use crate::load::Load;
 use crate::numeric::rows::{RowBlocks, Totals};
 use crate::spectral::by_rows::{ResultRows, rows_of, rows_to};
 use crate::spectral::extension;
-use crate::spectral::operator::{ElasticOperator, Traction};
+use crate::spectral::operator::{ElasticOperator, TractionUpdate};
 use std::sync::Arc;
 
 /// Shorter steps that are tried after one that raises the energy, before the step ends at the minimum along it.
@@ -34,7 +34,7 @@ pub(super) enum Continuation {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Variant {
     pub continuation: Continuation,
-    pub traction: Traction,
+    pub traction: TractionUpdate,
 }
 
 /// The iteration before, as the next direction needs it.
@@ -85,8 +85,8 @@ pub(super) struct InnerIteration {
     pressure: f64,
     active: ActiveSet,
     penetration: f64,
-    /// Check of the pressure by the gap in single precision.
-    pub check: Check,
+    /// Convergence check of the pressure by the gap in single precision.
+    pub check: ConvergenceCheck,
 }
 
 impl InnerIteration {
@@ -94,7 +94,7 @@ impl InnerIteration {
     pub fn new<O: ElasticOperator>(
         problem: &mut ContactProblem<'_, O>,
         unknowns: &mut Unknowns,
-        check: Check,
+        check: ConvergenceCheck,
         share: f64,
         variant: Variant,
     ) -> Self {
@@ -246,8 +246,13 @@ impl InnerIteration {
         self.penetration += shift * self.length;
         let (active, sums) = update::update_gap(p, load, (image, step.factor), shift, gap, residual);
         self.active = active;
-        self.check =
-            Check::of(sums.times(self.length), self.penetration, self.check.energy, load_control, p.len() as f64);
+        self.check = ConvergenceCheck::of(
+            sums.times(self.length),
+            self.penetration,
+            self.check.energy,
+            load_control,
+            p.len() as f64,
+        );
     }
 }
 
